@@ -4,7 +4,7 @@
 
 #include "case/case_keys.hpp"
 #include "case/device/device_keys.hpp"
-#include "io/text/text.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "io/text/compiled_texts.hpp"
+#include "text/compiled_texts.hpp"
 #include "texts.hpp"
 
 namespace holdfast::program {

@@ -11,10 +11,10 @@
 #include "case/needed.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "host/job_host.hpp"
-#include "io/file/input.hpp"
+#include "io/file/whole_file.hpp"
 #include "jobs/job_texts.hpp"
 #include "jobs/support.hpp"
-#include "process/group/mpi_launch.hpp"
+#include "process/group/process_group.hpp"
 #include "process/worker_threads.hpp"
 #include "report/page/picture.hpp"
 

@@ -10,15 +10,15 @@
 #include <type_traits>
 #include <vector>
 
+#include "case/job_context.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
-#include "io/text/table.hpp"
-#include "io/text/text.hpp"
 #include "jobs/columns.hpp"
+#include "output/table.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "process/interrupt.hpp"
-#include "process/job_context.hpp"
 #include "process/progress.hpp"
+#include "text/text.hpp"
 
 // What every job needs: its command line here, and with it the table that it writes, and how it
 // warns, refuses, shows progress and ends.

@@ -6,8 +6,8 @@
 #include "case/case_keys.hpp"
 #include "case/device/device_keys.hpp"
 #include "holdfast/core/version.hpp"
-#include "io/text/text.hpp"
 #include "job.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

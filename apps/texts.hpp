@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/text/filled.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 

@@ -14,9 +14,9 @@
 #include <thread>
 
 #include "case/case_file.hpp"
-#include "jobs/charts/row_blocks.hpp"
 #include "kernels/instruction_set.hpp"
 #include "medians.hpp"
+#include "output/row_blocks.hpp"
 #include "process/exit.hpp"
 #include "sweep/sweep_plan.hpp"
 

@@ -43,6 +43,6 @@ template SampledClassification classify_motion(const ModalLoop&, const ModalMoti
 
 template SwitchingComplexity switching_complexity(const std::vector<bool>&);
 
-template ZeroOneResult zero_one_test(const std::vector<double>&, int);
+template double zero_one_test(const std::vector<double>&, int);
 
 }  // namespace holdfast

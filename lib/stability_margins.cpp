@@ -20,8 +20,6 @@ template StabilityMargins modal_stability_margins<double>(const std::vector<Plan
                                                           const Sampling<double>&,
                                                           const PdGains<double>&,
                                                           const MarginSearch&, bool);
-template MarginEnd modal_margin_end<double>(const std::vector<PlantPole>&, const Sampling<double>&,
-                                            const PdGains<double>&, double, double, bool);
 template LoopMargins modal_loop_margins<double>(const std::vector<PlantPole>&,
                                                 const Sampling<double>&, const PdGains<double>&,
                                                 const MarginSearch&, bool);

@@ -17,11 +17,11 @@
 #include "holdfast/phase_space/event_basins.hpp"
 #include "holdfast/phase_space/modal_basins.hpp"
 #include "io/file/output.hpp"
-#include "io/grid/grid_output.hpp"
 #include "job.hpp"
-#include "jobs/charts/row_blocks.hpp"
 #include "jobs/orbit/motion_cells.hpp"
 #include "kernels/pack_kernels.hpp"
+#include "output/grid/grid_output.hpp"
+#include "output/row_blocks.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -290,7 +290,7 @@ void BasinsQuestion::follow(const JobContext& context,
                      states.size());
     }
   };
-  if (is_of_the_paper(context.case_data, switching)) {
+  if (is_sampled(motion_kind_of(context.case_data, switching))) {
     each_value(AttractorContinuation<PeriodicOrbit>(states, largest_orbit_distance),
                [&](const Case& there, const auto& starts) {
                  return basins_of(sampled_masses_of(there), context, starts, search_limits());

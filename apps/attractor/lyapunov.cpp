@@ -1,3 +1,4 @@
+#include "case/model/conditioning.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
 #include "case/model/moving_loop.hpp"
@@ -5,8 +6,7 @@
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/modal_lyapunov.hpp"
 #include "job.hpp"
-#include "jobs/charts/conditioning.hpp"
-#include "jobs/motion/case_motion.hpp"
+#include "jobs/motion/cell_motion.hpp"
 #include "jobs/motion/motion_run.hpp"
 
 namespace holdfast::program {
@@ -33,48 +33,18 @@ struct LyapunovQuestion {
   void run(const JobContext& context) const;
 };
 
-/// The loop whose S and S* are the tangents: that of the motion, or the printed one with δ = τ.
-SampledLoop<double> tangent_loop_of(const Case& the_case, const LyapunovQuestion& options) {
+/// The sampling of the loop whose S and S* are the tangents: that of the motion, or the printed one
+/// with δ = τ.
+Sampling<double> tangent_sampling_of(const Case& the_case, const LyapunovQuestion& options) {
   Sampling<double> sampling = sampling_of(the_case);
   if (options.tangent == "printed") sampling.processing_delay = sampling.period;
-  return sampled_loop(plant_of(the_case), sampling);
+  return sampling;
 }
 
 std::int64_t steps_of(const JobContext& context, const LyapunovQuestion& options) {
   const std::int64_t steps = samples_of(context.case_data, options.duration) - 1;
   if (steps < 1) throw WrongInput("--duration is shorter than one sampling period");
   return steps;
-}
-
-/// Along the motion's itinerary, whose tangents are those of the options.
-LyapunovResult exponents_of(const SampledMasses& moving, const JobContext& context,
-                            const LyapunovQuestion& options, const LyapunovRun& run) {
-  auto motion = motion_of(moving);
-  const auto blocks = std::make_shared<const ItineraryBlocks>(
-      tangent_loop_of(context.case_data, options), gains_of(context.case_data));
-  const LyapunovResult result = run_lyapunov(motion, blocks, run, throw_if_interrupted);
-  if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(motion.time());
-  return result;
-}
-
-/// Of any loop, with the saltation at its switches.
-template <class Moving>
-LyapunovResult exponents_of(const Moving& moving, const JobContext& context,
-                            const LyapunovQuestion&, const LyapunovRun& run) {
-  auto motion = motion_of(moving);
-  const LyapunovResult result = run_event_lyapunov(motion, run, throw_if_interrupted);
-  if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(motion.time());
-  tell_of_end(context, end_of(motion));
-  return result;
-}
-
-/// Of a conductor by its modes.
-LyapunovResult exponents_of(const SampledModes& moving, const JobContext&, const LyapunovQuestion&,
-                            const LyapunovRun& run) {
-  ModalLyapunov lyapunov(moving.loop, motion_of(moving));
-  const LyapunovResult result = run_lyapunov(lyapunov, run, throw_if_interrupted);
-  if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(lyapunov.time());
-  return result;
 }
 
 /// Of hundreds of states all exponents would cost days where they are not those of natural motions.
@@ -101,8 +71,9 @@ void write_history(const SampledMasses& moving, const JobContext& context,
                    const LyapunovQuestion& options, std::int64_t steps, Table& table) {
   auto motion = motion_of(moving);
   const double period = context.case_data.control.sampling_period;
-  LyapunovObserver observer(tangent_loop_of(context.case_data, options),
-                            gains_of(context.case_data));
+  const Case& the_case = context.case_data;
+  LyapunovObserver observer(
+      sampled_loop(plant_of(the_case), tangent_sampling_of(the_case, options)), gains_of(the_case));
   run_to_completion(motion, steps, {}, observer, [&](const MotionSample<double>& sample) {
     write_history_row(table, sample.time + period, observer.spectrum().exponents());
   });
@@ -141,8 +112,10 @@ void write_exponents(const JobContext& context, const MovingLoop& moving,
   Table table(context, columns_of("exponents"));
   const auto scope = options.largest ? LyapunovScope::largest : LyapunovScope::all;
   const LyapunovRun run{steps - discard, discard, options.standard_error, scope};
-  const LyapunovResult result =
-      std::visit([&](const auto& one) { return exponents_of(one, context, options, run); }, moving);
+  const auto [result, end] =
+      exponents_of(moving, run, tangent_sampling_of(context.case_data, options));
+  if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(end.time);
+  tell_of_end(context, end);
   if (options.standard_error > 0.0 && result.outcome == LyapunovOutcome::sample_limit)
     report_warning("--standard-error was not reached within --duration", context.quiet);
   report_warning(open_sign_warning(result), context.quiet);

@@ -9,7 +9,6 @@
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/orbit/orbit_continuation.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
-#include "io/text/names.hpp"
 #include "job.hpp"
 #include "jobs/motion/motion_columns.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
@@ -17,6 +16,7 @@
 #include "jobs/orbit/motion_borders.hpp"
 #include "jobs/orbit/proved_orbit.hpp"
 #include "jobs/orbit/surface_names.hpp"
+#include "text/names.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -1,12 +1,12 @@
 #include <limits>
 
+#include "case/model/conditioning.hpp"
 #include "case/model/modal/modes_warning.hpp"
 #include "case/model/moving_loop.hpp"
 #include "holdfast/chaos/modal_classification.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "job.hpp"
-#include "jobs/charts/conditioning.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -43,14 +43,14 @@ void write(const JobContext& context, Table& table, const Found& found) {
   const double period = classification.period > 0 ? static_cast<double>(classification.period) *
                                                         context.case_data.control.sampling_period
                                                   : std::numeric_limits<double>::quiet_NaN();
+  const auto itself = [](double number) { return number; };
   table.row(
       attractor_type_text(classification), classification.period, period,
       indicators.certified_period ? 1 : 0,
       known(indicators.largest_exponent, [](const auto& exponent) { return exponent.value; }),
       known(indicators.largest_exponent, [](const auto& exponent) { return exponent.half_width; }),
-      known(indicators.zero_one, [](double k) { return k; }),
-      known(indicators.closest_return, [](const auto& closest) { return closest.distance; }),
-      known(indicators.recurrence, [](const auto& shares) { return shares.determinism; }),
+      known(indicators.zero_one, itself), known(indicators.closest_return, itself),
+      known(indicators.determinism, itself),
       known(indicators.switching, [](const auto& complexity) { return complexity.entropy; }),
       indicators.lines ? indicators.lines->division : 0,
       known(indicators.lines, [](const auto& lines) { return lines.continuous; }),

@@ -4,14 +4,14 @@
 #include <string_view>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/decay/damping_fit.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/model/reduction_of_case.hpp"
 #include "case/plausibility/quantities.hpp"
 #include "holdfast/ceres/decay_fit_options.hpp"
-#include "io/file/input.hpp"
+#include "io/file/whole_file.hpp"
 #include "io/text/record_file.hpp"
 #include "job.hpp"
-#include "jobs/cable/damping_fit.hpp"
 
 namespace holdfast::program {
 namespace {

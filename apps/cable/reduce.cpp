@@ -1,10 +1,10 @@
 #include <limits>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/conditioning.hpp"
+#include "case/model/decay/damping_fit.hpp"
 #include "case/model/reduction_of_case.hpp"
 #include "job.hpp"
-#include "jobs/cable/damping_fit.hpp"
-#include "jobs/charts/conditioning.hpp"
 #include "jobs/motion/motion_digits.hpp"
 
 namespace holdfast::program {

@@ -1,7 +1,7 @@
 #include "case/axes/axis.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/model/decay/cable_decay.hpp"
 #include "job.hpp"
-#include "jobs/cable/cable_decay.hpp"
 
 namespace holdfast::program {
 namespace {

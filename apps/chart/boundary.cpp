@@ -1,6 +1,8 @@
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "case/axes/axis.hpp"
+#include "case/model/conditioning.hpp"
 #include "case/model/linear_loop.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -9,11 +11,10 @@
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/boundary/stable_regions.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
-#include "io/text/range_text.hpp"
 #include "job.hpp"
-#include "jobs/charts/conditioning.hpp"
 #include "jobs/charts/names.hpp"
 #include "report/figures/figure.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -8,11 +8,11 @@
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
-#include "io/text/names.hpp"
 #include "job.hpp"
-#include "jobs/charts/row_blocks.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "jobs/design/gain_margins.hpp"
+#include "output/row_blocks.hpp"
+#include "text/names.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -8,8 +8,8 @@
 #include "holdfast/stability/design/proved_max_delay.hpp"
 #include "job.hpp"
 #include "jobs/charts/proved_poles.hpp"
-#include "jobs/charts/row_blocks.hpp"
 #include "jobs/design/best_gains.hpp"
+#include "output/row_blocks.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {

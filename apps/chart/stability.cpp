@@ -6,15 +6,15 @@
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
-#include "io/text/table.hpp"
-#include "io/text/text.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"
 #include "jobs/charts/names.hpp"
 #include "jobs/charts/proved_stability.hpp"
 #include "jobs/columns.hpp"
+#include "output/table.hpp"
 #include "process/exit.hpp"
 #include "report/figures/figure.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -38,14 +38,15 @@ struct DiagramQuestion {
                           const std::vector<double>& values, const DiagramOptions& options,
                           const Write& write) const {
     const auto case_at = [&](double value) { return case_with(context.case_data, key, value); };
-    const bool modal = is_modal(context.case_data);
-    bool of_paper = true;  // at all values
+    const bool masses = is_of_masses(motion_kind_of(context.case_data, switching));
+    bool sampled = true;  // at all values
     for (const double value : values) {
       const Case there = case_at(value);
-      of_paper = of_paper && is_of_the_paper(there, switching);
-      if (is_modal(there) != modal)
+      const MotionKind kind = motion_kind_of(there, switching);
+      sampled = sampled && is_sampled(kind);
+      if (is_of_masses(kind) != masses)
         throw WrongInput("--axis " + axis + ": with " +
-                         modal_words(modal ? context.case_data : there) +
+                         modal_words(masses ? there : context.case_data) +
                          " another loop is meant than without; a diagram is of one of them");
     }
     report_warning(dense_work_warning(context.case_data, switching), context.quiet);
@@ -54,7 +55,7 @@ struct DiagramQuestion {
                                [&](double value) { return moving_at(value).state; }, options,
                                write);
     };
-    if (modal && of_paper)
+    if (!masses && sampled)
       return diagram_of([&](double value) {
         return std::get<SampledModes>(moving_loop_of(case_at(value), {switching}));
       });

@@ -4,7 +4,7 @@
 #include "case/model/modal/modes_warning.hpp"
 #include "job.hpp"
 #include "process/exit.hpp"
-#include "report/page/command_line.hpp"
+#include "report/figures/figure.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -1,7 +1,6 @@
 #include "report/page/report.hpp"
 
 #include "job.hpp"
-#include "report/span/span_page.hpp"
 
 namespace holdfast::program {
 namespace {

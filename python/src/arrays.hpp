@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "host/large_pages.hpp"
+#include "host/received_table.hpp"
 
 namespace holdfast::python {
 

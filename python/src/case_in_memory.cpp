@@ -5,12 +5,13 @@
 
 #include "arrays.hpp"
 #include "case/case_file.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/model/resolved_plant.hpp"
 #include "holdfast/core/errors.hpp"
-#include "io/file/metadata.hpp"
 #include "kernels/instruction_set.hpp"
+#include "output/metadata.hpp"
 #include "process/errors.hpp"
 
 namespace holdfast::python {
@@ -136,20 +137,22 @@ const program::Case& CaseInMemory::settled() const {
 nb::dict CaseInMemory::plant_matrices() const {
   const program::Case& the_case = settled();
   const LinearPlant<double> plant =
-      program::is_modal(the_case) ? program::modal_plant_of(the_case) : [&] {
-        const LinearPlant<double, 4> four = linear_plant(program::plant_of(the_case));
-        const Ports<double, 4>& ports = four.connections;
-        return LinearPlant<double>{
-            four.released_matrix,
-            four.force_input,
-            four.command_input,
-            four.excitation,
-            four.drive_force,
-            four.direct_transmission,
-            {ports.displacement, ports.velocity, ports.measured_displacement,
-             ports.measured_velocity, ports.relative_displacement, ports.relative_velocity,
-             ports.displacement_lift, ports.velocity_lift}};
-      }();
+      !program::is_of_masses(program::motion_kind_of(the_case, Switching::sampled))
+          ? program::modal_plant_of(the_case)
+          : [&] {
+              const LinearPlant<double, 4> four = linear_plant(program::plant_of(the_case));
+              const Ports<double, 4>& ports = four.connections;
+              return LinearPlant<double>{
+                  four.released_matrix,
+                  four.force_input,
+                  four.command_input,
+                  four.excitation,
+                  four.drive_force,
+                  four.direct_transmission,
+                  {ports.displacement, ports.velocity, ports.measured_displacement,
+                   ports.measured_velocity, ports.relative_displacement, ports.relative_velocity,
+                   ports.displacement_lift, ports.velocity_lift}};
+            }();
   nb::dict arrays;
   arrays["state_matrix"] = array_of_matrix(plant.state_matrix(), false);
   arrays["command_input"] = array_of_matrix(plant.control_input(), true);

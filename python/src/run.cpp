@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "arrays.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
 #include "host/job_host.hpp"
 #include "job.hpp"
@@ -156,7 +157,8 @@ Axis axis_of(const AxisTuple& axis) {
 /// Whether a chart takes a few milliseconds at most, so that a thread of its own would cost more
 /// than it spares: one of two masses of so many cells, once it is known what its case is warned of.
 bool is_short(const CaseInMemory& the_case, const GainGrid& grid, bool radius) {
-  if (!the_case.is_asked_for_charts() || program::is_modal(the_case.settled())) return false;
+  if (!the_case.is_asked_for_charts() || !program::has_closed_forms(the_case.settled()))
+    return false;
   const std::int64_t rows = grid.proportional.count, columns = grid.differential.count;
   if (rows > 5000 || columns > 1'000'000) return false;
   return rows * columns <= (radius ? 2'000'000 : 4'000'000);
@@ -168,7 +170,7 @@ nb::tuple run_job(const CaseInMemory& the_case, std::vector<std::string> argumen
                   nb::object watch, nb::object controller, nb::object force) {
   arguments.emplace_back("--quiet");
   JobHost host;
-  host.source = the_case.source();
+  host.source = std::make_shared<program::CaseSource>(the_case.source());
   attach_controller(*host.source, controller);
   attach_force(*host.source, force);
   const auto work = [&] { program::do_job(arguments); };
@@ -196,7 +198,7 @@ nb::tuple chart(const CaseInMemory& the_case, AxisTuple proportional, AxisTuple 
   const auto work = [&] {
     // What the job refuses or doubts of a case it does of one cell too.
     host.warnings = the_case.warnings_of_charts([&] {
-      host.source = the_case.source();
+      host.source = std::make_shared<program::CaseSource>(the_case.source());
       program::do_job({"stability", "--p=0", "--d=0", "--quiet"});
       return std::move(host.warnings);
     });

@@ -6,7 +6,7 @@
 
 #include "case/model/own/own_parts.hpp"
 #include "case/needed.hpp"
-#include "io/text/text.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 
@@ -55,11 +55,6 @@ bool has_site(const Case& the_case) {
                     site.turbulence_intensity, site.years);
   };
   return said(the_case.site) != said(case_tables::Site{});
-}
-
-bool is_modal(const Case& the_case) {
-  return !is_two_masses(the_case) || has_hardware(the_case) || the_case.own != nullptr ||
-         the_case.control.processing_delay > the_case.control.sampling_period;
 }
 
 std::string modal_words(const Case& the_case) {

@@ -202,19 +202,13 @@ bool is_two_masses(const Case& the_case);
 /// Whether the readings are filtered or the drive lags.
 bool has_hardware(const Case& the_case);
 
-/// Whether the loop is computed by its natural motions: where the absorber hangs on the conductor
-/// itself; and on one mass, as a conductor of one mode, where the readings are filtered, the drive
-/// lags or the force comes more than a sample late; and with a plant or a controller of the user's
-/// own.
-bool is_modal(const Case& the_case);
-
 /// Whether an absorber hangs on the conductor; without one its devices are alone.
 bool has_absorber(const Case& the_case);
 
 /// Whether anything is said of the site.
 bool has_site(const Case& the_case);
 
-/// What of a modal case it is that makes it one, for a message.
+/// What of a case makes its loop more than two masses with a computer, for a message.
 std::string modal_words(const Case& the_case);
 
 /// Whether the conductor is a string without ends.

@@ -8,8 +8,8 @@
 #include "case/model/cable_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "holdfast/control/late_controller.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

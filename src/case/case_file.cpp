@@ -12,9 +12,9 @@
 #include "case/model/cable_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "case/toml_values.hpp"
-#include "io/file/input.hpp"
-#include "io/text/text.hpp"
+#include "io/file/whole_file.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -5,8 +5,9 @@
 #include <cctype>
 #include <cmath>
 
-#include "io/text/text.hpp"
+#include "case/model/own/own_parts.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -200,6 +201,7 @@ void set_case_value(Case& the_case, std::string_view name, double value) {
 }
 
 Case case_with(Case the_case, std::string_view name, double value) {
+  require_counts(the_case, name);
   set_case_value(the_case, name, value);
   check_case(the_case);
   return the_case;

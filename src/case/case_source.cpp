@@ -7,7 +7,7 @@
 #include "case/model/own/own_parts.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
 #include "io/text/record_file.hpp"
-#include "io/text/text.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 

@@ -8,8 +8,8 @@
 
 #include "case/toml_depth.hpp"
 #include "case/units.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "io/text/text.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

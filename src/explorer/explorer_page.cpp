@@ -10,10 +10,10 @@
 
 #include "case/case_file.hpp"
 #include "case/model/cable_of_case.hpp"
-#include "io/file/input.hpp"
 #include "io/file/output.hpp"
-#include "io/text/filled.hpp"
+#include "io/file/whole_file.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -60,11 +60,6 @@ std::string text_of_case(const Case& the_case, const CaseSource& source) {
   return case_to_toml(the_case);
 }
 
-/// Of a JSON text that stands in a page: its strings may hold no tag.
-std::string json_in_page(const nlohmann::ordered_json& json) {
-  return replaced(json.dump(), "<", "\\u003c");
-}
-
 }  // namespace
 
 void look_for_explorer_page_in(fs::path folder) { folder_of_library = std::move(folder); }
@@ -80,9 +75,10 @@ void write_explorer_page(const fs::path& output, const Case& the_case, const Cas
   if (!file) refuse_without_page();
   const std::string name =
       source.overrides.empty() || source.name.empty() ? source.name : source.name + " with --set";
+  const nlohmann::ordered_json json = {{"name", name}, {"text", text_of_case(the_case, source)}};
   OutputFile page(output);
-  page.write(replaced(read_input(*file), empty_case,
-                      json_in_page({{"name", name}, {"text", text_of_case(the_case, source)}})));
+  // Its strings may hold no tag.
+  page.write(replaced(read_input(*file), empty_case, replaced(json.dump(), "<", "\\u003c")));
   page.commit();
 }
 

@@ -7,17 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "case/case_source.hpp"
 #include "host/received_table.hpp"
 
 namespace holdfast::program {
+
+struct CaseSource;
 
 /// What stands around a job that another program runs in its own memory, in place of files,
 /// standard error and a terminal: where its case comes from, and what takes its tables, its
 /// warnings and how far it is.
 ///
 ///     JobHost host;
-///     host.source = CaseSource{};   // the built-in case
+///     host.source = std::make_shared<CaseSource>();   // the built-in case
 ///     const HostedHere here(host);
 ///     do_job({"orbit"});
 ///     host.tables.front().columns …
@@ -25,8 +26,8 @@ struct JobHost {
   /// That of this thread; null where jobs run by themselves.
   static JobHost* current();
 
-  std::optional<CaseSource> source;   // in place of --case and --set
-  std::vector<ReceivedTable> tables;  // of those that go to no file
+  std::shared_ptr<CaseSource> source;  // in place of --case and --set
+  std::vector<ReceivedTable> tables;   // of those that go to no file
   std::vector<std::string> warnings;
   std::atomic<std::uint64_t> steps_done{0}, steps{0};  // of the job that counts them; 0: none yet
 };

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "io/grid/grid_output.hpp"
-#include "io/text/filled.hpp"
+#include "output/grid/grid_output.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 

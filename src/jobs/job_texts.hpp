@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "io/text/compiled_texts.hpp"
+#include "text/compiled_texts.hpp"
 
 namespace holdfast::program {
 

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "case/model/own/own_parts.hpp"
-#include "io/text/text.hpp"
 #include "jobs/job_texts.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -88,14 +88,14 @@ struct Rule {
   std::string refuses, idealises;
 };
 
-struct Table {
+struct Rulebook {
   toml::table texts;
   std::vector<Rule> rules;
 };
 
-const Table& table() {
-  static const Table all = [] {
-    Table read{toml::parse(support_texts), {}};
+const Rulebook& table() {
+  static const Rulebook all = [] {
+    Rulebook read{toml::parse(support_texts), {}};
     for (const toml::node& node : *read.texts["rules"].as_array()) {
       const toml::node_view<const toml::node> rule(node);
       read.rules.push_back({words_of(rule["asked"]), words_of(rule["unless"]), words_of(rule["of"]),
@@ -135,7 +135,7 @@ std::string asked_words(const Rule& rule, const Asked& asked) {
 std::string jobs_that_answer(const std::string& feature) {
   std::map<std::string, bool> answers;
   for (const SupportCell& cell : support_cells())
-    if (cell.feature == feature) {
+    if (cell.features.back() == feature) {
       const std::string job = words_in(cell.question)[0];
       const auto known = answers.try_emplace(job, false).first;
       known->second = known->second || cell.support.refusal.empty();
@@ -190,6 +190,7 @@ Support support_of(const Case& the_case, const Asked& asked) {
   for (const Feature& feature : features())
     if (feature.is_of(the_case)) there.push_back(feature.name);
   if (asked.has("--switching exact")) there.emplace_back("exact");
+  if (has_active_absorber(the_case)) there.emplace_back("computer");
   Support support = support_of(there, asked);
   // Whose job as a whole does not answer asks which do.
   if (is_of_plant(support.refused_by))
@@ -213,20 +214,28 @@ Asked asked_of(const std::string& question) {
   return asked;
 }
 
-SupportCell cell_of(const std::string& question, const std::string& name, bool on_conductor) {
-  const auto& features = table().texts["features"];
-  Words there = {name}, settings = words_of(features[name]["set"]);
-  if (on_conductor || name == "devices") there.insert(there.begin(), "string");
-  if (!on_conductor && (!is_of_plant(name) || name == "devices_on_two_masses"))
+/// @param named  at most one plant among them, and that first
+SupportCell cell_of(const std::string& question, const Words& named) {
+  SupportCell cell{question, {}, {}, true, {}};
+  Words there = named;
+  if (named[0] == "devices") there.insert(there.begin(), "string");
+  if (!is_of_plant(named[0]) || named[0] == "devices_on_two_masses")
     there.insert(there.begin(), "two_masses");
-  if (on_conductor) {
-    const Words conductor = words_of(features["string"]["set"]);
-    settings.insert(settings.end(), conductor.begin(), conductor.end());
+  for (const std::string& name : named) {
+    const auto feature = table().texts["features"][name];
+    const Words set = words_of(feature["set"]);
+    const auto option = feature["option"].value<std::string>();
+    cell.features.push_back(words_of_feature(name));
+    cell.settings.insert(cell.settings.end(), set.begin(), set.end());
+    if (option) cell.question += " " + *option;
+    cell.can_be_asked = cell.can_be_asked && (option || !set.empty());
   }
-  SupportCell cell{question, words_of_feature(name), on_conductor, settings, true, {}};
-  const auto option = features[name]["option"].value<std::string>();
-  if (option) cell.question += " " + *option;
-  cell.can_be_asked = option || !words_of(features[name]["set"]).empty();
+  const auto says = [&](const char* table) {
+    return std::any_of(cell.settings.begin(), cell.settings.end(),
+                       [&](const std::string& setting) { return setting.rfind(table, 0) == 0; });
+  };
+  // The built-in absorber is not on a span of other devices until something is said of it.
+  if (!says("device.") || says("control.")) there.emplace_back("computer");
   cell.support = support_of(there, asked_of(cell.question));
   return cell;
 }
@@ -273,12 +282,30 @@ class Footnotes {
   Words texts_;
 };
 
-/// The features beside which a question is asked, of two masses or of a conductor.
-Words features_asked(bool on_conductor) {
-  Words asked;
-  for (const std::string& name : feature_names())
-    if (!on_conductor || !is_of_plant(name)) asked.push_back(name);
+/// The features beside which a question is asked for the page, of two masses or of a conductor;
+/// each last of what a case has.
+std::vector<Words> singles_asked(bool on_conductor) {
+  std::vector<Words> asked;
+  for (const std::string& name : feature_names()) {
+    if (!on_conductor) asked.push_back({name});
+    if (on_conductor && !is_of_plant(name)) asked.push_back({"string", name});
+  }
   return asked;
+}
+
+/// All two that one case can have beside those of the page: of plants and of laws it has one.
+std::vector<Words> pairs_asked() {
+  const auto is_law = [](const std::string& name) {
+    return name == "immediate" || name == "play" || name == "dead_zone";
+  };
+  const Words all = feature_names();
+  std::vector<Words> pairs;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = i + 1; k < all.size(); ++k)
+      if (all[i] != "two_masses" && all[i] != "string" && !is_of_plant(all[k]) &&
+          !(is_law(all[i]) && is_law(all[k])))
+        pairs.push_back({all[i], all[k]});
+  return pairs;
 }
 
 /// Whether a question knows the option that one of the features is.
@@ -291,42 +318,50 @@ bool knows(const toml::node_view<const toml::node>& group, const std::string& qu
 /// A table of the page.
 std::string table_of(const toml::node_view<const toml::node>& group, bool on_conductor,
                      Footnotes& reasons) {
-  const Words all = feature_names(), shown = features_asked(on_conductor);
+  const Words all = feature_names();
+  const std::vector<Words> shown = singles_asked(on_conductor);
   std::string text = "| asked |", line = "|---|";
-  for (const std::string& name : shown) {
-    const auto number = std::find(all.begin(), all.end(), name) - all.begin() + 1;
+  for (const Words& names : shown) {
+    const auto number = std::find(all.begin(), all.end(), names.back()) - all.begin() + 1;
     text += " " + std::to_string(number) + " |";
     line += "---|";
   }
   text += "\n" + line + "\n";
   for (const std::string& question : words_of(group["questions"])) {
     text += "| `" + without_numbers(question) + "` |";
-    for (const std::string& name : shown)
-      text += knows(group, question, name)
-                  ? " " + reasons.of(cell_of(question, name, on_conductor).support) + " |"
+    for (const Words& names : shown)
+      text += knows(group, question, names.back())
+                  ? " " + reasons.of(cell_of(question, names).support) + " |"
                   : "  |";
     text += "\n";
   }
   return text;
 }
 
-}  // namespace
-
-std::vector<SupportCell> support_cells() {
+std::vector<SupportCell> cells_of(const std::vector<Words>& features) {
   std::vector<SupportCell> cells;
   for (const toml::node& node : *table().texts["asked"].as_array()) {
     const toml::node_view<const toml::node> group(node);
     const bool is_tried = !text_of(group["title"]).empty();
     for (const std::string& question : words_of(group["questions"]))
-      for (const bool on_conductor : {false, true})
-        for (const std::string& name : features_asked(on_conductor)) {
-          if (!knows(group, question, name)) continue;
-          cells.push_back(cell_of(question, name, on_conductor));
-          cells.back().can_be_asked = cells.back().can_be_asked && is_tried;
-        }
+      for (const Words& names : features) {
+        if (!knows(group, question, names.back())) continue;
+        cells.push_back(cell_of(question, names));
+        cells.back().can_be_asked = cells.back().can_be_asked && is_tried;
+      }
   }
   return cells;
 }
+
+}  // namespace
+
+std::vector<SupportCell> support_cells() {
+  std::vector<Words> singles = singles_asked(false);
+  for (Words& names : singles_asked(true)) singles.push_back(std::move(names));
+  return cells_of(singles);
+}
+
+std::vector<SupportCell> support_pairs() { return cells_of(pairs_asked()); }
 
 std::string support_page() {
   Footnotes reasons;

@@ -28,18 +28,22 @@ struct Support {
 /// @param the_case  of which no plant need be settled
 Support support_of(const Case& the_case, const Asked& asked);
 
-/// A question of the table about a case with one of its features.
+/// A question of the table about a case with some of its features.
 struct SupportCell {
   std::string question;               ///< with small numbers: "margins --prove"
-  std::string feature;                ///< in words
-  bool on_conductor;                  ///< on plant.model = "string", else on two masses
-  std::vector<std::string> settings;  ///< "KEY=VALUE" that give it the feature
+  std::vector<std::string> features;  ///< in words
+  std::vector<std::string> settings;  ///< "KEY=VALUE" that give it the features
   bool can_be_asked;                  ///< whether a command line can
   Support support;
 };
 
-/// All of them, a question's together, the features in one order.
+/// The cells of the page, of one feature on two masses and on plant.model = "string", a question's
+/// together, the features in one order.
 std::vector<SupportCell> support_cells();
+
+/// The cells of all pairs of features that one case can have, on two masses where neither is
+/// another plant.
+std::vector<SupportCell> support_pairs();
 
 /// docs/support.md.
 std::string support_page();

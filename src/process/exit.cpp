@@ -12,10 +12,10 @@
 #include <thread>
 
 #include "host/job_host.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
-#include "process/group/mpi_launch.hpp"
+#include "process/group/process_group.hpp"
 #include "process/interrupt.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -16,7 +16,7 @@ class Memo {
   explicit Memo(std::size_t most) : most_(most) {}
 
   /// Of the key, by `compute` where it is not known. Threads that ask for one key at once may
-  /// compute it each; what `compute` throws is not remembered.
+  /// compute it each, and all get the first value; what `compute` throws is not remembered.
   template <class Compute>
   Value of(const Key& key, const Compute& compute) {
     {
@@ -27,8 +27,7 @@ class Memo {
     Value value = compute();
     const std::lock_guard<std::mutex> lock(mutex_);
     if (known_.size() >= most_) known_.clear();
-    known_[key] = value;
-    return value;
+    return known_.emplace(key, std::move(value)).first->second;
   }
 
  private:

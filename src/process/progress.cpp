@@ -48,9 +48,9 @@ void show_status(const std::string& status) {
 
 }  // namespace
 
-bool progress_wanted(const JobContext& context) {
+bool progress_wanted(bool quiet, bool asked_for) {
   if (JobHost::current() != nullptr) return false;
-  return !context.quiet && (context.progress || standard_error_is_terminal());
+  return !quiet && (asked_for || standard_error_is_terminal());
 }
 
 std::string progress_text(const std::string& label, const ProgressCount& count, double seconds) {

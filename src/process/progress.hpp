@@ -8,14 +8,12 @@
 #include <string>
 #include <thread>
 
-#include "process/job_context.hpp"
-
 namespace holdfast::program {
 
 struct JobHost;
 
 /// Whether progress is to be shown: never when quiet, else when asked for or on a terminal.
-bool progress_wanted(const JobContext& context);
+bool progress_wanted(bool quiet, bool asked_for);
 
 /// How far a job is.
 struct ProgressCount {

@@ -6,7 +6,6 @@
 #include "io/file/folder_lock.hpp"
 #include "io/file/whole_file.hpp"
 #include "process/errors.hpp"
-#include "process/system_words.hpp"
 #include "store/store_folder.hpp"
 
 namespace holdfast::program {

@@ -1,12 +1,11 @@
 #include "store/chunk_packing.hpp"
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <new>
 
-#include "io/text/checksum.hpp"
 #include "process/errors.hpp"
+#include "text/checksum.hpp"
 
 #ifdef HOLDFAST_HAS_ZSTD
 #include <zstd.h>
@@ -14,24 +13,6 @@
 
 namespace holdfast::program {
 namespace {
-
-/// CRC-32C (Castagnoli), as the Zarr codec crc32c and iSCSI (RFC 3720) have it.
-std::uint32_t crc32c(std::string_view bytes) {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> remainders{};
-    for (std::uint32_t byte = 0; byte < remainders.size(); ++byte) {
-      std::uint32_t remainder = byte;
-      for (int bit = 0; bit < 8; ++bit)
-        remainder = (remainder >> 1U) ^ ((remainder & 1U) != 0 ? 0x82F63B78U : 0U);
-      remainders[byte] = remainder;
-    }
-    return remainders;
-  }();
-  std::uint32_t sum = ~std::uint32_t{0};
-  for (const char character : bytes)
-    sum = table[(sum ^ static_cast<unsigned char>(character)) & 0xFFU] ^ (sum >> 8U);
-  return ~sum;
-}
 
 /// Little-endian, as the codecs want it.
 template <class Number>

@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "host/job_host.hpp"
-#include "io/text/checksum.hpp"
-#include "jobs/charts/row_blocks.hpp"
+#include "output/row_blocks.hpp"
 #include "process/exit.hpp"
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"
 #include "process/worker_threads.hpp"
+#include "text/checksum.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -97,7 +97,7 @@ class StoreFilling {
   /// The other processes need not go on.
   void give_up_tickets() noexcept {
     try {
-      group_.skip_tickets(tickets_);
+      group_.take_tickets(tickets_);
     } catch (...) {
       // They go on in vain; the fault that brought us here is the one to be told.
     }
@@ -109,7 +109,7 @@ class StoreFilling {
     ChunkUnderWay under_way;
     while (!stop) {
       throw_if_interrupted();
-      const std::int64_t ticket = group_.take_ticket();
+      const std::int64_t ticket = group_.take_tickets(1);
       if (ticket >= tickets_) break;
       const std::int64_t chunk = chunk_of((first_ticket_ + ticket) % tickets_);
       if (!see_to(chunk, false, under_way)) elsewhere.push_back(chunk);
@@ -144,6 +144,9 @@ class StoreFilling {
     if (claim->answer() == ChunkClaim::Answer::unknown && !last) return false;
     // Its last holder may have finished it before it was ours.
     if (is_done(chunk)) return count_found(chunk);
+    if (store_.has(chunk))
+      tell(store_.file_of(chunk).string() +
+           " or what belongs to it is damaged, and is computed anew");
     under_way.begin(
         [this, chunk, claim = std::move(claim), result = work_.compute(chunk)]() mutable {
           store_.put(chunk, result.values);
@@ -156,11 +159,7 @@ class StoreFilling {
   }
 
   bool is_done(std::int64_t chunk) const {
-    if (!store_.has(chunk)) return false;
-    if (!work_.verify || store_.read(chunk)) return true;
-    tell(store_.file_of(chunk).string() +
-         " or what belongs to it is damaged, and is computed anew");
-    return false;
+    return store_.has(chunk) && (!work_.verify || store_.read(chunk));
   }
 
   /// From any thread, also to the host, which the first one alone has.
@@ -181,7 +180,7 @@ class StoreFilling {
   /// Those handed out that were not seen here.
   void show_others() {
     if (group_.rank() != 0 || group_.size() == 1) return;
-    const std::int64_t taken = std::min(group_.tickets_taken(), tickets_);
+    const std::int64_t taken = std::min(group_.take_tickets(0), tickets_);
     const std::int64_t others = std::max(taken - seen_, std::int64_t{0});
     progress_.set_elsewhere(static_cast<std::uint64_t>(
         std::min(others * store_.grid().cells_of_file(), store_.grid().cells())));

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "case/job_context.hpp"
 #include "process/group/process_group.hpp"
-#include "process/job_context.hpp"
 #include "store/store_folder.hpp"
 
 namespace holdfast::program {

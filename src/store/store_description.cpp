@@ -11,9 +11,9 @@
 #include "case/device/impedance_table.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
 #include "io/file/folder_lock.hpp"
-#include "io/grid/grid_attributes.hpp"
-#include "io/text/checksum.hpp"
+#include "output/grid/grid_attributes.hpp"
 #include "process/errors.hpp"
+#include "text/checksum.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -30,15 +30,18 @@ std::string_view bytes_of(const std::vector<double>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
 }
 
-/// Of the numbers of a record, so that another record of the same name is noticed.
-std::string checksum_of(const RecordedForce& record) {
-  return std::to_string(checksum(bytes_of(record.forces()), checksum(bytes_of(record.times()))));
+/// Of the numbers of lists, so that another record of the same name is noticed.
+template <class... Lists>
+std::string checksum_of(const Lists&... lists) {
+  std::uint64_t sum = 0;
+  ((sum = checksum(bytes_of(lists), sum)), ...);
+  return std::to_string(sum);
 }
 
-std::string checksum_of(const ImpedanceTable& table) {
-  return std::to_string(
-      checksum(bytes_of(table.phase_deg),
-               checksum(bytes_of(table.magnitude), checksum(bytes_of(table.frequency)))));
+Json json_of(const Attributes& attributes) {
+  Json json = Json::object();
+  for (const auto& [name, text] : attributes) json[name] = text;
+  return json;
 }
 
 Json json_of(const Column& column) {
@@ -78,8 +81,7 @@ Json holdfast_attribute(const StoreDescription& store) {
 }
 
 Json root_attributes(const StoreDescription& store) {
-  Json attributes = Json::object();
-  for (const auto& [name, text] : origin_attributes(store.origin)) attributes[name] = text;
+  Json attributes = json_of(origin_attributes(store.origin));
   attributes["holdfast"] = holdfast_attribute(store);
   return attributes;
 }
@@ -99,15 +101,16 @@ std::vector<ArrayDescription> arrays_of(const StoreDescription& store) {
   for (const GridAxis& axis : store.axes) {
     const std::string name = cf_name(axis.column.name);
     const std::size_t count = axis.count();
-    Json attributes = Json::object();
-    for (const auto& [key, text] : axis_attributes(axis.column)) attributes[key] = text;
-    arrays.push_back(
-        {name, ElementType::real, {count}, {coordinates_in_chunk(count)}, {name}, attributes});
+    arrays.push_back({name,
+                      ElementType::real,
+                      {count},
+                      {coordinates_in_chunk(count)},
+                      {name},
+                      json_of(axis_attributes(axis.column))});
     dimensions.push_back(name);
   }
   for (const CellColumn& column : store.columns) {
-    Json attributes = Json::object();
-    for (const auto& [key, text] : column_attributes(column)) attributes[key] = text;
+    Json attributes = json_of(column_attributes(column));
     if (!column.words.empty()) {
       std::vector<int> numbers(column.words.size());
       std::iota(numbers.begin(), numbers.end(), 0);
@@ -179,8 +182,6 @@ Json sealed(Json root, int format) {
   holdfast_part(root, format)["checksum"] = sum;
   return root;
 }
-
-using Documents = std::vector<std::pair<fs::path, std::string>>;
 
 Documents documents_of_format_3(const StoreDescription& store) {
   Documents documents;
@@ -336,10 +337,13 @@ std::string plan_differences(const StorePlan& before, const StorePlan& now) {
 }
 
 void append_case(StorePlan& plan, const Case& the_case) {
-  if (the_case.force_record) plan.emplace("force record", checksum_of(*the_case.force_record));
+  if (the_case.force_record)
+    plan.emplace("force record",
+                 checksum_of(the_case.force_record->times(), the_case.force_record->forces()));
   for (std::size_t k = 0; k < the_case.devices.size(); ++k)
     if (const auto& table = the_case.devices[k].table)
-      plan.emplace("impedance " + std::to_string(k + 1), checksum_of(*table));
+      plan.emplace("impedance " + std::to_string(k + 1),
+                   checksum_of(table->frequency, table->magnitude, table->phase_deg));
   const Json json = case_to_json(the_case);
   for (const auto& [table, keys] : json.items())
     for (const auto& [key, value] : keys.items()) plan.emplace(table + "." + key, value.dump());
@@ -352,7 +356,7 @@ ElementType element_type_of(const CellColumn& column) {
 
 std::size_t size_of(ElementType type) { return type == ElementType::byte ? 1 : 8; }
 
-std::vector<std::pair<fs::path, std::string>> store_documents(const StoreDescription& store) {
+Documents store_documents(const StoreDescription& store) {
   return store.format == 2 ? documents_of_format_2(store) : documents_of_format_3(store);
 }
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "io/grid/chunk_grid.hpp"
-#include "io/grid/grid_output.hpp"
-#include "process/job_context.hpp"
+#include "case/job_context.hpp"
+#include "output/grid/chunk_grid.hpp"
+#include "output/grid/grid_output.hpp"
 #include "store/chunk_packing.hpp"
 
 namespace holdfast::program {
@@ -54,11 +54,13 @@ struct StoreDescription {
 /// The names of its arrays, which are those of their folders: of the axes, then of the columns.
 std::vector<std::string> array_names(const StoreDescription& store);
 
+/// Files and their texts.
+using Documents = std::vector<std::pair<std::filesystem::path, std::string>>;
+
 /// The files that describe a store and their texts, relative to its folder, the root last, without
 /// which there is no store. After them readers find all in one file, the consolidated metadata.
 /// Throws NoAnswer where format 2 is asked for and the program has no codec that it knows.
-std::vector<std::pair<std::filesystem::path, std::string>> store_documents(
-    const StoreDescription& store);
+Documents store_documents(const StoreDescription& store);
 
 /// The root documents of the formats, of which every store has one.
 inline constexpr const char* root_of_format_3 = "zarr.json";

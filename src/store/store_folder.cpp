@@ -12,11 +12,10 @@
 
 #include "io/file/folder_lock.hpp"
 #include "io/file/whole_file.hpp"
-#include "io/grid/grid_attributes.hpp"
-#include "io/text/text.hpp"
+#include "output/grid/grid_attributes.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
-#include "process/system_words.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -25,33 +24,30 @@ namespace fs = std::filesystem;
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "a store's numbers are little-endian");
 
-template <class Number>
-std::string bytes_as(const std::vector<double>& values, std::size_t count, Number fill) {
-  std::vector<Number> numbers(count, fill);
-  std::transform(values.begin(), values.end(), numbers.begin(),
-                 [](double value) { return static_cast<Number>(value); });
-  return {reinterpret_cast<const char*>(numbers.data()), count * sizeof(Number)};
+/// Calls with what fills the numbers of an array where there are none, which tells their type.
+template <class Call>
+auto with_fill(ElementType type, const Call& call) {
+  if (type == ElementType::byte) return call(std::int8_t{-1});
+  if (type == ElementType::integer) return call(std::numeric_limits<std::int64_t>::min());
+  return call(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// The bytes of a file of `count` cells; those beyond the values are filled.
 std::string bytes_of(const std::vector<double>& values, std::size_t count, ElementType type) {
-  if (type == ElementType::byte) return bytes_as<std::int8_t>(values, count, -1);
-  if (type == ElementType::integer)
-    return bytes_as<std::int64_t>(values, count, std::numeric_limits<std::int64_t>::min());
-  return bytes_as<double>(values, count, std::numeric_limits<double>::quiet_NaN());
-}
-
-template <class Number>
-std::vector<double> values_as(const std::string& bytes, std::size_t count) {
-  std::vector<Number> numbers(count);
-  std::memcpy(numbers.data(), bytes.data(), count * sizeof(Number));
-  return {numbers.begin(), numbers.end()};
+  return with_fill(type, [&](auto fill) {
+    std::vector<decltype(fill)> numbers(count, fill);
+    std::transform(values.begin(), values.end(), numbers.begin(),
+                   [](double value) { return static_cast<decltype(fill)>(value); });
+    return std::string(reinterpret_cast<const char*>(numbers.data()), count * sizeof fill);
+  });
 }
 
 std::vector<double> values_of(const std::string& bytes, std::size_t count, ElementType type) {
-  if (type == ElementType::byte) return values_as<std::int8_t>(bytes, count);
-  if (type == ElementType::integer) return values_as<std::int64_t>(bytes, count);
-  return values_as<double>(bytes, count);
+  return with_fill(type, [&](auto fill) {
+    std::vector<decltype(fill)> numbers(count);
+    std::memcpy(numbers.data(), bytes.data(), count * sizeof fill);
+    return std::vector<double>(numbers.begin(), numbers.end());
+  });
 }
 
 /// Whether every value is one that the column may have.
@@ -62,14 +58,10 @@ bool fit(const CellColumn& column, const std::vector<double>& values) {
   });
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) refuse_to_write(folder, error.value());
-}
-
 void write_file(const fs::path& file, std::string_view bytes) {
-  make_folder(file.parent_path());
+  std::error_code failure;
+  fs::create_directories(file.parent_path(), failure);
+  if (failure) refuse_to_write(file.parent_path(), failure.value());
   const int error = write_whole_file(file, bytes);
   if (error != 0) refuse_to_write(file, error);
 }
@@ -239,14 +231,41 @@ std::string StoreFolder::seal_of(const fs::path& file) const {
   return file.lexically_relative(folder_).generic_string() + " of " + identity_;
 }
 
+std::string StoreFolder::packed(const fs::path& file, const std::vector<double>& values,
+                                std::size_t count, ElementType type) const {
+  return packed_chunk(bytes_of(values, count, type), description_.packing, seal_of(file));
+}
+
+/// The first values of a file of `count`; nothing where it is missing or damaged, or cannot be
+/// read.
+std::optional<std::vector<double>> StoreFolder::values_in(const fs::path& file, std::size_t values,
+                                                          std::size_t count,
+                                                          ElementType type) const {
+  int ignored = 0;
+  const std::optional<std::string> packed = read_whole_file(file, ignored);
+  if (!packed) return std::nullopt;
+  const std::optional<std::string> bytes =
+      unpacked_chunk(*packed, count * size_of(type), description_.packing, seal_of(file));
+  if (!bytes) return std::nullopt;
+  return values_of(*bytes, values, type);
+}
+
+/// Calls for each file of an axis, by the number of its first value.
+template <class Call>
+void StoreFolder::each_axis_file(const Call& call) const {
+  for (std::size_t axis = 0; axis < description_.axes.size(); ++axis)
+    for (std::size_t first = 0, count = grid().shape[axis]; first < count;
+         first += coordinates_in_chunk(count))
+      call(axis, first);
+}
+
 void StoreFolder::write_axis(std::size_t axis, std::size_t first) const {
   const GridAxis& of = description_.axes[axis];
   const std::size_t length = coordinates_in_chunk(of.count());
   std::vector<double> values(std::min(length, of.count() - first));
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = of.at(first + i);
   const fs::path file = axis_file(axis, first);
-  write_file(file, packed_chunk(bytes_of(values, length, ElementType::real), description_.packing,
-                                seal_of(file)));
+  write_file(file, packed(file, values, length, ElementType::real));
 }
 
 fs::path StoreFolder::axis_file(std::size_t axis, std::size_t first) const {
@@ -259,34 +278,23 @@ fs::path StoreFolder::axis_file(std::size_t axis, std::size_t first) const {
 std::optional<std::vector<double>> StoreFolder::axis_values(std::size_t axis,
                                                             std::size_t first) const {
   const std::size_t count = grid().shape[axis], length = coordinates_in_chunk(count);
-  const fs::path file = axis_file(axis, first);
-  int ignored = 0;
-  const std::optional<std::string> packed = read_whole_file(file, ignored);
-  const auto bytes =
-      packed ? unpacked_chunk(*packed, length * sizeof(double), description_.packing, seal_of(file))
-             : std::nullopt;
-  if (!bytes) return std::nullopt;
-  return values_of(*bytes, std::min(length, count - first), ElementType::real);
+  return values_in(axis_file(axis, first), std::min(length, count - first), length,
+                   ElementType::real);
 }
 
 void StoreFolder::write_documents() const {
-  for (std::size_t axis = 0; axis < description_.axes.size(); ++axis) {
-    const std::size_t count = grid().shape[axis];
-    for (std::size_t first = 0; first < count; first += coordinates_in_chunk(count)) {
-      throw_if_interrupted();
-      write_axis(axis, first);
-    }
-  }
+  each_axis_file([&](std::size_t axis, std::size_t first) {
+    throw_if_interrupted();
+    write_axis(axis, first);
+  });
   for (const auto& [path, text] : store_documents(description_)) write_file(folder_ / path, text);
 }
 
 /// Whoever comes later finds what the store's plan says, whatever has become of it.
 void StoreFolder::mend(const Documents& documents) const {
-  for (std::size_t axis = 0; axis < description_.axes.size(); ++axis) {
-    const std::size_t count = grid().shape[axis];
-    for (std::size_t first = 0; first < count; first += coordinates_in_chunk(count))
-      if (!axis_values(axis, first)) write_axis(axis, first);
-  }
+  each_axis_file([&](std::size_t axis, std::size_t first) {
+    if (!axis_values(axis, first)) write_axis(axis, first);
+  });
   int ignored = 0;
   for (const auto& [path, text] : documents)
     if (read_whole_file(folder_ / path, ignored) != text) write_file(folder_ / path, text);
@@ -302,16 +310,14 @@ void StoreFolder::require(const Documents& documents) const {
 }
 
 void StoreFolder::read_axes() {
-  for (std::size_t axis = 0; axis < description_.axes.size(); ++axis) {
-    const std::size_t count = grid().shape[axis];
-    std::vector<double> values;
-    for (std::size_t first = 0; first < count; first += coordinates_in_chunk(count)) {
-      const auto part = axis_values(axis, first);
-      if (!part) refuse_to_read(axis_file(axis, first), "it is missing or damaged");
-      values.insert(values.end(), part->begin(), part->end());
-    }
-    description_.axes[axis].values = std::move(values);
-  }
+  std::vector<std::vector<double>> values(description_.axes.size());
+  each_axis_file([&](std::size_t axis, std::size_t first) {
+    const auto part = axis_values(axis, first);
+    if (!part) refuse_to_read(axis_file(axis, first), "it is missing or damaged");
+    values[axis].insert(values[axis].end(), part->begin(), part->end());
+  });
+  for (std::size_t axis = 0; axis < values.size(); ++axis)
+    description_.axes[axis].values = std::move(values[axis]);
 }
 
 fs::path StoreFolder::file_of(std::size_t column, std::int64_t chunk) const {
@@ -327,20 +333,10 @@ bool StoreFolder::has(std::int64_t chunk) const {
 
 std::optional<std::vector<double>> StoreFolder::read_column(std::size_t column,
                                                             std::int64_t chunk) const {
-  int ignored = 0;  // a file that cannot be read is as good as none
-  const fs::path place = file_of(column, chunk);
-  const std::optional<std::string> file = read_whole_file(place, ignored);
-  if (!file) return std::nullopt;
   const CellColumn& cells = description_.columns[column];
-  const ElementType type = element_type_of(cells);
-  const auto of_file = static_cast<std::size_t>(grid().cells_of_file());
-  const std::optional<std::string> bytes =
-      unpacked_chunk(*file, of_file * size_of(type), description_.packing, seal_of(place));
-  if (!bytes) return std::nullopt;
-  std::vector<double> values =
-      values_of(*bytes, static_cast<std::size_t>(grid().cells_of(chunk)), type);
-  if (!fit(cells, values)) return std::nullopt;
-  return values;
+  auto values = values_in(file_of(column, chunk), static_cast<std::size_t>(grid().cells_of(chunk)),
+                          static_cast<std::size_t>(grid().cells_of_file()), element_type_of(cells));
+  return values && fit(cells, *values) ? std::move(values) : std::nullopt;
 }
 
 std::optional<ChunkValues> StoreFolder::read(std::int64_t chunk) const {
@@ -360,8 +356,7 @@ void StoreFolder::put(std::int64_t chunk, const ChunkValues& values) const {
     const auto of_file = static_cast<std::size_t>(grid().cells_of_file());
     std::error_code ignored;
     if (fs::is_symlink(file, ignored)) refuse_link(file);
-    const int error = write_whole_file(file, packed_chunk(bytes_of(values[column], of_file, type),
-                                                          description_.packing, seal_of(file)));
+    const int error = write_whole_file(file, packed(file, values[column], of_file, type));
     if (error != 0) throw OutputError("cannot write " + file.string() + ": " + system_words(error));
   }
 }
@@ -440,7 +435,7 @@ void StoreFolder::remove() const {
   for (const char* name : {".zmetadata", ".zgroup", removed_root}) folder.remove_file(name);
   for (const std::string& name : folder.names())
     if (name_behind_temporary(name) == root) folder.remove_file(name);
-  folder.remove_empty_file(FolderLock::file_name);
+  folder.remove_file(FolderLock::file_name, true);
   rmdir(folder_.c_str());
 }
 

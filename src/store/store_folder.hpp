@@ -75,13 +75,19 @@ class StoreFolder {
       : folder_(std::move(folder)), description_(std::move(description)) {}
   std::filesystem::path file_of(std::size_t column, std::int64_t chunk) const;
   std::string seal_of(const std::filesystem::path& file) const;
+  std::string packed(const std::filesystem::path& file, const std::vector<double>& values,
+                     std::size_t count, ElementType type) const;
+  std::optional<std::vector<double>> values_in(const std::filesystem::path& file,
+                                               std::size_t values, std::size_t count,
+                                               ElementType type) const;
+  template <class Call>
+  void each_axis_file(const Call& call) const;
   void read_axes();
   void begin() const;
   std::filesystem::path axis_file(std::size_t axis, std::size_t first) const;
   void write_axis(std::size_t axis, std::size_t first) const;
   std::optional<std::vector<double>> axis_values(std::size_t axis, std::size_t first) const;
   void write_documents() const;
-  using Documents = std::vector<std::pair<std::filesystem::path, std::string>>;
   void mend(const Documents& documents) const;
   void require(const Documents& documents) const;
   void refuse_links() const;

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "io/grid/grid_output.hpp"
-#include "process/job_context.hpp"
+#include "case/job_context.hpp"
+#include "output/grid/grid_output.hpp"
 #include "store/store_description.hpp"
 #include "store/store_folder.hpp"
 

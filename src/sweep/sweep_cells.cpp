@@ -7,19 +7,19 @@
 #include "case/model/moving_loop.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/errors.hpp"
-#include "io/text/text.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "jobs/motion/cell_motion.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "sweep/sweep_plan.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
 
-CellOutcome outcome_of(MotionEnd end) {
-  if (end == MotionEnd::accumulates) return CellOutcome::accumulates;
-  return end == MotionEnd::diverged ? CellOutcome::diverges : CellOutcome::computed;
+CellOutcome outcome_of(holdfast::MotionEnd end) {
+  if (end == holdfast::MotionEnd::accumulates) return CellOutcome::accumulates;
+  return end == holdfast::MotionEnd::diverged ? CellOutcome::diverges : CellOutcome::computed;
 }
 
 CellOutcome outcome_of(MinimumAmplitudeOutcome outcome) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "io/text/text.hpp"
 #include "jobs/columns.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "holdfast/chaos/classification.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
-#include "io/grid/grid_output.hpp"
+#include "output/grid/grid_output.hpp"
 
 namespace holdfast::program {
 

@@ -11,13 +11,14 @@
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
+#include "case/model/resolved_plant.hpp"
 #include "case/needed.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "holdfast/motion/trajectory.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "store/stored_grid.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -138,8 +139,20 @@ void SweepPlan::settle_case() {
     report_warning(drift_warning(context_.case_data), context_.quiet);
     report_warning(dense_work_warning(context_.case_data, options_.switching), context_.quiet);
   } else {
-    reduced_cases_ = std::make_shared<const ReducedCases>(context_.case_source);
+    constexpr std::size_t most_known = 1000;  // a few megabytes
+    reduced_cases_ = std::make_shared<decltype(reduced_cases_)::element_type>(most_known);
   }
+}
+
+/// Throws what a reduction throws, each time it is asked.
+Case SweepPlan::reduced_case(const std::vector<std::string>& overrides) const {
+  const auto reduced = [source = context_.case_source, overrides] {
+    Case the_case = source.load(overrides);
+    settle_plant(the_case);
+    return the_case;
+  };
+  const auto later = [&] { return std::async(std::launch::deferred, reduced).share(); };
+  return reduced_cases_->of(overrides, later).get();
 }
 
 bool SweepPlan::wants(SweepMetric metric) const {
@@ -154,7 +167,7 @@ Case SweepPlan::case_of(std::int64_t cell) const {
   std::vector<std::string> shaping;
   for (const std::size_t k : shaping_axes_)
     shaping.push_back(layout_.axes[k].column.name + "=" + format_number(axis_value(k, cell)));
-  Case the_case = reduced_cases_ ? reduced_cases_->with(shaping) : context_.case_data;
+  Case the_case = reduced_cases_ ? reduced_case(shaping) : context_.case_data;
   for (std::size_t k = 0; k < layout_.axes.size(); ++k) {
     if (std::count(shaping_axes_.begin(), shaping_axes_.end(), k) == 0)
       set_case_value(the_case, layout_.axes[k].column.name, axis_value(k, cell));

@@ -1,17 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "case/case_keys.hpp"
+#include "case/job_context.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
-#include "process/job_context.hpp"
+#include "process/memo.hpp"
 #include "store/fill_store.hpp"
 #include "store/store_description.hpp"
-#include "sweep/reduced_cases.hpp"
 #include "sweep/sweep_metric.hpp"
 
 namespace holdfast::program {
@@ -71,6 +72,7 @@ class SweepPlan {
 
  private:
   void settle_case();
+  Case reduced_case(const std::vector<std::string>& overrides) const;
   void require_loops() const;
   double counted_samples() const;
   double chosen_chunk_cells() const;
@@ -81,7 +83,9 @@ class SweepPlan {
   std::vector<SweepMetric> metrics_;
   GridLayout layout_;
   std::vector<std::size_t> shaping_axes_;  // those that change what the plant is reduced from
-  std::shared_ptr<const ReducedCases> reduced_cases_;  // where there are such axes
+  /// The case by their values, its plant reduced; where there are such axes. A reduction takes some
+  /// tenths of a second, and many cells share theirs.
+  std::shared_ptr<Memo<std::vector<std::string>, std::shared_future<Case>>> reduced_cases_;
   double samples_ = 0.0;
   ChunkGrid grid_;
 };

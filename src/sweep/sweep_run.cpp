@@ -14,18 +14,17 @@
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/errors.hpp"
 #include "io/file/own_folder.hpp"
-#include "io/text/table.hpp"
-#include "io/text/text.hpp"
 #include "jobs/columns.hpp"
 #include "kernels/instruction_set.hpp"
+#include "output/table.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
-#include "process/group/mpi_launch.hpp"
 #include "process/group/process_group.hpp"
 #include "process/interrupt.hpp"
 #include "process/worker_threads.hpp"
 #include "store/stored_grid.hpp"
 #include "store/work_store.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -54,12 +53,12 @@ fs::path store_folder(const JobContext& context, bool named) {
   return new_passing_folder(passing_folder);
 }
 
-/// The instruction set on which the last digits in a store depend; empty where there is none.
-std::string recorded_instructions(const fs::path& folder) {
-  const std::optional<StoreDescription> there = store_in(folder);
-  if (!there || there->plan.count("--instructions") == 0) return "";
-  return there->plan.at("--instructions");
-}
+constexpr std::int64_t no_cell = std::numeric_limits<std::int64_t>::max();
+
+/// How many cells of a sweep diverge, have no motion and are chaotic, and the first without one.
+struct FaultCounts {
+  std::int64_t diverging = 0, without_motion = 0, chaotic = 0, first = no_cell;
+};
 
 /// The cells whose motion is none, diverges or is chaotic. Any thread may add some.
 class SweepFaults {
@@ -67,62 +66,59 @@ class SweepFaults {
   /// @param verdicts  of the same cells; none where they were not asked for
   void add(std::int64_t first_cell, const std::vector<double>& outcomes,
            const std::vector<double>& verdicts) {
-    std::int64_t diverging = 0, without_motion = 0, first = no_cell;
-    const auto chaotic =
+    FaultCounts found;
+    found.chaotic =
         std::count(verdicts.begin(), verdicts.end(), static_cast<double>(AttractorType::chaotic));
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       const auto outcome = static_cast<CellOutcome>(outcomes[i]);
-      diverging += outcome == CellOutcome::diverges ? 1 : 0;
+      found.diverging += outcome == CellOutcome::diverges ? 1 : 0;
       if (has_motion(outcome)) continue;
-      if (without_motion++ == 0) first = first_cell + static_cast<std::int64_t>(i);
+      if (found.without_motion++ == 0) found.first = first_cell + static_cast<std::int64_t>(i);
     }
-    add(diverging, without_motion, chaotic, first);
-  }
-
-  void add(std::int64_t diverging, std::int64_t without_motion, std::int64_t chaotic,
-           std::int64_t first) {
-    const std::lock_guard<std::mutex> guard(mutex_);
-    diverging_ += diverging;
-    without_motion_ += without_motion;
-    chaotic_ += chaotic;
-    first_ = std::min(first_, first);
+    add(found);
   }
 
   /// Brings those of all processes together.
   void share(ProcessGroup& group) {
     std::ostringstream own;
-    own << diverging_ << ' ' << without_motion_ << ' ' << chaotic_ << ' ' << first_;
-    const std::vector<std::string> texts = group.exchange(own.str());
-    diverging_ = without_motion_ = chaotic_ = 0;
-    for (const std::string& text : texts) {
+    own << all_.diverging << ' ' << all_.without_motion << ' ' << all_.chaotic << ' ' << all_.first;
+    all_ = {};
+    for (const std::string& text : group.exchange(own.str())) {
       std::istringstream numbers(text);
-      std::int64_t diverging = 0, without_motion = 0, chaotic = 0, first = no_cell;
-      numbers >> diverging >> without_motion >> chaotic >> first;
-      add(diverging, without_motion, chaotic, first);
+      FaultCounts found;
+      numbers >> found.diverging >> found.without_motion >> found.chaotic >> found.first;
+      add(found);
     }
   }
 
   /// For a warning; empty where there are none.
   std::string text(const SweepPlan& plan) const {
     std::string text;
-    if (diverging_ > 0) text = std::to_string(diverging_) + " diverge";
-    if (without_motion_ > 0)
-      text += (text.empty() ? "" : ", ") + std::to_string(without_motion_) +
-              " have no motion, the first because: " + fault_of_cell(plan, first_);
+    if (all_.diverging > 0) text = std::to_string(all_.diverging) + " diverge";
+    if (all_.without_motion > 0)
+      text += (text.empty() ? "" : ", ") + std::to_string(all_.without_motion) +
+              " have no motion, the first because: " + fault_of_cell(plan, all_.first);
     return text.empty() ? text : "of " + std::to_string(plan.cells()) + " cells " + text;
   }
 
   /// Of the chaotic ones, likewise.
   std::string chaos_text(const SweepPlan& plan) const {
-    if (chaotic_ == 0) return "";
-    return "of " + std::to_string(plan.cells()) + " cells " + std::to_string(chaotic_) +
+    if (all_.chaotic == 0) return "";
+    return "of " + std::to_string(plan.cells()) + " cells " + std::to_string(all_.chaotic) +
            " are chaotic: rounding decides their motions after a while, and their metrics are "
            "those of one possible motion each";
   }
 
  private:
-  static constexpr std::int64_t no_cell = std::numeric_limits<std::int64_t>::max();
-  std::int64_t diverging_ = 0, without_motion_ = 0, chaotic_ = 0, first_ = no_cell;
+  void add(const FaultCounts& found) {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    all_.diverging += found.diverging;
+    all_.without_motion += found.without_motion;
+    all_.chaotic += found.chaotic;
+    all_.first = std::min(all_.first, found.first);
+  }
+
+  FaultCounts all_;
   std::mutex mutex_;
 };
 
@@ -226,8 +222,11 @@ class SweepRun {
   /// which is gone on with where all have it, else with the smallest of theirs.
   void agree_on_instructions() {
     const bool looks = is_first() && named_ && (plan_.options().resume || is_to_stay());
-    const std::string recorded =
-        looks ? recorded_instructions(store_folder(context(), named_)) : std::string();
+    // On it the last digits in a store depend.
+    std::string recorded;
+    if (looks)
+      if (const auto there = store_in(store_folder(context(), named_)))
+        if (there->plan.count("--instructions") > 0) recorded = there->plan.at("--instructions");
     const auto texts =
         group_->exchange(std::string(name_of(context().instructions)) + " " + recorded);
     if (plan_.options().instructions_given) return;
@@ -307,12 +306,9 @@ class SweepRun {
   /// After a fault: says how to go on, or removes what cannot be gone on with.
   void leave() noexcept {
     if (!is_first()) return;
-    if (!named_) return remove_work_store();
-    report_kept_chunks(
-        store(), std::string("the same command") + (work_ ? " with --resume" : "") + " goes on");
-  }
-
-  void remove_work_store() noexcept {
+    if (named_)
+      return report_kept_chunks(
+          store(), std::string("the same command") + (work_ ? " with --resume" : "") + " goes on");
     try {
       work_->remove();
     } catch (...) {

@@ -104,7 +104,7 @@ TEST(ProvedModalChart, IsNotContradictedByArb) {
     const double tau = 0.00390625;
     const SampledBalls balls(plant, tau, late);
     const ProvedChart chart = proved_chart({enclosed_poles(conductor), {tau, late}},
-                                           {{-300.0, 300.0, 5}, {-10.0, 10.0, 5}}, 3e-3);
+                                           {{-300.0, 300.0, 5}, {-10.0, 10.0, 5}}, 3e-3, [] {});
     std::array<int, 3> asked{};
     for (int trial = 0; trial < 400; ++trial) {
       const auto& [box, stability] = chart.boxes[random.index(chart.boxes.size())];

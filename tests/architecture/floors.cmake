@@ -32,6 +32,10 @@ endforeach()
 set(may_include_holdfast.hpp ${umbrellas})
 # The program knows the adapters too.
 set(may_include_src ${all_floors} ${umbrellas} simd sundials ceres holdfast.hpp)
+# Rooms of src, the lowest first: words; who asks; signals and threads; instruction sets; files; the
+# case and its loop; tables and grids that go out; chunks on disk; what several jobs need; and what
+# answers with many motions, a picture or a page. What apps has stands above them all.
+set(rooms text host process kernels io case output store jobs sweep explorer report)
 
 # Paths that a file includes, as written between quotes or angle brackets.
 function(read_includes file result)
@@ -85,10 +89,22 @@ function(check_header file)
 endfunction()
 
 function(check_program_source file)
+  string(REGEX REPLACE "^src/([^/]+).*" "\\1" room ${file})
+  list(FIND rooms ${room} floor)
+  if(floor EQUAL -1)
+    complain(${file} "'${room}' has no floor; give it one in floors.cmake")
+  endif()
   read_includes(${ROOT}/${file} paths)
-  list(FILTER paths INCLUDE REGEX "^holdfast/")
   foreach(path IN LISTS paths)
-    check_library_include(${file} src "${path}")
+    if(path MATCHES "^holdfast/")
+      check_library_include(${file} src "${path}")
+    elseif(EXISTS ${ROOT}/src/${path})
+      string(REGEX REPLACE "/.*" "" target "${path}")
+      list(FIND rooms ${target} other)
+      if(other GREATER floor)
+        complain(${file} "'${room}' may not include '${path}'")
+      endif()
+    endif()
   endforeach()
 endfunction()
 

@@ -1,6 +1,6 @@
 #include "holdfast/chaos/classification.hpp"
 
-#include "holdfast/chaos/chaos_indicators.hpp"
+#include "holdfast/chaos/motion_classification.hpp"
 #include "support/kollar_case.hpp"
 #include "support/testing.hpp"
 
@@ -25,31 +25,12 @@ bool names(const Classification& classification, const std::string& words) {
   return classification.rests_on.find(words) != std::string::npos;
 }
 
-/// The sampled loop as a discrete system of [z; u_{j−1}].
-struct LoopSystem {
-  test::KollarCase which;
-  SampledMotion<double> motion = which.motion();
-  SampledLoop<double> loop = which.loop();
-  bool engaged = true;
-
-  ChaosIndicators indicators(const IndicatorOptions& options) {
-    return chaos_indicators<5>(
-        Vector<double, 5>::Zero(), [this](Vector<double, 5>& state) { step(state); },
-        [](const Vector<double, 5>& state) { return state[0]; }, options,
-        [this](const Vector<double, 5>&) {
-          return engaged ? loop.engaged_map(which.gains) : loop.backlash_map();
-        },
-        [this] { return engaged; });
-  }
-
- private:
-  void step(Vector<double, 5>& state) {
-    const MotionSample<double> sample = motion.sense();
-    engaged = sample.engaged;
-    motion.advance();
-    state << motion.state(), sample.control_force;
-  }
-};
+ChaosIndicators loop_indicators(const test::KollarCase& which,
+                                const IndicatorOptions& options = {}) {
+  const IdealLoop<double> loop = which.ideal_loop();
+  const auto motion = harmonically_forced_motion(loop, which.initial_state);
+  return detail::indicators_of_motion(loop, motion, options);
+}
 
 // ---- systems whose motion is known -------------------------------------------------------------
 
@@ -62,16 +43,8 @@ TEST(Classification, TheLogisticMapIsChaoticWhereItIsKnownToBe) {
     EXPECT_TRUE(names(classification, "exponent")) << classification.rests_on;
     EXPECT_TRUE(names(classification, "K = ")) << classification.rests_on;
     EXPECT_GT(indicators.lines->continuous, 0.5) << r;
-    EXPECT_LT(indicators.recurrence->determinism, 1.0);
+    EXPECT_LT(*indicators.determinism, 1.0);
   }
-}
-
-TEST(Classification, TheSkewTentMapIsChaotic) {
-  const double a = 0.3;
-  const Classification classification = classify(chaos_indicators<2>(
-      point(0.2), [a](Point& x) { x[0] = x[0] < a ? x[0] / a : (1 - x[0]) / (1 - a); },
-      first_coordinate, {}, [a](const Point& x) { return slope(x[0] < a ? 1 / a : 1 / (a - 1)); }));
-  EXPECT_EQ(attractor_type_text(classification), "chaotic") << classification.rests_on;
 }
 
 TEST(Classification, TheWindowOfPeriodThreeHasPeriodThree) {
@@ -140,8 +113,7 @@ TEST(Classification, TheLoopWithoutBacklashRepeatsAsSamplingAndForcingDo) {
   for (const double tau : {0.010, 0.011}) {
     IndicatorOptions options;
     options.samples = 20000;  // whole periods of both
-    LoopSystem system{{tau, 0.0}};
-    const ChaosIndicators indicators = system.indicators(options);
+    const ChaosIndicators indicators = loop_indicators({tau, 0.0}, options);
     const Classification classification = classify(indicators);
     EXPECT_EQ(classification.kind, AttractorType::periodic) << classification.rests_on;
     EXPECT_EQ(classification.period, samples_per_common_period(10.0, tau))
@@ -157,8 +129,7 @@ TEST(Classification, TheLoopWithoutBacklashIsQuasiPeriodicWhereTheForcingNeverCo
   IndicatorOptions options;
   options.forcing_incommensurate =
       samples_per_common_period(which.excitation.frequency, 0.010) == 0;
-  LoopSystem system{which};
-  const Classification classification = classify(system.indicators(options));
+  const Classification classification = classify(loop_indicators(which, options));
   EXPECT_TRUE(options.forcing_incommensurate);
   EXPECT_EQ(attractor_type_text(classification), "quasi-periodic") << classification.rests_on;
 }
@@ -173,8 +144,7 @@ TEST(Classification, MotionsWithBacklashThatRepeatAreFoundToRepeat) {
     IndicatorOptions options;
     options.transient = 40000;
     options.samples = 21000;
-    LoopSystem system{{motion.tau, motion.width}};
-    const ChaosIndicators indicators = system.indicators(options);
+    const ChaosIndicators indicators = loop_indicators({motion.tau, motion.width}, options);
     const Classification classification = classify(indicators);
     EXPECT_EQ(classification.kind, AttractorType::periodic) << classification.rests_on;
     EXPECT_EQ(classification.period, motion.period) << classification.rests_on;
@@ -187,8 +157,7 @@ TEST(Classification, APeriodLongerThanTheSearchIsCalledIrregularAndSaysHowFarWas
   IndicatorOptions options;
   options.transient = 40000;
   options.samples = 5040;
-  LoopSystem system{{0.011, 0.002}};
-  const Classification classification = classify(system.indicators(options));
+  const Classification classification = classify(loop_indicators({0.011, 0.002}, options));
   EXPECT_EQ(attractor_type_text(classification), "irregular, exponent <= 0")
       << classification.rests_on;
   EXPECT_TRUE(names(classification, "within 840 samples")) << classification.rests_on;
@@ -198,8 +167,7 @@ TEST(Classification, APeriodLongerThanTheSearchIsCalledIrregularAndSaysHowFarWas
 TEST(Classification, TheLoopThatWaitsAWholeSampleDiverges) {
   test::KollarCase which{0.011, 0.002};
   which.processing_delay = which.sampling_period;
-  LoopSystem system{which};
-  const ChaosIndicators indicators = system.indicators({});
+  const ChaosIndicators indicators = loop_indicators(which);
   EXPECT_EQ(attractor_type_text(classify(indicators)), "diverges");
   EXPECT_LT(*indicators.diverged_at, 1000);
 }
@@ -385,7 +353,7 @@ TEST(ChaosIndicators, KeepsQuietOnWhatItWasNotGiven) {
   EXPECT_FALSE(indicators.switching);
   EXPECT_FALSE(indicators.certified_period);
   EXPECT_TRUE(indicators.zero_one && indicators.lines && indicators.repeat &&
-              indicators.recurrence);
+              indicators.determinism);
   EXPECT_EQ(kind_of(indicators), AttractorType::undecided) << "K alone claims no chaos";
   EXPECT_GT(*indicators.zero_one, zero_one_high);
 }

@@ -98,14 +98,6 @@ TEST(MotionClassification, OfExactSwitchingIsPeriodicByCertificate) {
   }
 }
 
-TEST(MotionClassification, TheIrregularMotionOfThePaperIsPeriodic) {
-  const SampledClassification found = classified_from_rest(test::kollar_loop(0.011, 0.002));
-  EXPECT_EQ(found.classification.kind, AttractorType::periodic);
-  EXPECT_EQ(found.classification.period, 2100);
-  EXPECT_TRUE(found.indicators.certified_period.has_value());
-  EXPECT_NE(found.classification.rests_on.find("Certified"), std::string::npos);
-}
-
 TEST(MotionClassification, WithoutBacklashBothSwitchingsFollowTheForcing) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     const ImplementedLoop loop = classified_implemented_loop(0.01, 0.0, switching);

@@ -259,24 +259,6 @@ TEST(OwnController, OfAnObserverHasTheEigenvaluesOfItsMatrix) {
   }
 }
 
-/// The roots of the observer are those of A − L c, whatever the gains.
-TEST(OwnController, OfAnObserverSeparates) {
-  const Vector<double, 4> gain(0.4, 12.0, 0.3, 8.0);
-  const auto sampled = sampled_loop(kollar2022_plant(), Sampling<double>{0.005});
-  Matrix<double, Eigen::Dynamic> apart = Matrix<double, Eigen::Dynamic>::Zero(8, 8);
-  apart.topLeftCorner<4, 4>() = sampled.transition + sampled.present_force * pd.feedback_row();
-  apart.bottomRightCorner<4, 4>() = sampled.transition;
-  apart.bottomRightCorner<4, 4>().col(0) -= gain;
-  OwnLoop loop = own_loop(observer_based(sampled, gain), Switching::sampled, 0.0);
-  loop.backlash.law = ContactLaw::none;
-  const auto found = find_event_orbit(event_motion(loop, rest_of(loop)));
-  ASSERT_EQ(found.outcome, OrbitOutcome::certified);
-  const auto expected = log_moduli(apart);
-  for (std::size_t k = 0; k < 8; ++k)
-    EXPECT_NEAR(found.orbit->multipliers[k].log_modulus, 20.0 * expected[k],
-                1e-7 * (1.0 + std::abs(20.0 * expected[k])));
-}
-
 /// The filter of with_measurement_filter() made by the computer from its samples.
 struct FilteredPd {
   static constexpr int states = 1;

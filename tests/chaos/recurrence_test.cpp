@@ -75,20 +75,16 @@ TEST(RepeatsAfter, WhatHasDecayedBelowRoundOffIsAtRest) {
 }
 
 TEST(ClosestReturn, OfARotationComesAfterAFibonacciNumber) {
-  const ClosestReturn closest = closest_return<2>(circle(golden_turn, 1000));
-  EXPECT_EQ(closest.lag, 987U);
+  const double closest = closest_return<2>(circle(golden_turn, 1000));
   // |x_n − x_0| = 2 |sin π n g|, at most half of that in each coordinate's own extent.
   const double chord = std::abs(std::sin(3.141592653589793 * 987 * golden_turn));
-  EXPECT_LE(closest.distance, chord * (1 + 1e-9));
-  EXPECT_GE(closest.distance, chord * std::sqrt(0.5) * (1 - 1e-9));
+  EXPECT_LE(closest, chord * (1 + 1e-9));
+  EXPECT_GE(closest, chord * std::sqrt(0.5) * (1 - 1e-9));
 }
 
-TEST(ClosestReturn, OfOneStateThereIsNone) {
-  EXPECT_EQ(closest_return<2>({Pair(0, 1)}).lag, 0U);
-  EXPECT_EQ(closest_return<2>({Pair(0, 1)}).distance, 1.0);
-}
+TEST(ClosestReturn, OfOneStateThereIsNone) { EXPECT_EQ(closest_return<2>({Pair(0, 1)}), 1.0); }
 
-TEST(RecurrenceShares, AgreeWithTheWholePlot) {
+TEST(RecurrenceDeterminism, AgreesWithTheWholePlot) {
   const auto states = scattered(60, 721);
   const double radius = 0.2;
   const RelativeDistance<2> distance(states);
@@ -103,24 +99,23 @@ TEST(RecurrenceShares, AgreeWithTheWholePlot) {
       if (recurs(i + 1, j + 1) || (j > 0 && recurs(i - 1, j - 1))) ++in_lines;
     }
   }
-  const RecurrenceShares shares = recurrence_shares<2>(states, radius);
-  EXPECT_DOUBLE_EQ(shares.rate, recurrent / (0.5 * 60 * 59));
-  EXPECT_DOUBLE_EQ(shares.determinism, static_cast<double>(in_lines) / recurrent);
+  EXPECT_DOUBLE_EQ(recurrence_determinism<2>(states, radius),
+                   static_cast<double>(in_lines) / recurrent);
 }
 
-TEST(RecurrenceShares, TellAClosedCurveFromChance) {
-  const RecurrenceShares curve = recurrence_shares<2>(circle(golden_turn, 1500), 0.05);
-  EXPECT_GT(curve.determinism, 0.9);
-  const RecurrenceShares chance = recurrence_shares<2>(scattered(1500, 722), 0.05);
-  EXPECT_NEAR(chance.determinism, 1 - std::pow(1 - chance.rate, 2), 0.005);
+TEST(RecurrenceDeterminism, TellsAClosedCurveFromChance) {
+  EXPECT_GT(recurrence_determinism<2>(circle(golden_turn, 1500), 0.05), 0.9);
   // The share of pairs within r in both coordinates of the unit square: (2r − r²)².
-  EXPECT_NEAR(chance.rate, std::pow(2 * 0.05 - 0.05 * 0.05, 2), 0.001);
+  const double rate = std::pow(2 * 0.05 - 0.05 * 0.05, 2);
+  EXPECT_NEAR(recurrence_determinism<2>(scattered(1500, 722), 0.05), 1 - std::pow(1 - rate, 2),
+              0.005);
 }
 
-TEST(RecurrenceShares, AConstantSeriesAlwaysRecurs) {
+TEST(RecurrenceDeterminism, AConstantSeriesAlwaysRecurs) {
   const std::vector<Pair> rest(50, Pair(0.3, 0.0));
-  EXPECT_EQ(recurrence_shares<2>(rest, 1e-9).rate, 1.0);
-  EXPECT_EQ(closest_return<2>(rest).distance, 0.0);
+  // The two ends of the series are a diagonal of one pair.
+  EXPECT_DOUBLE_EQ(recurrence_determinism<2>(rest, 1e-9), 1224.0 / 1225.0);
+  EXPECT_EQ(closest_return<2>(rest), 0.0);
   EXPECT_EQ(repeats_after<2>(rest, 0.0).lag, 1U);
 }
 
@@ -139,8 +134,8 @@ TEST(Recurrence, WhatIsOutOfRangeIsRefused) {
   EXPECT_THROW(repeats_after<2>(few, 1e-9, 0), InvalidParameter);
   EXPECT_THROW(repeats_after<2>(broken, 1e-9), InvalidParameter);
   EXPECT_THROW(closest_return<2>(many), InvalidParameter);
-  EXPECT_THROW(recurrence_shares<2>(many, 0.1), InvalidParameter);
-  EXPECT_THROW(recurrence_shares<2>(few, 0.0), InvalidParameter);
+  EXPECT_THROW(recurrence_determinism<2>(many, 0.1), InvalidParameter);
+  EXPECT_THROW(recurrence_determinism<2>(few, 0.0), InvalidParameter);
 }
 
 }  // namespace

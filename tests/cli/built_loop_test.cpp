@@ -149,11 +149,10 @@ TEST(BuiltLoop, LongestPeriodIsOneOfTheChart) {
   const CsvTable longest = table_of("max-delay --criterion stable --frequency 10:10:1" + drive);
   const double period = longest.number(0, "max_sampling_period_s");
   for (const double share : {0.98, 1.02}) {
-    std::ostringstream settings;
-    settings << std::setprecision(17) << drive
-             << " --set control.sampling_period=" << share * period << " --p "
-             << longest.text(0, "proportional_gain");
-    const Outcome outcome = run_holdfast("boundary --stable-interval" + settings.str());
+    const Outcome outcome =
+        run_holdfast("boundary --stable-interval" + drive +
+                     " --set control.sampling_period=" + program::format_number(share * period) +
+                     " --p " + longest.text(0, "proportional_gain"));
     EXPECT_EQ(outcome.exit_code, share < 1.0 ? 0 : 1) << share << outcome.errors;
   }
 }
@@ -182,6 +181,13 @@ TEST(BuiltLoop, SensitivitiesByPolesAreThoseOfTheClosedForms) {
   EXPECT_EQ(compared, 30U);
 }
 
+/// The least radius of the cells of a chart.
+double smallest_radius(const std::string& chart) {
+  const std::vector<double> radii =
+      table_of("stability --radius --quiet" + chart).numbers("spectral_radius");
+  return *std::min_element(radii.begin(), radii.end());
+}
+
 /// The D of least radius has no larger one than any other D, also where poles are equal or so many
 /// commands are on their way that roots are not found one by one.
 TEST(BuiltLoop, LeastRadiusIsLeastAndKnown) {
@@ -195,11 +201,8 @@ TEST(BuiltLoop, LeastRadiusIsLeastAndKnown) {
     const CsvTable design = table_of("design --quiet" + settings);
     const double least = design.number(0, "least_radius");
     EXPECT_LT(design.number(0, "spectral_radius"), 1.0) << settings;
-    const CsvTable chart = table_of("stability --radius --quiet --d -60:5:27" + settings + " --p " +
-                                    design.text(0, "proportional_gain"));
-    double smallest = 2.0;
-    for (std::size_t row = 0; row < chart.rows(); ++row)
-      smallest = std::min(smallest, chart.number(row, "spectral_radius"));
+    const double smallest =
+        smallest_radius(" --d -60:5:27" + settings + " --p " + design.text(0, "proportional_gain"));
     EXPECT_LE(least, smallest + 1e-9) << settings;
     EXPECT_LE(least, design.number(0, "spectral_radius") + 1e-9) << settings;
   }
@@ -215,15 +218,11 @@ TEST(BuiltLoop, LeastRadiusIsLeastWhereNoDStabilises) {
         " --set control.velocity=difference",
         " --set control.sampling_period=0.015 --set control.processing_delay=0.03"}) {
     const CsvTable design = table_of("design --quiet" + settings);
-    const CsvTable chart = table_of("stability --radius --quiet --d -8:8:81 --p -557" + settings);
-    double smallest = 2.0;
-    for (std::size_t row = 0; row < chart.rows(); ++row)
-      smallest = std::min(smallest, chart.number(row, "spectral_radius"));
+    const double smallest = smallest_radius(" --d -8:8:81 --p -557" + settings);
     EXPECT_GT(smallest, 1.0) << settings;
     EXPECT_LE(design.number(0, "least_radius"), smallest + 1e-6) << settings;
-    const CsvTable there = table_of("stability --radius --quiet --p -557 --d " +
-                                    design.text(0, "least_radius_gain") + settings);
-    EXPECT_NEAR(there.number(0, "spectral_radius"), design.number(0, "least_radius"), 1e-5)
+    EXPECT_NEAR(smallest_radius(" --p -557 --d " + design.text(0, "least_radius_gain") + settings),
+                design.number(0, "least_radius"), 1e-5)
         << settings;
   }
 }
@@ -254,11 +253,11 @@ TEST(BuiltLoop, MarginsOfManyCommandsHaveTheirFrequencies) {
 /// A filter whose pole is one of the plant's is no special case of the amplitude.
 TEST(BuiltLoop, ResponseIsSmoothWhereAPoleIsShared) {
   const auto ratio = [](double filter) {
-    std::ostringstream job;
-    job << std::setprecision(17)
-        << "response --quiet --p=-100 --d=-5 --set plant.absorber_damping=40"
-        << " --set control.measurement_filter=" << filter;
-    return table_of(job.str()).number(0, "ratio_to_uncontrolled");
+    return table_of(
+               "response --quiet --p=-100 --d=-5 --set plant.absorber_damping=40"
+               " --set control.measurement_filter=" +
+               program::format_number(filter))
+        .number(0, "ratio_to_uncontrolled");
   };
   constexpr double shared = 0.298239029070496;
   EXPECT_NEAR(ratio(shared), ratio(1.0001 * shared), 1e-4);
@@ -304,11 +303,12 @@ TEST(EndlessString, AnswersAsTwoWavesAndTheAbsorber) {
       const double expected =
           0.5 *
           std::abs(place_response(1.0 / (2.0 * string.wave_impedance() * s), absorber, s).to_force);
-      std::ostringstream job;
-      job << "response --quiet --p 0 --d 0 --set excitation.hold=exact --set "
-             "plant.model=infinite_string"
-          << " --set absorber.clamp_mass=" << clamp << " --set excitation.frequency=" << frequency;
-      EXPECT_NEAR(table_of(job.str()).number(0, "amplitude_m"), expected, 1e-9 * expected);
+      const CsvTable cell = table_of(
+          "response --quiet --p 0 --d 0 --set excitation.hold=exact --set "
+          "plant.model=infinite_string --set absorber.clamp_mass=" +
+          program::format_number(clamp) +
+          " --set excitation.frequency=" + program::format_number(frequency));
+      EXPECT_NEAR(cell.number(0, "amplitude_m"), expected, 1e-9 * expected);
     }
   }
 }
@@ -321,14 +321,11 @@ TEST(EndlessString, MotionSwingsAsTheClosedForm) {
         " --set backlash.law=none --set excitation.hold=exact --set absorber.clamp_mass=" +
         clamp;
     const CsvTable motion = table_of("simulate --duration 5 --from 4.5" + settings);
-    double highest = -1e9, lowest = 1e9;
-    for (std::size_t row = 0; row < motion.rows(); ++row) {
-      highest = std::max(highest, motion.number(row, "z1_m"));
-      lowest = std::min(lowest, motion.number(row, "z1_m"));
-    }
+    const std::vector<double> z1 = motion.numbers("z1_m");
+    const auto [lowest, highest] = std::minmax_element(z1.begin(), z1.end());
     const double amplitude =
         table_of("response --p -557 --d -3" + settings).number(0, "amplitude_m");
-    EXPECT_NEAR(0.5 * (highest - lowest), amplitude, 2e-3 * amplitude) << clamp;
+    EXPECT_NEAR(0.5 * (*highest - *lowest), amplitude, 2e-3 * amplitude) << clamp;
   }
 }
 
@@ -391,9 +388,7 @@ TEST(BuiltLoop, WhatIsNotAnsweredIsSaid) {
   expect_refused("modal-damping --quiet --set plant.model=infinite_string", {"plant.model=cable"});
   expect_refused("simulate --switching exact --quiet --set plant.model=infinite_string",
                  {"absorber.clamp_mass"});
-  const Outcome idle = run_holdfast("margins --set control.drive_damping=0.7");
-  EXPECT_EQ(idle.exit_code, 0);
-  EXPECT_NE(idle.errors.find("control.drive_bandwidth"), std::string::npos) << idle.errors;
+  expect_said("margins --set control.drive_damping=0.7", {"control.drive_bandwidth"});
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 // and one that is safe comes without.
 
 #include "cli/program.hpp"
-#include "io/text/text.hpp"
 #include "support/testing.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -14,7 +14,7 @@ void expect_warning(const std::string& arguments, const std::string& words) {
   EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
   EXPECT_EQ(outcome.error_lines(), 1U) << arguments << '\n' << outcome.errors;
   EXPECT_EQ(outcome.errors.rfind("holdfast: warning: ", 0), 0U) << outcome.errors;
-  EXPECT_NE(outcome.errors.find(words), std::string::npos) << outcome.errors;
+  expect_holds(outcome.errors, {words});
   EXPECT_EQ(run_holdfast(arguments + " --quiet").errors, "") << arguments;
 }
 

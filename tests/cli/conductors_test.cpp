@@ -40,19 +40,17 @@ TEST(Conductors, ANameInACaseShowsWhereItsValuesComeFrom) {
                                        "--set conductor.area=4.7e-4 --set wind.speed=3 "
                                        "--set wind.effective_length=3");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  for (const char* row :
-       {"conductor.name,\"\"\"Drake\"\"\"",
-        "conductor.mass_per_length,1.628,kg/m,conductor library", "conductor.area,0.00047,m2,--set",
-        "conductor.diameter,0.028143,m,conductor library",
-        "wind.diameter,0.028143,m,computed from the conductor"})
-    EXPECT_NE(outcome.output.find(row), std::string::npos) << row << '\n' << outcome.output;
+  expect_holds(
+      outcome.output,
+      {"conductor.name,\"\"\"Drake\"\"\"", "conductor.mass_per_length,1.628,kg/m,conductor library",
+       "conductor.area,0.00047,m2,--set", "conductor.diameter,0.028143,m,conductor library",
+       "wind.diameter,0.028143,m,computed from the conductor"});
 }
 
 TEST(Conductors, ANamedOneIsNotSaidToHaveABendingStiffnessInVain) {
   const Outcome outcome = run_holdfast("margins --set conductor.name=Drake");
   EXPECT_EQ(outcome.errors.find("bending_stiffness"), std::string::npos) << outcome.errors;
-  const Outcome given = run_holdfast("margins --set conductor.bending_stiffness=1e-4");
-  EXPECT_NE(given.errors.find("bending_stiffness"), std::string::npos) << given.errors;
+  expect_said("margins --set conductor.bending_stiffness=1e-4", {"bending_stiffness"});
 }
 
 TEST(Conductors, AnUnknownNameNamesTheNearestAndTheJob) {

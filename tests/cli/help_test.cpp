@@ -126,8 +126,7 @@ TEST(Completion, OffersJobsOptionsWordsAndKeys) {
 TEST(Completion, IsGoodForZshToo) {
   const std::string text = run_holdfast("completion zsh").output;
   EXPECT_EQ(text.rfind("#compdef holdfast\n", 0), 0U);
-  for (const std::string& job : jobs())
-    EXPECT_NE(text.find("    " + job + ")\n      _arguments"), std::string::npos) << job;
+  for (const std::string& job : jobs()) expect_holds(text, {"    " + job + ")\n      _arguments"});
   expect_refused("completion fish", {});
 }
 
@@ -140,9 +139,9 @@ TEST(Manual, HasEveryJobAndEveryKey) {
     return text;
   };
   for (const std::string& job : jobs())
-    EXPECT_NE(page.find("\\fBholdfast " + escaped(job) + "\\fR"), std::string::npos) << job;
+    expect_holds(page, {"\\fBholdfast " + escaped(job) + "\\fR"});
   for (const program::CaseKey& key : program::case_keys())
-    EXPECT_NE(page.find("\n\\fB" + key.short_name() + "\\fR"), std::string::npos) << key.name;
+    expect_holds(page, {"\n\\fB" + key.short_name() + "\\fR"});
   for (const std::string& line : lines_of(page))
     EXPECT_FALSE(line.rfind("'", 0) == 0) << "a request by accident: " << line;
 }

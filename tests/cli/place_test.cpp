@@ -1,9 +1,9 @@
 #include "cli/program.hpp"
 #include "holdfast/core/types.hpp"
 #include "io/text/csv.hpp"
-#include "io/text/text.hpp"
 #include "support/drake_case.hpp"
 #include "support/testing.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -40,37 +40,28 @@ class PlaceJob : public ::testing::Test {
     if (!both_packages) GTEST_SKIP() << "built without Ceres Solver";
   }
 
-  /// `holdfast JOB` of a case of that text.
-  Outcome run(const std::string& text, const std::string& job) const {
-    std::ofstream(folder_ / "case.toml") << text;
-    return run_holdfast(job + " --case '" + (folder_ / "case.toml").string() + "'");
+  /// The option that names a case of that text.
+  std::string case_of(const std::string& text) const {
+    write_text(folder_ / "case.toml", text);
+    return " --case '" + (folder_ / "case.toml").string() + "'";
   }
 
-  std::map<std::string, double> answer(const std::string& text, const std::string& options) const {
-    const Outcome outcome = run(text, "place " + options);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-    const CsvTable table = parse_csv(outcome.output, options);
-    std::map<std::string, double> numbers;
-    for (std::size_t row = 0; row < table.rows(); ++row)
-      numbers[table.text(row, "quantity")] = table.number(row, "value");
-    return numbers;
+  Outcome run(const std::string& text, const std::string& job) const {
+    return run_holdfast(job + case_of(text));
+  }
+
+  CsvTable answer(const std::string& text, const std::string& options) const {
+    return parse_csv(printed_by("place " + options + case_of(text)), options);
   }
 
   void expect_wrong(const std::string& text, const std::string& options,
                     const std::string& part) const {
-    const Outcome outcome = run(text, "place --quiet " + options);
-    EXPECT_EQ(outcome.exit_code, 2) << options;
-    EXPECT_EQ(outcome.output, "") << options;
-    EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors;
+    expect_refused("place --quiet " + options + case_of(text), {part});
   }
 
   double largest_strain(const std::string& text, const std::string& settings) const {
     const Outcome outcome = run(text, "aeolian --quiet --frequency 5:60:56 " + settings);
-    const CsvTable table = parse_csv(outcome.output, settings);
-    double largest = 0.0;
-    for (std::size_t row = 0; row < table.rows(); ++row)
-      largest = std::max(largest, table.number(row, "strain"));
-    return largest;
+    return largest_in(parse_csv(outcome.output, settings), "strain");
   }
 
  private:
@@ -86,27 +77,29 @@ TEST_F(PlaceJob, HasTheColumnsThatOtherProgramsRead) {
 TEST_F(PlaceJob, AStockbridgeOnDrakeGoesWhereTheBalanceSaysTheSame) {
   const std::string text = drake_line + stockbridge;
   const auto found = answer(text, "--quiet");
-  EXPECT_LT(found.at("largest_strain"), 0.4 * found.at("largest_strain_before"));
-  EXPECT_NEAR(largest_strain(text, ""), found.at("largest_strain_before"), 1e-12);
+  EXPECT_LT(value_of(found, "largest_strain"), 0.4 * value_of(found, "largest_strain_before"));
+  EXPECT_NEAR(largest_strain(text, ""), value_of(found, "largest_strain_before"), 1e-12);
   const auto at = [&](double place) {
     return largest_strain(text, "--set device.1.position=" + program::format_number(place));
   };
-  EXPECT_NEAR(at(found.at("position")), found.at("largest_strain"), 1e-12);
+  EXPECT_NEAR(at(value_of(found, "position")), value_of(found, "largest_strain"), 1e-12);
   for (double place = 0.25; place < 6.5; place += 0.25)
-    EXPECT_GE(at(place), found.at("largest_strain") * (1.0 - 1e-9)) << place;
+    EXPECT_GE(at(place), value_of(found, "largest_strain") * (1.0 - 1e-9)) << place;
 }
 
 TEST_F(PlaceJob, ADashpotOnAStayIsThatOfTheFormulas) {
   const double wave_impedance = std::sqrt(3.5e6 * 60.0), speed = std::sqrt(3.5e6 / 60.0);
   const auto mode = answer(stay_text, "--quiet --modes 1:1 --keep position");
-  EXPECT_EQ(mode.at("position"), 6.0);
-  EXPECT_NEAR(mode.at("least_damping_ratio"), 0.0102114712, 1e-8);
-  EXPECT_NEAR(mode.at("damping"), wave_impedance / (0.02 * pi<double>), 1e-3 * mode.at("damping"));
-  EXPECT_LT(mode.at("least_damping_ratio_before"), 0.005);
+  EXPECT_EQ(value_of(mode, "position"), 6.0);
+  EXPECT_NEAR(value_of(mode, "least_damping_ratio"), 0.0102114712, 1e-8);
+  EXPECT_NEAR(value_of(mode, "damping"), wave_impedance / (0.02 * pi<double>),
+              1e-3 * value_of(mode, "damping"));
+  EXPECT_LT(value_of(mode, "least_damping_ratio_before"), 0.005);
   const auto wave = answer(stay_text, "--quiet --for damping --frequency 3:3:1 --keep position");
   const double phase = 2.0 * pi<double> * 3.0 * 6.0 / speed;
-  EXPECT_NEAR(wave.at("damping"), wave_impedance / std::sin(phase), 1e-3 * wave.at("damping"));
-  EXPECT_NEAR(wave.at("least_ratio"), std::tan(phase / 2.0), 1e-6);
+  EXPECT_NEAR(value_of(wave, "damping"), wave_impedance / std::sin(phase),
+              1e-3 * value_of(wave, "damping"));
+  EXPECT_NEAR(value_of(wave, "least_ratio"), std::tan(phase / 2.0), 1e-6);
 }
 
 TEST_F(PlaceJob, WhatIsNotKnownHasNoRowAndIsSaid) {
@@ -114,46 +107,45 @@ TEST_F(PlaceJob, WhatIsNotKnownHasNoRowAndIsSaid) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.output.find("nan"), std::string::npos) << outcome.output;
   EXPECT_EQ(outcome.output.find("largest_force"), std::string::npos) << outcome.output;
-  EXPECT_NE(outcome.errors.find("conductor.diameter"), std::string::npos) << outcome.errors;
+  expect_holds(outcome.errors, {"conductor.diameter"});
 }
 
 TEST_F(PlaceJob, SaysWhereABoundEndsIt) {
-  const Outcome outcome = run(stay_text, "place --modes 1:5");
-  EXPECT_NE(outcome.errors.find("position ends at the upper bound of what was searched, 30 m"),
-            std::string::npos)
-      << outcome.errors;
+  expect_said("place --modes 1:5" + case_of(stay_text),
+              {"position ends at the upper bound of what was searched, 30 m"});
   const auto best = answer(stay_text, "--quiet --modes 2:2 --keep position");
-  const Outcome again = run(stay_text, "place --modes 2:2 --keep position --set device.1.damping=" +
-                                           program::format_number(best.at("damping")));
-  EXPECT_NE(again.errors.find("nothing better was found"), std::string::npos) << again.errors;
+  expect_said("place --modes 2:2 --keep position --set device.1.damping=" +
+                  program::format_number(value_of(best, "damping")) + case_of(stay_text),
+              {"nothing better was found"});
 }
 
 TEST_F(PlaceJob, ANegativeStiffnessLeavesTheConductorAtRest) {
   std::string text = stay_text;
   text.replace(text.find("dashpot"), 7, "stiffness");
-  const Outcome outcome = run(text + "stiffness = -2e5\n", "place --modes 1:5 --keep position");
-  EXPECT_NE(outcome.errors.find("away from its rest"), std::string::npos) << outcome.errors;
+  expect_said("place --modes 1:5 --keep position" + case_of(text + "stiffness = -2e5\n"),
+              {"away from its rest"});
   const auto found = answer(text + "stiffness = -2e5\n", "--quiet --modes 1:5 --keep position");
-  EXPECT_LT(found.at("stiffness"), -2e5);
-  EXPECT_GT(found.at("stiffness"), -3.5e6 * (1.0 / 6.0 + 1.0 / 294.0));
-  EXPECT_GT(found.at("least_damping_ratio"), 0.05);
+  EXPECT_LT(value_of(found, "stiffness"), -2e5);
+  EXPECT_GT(value_of(found, "stiffness"), -3.5e6 * (1.0 / 6.0 + 1.0 / 294.0));
+  EXPECT_GT(value_of(found, "least_damping_ratio"), 0.05);
 }
 
 TEST_F(PlaceJob, TheAbsorberOnDrakeHoldsAndTellsWhatItTakes) {
   const std::string text = drake_line + drake_absorber;
   const auto found = answer(text, "--quiet");
-  EXPECT_EQ(found.at("position"), 1.5);
-  EXPECT_LT(found.at("largest_strain"), 0.7 * found.at("largest_strain_before"));
-  EXPECT_LT(found.at("largest_strain"), found.at("largest_strain_without_absorber"));
-  EXPECT_EQ(found.at("perfect_absorption_frequency"), 32.5);
-  EXPECT_GT(found.at("largest_force"), 1.0);
-  EXPECT_GT(found.at("largest_stroke"), 1e-5);
-  EXPECT_NEAR(found.at("energy_per_day"), 86400.0 * found.at("drive_power"),
-              1e-9 * std::abs(found.at("energy_per_day")));
-  const std::string gains =
-      "--set control.proportional_gain=" + program::format_number(found.at("proportional_gain")) +
-      " --set control.differential_gain=" + program::format_number(found.at("differential_gain"));
-  EXPECT_NEAR(largest_strain(text, gains), found.at("largest_strain"), 1e-12);
+  EXPECT_EQ(value_of(found, "position"), 1.5);
+  EXPECT_LT(value_of(found, "largest_strain"), 0.7 * value_of(found, "largest_strain_before"));
+  EXPECT_LT(value_of(found, "largest_strain"), value_of(found, "largest_strain_without_absorber"));
+  EXPECT_EQ(value_of(found, "perfect_absorption_frequency"), 32.5);
+  EXPECT_GT(value_of(found, "largest_force"), 1.0);
+  EXPECT_GT(value_of(found, "largest_stroke"), 1e-5);
+  EXPECT_NEAR(value_of(found, "energy_per_day"), 86400.0 * value_of(found, "drive_power"),
+              1e-9 * std::abs(value_of(found, "energy_per_day")));
+  const std::string gains = "--set control.proportional_gain=" +
+                            program::format_number(value_of(found, "proportional_gain")) +
+                            " --set control.differential_gain=" +
+                            program::format_number(value_of(found, "differential_gain"));
+  EXPECT_NEAR(largest_strain(text, gains), value_of(found, "largest_strain"), 1e-12);
   EXPECT_EQ(run(text, "aeolian --frequency 20:20:1 " + gains).errors.find("unstable"),
             std::string::npos);
 }
@@ -205,9 +197,10 @@ std::string gains_of(double p, double d) {
 }
 
 TEST_F(PlaceJob, PlacesGainsThatEveryJobCallsStable) {
-  auto found = answer(cardinal, "--device absorber --frequency 10:40:4 --quiet");
-  const std::string gains = gains_of(found["proportional_gain"], found["differential_gain"]);
-  EXPECT_GT(found["judged_modes"], 1000.0);
+  const auto found = answer(cardinal, "--device absorber --frequency 10:40:4 --quiet");
+  const std::string gains =
+      gains_of(value_of(found, "proportional_gain"), value_of(found, "differential_gain"));
+  EXPECT_GT(value_of(found, "judged_modes"), 1000.0);
   EXPECT_EQ(run(cardinal, "margins" + gains).exit_code, 0);
   const CsvTable modes =
       parse_csv(run(cardinal, "modal-damping --count 400" + gains).output, "modes");

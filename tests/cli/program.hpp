@@ -5,6 +5,7 @@
 #include "io/text/csv.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/testing.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::tests {
 
@@ -31,14 +32,20 @@ struct Outcome {
 
 /// Runs `holdfast ARGUMENTS` in a shell at `place`; `redirection` is put behind them.
 inline Outcome run_holdfast(const std::string& arguments, const std::string& redirection = "",
-                            const std::string& place = ".") {
+                            const std::string& place = ".",
+                            const std::string& program = HOLDFAST_PROGRAM) {
   const TemporaryFolder folder;
   const std::string output = (folder / "out").string(), errors = (folder / "err").string();
   const std::string destination = redirection.empty() ? " >'" + output + "'" : " " + redirection;
-  const std::string command = "cd '" + place + "' && '" + HOLDFAST_PROGRAM + "' " + arguments +
-                              destination + " 2>'" + errors + "' </dev/null";
+  const std::string command = "cd '" + place + "' && '" + program + "' " + arguments + destination +
+                              " 2>'" + errors + "' </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(output), read_text(errors)};
+}
+
+inline void expect_holds(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
 }
 
 /// Refused: the exit code, one line that begins with the program's name, nothing on standard
@@ -50,14 +57,31 @@ inline void expect_refused(const std::string& arguments, const std::vector<std::
   EXPECT_EQ(outcome.error_lines(), 1U) << arguments << "\n" << outcome.errors;
   EXPECT_EQ(outcome.errors.rfind("holdfast: ", 0), 0U) << outcome.errors;
   EXPECT_EQ(outcome.output, "") << arguments;
-  for (const std::string& part : mentioned)
-    EXPECT_NE(outcome.errors.find(part), std::string::npos) << part << " in " << outcome.errors;
+  expect_holds(outcome.errors, mentioned);
 }
 
-inline void expect_holds(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
+/// Answered, with these words on standard error.
+inline void expect_said(const std::string& arguments, const std::vector<std::string>& words) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << outcome.errors;
+  expect_holds(outcome.errors, words);
 }
+
+/// A file in a folder of its own.
+class TextFile {
+ public:
+  explicit TextFile(const std::string& text, const std::string& name = "mine.toml")
+      : path_((folder_ / name).string()) {
+    write_text(path_, text);
+  }
+
+  const std::string& path() const { return path_; }
+  std::string as_case() const { return " --case '" + path_ + "'"; }
+
+ private:
+  TemporaryFolder folder_;
+  std::string path_;
+};
 
 /// The lines of a text, without their ends.
 inline std::vector<std::string> lines_of(const std::string& text) {
@@ -70,11 +94,17 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The first line that a command line writes, which has to go well.
-inline std::string header_of(const std::string& arguments) {
+/// Printed by a command that does its work.
+inline std::string printed_by(const std::string& arguments) {
   const Outcome outcome = run_holdfast(arguments);
-  EXPECT_EQ(outcome.exit_code, 0) << arguments << outcome.errors;
-  return outcome.output.substr(0, outcome.output.find_first_of("\r\n"));
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
+  return outcome.output;
+}
+
+/// The first line that it prints.
+inline std::string header_of(const std::string& arguments) {
+  const std::string output = printed_by(arguments);
+  return output.substr(0, output.find_first_of("\r\n"));
 }
 
 /// The table that a command line writes, which has to do so without a word on standard error.
@@ -85,11 +115,55 @@ inline program::CsvTable table_of(const std::string& arguments) {
   return program::parse_csv(outcome.output, arguments);
 }
 
-/// What a command prints that succeeds without a word of errors.
-inline std::string printed_by(const std::string& arguments) {
-  const Outcome outcome = run_holdfast(arguments);
-  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
-  return outcome.output;
+/// The row with this text in a column.
+inline std::size_t row_of(const program::CsvTable& table, const std::string& text,
+                          const std::string& column = "quantity") {
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    if (table.text(row, column) == text) return row;
+  ADD_FAILURE() << "no row of " << text;
+  return 0;
+}
+
+/// A number of a table of quantities.
+inline double value_of(const program::CsvTable& table, const std::string& quantity,
+                       const std::string& column = "value") {
+  return table.number(row_of(table, quantity), column);
+}
+
+/// Largest magnitude in a column.
+inline double largest_in(const program::CsvTable& table, const std::string& column) {
+  double largest = 0.0;
+  for (const double value : table.numbers(column)) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+/// A job over gains, asked for one pair of them.
+inline program::CsvTable cell_of(const std::string& job, double p, double d,
+                                 const std::string& settings) {
+  return table_of(job + " --p=" + program::format_number(p) + " --d=" + program::format_number(d) +
+                  " " + settings);
+}
+
+/// The columns of two tables are the same but for a share of the largest number in each.
+inline void expect_same(const program::CsvTable& found, const program::CsvTable& expected,
+                        const std::vector<std::string>& columns, double tolerance) {
+  ASSERT_EQ(found.rows(), expected.rows());
+  ASSERT_GT(found.rows(), 0U);
+  for (const std::string& column : columns) {
+    double largest = 0.0;
+    for (const double value : expected.numbers(column))
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    for (std::size_t row = 0; row < expected.rows(); ++row) {
+      const double one = found.number(row, column), other = expected.number(row, column);
+      if (std::isnan(other)) {
+        EXPECT_TRUE(std::isnan(one)) << column << " in row " << row;
+      } else if (!std::isfinite(other)) {
+        EXPECT_EQ(one, other) << column << " in row " << row;
+      } else {
+        EXPECT_NEAR(one, other, tolerance * largest) << column << " in row " << row;
+      }
+    }
+  }
 }
 
 }  // namespace holdfast::tests

@@ -1,6 +1,6 @@
+#include "case/model/decay/cable_decay.hpp"
 #include "cli/program.hpp"
 #include "io/text/csv.hpp"
-#include "jobs/cable/cable_decay.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::tests {
@@ -29,11 +29,10 @@ void expect_every_figure_as_table_and_picture(const fs::path& report) {
   if (program::has_sundials()) figures.insert(figures.end(), {"fig02b", "fig02c", "fig02d"});
   for (const std::string& figure : figures) {
     const std::string picture = read_text(report / "pictures" / (figure + ".svg"));
-    EXPECT_NE(picture.find("<svg"), std::string::npos) << figure;
-    EXPECT_NE(picture.find("</svg>"), std::string::npos) << figure;
+    expect_holds(picture, {"<svg", "</svg>"});
     // No viewer has to bear a transformation without an inverse.
     EXPECT_EQ(picture.find("scale(0.00)"), std::string::npos) << figure;
-    EXPECT_NE(page.find("id=\"" + figure + "\""), std::string::npos) << figure;
+    expect_holds(page, {"id=\"" + figure + "\""});
   }
   const std::size_t drawings = count_of(page, "src=\"data:image/svg+xml;charset=utf-8,");
   const std::size_t dots = count_of(page, "src=\"data:image/png;base64,");
@@ -61,10 +60,8 @@ void expect_every_figure_with_its_panels_and_its_command(const fs::path& report)
        at = page.find("<figure id=\"", at + 1)) {
     const std::string name = page.substr(at + 12, page.find('"', at + 12) - at - 12);
     const std::string figure = figure_named(page, name);
-    EXPECT_NE(figure.find("&quot;x&quot;:{&quot;name&quot;:"), std::string::npos) << name;
-    EXPECT_NE(figure.find("id=\"" + name + "-command\""), std::string::npos) << name;
-    EXPECT_NE(figure.find("href=\"#" + name + "-command\""), std::string::npos) << name;
-    EXPECT_NE(figure.find("href=\"pictures/" + name + ".svg\""), std::string::npos) << name;
+    expect_holds(figure, {"&quot;x&quot;:{&quot;name&quot;:", "id=\"" + name + "-command\"",
+                          "href=\"#" + name + "-command\"", "href=\"pictures/" + name + ".svg\""});
   }
   const std::string three = figure_named(page, "fig04c");
   EXPECT_EQ(count_of(three, "&quot;y&quot;:{&quot;name&quot;:&quot;D&quot;"), 3U) << three;
@@ -73,10 +70,6 @@ void expect_every_figure_with_its_panels_and_its_command(const fs::path& report)
             std::string::npos);
   // An axis that counts decades says what it shows.
   EXPECT_EQ(count_of(figure_named(page, "success-delay-backlash"), "&quot;log&quot;:true"), 2U);
-}
-
-void expect_a_light_page(const fs::path& report) {
-  EXPECT_LE(fs::file_size(report / "report.html"), 3000000U);
 }
 
 void expect_no_partial_file_and_metadata_beside_every_table(const fs::path& report) {
@@ -245,14 +238,13 @@ void expect_how_much_the_switching_matters(const fs::path& report) {
 }
 
 // One report for all that is to be seen in it: it takes seconds.
-TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
+TEST(PaperReport, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   const TemporaryFolder folder;
   const fs::path report = folder / "report";
-  const Outcome outcome = run_holdfast("report --output '" + report.string() + "'");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  printed_by("report --output '" + report.string() + "'");
   expect_every_figure_as_table_and_picture(report);
   expect_every_figure_with_its_panels_and_its_command(report);
-  expect_a_light_page(report);
+  EXPECT_LE(fs::file_size(report / "report.html"), 3000000U);
   expect_no_partial_file_and_metadata_beside_every_table(report);
   expect_nothing_loaded_from_elsewhere(report);
   expect_verdicts_with_reasons_where_they_differ(report);
@@ -263,17 +255,33 @@ TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   expect_how_much_the_switching_matters(report);
 }
 
-TEST(Report, OfAnotherCaseShowsItsOwnFigures) {
-  const TemporaryFolder folder;
-  const Outcome outcome = run_holdfast("report --set control.sampling_period=0.005 --output '" +
-                                       (folder / "mine").string() + "'");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_EQ(outcome.output, "Report: " + (folder / "mine/report.html").string() + "\n");
-  const std::string page = read_text(folder / "mine/report.html");
-  expect_holds(page, {"<title>A controlled cable: 10 Hz, τ = 5 ms, r₀ = 0.5 mm</title>"});
-  EXPECT_NE(page.find("id=\"stability\""), std::string::npos);
+/// The report of a case, in a folder of its own.
+class Report : public ::testing::Test {
+ protected:
+  const fs::path& place() const { return place_; }
+  std::string options(const std::string& settings) const {
+    return "report " + settings + " --output '" + place_.string() + "'";
+  }
+  std::string page_of(const std::string& settings) const {
+    printed_by(options(settings));
+    return read_text(place_ / "report.html");
+  }
+  std::string picture(const std::string& figure) const {
+    return read_text(place_ / "pictures" / (figure + ".svg"));
+  }
+
+ private:
+  TemporaryFolder folder_;
+  fs::path place_ = folder_ / "mine";
+};
+
+TEST_F(Report, OfAnotherCaseShowsItsOwnFigures) {
+  EXPECT_EQ(printed_by(options("--set control.sampling_period=0.005")),
+            "Report: " + (place() / "report.html").string() + "\n");
+  const std::string page = read_text(place() / "report.html");
+  expect_holds(page, {"<title>A controlled cable: 10 Hz, τ = 5 ms, r₀ = 0.5 mm</title>",
+                      "id=\"stability\"", "How much the sampled switching matters"});
   EXPECT_EQ(page.find("The paper and this program"), std::string::npos);
-  EXPECT_NE(page.find("How much the sampled switching matters"), std::string::npos);
   EXPECT_EQ(page.find("switching-paper"), std::string::npos);
   EXPECT_EQ(count_of(page, "<tr class=\"motion\">"), 1U);
   expect_holds(motion_named(page, "this case"),
@@ -281,78 +289,51 @@ TEST(Report, OfAnotherCaseShowsItsOwnFigures) {
                 "holdfast orbit --set control.sampling_period=0.005 --certificate"});
 }
 
-TEST(Report, BeginsSweepsAnewThatAnInterruptedOneHasLeft) {
-  const TemporaryFolder folder;
-  const fs::path left = folder / "mine/data/success-delay-backlash-1.csv.zarr";
-  ASSERT_EQ(
-      run_holdfast("sweep --axis backlash.width=0,1 --output '" + left.string() + "'").exit_code,
-      0);
+TEST_F(Report, BeginsSweepsAnewThatAnInterruptedOneHasLeft) {
+  const fs::path left = place() / "data/success-delay-backlash-1.csv.zarr";
+  printed_by("sweep --axis backlash.width=0,1 --output '" + left.string() + "'");
   write_text(left / "lock", "");
-  const Outcome outcome = run_holdfast("report --set control.processing_delay=0.001 --output '" +
-                                       (folder / "mine").string() + "'");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string page = page_of("--set control.processing_delay=0.001");
   EXPECT_FALSE(fs::exists(left));
-  const std::string page = read_text(folder / "mine/report.html");
   for (const std::string figure : {"success-delay-backlash", "success-frequency-delay"}) {
-    EXPECT_NE(page.find("id=\"" + figure + "\""), std::string::npos) << figure;
-    EXPECT_TRUE(fs::exists(folder / "mine/pictures" / (figure + ".svg"))) << figure;
+    expect_holds(page, {"id=\"" + figure + "\""});
+    EXPECT_NE(picture(figure), "") << figure;
   }
 }
 
-TEST(Report, OfACableThatNothingExcitesSaysThatItDoesNotVibrate) {
-  const TemporaryFolder folder;
-  const Outcome outcome = run_holdfast("report --set excitation.amplitude=0 --output '" +
-                                       (folder / "mine").string() + "'");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
-  for (const std::string figure : {"success-delay-backlash", "success-frequency-delay"}) {
-    const std::string picture = read_text(folder / "mine/pictures" / (figure + ".svg"));
-    EXPECT_EQ(count_of(picture, "no vibration"), 2U) << figure;
-  }
-  expect_holds(read_text(folder / "mine/report.html"),
+TEST_F(Report, OfACableThatNothingExcitesSaysThatItDoesNotVibrate) {
+  expect_holds(page_of("--set excitation.amplitude=0"),
                {"Nothing excites this cable", "This cable comes to rest with either switching"});
+  for (const std::string figure : {"success-delay-backlash", "success-frequency-delay"})
+    EXPECT_EQ(count_of(picture(figure), "no vibration"), 2U) << figure;
 }
 
-TEST(Report, OfADivergingCaseSaysSoInThePage) {
-  const TemporaryFolder folder;
-  const Outcome outcome = run_holdfast(
-      "report --set control.sampling_period=0.011 --set control.processing_delay=0.011 --output '" +
-      (folder / "mine").string() + "'");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
-  const std::string page = read_text(folder / "mine/report.html");
-  EXPECT_NE(page.find("No picture: the motion diverges"), std::string::npos);
-  expect_holds(page, {"For this case the motion with switching at samples is: diverges"});
+TEST_F(Report, OfADivergingCaseSaysSoInThePage) {
+  const std::string page =
+      page_of("--set control.sampling_period=0.011 --set control.processing_delay=0.011");
+  expect_holds(page, {"No picture: the motion diverges",
+                      "For this case the motion with switching at samples is: diverges"});
   expect_holds(motion_named(page, "this case"), {"<td class=\"verdict\">diverges</td>",
                                                  "left all bounds", "holdfast verdict --set"});
 }
 
-TEST(Report, OnTheConductorShowsItsModesAndNoStudyOfTwoMasses) {
-  const TemporaryFolder folder;
-  const Outcome outcome = run_holdfast(
-      "report --set plant.model=string --set plant.modes=3 --set control.differential_gain=-2 "
-      "--output '" +
-      (folder / "mine").string() + "'");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
-  const std::string page = read_text(folder / "mine/report.html");
+TEST_F(Report, OnTheConductorShowsItsModesAndNoStudyOfTwoMasses) {
+  const std::string string =
+      "--set plant.model=string --set plant.modes=3 --set control.differential_gain=-2";
+  const std::string page = page_of(string);
   expect_holds(page, {"Damping of the conductor&#39;s modes", "two masses and the cable",
                       "Does this hold on the cable?"});
   EXPECT_EQ(page.find("No picture"), std::string::npos);
   EXPECT_EQ(page.find("How much the sampled switching matters"), std::string::npos);
-  const std::string damping = read_text(folder / "mine/data/modal-damping-control.csv");
-  EXPECT_EQ(damping, run_holdfast("modal-damping --count 40 --set plant.model=string --set "
-                                  "plant.modes=3 --set control.differential_gain=-2 --quiet")
-                         .output);
+  EXPECT_EQ(read_text(place() / "data/modal-damping-control.csv"),
+            run_holdfast("modal-damping --count 40 --quiet " + string).output);
 }
 
-TEST(Report, OfALoopWithAFilterShowsItsOwnFigures) {
-  const TemporaryFolder folder;
-  const Outcome outcome = run_holdfast("report --set control.measurement_filter=100 --output '" +
-                                       (folder / "mine").string() + "'");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
-  const std::string page = read_text(folder / "mine/report.html");
-  expect_holds(page, {"Stable gains", "Largest sampling period", "No picture: deviation"});
-  for (const char* picture : {"stability", "delay", "contact", "spectrum"})
-    EXPECT_TRUE(
-        std::filesystem::exists(folder / "mine/pictures" / (std::string(picture) + ".svg")));
+TEST_F(Report, OfALoopWithAFilterShowsItsOwnFigures) {
+  expect_holds(page_of("--set control.measurement_filter=100"),
+               {"Stable gains", "Largest sampling period", "No picture: deviation"});
+  for (const char* figure : {"stability", "delay", "contact", "spectrum"})
+    EXPECT_NE(picture(figure), "") << figure;
 }
 
 }  // namespace

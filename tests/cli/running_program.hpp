@@ -12,6 +12,20 @@
 
 namespace holdfast::tests {
 
+/// Whether the program is built with a sanitizer, which reserves terabytes and takes its time.
+inline constexpr bool is_sanitized =
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    true;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+    true;
+#else
+    false;
+#endif
+#else
+    false;
+#endif
+
 /// How a program ended, and what it took.
 struct Ending {
   int exit_code;         ///< −1 where a signal ended it
@@ -103,6 +117,18 @@ class RunningProgram {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     if (runs()) send(SIGKILL);
     return wait();
+  }
+
+  /// Whether it ends within the time that it computes, or five times as much by the clock.
+  bool ends_within(std::chrono::milliseconds time) const {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto computed = processor_time();
+    const auto is_up = [&] {
+      const auto passed = std::chrono::steady_clock::now() - begin;
+      return passed > 5 * time || (passed > time && processor_time() - computed > time);
+    };
+    while (runs() && !is_up()) std::this_thread::sleep_for(std::chrono::microseconds(500));
+    return !runs();
   }
 
   Ending wait() {

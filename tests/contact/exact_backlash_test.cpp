@@ -42,20 +42,6 @@ double value_of_guard(const Guard& guard, const ContactInstant& now) {
          guard.constant;
 }
 
-TEST(ExactBacklash, AReversalOpensTheGapOnTheSideThatItCameFrom) {
-  test::Random random(1321);
-  const auto plant = kollar2022_plant();
-  for (const double sign : {1.0, -1.0}) {
-    DriveContact<> drive = moved_drive(plant, 0.5, sign);
-    ContactInstant now = reversal_instant(plant, random);
-    const double here = relative_displacement(now.state);
-    drive.reached(0, now);
-    EXPECT_DOUBLE_EQ(drive.lower(), sign > 0.0 ? here - 0.5 : here);
-    EXPECT_DOUBLE_EQ(drive.upper(), sign > 0.0 ? here : here + 0.5);
-    EXPECT_EQ(drive.sign(), sign);
-  }
-}
-
 TEST(ExactBacklash, ItSticksWhereTheSpringPushesOnAndTheCommandTurnsBack) {
   test::Random random(1322);
   int sticks = 0;
@@ -122,85 +108,6 @@ DriveContact<> sticking_drive(const TwoMass<double>& plant, test::Random& random
     now = reversal_instant(plant, random);
     drive.reached(0, now);
     if (drive.word() == ContactMode::stick) return drive;
-  }
-}
-
-TEST(ExactBacklash, ACommandThatJumpsMayEndTheStick) {
-  test::Random random(1324);
-  int counts[3] = {0, 0, 0};
-  for (int draw = 0; draw < 3000; ++draw) {
-    const auto plant = test::random_plant(random);
-    ContactInstant now;
-    DriveContact<> drive = sticking_drive(plant, random, now);
-    const double lower = drive.lower(), upper = drive.upper();
-    now.command = plant.absorber_stiffness * random.uniform(-2.0, 2.0);
-    if (draw % 2 == 0) now.force = plant.conductor_stiffness * random.uniform(-2.0, 2.0);
-    const double free = drive.sign() * relative_acceleration_by_newton(plant, now, 0.0);
-    const double driven = drive.sign() * relative_acceleration_by_newton(plant, now, now.command);
-    drive.jumped(now);
-    const ContactMode expected = !(free > 0.0)     ? ContactMode::gap
-                                 : !(driven < 0.0) ? ContactMode::engaged
-                                                   : ContactMode::stick;
-    ASSERT_EQ(drive.word(), expected) << draw;
-    ASSERT_EQ(drive.lower(), lower);
-    ASSERT_EQ(drive.upper(), upper);
-    ++counts[static_cast<int>(expected)];
-  }
-  for (const int count : counts) EXPECT_GT(count, 200);
-}
-
-TEST(ExactBacklash, AJumpLeavesTheOtherModesAsTheyAre) {
-  test::Random random(1325);
-  const auto plant = kollar2022_plant();
-  ContactInstant now = reversal_instant(plant, random);
-  DriveContact<> engaged = moved_drive(plant, 0.1, 1.0);
-  engaged.jumped(now);
-  EXPECT_EQ(engaged.word(), ContactMode::engaged);
-  now = {Vector<double, 4>(0.0, 0.0, 1.0, 0.0), 0.0, 0.0};  // the spring pulls back
-  DriveContact<> gap = moved_drive(plant, 0.1, 1.0);
-  gap.reached(0, now);
-  ASSERT_EQ(gap.word(), ContactMode::gap);
-  now.command = -1e3;
-  gap.jumped(now);
-  EXPECT_EQ(gap.word(), ContactMode::gap);
-  EXPECT_EQ(gap.transmitted(now), 0.0);
-  EXPECT_EQ(engaged.transmitted(now), -1e3);
-}
-
-TEST(ExactBacklash, TheEndOfTheGapThatIsPassedGivesTheDirection) {
-  const auto plant = kollar2022_plant();
-  for (const int end : {0, 1}) {
-    ContactInstant now{Vector<double, 4>(0.0, 0.0, 1.0, 0.0), 0.0, 0.0};
-    DriveContact<> drive = moved_drive(plant, 0.1, 1.0);
-    drive.reached(0, now);
-    ASSERT_EQ(drive.word(), ContactMode::gap);
-    const Guards guards = drive.guards();
-    ASSERT_EQ(guards.count, 2);
-    EXPECT_NEAR(value_of_guard(guards.guard[0], now), 0.0, 1e-15) << "the upper end is here";
-    EXPECT_NEAR(value_of_guard(guards.guard[1], now), 0.1, 1e-15) << "and the lower one 0.1 m off";
-    now.state = Vector<double, 4>(0.0, 0.0, end == 0 ? 1.0 : 0.9, end == 0 ? 0.5 : -0.5);
-    drive.reached(end, now);
-    EXPECT_EQ(drive.word(), ContactMode::engaged);
-    EXPECT_EQ(drive.sign(), end == 0 ? 1.0 : -1.0);
-    const Guards engaged = drive.guards();
-    ASSERT_EQ(engaged.count, 1);
-    EXPECT_DOUBLE_EQ(value_of_guard(engaged.guard[0], now), 0.5) << "it moves on";
-  }
-}
-
-TEST(ExactBacklash, MirroredMotionIsMirrored) {
-  test::Random random(1326);
-  for (int draw = 0; draw < 500; ++draw) {
-    const auto plant = test::random_plant(random);
-    ContactInstant now = reversal_instant(plant, random);
-    ContactInstant mirror{-now.state, -now.command, -now.force};
-    DriveContact<> drive = moved_drive(plant, 0.1, 1.0), other = moved_drive(plant, 0.1, -1.0);
-    drive.reached(0, now);
-    other.reached(0, mirror);
-    ASSERT_EQ(drive.word(), other.word());
-    ASSERT_EQ(drive.lower(), -other.upper());
-    ASSERT_EQ(drive.upper(), -other.lower());
-    ASSERT_EQ(drive.transmitted(now), -other.transmitted(mirror));
   }
 }
 

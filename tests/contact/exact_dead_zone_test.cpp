@@ -2,6 +2,7 @@
 
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
+#include "motion/event/kollar_event.hpp"
 #include "support/contacts.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
@@ -71,29 +72,6 @@ TEST(ExactDeadZone, BothEndsOfTheGapBelongToIt) {
   EXPECT_EQ(mode_at(std::nextafter(-0.25, -1.0)), 0);
 }
 
-/// The time at which the upper stop is met, once every cycle.
-class UpperStopTimes {
- public:
-  explicit UpperStopTimes(DeadZoneMotion& motion) : motion_(motion) {}
-  void move(int samples) {
-    for (int j = 0; j < samples; ++j) {
-      start_ = motion_.time();
-      motion_.sense();
-      motion_.advance(*this);
-    }
-  }
-  void flowed(int, double begin, double length) { reached_ = begin + length; }
-  void commanded() {}
-  void switched(int, int to, int, const ContactInstant&) {
-    if (to == 2) times.push_back(start_ + reached_);
-  }
-  std::vector<double> times;
-
- private:
-  DeadZoneMotion& motion_;
-  double start_ = 0.0, reached_ = 0.0;
-};
-
 // The absorber alone between its stops, the conductor being too heavy to move. From Δz = 0 at the
 // speed v it comes to the stop, h = r₀/2, after asin(ω₁ h / v) / ω₁, ω₁² = k₂/m₂, at the speed
 // w = √(v² − ω₁² h²); on the stop it swings with ω₂² = (k₂ + k_c)/m₂ about its relaxed place and
@@ -116,13 +94,16 @@ TEST(ExactDeadZone, SwingsBetweenItsStopsWithTheKnownPeriod) {
     const DigitalLoop loop{
         {period * random.log_uniform(0.01, 2.0), 0.0}, {0.0, 0.0}, {}, ForceHold::exact};
     DeadZoneMotion motion(loop, test::exact_dead_zone(plant, 2.0 * half, stop, 0.0, state), state);
-    UpperStopTimes notes(motion);
+    test::SwitchNotes notes(motion);
     notes.move(static_cast<int>(20.0 * period / loop.sampling.period) + 1);
-    ASSERT_GE(notes.times.size(), 15U);
+    std::vector<double> times;
+    for (const test::MotionSwitch& change : notes.switches)
+      if (change.to == 2) times.push_back(change.time);
+    ASSERT_GE(times.size(), 15U);
     const double first = std::asin(inner * half / speed) / inner;
-    for (std::size_t k = 0; k < notes.times.size(); ++k) {
+    for (std::size_t k = 0; k < times.size(); ++k) {
       const double expected = first + static_cast<double>(k) * period;
-      ASSERT_NEAR(notes.times[k], expected, 1e-9 * expected) << "draw " << draw << ", " << k;
+      ASSERT_NEAR(times[k], expected, 1e-9 * expected) << "draw " << draw << ", " << k;
     }
     EXPECT_FALSE(motion.counts().accumulates);
   }

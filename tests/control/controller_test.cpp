@@ -2,6 +2,7 @@
 
 #include "holdfast/control/loop_input.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
+#include "support/message_of.hpp"
 #include "support/random.hpp"
 #include "support/testing.hpp"
 
@@ -333,13 +334,8 @@ TEST(ControllerLimits, AreIdealUnlessOneIsSet) {
   }
 }
 
-std::string refused_name(const PdGains<double>& gains, const ControllerLimits& limits) {
-  try {
-    const Controller controller(gains, limits);
-  } catch (const InvalidParameter& error) {
-    return error.name();
-  }
-  return "";
+std::string refused(const PdGains<double>& gains, const ControllerLimits& limits) {
+  return tests::refused_name([&] { Controller(gains, limits); });
 }
 
 TEST(ControllerLimits, WhatIsOutOfRangeIsRefusedByName) {
@@ -349,16 +345,16 @@ TEST(ControllerLimits, WhatIsOutOfRangeIsRefusedByName) {
     ControllerLimits displacement, velocity;
     displacement.displacement_quantum = value;
     velocity.velocity_quantum = value;
-    EXPECT_EQ(refused_name(gains, displacement), "displacement quantum");
-    EXPECT_EQ(refused_name(gains, velocity), "velocity quantum");
+    EXPECT_EQ(refused(gains, displacement), "displacement quantum");
+    EXPECT_EQ(refused(gains, velocity), "velocity quantum");
   }
   for (const double value : {0.0, -1.0, nan, -no_limit}) {
     ControllerLimits force;
     force.largest_force = value;
-    EXPECT_EQ(refused_name(gains, force), "largest force");
+    EXPECT_EQ(refused(gains, force), "largest force");
   }
-  EXPECT_EQ(refused_name({nan, -13.0}, {}), "proportional gain P");
-  EXPECT_EQ(refused_name(gains, {}), "");
+  EXPECT_EQ(refused({nan, -13.0}, {}), "proportional gain P");
+  EXPECT_EQ(refused(gains, {}), "");
 }
 
 }  // namespace

@@ -230,15 +230,9 @@ TEST(Sampling, WhatIsOutOfRangeIsRefused) {
     EXPECT_NO_THROW(validate(Sampling<double>{0.01, delay}));
 }
 
-TEST(SampledLoop, RefusesWhatWouldGivePlausibleNonsense) {
-  const TwoMass<double> plant = kollar2022_plant();
-  for (const Sampling<double>& sampling :
-       {Sampling<double>{-0.01, 0.0}, {0.01, 0.011}, {0.01, -1e-9}, {std::nan(""), 0.0}})
-    EXPECT_THROW(sampled_loop(plant, sampling), InvalidParameter) << sampling.period;
-  TwoMass<double> massless = plant;
-  massless.conductor_mass = 0.0;
-  EXPECT_THROW(sampled_loop(massless, Sampling<double>{0.01}), InvalidParameter);
-  EXPECT_EQ(sampled_loop(plant, Sampling<double>{0.0}).transition, (Matrix<double, 4>::Identity()));
+TEST(SampledLoop, OfNoTimeChangesNothing) {
+  EXPECT_EQ(sampled_loop(kollar2022_plant(), Sampling<double>{0.0}).transition,
+            (Matrix<double, 4>::Identity()));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "holdfast/control/sampling_clock.hpp"
 
+#include "support/message_of.hpp"
 #include "support/random.hpp"
 #include "support/testing.hpp"
 
@@ -170,12 +171,7 @@ TEST(SamplingClock, TimesIncreaseUpToTheWidestJitter) {
 }
 
 std::string refused_jitter(const Sampling<double>& sampling, double half_width) {
-  try {
-    validate(sampling, Jitter{half_width, 1});
-  } catch (const InvalidParameter& error) {
-    return error.name();
-  }
-  return "";
+  return tests::refused_name([&] { validate(sampling, Jitter{half_width, 1}); });
 }
 
 TEST(Jitter, WhatIsOutOfRangeIsRefusedByName) {

@@ -1,5 +1,6 @@
 #include "holdfast/excitation/band_limited_noise.hpp"
 
+#include "support/message_of.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -150,14 +151,8 @@ TEST(BandLimitedNoise, WithoutStrengthItIsSilent) {
   EXPECT_EQ(noise_at(harmonics, 0.37), 0.0);
 }
 
-/// The parameter that the band is refused for; empty where it is accepted.
 std::string refused_noise(const NoiseBand& band) {
-  try {
-    band_limited_noise(band);
-    return "";
-  } catch (const InvalidParameter& error) {
-    return error.name();
-  }
+  return tests::refused_name([&] { band_limited_noise(band); });
 }
 
 TEST(BandLimitedNoise, WhatIsOutOfRangeIsRefusedByName) {

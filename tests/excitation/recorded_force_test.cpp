@@ -1,5 +1,6 @@
 #include "holdfast/excitation/recorded_force.hpp"
 
+#include "support/message_of.hpp"
 #include "support/random.hpp"
 #include "support/testing.hpp"
 
@@ -128,15 +129,9 @@ TEST(RecordedForce, BetweenTwoBreaksOnePolynomialIsInForce) {
   }
 }
 
-/// The parameter that the record is refused for; empty where it is accepted.
 std::string refused_record(const std::vector<double>& times, const std::vector<double>& forces,
                            RecordInterpolation interpolation = RecordInterpolation::linear) {
-  try {
-    const RecordedForce record(times, forces, interpolation);
-    return "";
-  } catch (const InvalidParameter& error) {
-    return error.name();
-  }
+  return tests::refused_name([&] { RecordedForce(times, forces, interpolation); });
 }
 
 TEST(RecordedForce, TooFewRowsAreRefused) {

@@ -5,8 +5,8 @@
 
 #include "case/case_file.hpp"
 #include "fuzz/require.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 /// Texts between zeros, which no argument of a program can hold, as --set options in their order.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -113,7 +113,7 @@ TEST_P(FoolishInputs, AreRefusedOrNamed) {
     Limits limits;
     limits.patience = std::chrono::seconds(is_sanitized ? 120 : 10);
     limits.processor_seconds = is_sanitized ? 240 : 20;
-    const LimitedEnding ending = LimitedProgram(foolish.input.words, scene.place(), limits).wait();
+    const LimitedEnding ending = limited_run(foolish.input.words, scene.place(), limits);
     const std::string fault = fault_of(foolish, ending);
     if (fault.empty()) continue;
     ADD_FAILURE() << "the program " << fault << " (wanted " << foolish.outcome << ")\n"

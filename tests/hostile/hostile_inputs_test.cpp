@@ -88,14 +88,12 @@ const std::vector<std::string>& motion_jobs() {
   return jobs;
 }
 
-struct Job {
-  std::vector<std::string> words;
-  bool may_take_long = false;
-};
-
-Job some_job(Random& random) {
+HostileInput some_job(Random& random) {
   const bool motion = happens(random, 0.4);
-  return {words_of(one_of(random, motion ? motion_jobs() : quick_jobs())), motion};
+  HostileInput input;
+  input.words = words_of(one_of(random, motion ? motion_jobs() : quick_jobs()));
+  input.may_take_long = motion;
+  return input;
 }
 
 /// A key of the case, in one of twenty cases none.
@@ -185,8 +183,7 @@ void damage_words(Random& random, std::vector<std::string>& words) {
 }
 
 HostileInput hostile_command_line(Random& random) {
-  HostileInput input;
-  input.words = some_job(random).words;
+  HostileInput input = some_job(random);
   if (happens(random, 0.2)) input.words.insert(input.words.begin(), {"--case", "case.toml"});
   for (std::size_t k = 1 + random.index(4); k > 0; --k) damage_words(random, input.words);
   for (std::string& word : input.words) word = as_argument(word);
@@ -223,10 +220,7 @@ std::string nested(Random& random) {
 }
 
 HostileInput hostile_case_file(Random& random) {
-  HostileInput input;
-  const Job job = some_job(random);
-  input.words = job.words;
-  input.may_take_long = job.may_take_long;
+  HostileInput input = some_job(random);
   const bool names_it = input.words.back() == "case.toml";
   if (!names_it) input.words.insert(input.words.end(), {"--case", "case.toml"});
   std::string text = happens(random, 0.4) ? made_case_file(random)
@@ -240,10 +234,7 @@ HostileInput hostile_case_file(Random& random) {
 }
 
 HostileInput hostile_override(Random& random) {
-  HostileInput input;
-  const Job job = some_job(random);
-  input.words = job.words;
-  input.may_take_long = job.may_take_long;
+  HostileInput input = some_job(random);
   for (std::size_t k = 1 + random.index(3); k > 0; --k) {
     const std::string key = some_key(random);
     std::string text =
@@ -354,36 +345,19 @@ HostileInput hostile_file(Random& random) {
     std::filesystem::permissions(folder / "unreadable", std::filesystem::perms::none);
   };
   const std::string name = one_of(random, names);
-  const auto add = [&](const std::string& line) {
-    input.words = words_of(line);
-    input.words.push_back(name);
-  };
-  switch (random.index(8)) {
-    case 0:
-      add("case --check");
-      break;
-    case 1:
-      add("case --init");
-      break;
-    case 2:
-      add("fit --data");
-      break;
-    case 3:
-      add("report --output");
-      input.may_take_long = true;
-      break;
-    case 4:
-      add("modes --elements 8 --count 1 --output");
-      break;
-    case 5:
-      add("sweep --axis backlash.width=0:0.001:2 --duration 0.1 --output");
-      break;
-    case 6:
-      input.words = {"simulate", "--duration", "0.1", "--set", "excitation.record=" + name};
-      break;
-    default:
-      add("margins --case");
-  }
+  constexpr const char* lines[] = {
+      "case --check @",
+      "case --init @",
+      "fit --data @",
+      "report --output @",
+      "modes --elements 8 --count 1 --output @",
+      "sweep --axis backlash.width=0:0.001:2 --duration 0.1 --output @",
+      "simulate --duration 0.1 --set excitation.record=@",
+      "margins --case @"};
+  const std::size_t kind = random.index(std::size(lines));
+  input.words = words_of(lines[kind]);
+  input.words.back().replace(input.words.back().size() - 1, 1, name);
+  input.may_take_long = kind == 3;  // a report
   if (happens(random, 0.3)) damage_words(random, input.words), input.may_take_long = true;
   for (std::string& word : input.words) word = as_argument(word);
   return input;
@@ -517,7 +491,7 @@ void try_input(const Kind& kind, std::uint64_t seed, std::uint64_t number, Count
   Limits limits;
   if (input.may_take_long) limits.patience = std::chrono::milliseconds(500);
   if (is_sanitized) limits.patience *= 10, limits.last_words *= 10, limits.processor_seconds = 60;
-  const LimitedEnding ending = LimitedProgram(input.words, scene.place(), limits).wait();
+  const LimitedEnding ending = limited_run(input.words, scene.place(), limits);
   const ErrorLines lines = error_lines_of(ending.errors, input.words);
   counts.warnings += lines.warnings;
   counts.longest_message = std::max(counts.longest_message, ending.errors.size());

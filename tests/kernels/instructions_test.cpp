@@ -82,11 +82,7 @@ TEST(Instructions, EachSetGivesTheSameSweepAndBasinsWithExactSwitching) {
 }
 
 TEST(Instructions, AnUnknownSetIsWrongInput) {
-  const Outcome outcome = run_holdfast("stability --instructions sse9");
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("sse9"), std::string::npos) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("avx512"), std::string::npos) << outcome.errors;
+  expect_refused("stability --instructions sse9", {"sse9", "avx512"});
   EXPECT_THROW(program::chosen_instruction_set("sse9"), program::WrongInput);
 }
 
@@ -95,21 +91,19 @@ TEST(Instructions, AnUnavailableSetIsWrongInputThatNamesTheAvailableOnes) {
   for (const InstructionSet set :
        {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
     const bool has = std::count(available.begin(), available.end(), set) > 0;
-    const Outcome outcome = run_holdfast("stability --p 0:1:2 --d 0:1:2" + with(set));
-    EXPECT_EQ(outcome.exit_code, has ? 0 : 2) << name_of(set) << outcome.errors;
-    if (!has) {
-      EXPECT_NE(outcome.errors.find("it has baseline"), std::string::npos) << outcome.errors;
-    }
+    const std::string job = "stability --p 0:1:2 --d 0:1:2" + with(set);
+    if (has)
+      printed_by(job);
+    else
+      expect_refused(job, {"it has baseline"});
   }
 }
 
 TEST(Instructions, WithoutTheOptionTheBestIsTaken) {
   EXPECT_EQ(program::chosen_instruction_set(""), available_instruction_sets().back());
   EXPECT_EQ(available_instruction_sets().front(), InstructionSet::baseline);
-  EXPECT_NE(
-      run_holdfast("--version")
-          .output.find("instructions " + std::string(name_of(available_instruction_sets().back()))),
-      std::string::npos);
+  expect_holds(printed_by("--version"),
+               {"instructions " + std::string(name_of(available_instruction_sets().back()))});
 }
 
 nlohmann::json origin_of(const std::filesystem::path& table) {
@@ -122,32 +116,17 @@ TEST(Instructions, MetadataNameTheChoice) {
   const std::string job = "stability --p 0:1:2 --d 0:1:2 --output ";
   for (const InstructionSet set : available_instruction_sets()) {
     const auto file = folder / (std::string(name_of(set)) + ".csv");
-    ASSERT_EQ(run_holdfast(job + file.string() + with(set)).exit_code, 0);
+    printed_by(job + file.string() + with(set));
     EXPECT_EQ(origin_of(file)["instructions"], name_of(set));
     EXPECT_FALSE(origin_of(file)["options"].contains("--instructions"));
   }
   const auto other = folder / "modes.csv";
-  ASSERT_EQ(run_holdfast("modes --output " + other.string()).exit_code, 0);
+  printed_by("modes --output " + other.string());
   EXPECT_FALSE(origin_of(other).contains("instructions"));
 }
 
-/// A sweep on the baseline that was stopped after some chunks.
-class BaselineSweep {
- public:
-  BaselineSweep() {
-    RunningProgram program(sweep_words(output(), "--instructions baseline"));
-    wait_for_chunks(program, output(), 4);
-    program.send(SIGKILL);
-    program.wait();
-  }
-  std::filesystem::path output() const { return folder_ / "sweep.csv"; }
-
- private:
-  TemporaryFolder folder_;
-};
-
 TEST(Instructions, AResumedSweepKeepsThoseOfItsTiles) {
-  const BaselineSweep stopped;
+  const StoppedSweep stopped(SIGKILL, "sweep.csv", "--instructions baseline");
   const Ending resumed = swept(stopped.output(), "--resume");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.errors;
   EXPECT_EQ(origin_of(stopped.output())["instructions"], "baseline");
@@ -156,11 +135,10 @@ TEST(Instructions, AResumedSweepKeepsThoseOfItsTiles) {
 TEST(Instructions, AResumedSweepIsRefusedOthersThanThoseOfItsTiles) {
   const InstructionSet best = available_instruction_sets().back();
   if (best == InstructionSet::baseline) GTEST_SKIP() << "this processor has the baseline alone";
-  const BaselineSweep stopped;
+  const StoppedSweep stopped(SIGKILL, "sweep.csv", "--instructions baseline");
   const Ending refused = swept(stopped.output(), "--resume" + with(best));
   EXPECT_EQ(refused.exit_code, 2) << refused.errors;
-  EXPECT_NE(refused.errors.find("--instructions was baseline"), std::string::npos)
-      << refused.errors;
+  expect_holds(refused.errors, {"--instructions was baseline"});
 }
 
 }  // namespace

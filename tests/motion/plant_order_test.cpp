@@ -209,18 +209,6 @@ TEST(PlantOrder, OfFourThroughPortsIsTheTwoMasses) {
   }
 }
 
-TEST(PlantOrder, OfFourThroughPortsIsTheTwoMassesAtSamples) {
-  const OrderSetting setting;
-  const IdealLoop<double> loop{setting.plant,      setting.sampling, setting.gains,
-                               setting.excitation, setting.width,    ForceHold::exact};
-  const IdealLoop<double, LinearPlant<double, 4>> ported{
-      linear_plant(setting.plant), setting.sampling, setting.gains,
-      setting.excitation,          setting.width,    ForceHold::exact};
-  auto masses = harmonically_forced_motion(loop, Vector<double, 4>::Zero());
-  auto general = harmonically_forced_motion(ported, Vector<double, 4>::Zero());
-  EXPECT_LE(largest_difference(masses, general, 2000), 1e-12);
-}
-
 TEST(PlantOrder, OfSevenIsThatOfADenseSimulation) {
   const OrderSetting setting;
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
@@ -331,17 +319,6 @@ TEST(PlantOrder, OfSevenHasTheDerivativeOfItsMotion) {
     ++compared;
   }
   EXPECT_GT(compared, 20);
-}
-
-TEST(PlantOrder, AKickMovesTheConductorAlone) {
-  const OrderSetting setting;
-  auto motion = event_motion(loop_of(setting, order_seven(setting.plant, setting.extras),
-                                     ContactLaw::play, Switching::exact),
-                             State7::Zero());
-  motion.displace_conductor(0.01);
-  State7 expected = State7::Zero();
-  expected[0] = 0.01;
-  EXPECT_EQ(motion.state(), expected);
 }
 
 // ‖e^{At} x‖ ≤ ‖x‖, and ℓᵀx ≤ dual(ℓ) ‖x‖ with equality for some x.

@@ -10,30 +10,6 @@ namespace {
 
 using test::KollarCase;
 
-TEST(SampledMotion, WithoutBacklashTwiceTheForceMovesTwiceAsFar) {
-  // Doubling is exact in binary, so superposition holds to the last bit.
-  KollarCase once;
-  once.width = 0.0;
-  once.sampling_period = 0.003;
-  once.processing_delay = 0.001;
-  KollarCase twice = once;
-  twice.excitation.amplitude *= 2.0;
-  const auto single = test::record(once, 3.0), doubled = test::record(twice, 3.0);
-  ASSERT_EQ(single.size(), 1001U);
-  for (std::size_t j = 0; j < single.size(); ++j) {
-    ASSERT_EQ(doubled[j].state, 2.0 * single[j].state) << j;
-    ASSERT_EQ(doubled[j].control_force, 2.0 * single[j].control_force) << j;
-  }
-  EXPECT_GT(single.back().state.norm(), 1e-4);
-}
-
-TEST(SampledMotion, WithBacklashTwiceTheForceDoesNotMoveTwiceAsFar) {
-  KollarCase once, twice;
-  twice.excitation.amplitude *= 2.0;
-  const auto single = test::record(once, 3.0), doubled = test::record(twice, 3.0);
-  EXPECT_GT((doubled.back().state - 2.0 * single.back().state).norm(), 1e-4);
-}
-
 TEST(SampledMotion, FollowsTheExtendedMaps) {
   // z̃ = [z; previous force] steps by S outside the backlash and by S* inside, for any delay.
   for (const double fraction : {0.0, 0.4, 1.0}) {
@@ -78,17 +54,6 @@ TEST(SampledMotion, ADelayedForceArrivesLate) {
   const Vector<double, 4> expected = which.loop().present_force * delayed[0].control_force;
   EXPECT_LE((felt - expected).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_DOUBLE_EQ(delayed[0].control_force, -0.557);
-}
-
-TEST(SampledMotion, NoForceIsTransmittedInTheBacklash) {
-  const auto samples = test::record(KollarCase{}, 2.0);
-  int inside = 0;
-  for (const auto& sample : samples) {
-    const double command = -557.0 * sample.state[0] - 13.0 * sample.state[1];
-    ASSERT_DOUBLE_EQ(sample.control_force, sample.engaged ? command : 0.0);
-    inside += sample.engaged ? 0 : 1;
-  }
-  EXPECT_GT(inside, 0);
 }
 
 TEST(SampledMotion, ADisplacedConductorIsSeenByTheNextSample) {

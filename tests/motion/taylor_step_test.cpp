@@ -72,48 +72,6 @@ TEST(TaylorStep, IsTheExactMotionToRoundOff) {
   std::cout << "largest relative error " << worst << '\n';
 }
 
-TEST(TaylorStep, UnderAHeldForceIsTheZeroOrderHold) {
-  test::Random random(1312);
-  for (int draw = 0; draw < 500; ++draw) {
-    const auto plant = test::random_plant(random);
-    const AffineDynamics dynamics{plant.state_matrix(), plant.control_input(),
-                                  plant.excitation_input()};
-    const Vector<double, 4> unit = balancing(dynamics.state);
-    const double length = 1.0 / balanced_norm(dynamics.state);
-    Matrix<double, 4, 2> inputs;
-    inputs << dynamics.command, dynamics.force;
-    const Vector<double, 2> held = random.matrix<Vector<double, 2>>();
-    Series force = Series::Zero(terms_for(1.0));
-    force[0] = held[1];
-    const Vector<double, 4> begin = unit.asDiagonal() * random.matrix<Vector<double, 4>>();
-    const TaylorStep motion(dynamics, begin, held[0], force, length);
-    const auto step = zero_order_hold<double, 4, 2>(dynamics.state, inputs, length);
-    const Vector<double, 4> expected = step.transition * begin + step.input * held;
-    const double scale = std::max(expected.cwiseQuotient(unit).norm(),
-                                  length * (inputs * held).cwiseQuotient(unit).norm());
-    ASSERT_LE((motion.state(1.0) - expected).cwiseQuotient(unit).norm(), 3e-14 * scale) << draw;
-    ASSERT_EQ(motion.state(0.0), begin);
-  }
-}
-
-TEST(TaylorStep, ItsCoefficientsSolveTheEquationOfMotion) {
-  test::Random random(1313);
-  const auto plant = kollar2022_plant();
-  const AffineDynamics dynamics = driven_dynamics(plant, random);
-  const double length = 0.005, command = 0.3;
-  Series force(20);
-  MultiHarmonicForce{{{0.5, 10.0, 0.4}}, nullptr}.expand(0.02, length, force);
-  const Vector<double, 4> begin(0.001, -0.03, 0.002, 0.05);
-  const TaylorStep motion(dynamics, begin, command, force, length);
-  const auto& z = motion.coefficients();
-  for (Eigen::Index k = 0; k + 1 < z.cols(); ++k) {
-    Vector<double, 4> rate = dynamics.state * z.col(k) + dynamics.force * force[k];
-    if (k == 0) rate += dynamics.drift + dynamics.command * command;
-    const Vector<double, 4> slope = z.col(k + 1) * (static_cast<double>(k + 1) / length);
-    EXPECT_LE((slope - rate).norm(), 1e-14 * rate.norm()) << k;
-  }
-}
-
 /// x^n / n! + x^{n+1} / (n + 1)! + …
 long double rest_of_exponential(long double x, int terms) {
   long double term = 1.0L, rest = 0.0L;

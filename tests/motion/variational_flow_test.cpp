@@ -125,26 +125,6 @@ int samples_in(const test::EventSetting& setting, double duration) {
   return static_cast<int>(std::min(1500.0, duration / setting.loop.sampling.period));
 }
 
-TEST(VariationalFlow, WithoutBacklashItIsTheMapOfTheSampledLoop) {
-  test::Random random(901);
-  for (int trial = 0; trial < 60; ++trial) {
-    auto setting = test::random_event_setting(random, trial);
-    setting.width = 0.0;
-    auto motion = setting.motion();
-    VariationalFlow<DriveContact<>> tangent(motion);
-    const auto sampled = sampled_loop(setting.plant, setting.loop.sampling);
-    const Vector<double, 7> sizes = test::sizes_of(motion);
-    Matrix<double, 7> expected = Matrix<double, 7>::Zero();
-    expected.topLeftCorner<5, 5>() = sampled.engaged_map(setting.loop.gains);
-    const Matrix<double, 7> scaled = scaled_by(sizes, expected);
-    for (int sample = 0; sample < 5; ++sample) {
-      const Matrix<double, 7> map = advance_with(tangent, motion, 1);
-      EXPECT_LT((scaled_by(sizes, map) - scaled).norm(), 1e-13 * scaled.norm());
-      EXPECT_EQ(tangent.rank(), setting.loop.sampling.processing_delay > 0.0 ? 5 : 4);
-    }
-  }
-}
-
 /// A recorded force with many rows is taken piece by piece, and a jittering clock has no two
 /// periods alike: δX is what the exponential of the whole makes of it.
 TEST(VariationalFlow, DoesNotDependOnTheStepsOfTheMotion) {
@@ -226,21 +206,6 @@ TEST(VariationalFlow, IsTheDerivativeOfTheFlowOverASample) {
   EXPECT_GT(all.by_guard(tangent_stick, tangent_gap, -2), 100);
   for (const int guard : {1, -1, -2})
     EXPECT_GT(all.by_guard(tangent_stick, tangent_engaged, guard), 0) << guard;
-}
-
-TEST(VariationalFlow, ProductsAreTheDerivativeOfTheFlowOverFiftySamples) {
-  test::Random random(905);
-  Comparison all;
-  for (int trial = 0; trial < 50; ++trial) {
-    const auto setting = test::bounded_event_setting(random, trial);
-    compare_along(setting.motion(), samples_in(setting, 2.0), 50, 1e-6, all);
-  }
-  EXPECT_LT(all.worst, 5e-6);
-  EXPECT_GT(all.compared, 1000);
-  EXPECT_LT(all.other_way, all.compared / 20);
-  EXPECT_LT(all.unresolved, all.compared / 100);
-  EXPECT_GT(all.seen(tangent_engaged, tangent_stick), 100);
-  EXPECT_GT(all.seen(tangent_gap, tangent_engaged), 100);
 }
 
 /// With differences of displacements as velocity, a force that saturates and a clock that jitters;

@@ -9,7 +9,6 @@
 
 #include "process/errors.hpp"
 #include "process/exit.hpp"
-#include "process/group/mpi_launch.hpp"
 #include "process/group/process_group.hpp"
 #include "process/interrupt.hpp"
 #include "process/worker_threads.hpp"
@@ -29,7 +28,7 @@ void pause_shortly() { std::this_thread::sleep_for(std::chrono::milliseconds(5))
 std::vector<std::int64_t> draw(ProcessGroup& group) {
   std::vector<std::int64_t> drawn;
   for (;;) {
-    const std::int64_t ticket = group.take_ticket();
+    const std::int64_t ticket = group.take_tickets(1);
     if (ticket >= ticket_count) return drawn;
     drawn.push_back(ticket);
     // So that every thread and process comes to its turn.
@@ -64,7 +63,7 @@ void check_every_ticket_is_given_once(ProcessGroup& group) {
   for (const int times : times_given(group, drawn_by_threads(group, 3)))
     require(times == 1, "every ticket is given once");
   // Each thread has learnt from one ticket more that there are no others.
-  require(group.tickets_taken() == ticket_count + 3 * group.size(), "tickets_taken() counts all");
+  require(group.take_tickets(0) == ticket_count + 3 * group.size(), "take_tickets(0) counts all");
 }
 
 /// Of length 0 for some ranks and of some MB for others, with bytes of every value.
@@ -88,17 +87,17 @@ void check_exchange_orders_by_rank(ProcessGroup& group) {
 
 /// Every process passes over a number of tickets of its own, together
 /// ticket_count · (1 + … + size).
-void check_all_can_skip_tickets(ProcessGroup& group) {
+void check_all_can_pass_over_tickets(ProcessGroup& group) {
   const std::int64_t size = group.size();
-  const std::int64_t before = group.tickets_taken();
+  const std::int64_t before = group.take_tickets(0);
   group.exchange("");
-  group.skip_tickets(ticket_count * (group.rank() + 1));
+  group.take_tickets(ticket_count * (group.rank() + 1));
   group.exchange("");
   const std::int64_t first_left = before + ticket_count * size * (size + 1) / 2;
-  const std::int64_t ticket = group.take_ticket();
-  require(ticket >= first_left && ticket < first_left + size, "skip_tickets() adds up");
+  const std::int64_t ticket = group.take_tickets(1);
+  require(ticket >= first_left && ticket < first_left + size, "take_tickets() adds up");
   group.exchange("");
-  require(group.tickets_taken() == first_left + size, "tickets_taken() counts what is skipped");
+  require(group.take_tickets(0) == first_left + size, "take_tickets(0) counts what is skipped");
 }
 
 void check_ranks(ProcessGroup& group) {
@@ -128,7 +127,7 @@ void check_threads_share_the_cores(ProcessGroup& group) {
 void cooperate(ProcessGroup& group, const std::string&) {
   check_ranks(group);
   check_every_ticket_is_given_once(group);
-  check_all_can_skip_tickets(group);
+  check_all_can_pass_over_tickets(group);
   check_exchange_orders_by_rank(group);
   check_threads_share_the_cores(group);
 }
@@ -153,10 +152,10 @@ void draw_while_the_first_rests(ProcessGroup& group, const std::string& file) {
 void give_up(ProcessGroup& group, const std::string&) {
   const bool gives_up = group.rank() == group.size() - 1;
   std::string drawn;
-  for (int k = 0; gives_up && k < 3; ++k) drawn += std::to_string(group.take_ticket()) + ' ';
+  for (int k = 0; gives_up && k < 3; ++k) drawn += std::to_string(group.take_tickets(1)) + ' ';
   group.exchange("");
   if (gives_up) {
-    group.skip_tickets(ticket_count);
+    group.take_tickets(ticket_count);
     require(draw(group).empty(), "who has given up gets no ticket");
   } else {
     drawn += drawn_by_threads(group, 3);
@@ -167,7 +166,7 @@ void give_up(ProcessGroup& group, const std::string&) {
     sum += times;
   }
   const std::int64_t refused = 3 * (group.size() - 1) + 1;
-  require(group.tickets_taken() == ticket_count + sum + refused,
+  require(group.take_tickets(0) == ticket_count + sum + refused,
           "every ticket is given, passed over or refused");
 }
 

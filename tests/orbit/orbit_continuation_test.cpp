@@ -19,13 +19,23 @@ PeriodicOrbit orbit_of(const IdealLoop<double>& loop) {
   return *found.orbit;
 }
 
-TEST(OrbitContinuation, WithoutBacklashTheOrbitEndsOnTheStabilityBoundary) {
-  const IdealLoop<double> loop = followed_loop(0.01, 0.0);
-  const auto path = [&](double gain) {
+/// (value) ↦ the same loop with this value of a part.
+template <class Part>
+auto along(const IdealLoop<double>& loop, Part&& part) {
+  return [loop, part](double value) {
     IdealLoop<double> other = loop;
-    other.gains.differential = gain;
+    part(other) = value;
     return other;
   };
+}
+
+constexpr auto backlash_width = [](auto& loop) -> double& { return loop.backlash_width; };
+constexpr auto differential_gain = [](auto& loop) -> double& { return loop.gains.differential; };
+constexpr auto force = [](auto& loop) -> double& { return loop.excitation.amplitude; };
+
+TEST(OrbitContinuation, WithoutBacklashTheOrbitEndsOnTheStabilityBoundary) {
+  const IdealLoop<double> loop = followed_loop(0.01, 0.0);
+  const auto path = along(loop, differential_gain);
   const auto stable = stable_differential_gains(
       characteristic_polynomial(sampled_loop(loop.plant, loop.sampling)), -557.0);
   const PeriodicOrbit orbit = orbit_of(loop);
@@ -37,66 +47,36 @@ TEST(OrbitContinuation, WithoutBacklashTheOrbitEndsOnTheStabilityBoundary) {
   EXPECT_NEAR(below.multiplier.log_modulus, 0.0, 1e-9);
 }
 
-TEST(OrbitContinuation, AnOrbitIsNearItsBorderJustBeforeTheCollision) {
-  const IdealLoop<double> loop = followed_loop(0.01, 0.002);
-  const PeriodicOrbit orbit = orbit_of(loop);
-  EXPECT_GT(orbit.border_share(), near_border);
-  const auto path = [&](double width) {
-    IdealLoop<double> other = loop;
-    other.backlash_width = width;
-    return other;
-  };
-  const BranchEnd end = continue_orbit(path, orbit, 0.002, 0.01);
-  ASSERT_EQ(end.outcome, BranchEndOutcome::border_collision);
-  const double width = end.parameter - 1e-8;
-  const auto last =
-      orbit_of_itinerary(path(width), orbit.ratio, ItineraryMaps<double>(loop, orbit.ratio),
-                         orbit.itinerary, Backlash<double>(width, orbit.memory));
-  ASSERT_EQ(last.outcome, OrbitOutcome::certified);
-  EXPECT_GT(last.orbit->border_share(), 0.0);
-  EXPECT_LT(last.orbit->border_share(), near_border);
-}
-
 TEST(OrbitContinuation, ACollisionIsWhereTheOrbitIsNoLongerFound) {
   const IdealLoop<double> loop = followed_loop(0.01, 0.002);
   const PeriodicOrbit orbit = orbit_of(loop);
-  const auto path = [&](double width) {
-    IdealLoop<double> other = loop;
-    other.backlash_width = width;
-    return other;
-  };
+  EXPECT_GT(orbit.border_share(), near_border);
+  const auto path = along(loop, backlash_width);
+  const ItineraryMaps<double> maps(loop, orbit.ratio);
   for (const double to : {0.0, 0.01}) {
     const BranchEnd end = continue_orbit(path, orbit, 0.002, to);
     ASSERT_EQ(end.outcome, BranchEndOutcome::border_collision);
     EXPECT_NEAR(end.border.distance, 0.0, 1e-15);
-    const ItineraryMaps<double> maps(loop, orbit.ratio);
-    const Backlash<double> law(loop.backlash_width, orbit.memory);
-    const double step = to > 0.002 ? 1e-9 : -1e-9;
-    const auto outcome_at = [&](double width) {
+    const double outward = to > 0.002 ? 1.0 : -1.0;
+    const auto beyond = [&](double by) {
+      const double width = end.parameter + outward * by;
       return orbit_of_itinerary(path(width), orbit.ratio, maps, orbit.itinerary,
-                                Backlash<double>(width, orbit.memory))
-          .outcome;
+                                Backlash<double>(width, orbit.memory));
     };
-    EXPECT_EQ(outcome_at(end.parameter - step), OrbitOutcome::certified);
-    EXPECT_EQ(outcome_at(end.parameter + step), OrbitOutcome::not_reproduced);
+    EXPECT_EQ(beyond(-1e-9).outcome, OrbitOutcome::certified);
+    EXPECT_EQ(beyond(1e-9).outcome, OrbitOutcome::not_reproduced);
+    const OrbitResult last = beyond(-1e-8);
+    ASSERT_EQ(last.outcome, OrbitOutcome::certified);
+    EXPECT_GT(last.orbit->border_share(), 0.0);
+    EXPECT_LT(last.orbit->border_share(), near_border);
   }
 }
 
 TEST(OrbitContinuation, MotionAndForceScaleTogether) {
   const IdealLoop<double> loop = followed_loop(0.001, 0.002);
   const PeriodicOrbit orbit = orbit_of(loop);
-  const auto along_width = [&](double width) {
-    IdealLoop<double> other = loop;
-    other.backlash_width = width;
-    return other;
-  };
-  const auto along_force = [&](double amplitude) {
-    IdealLoop<double> other = loop;
-    other.excitation.amplitude = amplitude;
-    return other;
-  };
-  const BranchEnd wider = continue_orbit(along_width, orbit, 0.002, 0.003);
-  const BranchEnd weaker = continue_orbit(along_force, orbit, 0.5, 0.3);
+  const BranchEnd wider = continue_orbit(along(loop, backlash_width), orbit, 0.002, 0.003);
+  const BranchEnd weaker = continue_orbit(along(loop, force), orbit, 0.5, 0.3);
   EXPECT_NEAR(weaker.parameter / 0.5, 0.002 / wider.parameter, 1e-10);
   // The orbit is its own mirror image half a period later: it meets two surfaces at once, and
   // rounding says which is named.
@@ -112,18 +92,8 @@ TEST(OrbitContinuation, AnOrbitThatStaysInTheGapEndsWhereNoGapHoldsIt) {
     lowest = std::min(lowest, state[2] - state[0]);
     highest = std::max(highest, state[2] - state[0]);
   }
-  const auto narrower = [&](double width) {
-    IdealLoop<double> other = loop;
-    other.backlash_width = width;
-    return other;
-  };
-  const auto stronger = [&](double amplitude) {
-    IdealLoop<double> other = loop;
-    other.excitation.amplitude = amplitude;
-    return other;
-  };
-  const BranchEnd by_width = continue_orbit(narrower, orbit, 0.003, 0.001);
-  const BranchEnd by_force = continue_orbit(stronger, orbit, 0.5, 2.0);
+  const BranchEnd by_width = continue_orbit(along(loop, backlash_width), orbit, 0.003, 0.001);
+  const BranchEnd by_force = continue_orbit(along(loop, force), orbit, 0.5, 2.0);
   EXPECT_EQ(by_width.outcome, BranchEndOutcome::border_collision);
   EXPECT_NEAR(by_width.parameter, highest - lowest, 1e-12);
   EXPECT_NEAR(by_force.parameter / 0.5, 0.003 / by_width.parameter, 1e-9);
@@ -131,11 +101,7 @@ TEST(OrbitContinuation, AnOrbitThatStaysInTheGapEndsWhereNoGapHoldsIt) {
 
 TEST(OrbitContinuation, ReachesTheEndOfARangeWithoutAnEnd) {
   const IdealLoop<double> loop = followed_loop(0.01, 0.002);
-  const auto path = [&](double gain) {
-    IdealLoop<double> other = loop;
-    other.gains.differential = gain;
-    return other;
-  };
+  const auto path = along(loop, differential_gain);
   const BranchEnd end = continue_orbit(path, orbit_of(loop), -13.0, -13.5);
   EXPECT_EQ(end.outcome, BranchEndOutcome::range_end);
   EXPECT_EQ(end.parameter, -13.5);
@@ -143,11 +109,7 @@ TEST(OrbitContinuation, ReachesTheEndOfARangeWithoutAnEnd) {
 
 TEST(OrbitContinuation, RefusesAFamilyThatChangesTheCommonPeriod) {
   const IdealLoop<double> loop = followed_loop(0.01, 0.002);
-  const auto path = [&](double period) {
-    IdealLoop<double> other = loop;
-    other.sampling.period = period;
-    return other;
-  };
+  const auto path = along(loop, [](auto& of) -> double& { return of.sampling.period; });
   EXPECT_THROW(continue_orbit(path, orbit_of(loop), 0.01, 0.011), InvalidParameter);
 }
 

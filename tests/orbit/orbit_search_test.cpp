@@ -1,5 +1,6 @@
 #include "holdfast/orbit/orbit_search.hpp"
 
+#include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 #include "support/testing.hpp"
@@ -7,16 +8,93 @@
 namespace holdfast {
 namespace {
 
-OrbitResult search_from_rest(const IdealLoop<double>& loop, const OrbitLimits& limits = {}) {
-  return find_periodic_orbit(loop, Vector<double, 4>::Zero(), limits);
+/// The sampled map.
+struct SampledSearch {
+  static OrbitResult find(const IdealLoop<double>& loop, const Vector<double, 4>& state,
+                          const OrbitLimits& limits) {
+    return find_periodic_orbit(loop, state, limits);
+  }
+};
+
+/// The event-driven flow, switching exactly.
+struct EventSearch {
+  static auto find(const IdealLoop<double>& loop, const Vector<double, 4>& state,
+                   const OrbitLimits& limits) {
+    ImplementedLoop exact = implemented_loop(loop);
+    exact.switching = Switching::exact;
+    return find_event_orbit(event_motion(exact, state), limits);
+  }
+};
+
+template <class Model>
+class OrbitSearchOf : public testing::Test {
+ protected:
+  static auto from_rest(const IdealLoop<double>& loop, const OrbitLimits& limits) {
+    return Model::find(loop, Vector<double, 4>::Zero(), limits);
+  }
+};
+
+using SearchModels = testing::Types<SampledSearch, EventSearch>;
+TYPED_TEST_SUITE(OrbitSearchOf, SearchModels, );
+
+TYPED_TEST(OrbitSearchOf, ACommonPeriodAboveTheLargestIsNotLookedFor) {
+  const IdealLoop<double> loop = test::kollar_loop(0.011, 0.0);
+  EXPECT_EQ(this->from_rest(loop, {99, 60000}).outcome, OrbitOutcome::none_found);
+  EXPECT_EQ(this->from_rest(loop, {100, 60000}).outcome, OrbitOutcome::certified);
 }
 
-TEST(OrbitSearch, WithoutBacklashTheOrbitHasThePeriodOfTheForcing) {
-  const OrbitResult found = search_from_rest(test::kollar_loop(0.011, 0.0));
+TYPED_TEST(OrbitSearchOf, AGrowingMotionDiverges) {
+  for (const double width : {0.0, 0.002}) {
+    const auto found = TypeParam::find(test::kollar_loop(0.011, width, 1.0),
+                                       Vector<double, 4>(0.05, 0.0, 0.0, 0.0), {10000, 0});
+    EXPECT_EQ(found.outcome, OrbitOutcome::diverges) << width;
+    EXPECT_LE(found.samples, 80000);
+    EXPECT_FALSE(found.orbit);
+  }
+}
+
+TYPED_TEST(OrbitSearchOf, RestWithoutExcitationTouchesTheSurfaceOfReversal) {
+  IdealLoop<double> loop = test::kollar_loop(0.001, 0.002);
+  loop.excitation.amplitude = 0.0;
+  const auto found = this->from_rest(loop, {1000, 0});
+  ASSERT_EQ(found.outcome, OrbitOutcome::on_surface);
+  EXPECT_EQ(found.orbit->amplitude(), 0.0);
+  EXPECT_EQ(found.orbit->forcing_periods(), 0);
+}
+
+TYPED_TEST(OrbitSearchOf, AFreeVibrationEndsAtRestInItsGap) {
+  IdealLoop<double> loop = test::kollar_loop(0.001, 0.002);
+  loop.excitation.amplitude = 0.0;
+  const auto found = TypeParam::find(loop, Vector<double, 4>(0.0002, 0.0, 0.0, 0.01), {20000, 0});
   ASSERT_EQ(found.outcome, OrbitOutcome::certified);
-  EXPECT_EQ(found.orbit->period_samples(), 100);
-  EXPECT_EQ(found.orbit->forcing_periods(), 11);
-  EXPECT_EQ(found.orbit->engaged_fraction(), 1.0);
+  EXPECT_EQ(found.orbit->period_samples(), 1);
+  EXPECT_EQ(found.orbit->engaged_fraction(), 0.0);
+  EXPECT_LT(found.orbit->states.front().norm(), 1e-12);
+}
+
+TYPED_TEST(OrbitSearchOf, LooksAtNoMoreSamplesThanAllowed) {
+  for (const std::int64_t most : {1, 99, 100, 234}) {
+    const auto found = this->from_rest(test::kollar_loop(0.011, 0.002), {1000, most});
+    EXPECT_EQ(found.outcome, OrbitOutcome::none_found) << most;
+    EXPECT_LE(found.samples, most);
+  }
+}
+
+TYPED_TEST(OrbitSearchOf, WhatIsOutOfRangeIsRefused) {
+  const IdealLoop<double> loop = test::kollar_loop(0.011, 0.002);
+  for (const OrbitLimits& bad : {OrbitLimits{0, 0}, OrbitLimits{100'000'001, 0},
+                                 OrbitLimits{100, -1}, OrbitLimits{100, 1'000'000'001}})
+    EXPECT_THROW(this->from_rest(loop, bad), InvalidParameter);
+  Vector<double, 4> start = Vector<double, 4>::Zero();
+  start[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(TypeParam::find(loop, start, {}), InvalidParameter);
+  IdealLoop<double> wrong = loop;
+  wrong.backlash_width = -1.0;
+  EXPECT_THROW(this->from_rest(wrong, {}), InvalidParameter);
+}
+
+OrbitResult search_from_rest(const IdealLoop<double>& loop, const OrbitLimits& limits = {}) {
+  return find_periodic_orbit(loop, Vector<double, 4>::Zero(), limits);
 }
 
 TEST(OrbitSearch, AWideGapIsNeverLeft) {
@@ -30,15 +108,6 @@ TEST(OrbitSearch, AWideGapIsNeverLeft) {
     const OrbitResult free = search_from_rest(uncontrolled);
     EXPECT_NEAR(found.orbit->amplitude(), free.orbit.value().amplitude(), 1e-12);
   }
-}
-
-TEST(OrbitSearch, FrequenciesWithoutACommonPeriodAreSaidToBe) {
-  IdealLoop<double> loop = test::kollar_loop(0.011, 0.002);
-  loop.excitation.frequency = 10.0 * std::sqrt(0.5);
-  const OrbitResult found = search_from_rest(loop);
-  EXPECT_EQ(found.outcome, OrbitOutcome::incommensurate);
-  EXPECT_EQ(found.samples, 0);
-  EXPECT_FALSE(found.orbit);
 }
 
 TEST(OrbitSearch, ANearReturnFarFromAnOrbitIsNoCertificate) {
@@ -62,42 +131,6 @@ TEST(OrbitSearch, AMultiplierOfModulusOneNeitherAttractsNorRepels) {
   EXPECT_EQ(search_from_rest(loop, {10000, 100000}).outcome, OrbitOutcome::none_found);
 }
 
-TEST(OrbitSearch, ACommonPeriodAboveTheLargestIsNotLookedFor) {
-  const IdealLoop<double> loop = test::kollar_loop(0.011, 0.0);
-  EXPECT_EQ(search_from_rest(loop, {99, 60000}).outcome, OrbitOutcome::none_found);
-  EXPECT_EQ(search_from_rest(loop, {100, 60000}).outcome, OrbitOutcome::certified);
-}
-
-TEST(OrbitSearch, AGrowingMotionDiverges) {
-  for (const double width : {0.0, 0.002}) {
-    IdealLoop<double> loop = test::kollar_loop(0.011, width);
-    loop.sampling.processing_delay = loop.sampling.period;
-    const OrbitResult found = search_from_rest(loop, {10000, 0});
-    EXPECT_EQ(found.outcome, OrbitOutcome::diverges) << width;
-    EXPECT_LE(found.samples, 80000);
-  }
-}
-
-TEST(OrbitSearch, RestWithoutExcitationTouchesTheSurfaceOfReversal) {
-  IdealLoop<double> loop = test::kollar_loop(0.001, 0.002);
-  loop.excitation.amplitude = 0.0;
-  const OrbitResult found = search_from_rest(loop, {1000, 0});
-  ASSERT_EQ(found.outcome, OrbitOutcome::on_surface);
-  EXPECT_EQ(found.orbit->amplitude(), 0.0);
-  EXPECT_EQ(found.orbit->forcing_periods(), 0);
-}
-
-TEST(OrbitSearch, AFreeVibrationEndsAtRestInItsGap) {
-  IdealLoop<double> loop = test::kollar_loop(0.001, 0.002);
-  loop.excitation.amplitude = 0.0;
-  const OrbitResult found =
-      find_periodic_orbit(loop, Vector<double, 4>(0.0002, 0.0, 0.0, 0.01), {20000, 0});
-  ASSERT_EQ(found.outcome, OrbitOutcome::certified);
-  EXPECT_EQ(found.orbit->period_samples(), 1);
-  EXPECT_EQ(found.orbit->engaged_fraction(), 0.0);
-  EXPECT_LT(found.orbit->states.front().norm(), 1e-12);
-}
-
 TEST(OrbitSearch, ALimitBelowThePeriodFindsNone) {
   // 2100 samples are needed.
   const IdealLoop<double> loop = test::kollar_loop(0.011, 0.002);
@@ -105,15 +138,6 @@ TEST(OrbitSearch, ALimitBelowThePeriodFindsNone) {
   EXPECT_NE(found.outcome, OrbitOutcome::certified);
   EXPECT_LE(found.samples, 16000);
   EXPECT_EQ(search_from_rest(loop, {2100, 60000}).orbit.value().period_samples(), 2100);
-}
-
-TEST(OrbitSearch, LooksAtNoMoreSamplesThanAllowed) {
-  const IdealLoop<double> loop = test::kollar_loop(0.011, 0.002);
-  for (const std::int64_t most : {1, 99, 100, 1234}) {
-    const OrbitResult found = search_from_rest(loop, {1000, most});
-    EXPECT_EQ(found.outcome, OrbitOutcome::none_found) << most;
-    EXPECT_LE(found.samples, most);
-  }
 }
 
 TEST(OrbitSearch, ACertifiedOrbitHasItsShortestPeriod) {
@@ -145,20 +169,6 @@ TEST(OrbitSearch, EveryStateOfACertifiedOrbitLeadsToIt) {
       nearest = std::min(nearest, (orbit.states[j].head<4>() - motion.state()).norm());
     EXPECT_LT(nearest, 1e-10) << trial;
   }
-}
-
-TEST(OrbitSearch, WhatIsOutOfRangeIsRefused) {
-  const IdealLoop<double> loop = test::kollar_loop(0.011, 0.002);
-  EXPECT_THROW(search_from_rest(loop, {0, 0}), InvalidParameter);
-  EXPECT_THROW(search_from_rest(loop, {100'000'001, 0}), InvalidParameter);
-  EXPECT_THROW(search_from_rest(loop, {100, -1}), InvalidParameter);
-  EXPECT_THROW(search_from_rest(loop, {100, 1'000'000'001}), InvalidParameter);
-  Vector<double, 4> start = Vector<double, 4>::Zero();
-  start[2] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(find_periodic_orbit(loop, start), InvalidParameter);
-  IdealLoop<double> wrong = loop;
-  wrong.backlash_width = -1.0;
-  EXPECT_THROW(search_from_rest(wrong), InvalidParameter);
 }
 
 }  // namespace

@@ -78,21 +78,6 @@ TEST(CyclicSystem, ClosesGrowingAndDecayingDirectionsTogether) {
   }
 }
 
-TEST(CyclicSystem, CorrectsAMotionThatDoesNotClose) {
-  test::Random random(820);
-  for (int trial = 0; trial < 20; ++trial) {
-    const Maps maps = random_maps(random, 1 + random.index(20), 0.3);
-    const DenseVector additions =
-        random.matrix<Eigen::Matrix<double, 100, 1>>().head(5 * maps.size()).cast<long double>();
-    const Vector<double, 5> first = random.matrix<Vector<double, 5>>();
-    Vector<double, 5> last = first;
-    for (std::size_t k = 0; k < maps.size(); ++k)
-      last = maps[k] * last + additions.segment<5>(static_cast<Eigen::Index>(5 * k)).cast<double>();
-    const Vector<double, 5> corrected = first + CyclicSystem<double>(maps).correction(last - first);
-    EXPECT_LE((corrected - first_of_cycle(maps, additions)).norm(), 1e-12 * first.norm()) << trial;
-  }
-}
-
 TEST(CyclicSystem, IsRegularJustBesideASingularSequence) {
   test::Random random(819);
   Matrix<double, 5> map = Matrix<double, 5>::Zero();

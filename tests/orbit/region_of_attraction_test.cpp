@@ -151,22 +151,6 @@ TEST(RegionOfAttraction, EveryMotionOfANeighbourhoodComesToTheOrbit) {
   }
 }
 
-TEST(RegionOfAttraction, AMotionOutsideTheLargestBallMayLeaveTheContacts) {
-  test::Random random(822);
-  for (const IdealLoop<double>& loop : attraction_loops()) {
-    const PeriodicOrbit orbit = certified_orbit(loop);
-    const auto weights = deviation_weights(loop);
-    const auto points = attraction_balls(loop, orbit);
-    int left = 0;
-    for (std::size_t trial = 0; trial < 60; ++trial) {
-      const AttractionBall& point = points[trial % points.size()];
-      const auto start = deviating(point, weights, random_direction(random), 20.0);
-      left += pursue(loop, orbit, point, start, 3).same_itinerary ? 0 : 1;
-    }
-    EXPECT_GT(left, 0) << loop.sampling.period;
-  }
-}
-
 TEST(RegionOfAttraction, AnotherSideOrDirectionOfTheDriveIsNotAttracted) {
   const IdealLoop<double> loop = test::kollar_loop(0.01, 0.002);
   const auto weights = deviation_weights(loop);

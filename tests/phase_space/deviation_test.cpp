@@ -36,18 +36,6 @@ TEST(Deviation, WithoutBacklashIsThePowerOfTheMapTimesTheOffset) {
   EXPECT_LT(offset.head<4>().norm(), 1e-5) << "a stable loop forgets where it began";
 }
 
-TEST(Deviation, WithoutControlIsThePowerOfTheTransition) {
-  const KollarCase here = KollarCase{}.without_control();
-  KollarCase there = here;
-  there.initial_state[0] = 1e-5;
-  auto first = here.motion(), second = there.motion();
-  Vector<double, 4> offset = there.initial_state;
-  run_deviation(first, second, 1000, [&](const Deviation& deviation) {
-    ASSERT_NEAR(deviation.displacement, offset[0], 1e-16);
-    offset = here.loop().transition * offset;
-  });
-}
-
 TEST(Deviation, StopsWhereAMotionDiverges) {
   KollarCase wild;
   wild.gains = {0.0, 5000.0};

@@ -73,17 +73,5 @@ TEST(MotionBatch, MarksDivergedMotions) {
   for (const auto& motion : motions) EXPECT_TRUE(motion.diverged);
 }
 
-TEST(MotionBatch, ItsLanesHoldAMemory) {
-  const ForcedMotionMemory<double> memory{{1.0, 2.0, 3.0, 4.0}, 5.0, {true, 6.0, 7.0, 8.0}};
-  const auto packed = detail::packed_memory<double>([&](std::size_t) { return memory; });
-  const auto back = detail::memory_of_lane(packed, 0);
-  EXPECT_EQ(back.state, memory.state);
-  EXPECT_EQ(back.previous_force, 5.0);
-  EXPECT_TRUE(back.backlash.inside);
-  EXPECT_EQ(back.backlash.lower, 6.0);
-  EXPECT_EQ(back.backlash.upper, 7.0);
-  EXPECT_EQ(back.backlash.previous_velocity, 8.0);
-}
-
 }  // namespace
 }  // namespace holdfast

@@ -1,7 +1,6 @@
 #include "holdfast/phase_space/section.hpp"
 
 #include "holdfast/motion/implemented_loop.hpp"
-#include "holdfast/orbit/orbit_search.hpp"
 #include "support/kollar_case.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/random.hpp"
@@ -127,34 +126,6 @@ TEST(Section, PointsLieOnItToRounding) {
         EXPECT_GT(points[k].time, points[k - 1].time);
         if (switching == Switching::exact) continue;  // a stick need not turn Δz
         EXPECT_NE(points[k].rising, points[k - 1].rising);
-      }
-    }
-  }
-}
-
-TEST(Section, RepeatsWithThePeriodOfTheOrbit) {
-  const IdealLoop<double> loop{
-      kollar2022_plant(), {0.01, 0.0}, {-557.0, -13.0}, {0.5, 10.0}, 0.002};
-  const auto found = find_periodic_orbit(loop, Vector<double, 4>::Zero());
-  ASSERT_EQ(found.outcome, OrbitOutcome::certified);
-  const auto points = section_of(implemented_loop(loop), 6000);
-  const double period = found.orbit->period();
-  std::size_t in_one_period = 0;
-  while (points[points.size() - 1 - in_one_period].time > points.back().time - period + 1e-7)
-    ++in_one_period;
-  for (std::size_t k = points.size() - 100; k < points.size(); ++k) {
-    const SectionPoint& earlier = points[k - in_one_period];
-    EXPECT_NEAR(points[k].time - earlier.time, period, 1e-9);
-    EXPECT_LE((points[k].state - earlier.state).norm(), 1e-9);
-  }
-}
-
-TEST(Section, NoTurnIsMissedAgainstADenseScan) {
-  for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    for (const double period : {0.001, 0.005, 0.011}) {
-      for (const double width : {0.0, 0.0005, 0.002}) {
-        const ImplementedLoop loop = section_loop(period, width, switching);
-        EXPECT_EQ(expect_scanned(loop, 2000, 50), 0U) << period << " " << width;
       }
     }
   }
@@ -322,17 +293,6 @@ TEST(Section, HasTwoPointsInEachForcingPeriodWhereTheMotionHasItsPeriod) {
     EXPECT_NE(points[k].rising, points[k - 1].rising);
     EXPECT_LE((points[k].state - points[k - 2].state).cwiseAbs().maxCoeff(), 1e-9);
   }
-}
-
-TEST(Section, GoesOnWhereItEnded) {
-  const ImplementedLoop loop = section_loop(0.001, 0.002, Switching::exact);
-  const auto whole = section_of(loop, 2000);
-  std::vector<SectionPoint> pieces;
-  auto motion = event_motion(loop, Vector<double, 4>::Zero());
-  for (int piece = 0; piece < 400; ++piece)
-    run_section(motion, 5, [&](const SectionPoint& at) { pieces.push_back(at); });
-  ASSERT_EQ(pieces.size(), whole.size());
-  for (std::size_t k = 0; k < whole.size(); ++k) EXPECT_EQ(pieces[k].time, whole[k].time);
 }
 
 TEST(Section, AMotionAtRestHasNoPoint) {

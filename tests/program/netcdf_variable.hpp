@@ -2,8 +2,11 @@
 
 #include <netcdf.h>
 
-#include "io/grid/netcdf_library.hpp"
+#include "output/grid/netcdf_library.hpp"
 #include "support/testing.hpp"
+
+// The library's function of that name.
+#define HOLDFAST_NETCDF(function) program::netcdf_function<decltype(function)>(#function)
 
 namespace holdfast::tests {
 
@@ -12,12 +15,11 @@ namespace holdfast::tests {
 class NetcdfVariable {
  public:
   explicit NetcdfVariable(const std::filesystem::path& file, const std::string& name = "") {
-    expect(call<decltype(nc_open)>("nc_open")(file.c_str(), NC_NOWRITE, &file_));
+    expect(HOLDFAST_NETCDF(nc_open)(file.c_str(), NC_NOWRITE, &file_));
     if (name.empty()) return;
-    EXPECT_EQ(call<decltype(nc_inq_varid)>("nc_inq_varid")(file_, name.c_str(), &number_), NC_NOERR)
-        << name;
+    EXPECT_EQ(HOLDFAST_NETCDF(nc_inq_varid)(file_, name.c_str(), &number_), NC_NOERR) << name;
   }
-  ~NetcdfVariable() { call<decltype(nc_close)>("nc_close")(file_); }
+  ~NetcdfVariable() { HOLDFAST_NETCDF(nc_close)(file_); }
   NetcdfVariable(const NetcdfVariable&) = delete;
   NetcdfVariable& operator=(const NetcdfVariable&) = delete;
   NetcdfVariable(NetcdfVariable&&) = delete;
@@ -25,13 +27,13 @@ class NetcdfVariable {
 
   int format() const {
     int format = 0;
-    expect(call<decltype(nc_inq_format)>("nc_inq_format")(file_, &format));
+    expect(HOLDFAST_NETCDF(nc_inq_format)(file_, &format));
     return format;
   }
 
   int type() const {
     nc_type type = NC_NAT;
-    expect(call<decltype(nc_inq_vartype)>("nc_inq_vartype")(file_, number_, &type));
+    expect(HOLDFAST_NETCDF(nc_inq_vartype)(file_, number_, &type));
     return type;
   }
 
@@ -39,13 +41,13 @@ class NetcdfVariable {
   std::vector<std::pair<std::string, std::size_t>> dimensions() const {
     int count = 0;
     std::array<int, NC_MAX_VAR_DIMS> numbers{};
-    expect(call<decltype(nc_inq_varndims)>("nc_inq_varndims")(file_, number_, &count));
-    expect(call<decltype(nc_inq_vardimid)>("nc_inq_vardimid")(file_, number_, numbers.data()));
+    expect(HOLDFAST_NETCDF(nc_inq_varndims)(file_, number_, &count));
+    expect(HOLDFAST_NETCDF(nc_inq_vardimid)(file_, number_, numbers.data()));
     std::vector<std::pair<std::string, std::size_t>> found;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       std::array<char, NC_MAX_NAME + 1> name{};
       std::size_t length = 0;
-      expect(call<decltype(nc_inq_dim)>("nc_inq_dim")(file_, numbers[i], name.data(), &length));
+      expect(HOLDFAST_NETCDF(nc_inq_dim)(file_, numbers[i], name.data(), &length));
       found.emplace_back(name.data(), length);
     }
     return found;
@@ -53,39 +55,34 @@ class NetcdfVariable {
 
   bool has(const std::string& attribute) const {
     std::size_t length = 0;
-    return call<decltype(nc_inq_attlen)>("nc_inq_attlen")(file_, number_, attribute.c_str(),
-                                                          &length) == NC_NOERR;
+    return HOLDFAST_NETCDF(nc_inq_attlen)(file_, number_, attribute.c_str(), &length) == NC_NOERR;
   }
 
   /// An attribute that is a text.
   std::string text(const std::string& name) const {
     std::string text(length_of(name), ' ');
-    expect(call<decltype(nc_get_att_text)>("nc_get_att_text")(file_, number_, name.c_str(),
-                                                              text.data()));
+    expect(HOLDFAST_NETCDF(nc_get_att_text)(file_, number_, name.c_str(), text.data()));
     return text;
   }
 
   /// One of numbers of any type.
   std::vector<double> numbers(const std::string& name) const {
     std::vector<double> found(length_of(name));
-    expect(call<decltype(nc_get_att_double)>("nc_get_att_double")(file_, number_, name.c_str(),
-                                                                  found.data()));
+    expect(HOLDFAST_NETCDF(nc_get_att_double)(file_, number_, name.c_str(), found.data()));
     return found;
   }
 
   std::vector<std::size_t> chunk() const {
     int storage = 0;
     std::vector<std::size_t> shape(dimensions().size());
-    expect(call<decltype(nc_inq_var_chunking)>("nc_inq_var_chunking")(file_, number_, &storage,
-                                                                      shape.data()));
+    expect(HOLDFAST_NETCDF(nc_inq_var_chunking)(file_, number_, &storage, shape.data()));
     EXPECT_EQ(storage, NC_CHUNKED);
     return shape;
   }
 
   bool is_compressed() const {
     int shuffle = 0, deflate = 0, level = 0;
-    expect(call<decltype(nc_inq_var_deflate)>("nc_inq_var_deflate")(file_, number_, &shuffle,
-                                                                    &deflate, &level));
+    expect(HOLDFAST_NETCDF(nc_inq_var_deflate)(file_, number_, &shuffle, &deflate, &level));
     return deflate != 0;
   }
 
@@ -94,7 +91,7 @@ class NetcdfVariable {
     std::size_t count = 1;
     for (const auto& dimension : dimensions()) count *= dimension.second;
     std::vector<double> found(count);
-    expect(call<decltype(nc_get_var_double)>("nc_get_var_double")(file_, number_, found.data()));
+    expect(HOLDFAST_NETCDF(nc_get_var_double)(file_, number_, found.data()));
     return found;
   }
 
@@ -108,18 +105,11 @@ class NetcdfVariable {
   }
 
  private:
-  /// The library's function of that name.
-  template <class Function>
-  static Function* call(const char* name) {
-    return program::netcdf_function<Function>(name);
-  }
   static void expect(int code) { EXPECT_EQ(code, NC_NOERR); }
 
   std::size_t length_of(const std::string& attribute) const {
     std::size_t length = 0;
-    EXPECT_EQ(
-        call<decltype(nc_inq_attlen)>("nc_inq_attlen")(file_, number_, attribute.c_str(), &length),
-        NC_NOERR)
+    EXPECT_EQ(HOLDFAST_NETCDF(nc_inq_attlen)(file_, number_, attribute.c_str(), &length), NC_NOERR)
         << attribute;
     return length;
   }

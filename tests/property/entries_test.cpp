@@ -19,6 +19,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 const std::vector<double> not_finite{nan, infinity, -infinity};
 const std::vector<double> negative_too{nan, infinity, -infinity, -1.0};
 const std::vector<double> not_positive{nan, infinity, -infinity, -1.0, 0.0};
+const std::vector<double> no_instant{nan, infinity, -1.0}, no_later_one{nan, infinity, -1.0, 0.0};
+const std::vector<double> no_count{0.0, -1.0}, no_share{nan, infinity, -1.0, 1.0}, zero{0.0};
 
 /// An entry with one argument that is not admissible.
 struct Entry {
@@ -68,9 +70,7 @@ TEST(Entries, OfPlantRefuseByName) {
        [](double x) {
          free_decay(of_mass(x), 1.0, {0, 1});
        }},
-      {"free_decay",
-       "time",
-       {nan, infinity, -1.0},
+      {"free_decay", "time", no_instant,
        [](double x) {
          free_decay(masses, 1.0, {0, x});
        }},
@@ -99,9 +99,7 @@ TEST(Entries, OfPlantRefuseByName) {
          plant.connections.measured_velocity.setZero();
          validate(plant);
        }},
-      {"validate(LinearPlant)",
-       "direct transmission",
-       {0.0},
+      {"validate(LinearPlant)", "direct transmission", zero,
        [](double x) {
          auto plant = linear_plant(masses);
          plant.direct_transmission = x;
@@ -112,7 +110,7 @@ TEST(Entries, OfPlantRefuseByName) {
 
 TEST(Entries, OfForcingRefuseByName) {
   expect_refused(
-      {{"PeriodicForcing", "denominator", {0.0, -1.0}, [](double x) {
+      {{"PeriodicForcing", "denominator", no_count, [](double x) {
           const IdealLoop<double> ideal{masses, sampling, {-557.0, -13.0}, {0.5, 10.0}, 0.0005};
           periodically_forced_motion(ideal, Rational{1, static_cast<std::int64_t>(x)},
                                      Vector<double, 4>(Vector<double, 4>::Zero()));
@@ -136,9 +134,7 @@ TEST(Entries, OfAnAxisRefuseByName) {
        [&](double x) {
          chart({x, 0.002, 3});
        }},
-      {"LoopChart",
-       "axis",
-       {0.0, -1.0},
+      {"LoopChart", "axis", no_count,
        [&](double x) {
          chart({0.001, 0.002, static_cast<std::int64_t>(x)});
        }},
@@ -161,9 +157,7 @@ TEST(Entries, OfSignalRefuseByName) {
        [](double x) {
          decay_events({{0, 1, 2, 3}, {1, x, 0.5, -0.5}});
        }},
-      {"decay_events",
-       "time",
-       {nan, infinity, -1.0, 0.0},
+      {"decay_events", "time", no_later_one,
        [](double x) {
          decay_events({{0, x, 2, 3}, {1, -1, 0.5, -0.5}});
        }},
@@ -175,11 +169,9 @@ TEST(Entries, OfControlRefuseByName) {
       {"sampled_loop", "mass", not_positive, [](double x) { sampled_loop(of_mass(x), sampling); }},
       {"sampled_loop", "sampling period", negative_too,
        [](double x) { sampled_loop(masses, Sampling<double>{x}); }},
-      {"sampled_loop",
-       "delay",
-       {nan, infinity, -1.0, 1.0},
+      {"sampled_loop", "delay", no_share,
        [](double x) {
-         sampled_loop(masses, {0.01, x});
+         sampled_loop(masses, Sampling<double>{0.01, x});
        }},
       {"loop_map", "mass", not_positive, [](double x) { loop_map(of_mass(x), sampling); }},
       {"loop_map", "plant", not_finite,
@@ -190,7 +182,7 @@ TEST(Entries, OfControlRefuseByName) {
        }},
       {"loop_map", "delay", negative_too,
        [](double x) {
-         loop_map(masses, {0.01, x});
+         loop_map(masses, Sampling<double>{0.01, x});
        }},
       {"held_commands", "sampling period", not_positive,
        [](double x) {
@@ -227,15 +219,11 @@ TEST(Entries, OfStabilityRefuseByName) {
        [&](double x) {
          stability_chart(polynomial(), {{x, 0, 3}, {-20, 0, 3}});
        }},
-      {"stability_chart",
-       "number of",
-       {0.0, -1.0},
+      {"stability_chart", "number of", no_count,
        [&](double x) {
          stability_chart(polynomial(), {{-600, 0, 3}, {-20, 0, static_cast<std::int64_t>(x)}});
        }},
-      {"stability_chart",
-       "number of",
-       {0.0, -1.0},
+      {"stability_chart", "number of", no_count,
        [&](double x) {
          stability_chart(ResolvedCircle<double>({linear_plant(masses), sampling}),
                          {{-600, 0, 3}, {-20, 0, static_cast<std::int64_t>(x)}});

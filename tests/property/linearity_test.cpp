@@ -37,9 +37,7 @@ test::PropertyOutcome doubles_with_the_force(const LoopCase& drawn) {
 }
 
 TEST(Linearity, TwiceTheForceMovesTwiceAsFarToTheLastBit) {
-  const auto draws = test::property_draws(2000);
-  const auto tally = test::for_all(201, draws, test::random_loop_case, doubles_with_the_force);
-  EXPECT_EQ(tally.held, draws);
+  test::expect_property(201, 2000, test::random_loop_case, doubles_with_the_force);
 }
 
 /// How far rounding can have moved z̃ = [z; u] by a sample, balanced: what each sample rounds is
@@ -146,9 +144,7 @@ test::PropertyOutcome superposes(const LoopCase& drawn) {
 }
 
 TEST(Linearity, MotionsAddUp) {
-  const auto draws = test::property_draws(2000);
-  const auto tally = test::for_all(202, draws, test::random_loop_case, superposes);
-  EXPECT_EQ(tally.held, draws);
+  test::expect_property(202, 2000, test::random_loop_case, superposes);
 }
 
 /// A loop whose samples meet its force every q of them.
@@ -222,16 +218,14 @@ test::PropertyOutcome repeats_with_the_force(const ShiftCase& shift) {
 }
 
 TEST(TimeShift, ByCommonPeriodsOfSamplesAndForceLeavesTheMotion) {
-  const auto draws = test::property_draws(2000);
-  const auto tally = test::for_all(
-      301, draws,
+  test::expect_property(
+      301, 2000,
       [](Random& random) {
         ShiftCase drawn = random_shift_case(random);
         drawn.loop.width = 0.0;
         return drawn;
       },
       repeats_with_the_force);
-  EXPECT_EQ(tally.held, draws);
 }
 
 /// With q samples a period that is a power of two nothing is rounded, and the backlash may switch
@@ -264,9 +258,7 @@ test::PropertyOutcome repeats_to_the_last_bit(const ShiftCase& shift) {
 }
 
 TEST(TimeShift, ByCommonPeriodsLeavesTheMotionInTheBacklashToTheLastBit) {
-  const auto draws = test::property_draws(2000);
-  const auto tally = test::for_all(302, draws, random_shift_case, repeats_to_the_last_bit);
-  EXPECT_GT(tally.held, draws / 3);
+  test::expect_property(302, 2000, random_shift_case, repeats_to_the_last_bit, 1.0 / 3.0);
 }
 
 }  // namespace

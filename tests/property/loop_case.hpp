@@ -89,6 +89,24 @@ inline LoopCase random_loop_case(Random& random) {
   return drawn;
 }
 
+/// A property that holds in every random case, or in more than a share of them where it says
+/// nothing of the others.
+template <class Generate, class Check>
+void expect_property(std::uint64_t seed, std::int64_t ordinarily, const Generate& generate,
+                     const Check& check, double share = 1.0) {
+  const std::int64_t draws = property_draws(ordinarily);
+  const auto held = static_cast<double>(for_all(seed, draws, generate, check).held);
+  const double all = static_cast<double>(draws);
+  EXPECT_TRUE(share < 1.0 ? held > share * all : held == all) << held << " of " << draws;
+}
+
+/// The first of some outcomes that is not that the property holds.
+inline PropertyOutcome all_of(const std::vector<PropertyOutcome>& outcomes) {
+  for (const PropertyOutcome& outcome : outcomes)
+    if (outcome.kind != PropertyOutcome::Kind::holds) return outcome;
+  return holds();
+}
+
 /// Whether a state is still one to compare: an unstable loop leaves the range of numbers.
 inline bool is_moderate(const Vector<double, 4>& state) {
   return state.cwiseAbs().maxCoeff() < 1e100;

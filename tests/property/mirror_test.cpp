@@ -110,17 +110,13 @@ test::PropertyOutcome mirrors(const MirrorCase& drawn) {
 }
 
 TEST(Mirror, TurnsAMotionThatSwitchesAtSamplesToTheLastBit) {
-  const auto draws = test::property_draws(1000);
-  const auto tally = test::for_all(
-      501, draws, [](Random& random) { return random_mirror_case(random, false); }, mirrors);
-  EXPECT_EQ(tally.held, draws);
+  test::expect_property(
+      501, 1000, [](Random& random) { return random_mirror_case(random, false); }, mirrors);
 }
 
 TEST(Mirror, TurnsAMotionThatSwitchesExactlyToTheLastBit) {
-  const auto draws = test::property_draws(300);
-  const auto tally = test::for_all(
-      502, draws, [](Random& random) { return random_mirror_case(random, true); }, mirrors);
-  EXPECT_EQ(tally.held, draws);
+  test::expect_property(
+      502, 300, [](Random& random) { return random_mirror_case(random, true); }, mirrors);
 }
 
 }  // namespace

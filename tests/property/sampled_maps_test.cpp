@@ -153,9 +153,7 @@ test::PropertyOutcome maps_obey_newton(const LoopCase& drawn) {
 }
 
 TEST(SampledMaps, ObeyNewtonsLawsUnderALateForce) {
-  const auto draws = test::property_draws(2000);
-  const auto tally = test::for_all(601, draws, test::random_loop_case, maps_obey_newton);
-  EXPECT_GT(tally.held, draws * 3 / 4);
+  test::expect_property(601, 2000, test::random_loop_case, maps_obey_newton, 0.75);
 }
 
 }  // namespace

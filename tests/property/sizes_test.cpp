@@ -32,6 +32,13 @@ void expect_refused(const Entry<Argument>& entry, const Argument& argument,
   EXPECT_THROW(entry.call(argument), InvalidParameter) << entry.name << ": " << what;
 }
 
+void expect_sizes_refused(const std::vector<Entry<Column>>& entries,
+                          const std::vector<Eigen::Index>& sizes) {
+  for (const Entry<Column>& entry : entries)
+    for (const Eigen::Index size : sizes)
+      expect_refused<Column>(entry, Column::Zero(size), "size " + std::to_string(size));
+}
+
 /// A plant one of whose parts has lost or won an entry.
 struct BrokenPlant {
   std::string part;
@@ -40,41 +47,30 @@ struct BrokenPlant {
 
 std::vector<BrokenPlant> broken_plants() {
   std::vector<BrokenPlant> broken;
-  const auto breaks = [&](const std::string& part, const auto& at) {
+  const auto breaks = [&](const std::string& part, auto& entries, const Plant& plant) {
+    const auto whole = entries;
     for (const Eigen::Index by : {-1, 1}) {
-      Plant plant = test::lagging_plant();
-      auto& entries = at(plant);
-      const bool column = entries.cols() == 1;
-      entries.setZero(entries.rows() + (column ? by : 0), entries.cols() + (column ? 0 : by));
+      const bool column = whole.cols() == 1;
+      entries.setZero(whole.rows() + (column ? by : 0), whole.cols() + (column ? 0 : by));
       broken.push_back({part, plant});
     }
+    entries = whole;
   };
-  breaks(
-      "A", [](Plant & p) -> auto& { return p.released_matrix; });
-  breaks(
-      "b", [](Plant & p) -> auto& { return p.force_input; });
-  breaks(
-      "b_u", [](Plant & p) -> auto& { return p.command_input; });
-  breaks(
-      "c", [](Plant & p) -> auto& { return p.excitation; });
-  breaks(
-      "f", [](Plant & p) -> auto& { return p.drive_force; });
-  breaks(
-      "z", [](Plant & p) -> auto& { return p.connections.displacement; });
-  breaks(
-      "v", [](Plant & p) -> auto& { return p.connections.velocity; });
-  breaks(
-      "h_z", [](Plant & p) -> auto& { return p.connections.measured_displacement; });
-  breaks(
-      "h_v", [](Plant & p) -> auto& { return p.connections.measured_velocity; });
-  breaks(
-      "dz", [](Plant & p) -> auto& { return p.connections.relative_displacement; });
-  breaks(
-      "dv", [](Plant & p) -> auto& { return p.connections.relative_velocity; });
-  breaks(
-      "e_z", [](Plant & p) -> auto& { return p.connections.displacement_lift; });
-  breaks(
-      "e_v", [](Plant & p) -> auto& { return p.connections.velocity_lift; });
+  Plant plant = test::lagging_plant();
+  breaks("A", plant.released_matrix, plant);
+  breaks("b", plant.force_input, plant);
+  breaks("b_u", plant.command_input, plant);
+  breaks("c", plant.excitation, plant);
+  breaks("f", plant.drive_force, plant);
+  auto& ports = plant.connections;
+  breaks("z", ports.displacement, plant);
+  breaks("v", ports.velocity, plant);
+  breaks("h_z", ports.measured_displacement, plant);
+  breaks("h_v", ports.measured_velocity, plant);
+  breaks("dz", ports.relative_displacement, plant);
+  breaks("dv", ports.relative_velocity, plant);
+  breaks("e_z", ports.displacement_lift, plant);
+  breaks("e_v", ports.velocity_lift, plant);
   return broken;
 }
 
@@ -99,7 +95,7 @@ TEST(Sizes, OfAPlantsPartsAreCheckedByEveryEntry) {
       {"with_drive_lag of second order", [](const Plant& p) { with_drive_lag(p, 60.0, 0.7); }},
       {"with_hardware",
        [](const Plant& p) {
-         with_hardware(p, {80.0, 60.0, 0.7});
+         with_hardware(p, LoopHardware{80.0, 60.0, 0.7});
        }},
       {"with_controller", [](const Plant& p) { with_controller(p, gains); }},
       {"natural_modes", [](const Plant& p) { natural_modes(p); }},
@@ -109,10 +105,7 @@ TEST(Sizes, OfAPlantsPartsAreCheckedByEveryEntry) {
       {"sampled_loop", [](const Plant& p) { sampled_loop(p, sampling); }},
       {"loop_map", [](const Plant& p) { loop_map(p, sampling); }},
       {"exact_harmonic", [](const Plant& p) { exact_harmonic(p, 0.01, 60.0); }},
-      {"ModalResponse",
-       [](const Plant& p) {
-         ModalResponse<double>{p, sampling};
-       }},
+      {"ModalResponse", [](const Plant& p) { return ModalResponse<double>(p, sampling); }},
       {"steady_response",
        [](const Plant& p) { steady_response(p, sampling, ForceHold::sampled, 60.0); }},
       {"true_amplitude_per_force", [](const Plant& p) { true_amplitude_per_force(p, 60.0); }},
@@ -182,9 +175,7 @@ TEST(Sizes, OfAStateAreCheckedByEveryEntry) {
          motion.restore(memory);
        }},
   };
-  for (const Entry<Column>& entry : entries)
-    for (const Eigen::Index size : {rest.size() - 1, rest.size() + 1})
-      expect_refused<Column>(entry, Column::Zero(size), "size " + std::to_string(size));
+  expect_sizes_refused(entries, {rest.size() - 1, rest.size() + 1});
 }
 
 TEST(Sizes, OfAStateOfTheTwoMassesAreCheckedWhereTheyAreKnownAtRunTime) {
@@ -201,9 +192,7 @@ TEST(Sizes, OfAStateOfTheTwoMassesAreCheckedWhereTheyAreKnownAtRunTime) {
          periodically_forced_motion(loop, Rational{1, 10}, x);
        }},
   };
-  for (const Entry<Column>& entry : entries)
-    for (const Eigen::Index size : {0, 3, 5})
-      expect_refused<Column>(entry, Column::Zero(size), "size " + std::to_string(size));
+  expect_sizes_refused(entries, {0, 3, 5});
   EXPECT_EQ(event_motion(built, Column::Unit(4, 2)).state(), (Vector<double, 4>::Unit(2)));
 }
 
@@ -215,9 +204,7 @@ TEST(Sizes, OfASpansStateAreChecked) {
       {"find_periodic_orbit", [&](const Column& x) { find_periodic_orbit(loop, x); }},
       {"classify_motion", [&](const Column& x) { classify_motion(loop, x); }},
   };
-  for (const Entry<Column>& entry : entries)
-    for (const Eigen::Index size : {0, 3, 6})
-      expect_refused<Column>(entry, Column::Zero(size), "size " + std::to_string(size));
+  expect_sizes_refused(entries, {0, 3, 6});
 }
 
 TEST(Sizes, OfMatricesAreChecked) {

@@ -82,6 +82,8 @@ inline UnitsCase random_units_case(Random& random, bool with_time) {
   return drawn;
 }
 
+inline UnitsCase case_in_other_units(Random& random) { return random_units_case(random, true); }
+
 inline bool same_loop(const SampledLoop<double>& a, const SampledLoop<double>& b) {
   return a.transition == b.transition && a.increment == b.increment &&
          a.previous_force == b.previous_force && a.present_force == b.present_force &&

@@ -28,7 +28,6 @@ UnitsCase held_case_in_other_mass_and_length(Random& random) {
   drawn.loop.exact_hold = 0;
   return drawn;
 }
-UnitsCase case_in_other_units(Random& random) { return test::random_units_case(random, true); }
 
 /// Largest sum of a row of |A| τ, balanced.
 double turns_of(const test::LoopCase& drawn) {
@@ -76,15 +75,11 @@ test::PropertyOutcome matrices_scale(const UnitsCase& units) {
 }
 
 TEST(UnitsOfLoop, MatricesScale) {
-  const auto draws = test::property_draws(2000);
-  const auto tally = test::for_all(101, draws, case_in_other_units, matrices_scale);
-  EXPECT_EQ(tally.held, draws);
+  test::expect_property(101, 2000, test::case_in_other_units, matrices_scale);
 }
 
 TEST(UnitsOfLoop, MatricesKeepTheirBitsInOtherUnitsOfMassAndLength) {
-  const auto draws = test::property_draws(2000);
-  const auto tally = test::for_all(102, draws, case_in_other_mass_and_length, matrices_scale);
-  EXPECT_EQ(tally.held, draws);
+  test::expect_property(102, 2000, case_in_other_mass_and_length, matrices_scale);
 }
 
 test::PropertyOutcome same_intervals(const std::string& what,
@@ -118,9 +113,7 @@ test::PropertyOutcome intervals_scale(const UnitsCase& units) {
 }
 
 TEST(UnitsOfLoop, StableIntervalsScaleToTheLastBit) {
-  const auto draws = test::property_draws(2000);
-  const auto tally = test::for_all(103, draws, case_in_other_units, intervals_scale);
-  EXPECT_GT(tally.held, draws * 3 / 4);
+  test::expect_property(103, 2000, test::case_in_other_units, intervals_scale, 0.75);
 }
 
 test::PropertyOutcome boundary_scales(const UnitsCase& units) {
@@ -149,9 +142,7 @@ test::PropertyOutcome boundary_scales(const UnitsCase& units) {
 }
 
 TEST(UnitsOfLoop, BoundaryPointsScaleToTheLastBit) {
-  const auto draws = test::property_draws(300);
-  const auto tally = test::for_all(104, draws, case_in_other_units, boundary_scales);
-  EXPECT_GT(tally.held, draws * 3 / 4);
+  test::expect_property(104, 300, test::case_in_other_units, boundary_scales, 0.75);
 }
 
 /// Largest condition number of an eigenvalue of a balanced matrix: what it moves by, per unit that
@@ -185,9 +176,7 @@ test::PropertyOutcome radius_scales(const UnitsCase& units) {
 }
 
 TEST(UnitsOfLoop, SpectralRadiusStays) {
-  const auto draws = test::property_draws(2000);
-  const auto tally = test::for_all(105, draws, case_in_other_units, radius_scales);
-  EXPECT_GT(tally.held, draws * 3 / 4);
+  test::expect_property(105, 2000, test::case_in_other_units, radius_scales, 0.75);
 }
 
 double steady_amplitude(const test::LoopCase& drawn, const SampledLoop<double>& loop) {
@@ -206,10 +195,7 @@ test::PropertyOutcome amplitude_scales(const UnitsCase& units) {
 }
 
 TEST(UnitsOfLoop, SteadyAmplitudeKeepsItsBitsInOtherUnitsOfMassAndLength) {
-  const auto draws = test::property_draws(2000);
-  const auto tally =
-      test::for_all(106, draws, held_case_in_other_mass_and_length, amplitude_scales);
-  EXPECT_EQ(tally.held, draws);
+  test::expect_property(106, 2000, held_case_in_other_mass_and_length, amplitude_scales);
 }
 
 }  // namespace

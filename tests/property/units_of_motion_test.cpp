@@ -10,10 +10,7 @@ namespace {
 
 using test::LoopCase;
 using test::LoopInBothUnits;
-using test::Random;
 using test::UnitsCase;
-
-UnitsCase motion_in_other_units(Random& random) { return test::random_units_case(random, true); }
 
 template <class Law>
 SampledMotion<double, Law> motion_of(const LoopCase& drawn, const SampledLoop<double>& loop,
@@ -59,20 +56,14 @@ test::PropertyOutcome motion_scales(const UnitsCase& units) {
     const bool held = units.loop.exact_hold == 0;
     return held ? test::fails("the held force differs in its bits") : test::does_not_apply();
   }
-  const test::PropertyOutcome outcomes[] = {
-      samples_scale<Backlash<double>>("kollar", units, loop),
-      samples_scale<ImmediateBacklash<double>>("immediate", units, loop),
-      samples_scale<PlayBacklash<double>>("play", units, loop),
-      samples_scale<DeadZone<double>>("dead zone", units, loop)};
-  for (const auto& outcome : outcomes)
-    if (outcome.kind != test::PropertyOutcome::Kind::holds) return outcome;
-  return test::holds();
+  return test::all_of({samples_scale<Backlash<double>>("kollar", units, loop),
+                       samples_scale<ImmediateBacklash<double>>("immediate", units, loop),
+                       samples_scale<PlayBacklash<double>>("play", units, loop),
+                       samples_scale<DeadZone<double>>("dead zone", units, loop)});
 }
 
 TEST(UnitsOfMotion, EverySampleScalesToTheLastBit) {
-  const auto draws = test::property_draws(2000);
-  const auto tally = test::for_all(111, draws, motion_in_other_units, motion_scales);
-  EXPECT_GT(tally.held, draws * 3 / 4);
+  test::expect_property(111, 2000, test::case_in_other_units, motion_scales, 0.75);
 }
 
 LyapunovSpectrum<double, 5> spectrum_of(const LoopCase& drawn, const SampledLoop<double>& loop) {
@@ -108,9 +99,7 @@ test::PropertyOutcome largest_exponent_stays(const UnitsCase& drawn) {
 }
 
 TEST(UnitsOfMotion, LargestLyapunovExponentStays) {
-  const auto draws = test::property_draws(1000);
-  const auto tally = test::for_all(112, draws, motion_in_other_units, largest_exponent_stays);
-  EXPECT_GT(tally.held, draws * 3 / 4);
+  test::expect_property(112, 1000, test::case_in_other_units, largest_exponent_stays, 0.75);
 }
 
 }  // namespace

@@ -84,15 +84,11 @@ test::PropertyOutcome orbit_scales(const UnitsCase& units) {
 }
 
 TEST(UnitsOfOrbit, AreThoseOfItsLoop) {
-  const auto draws = test::property_draws(200);
-  const auto tally = test::for_all(131, draws, random_orbit_case, orbit_scales);
-  EXPECT_GT(tally.held, draws / 4);
+  test::expect_property(131, 200, random_orbit_case, orbit_scales, 0.25);
 }
 
 TEST(UnitsOfOrbit, NearThePaperAreThoseOfItsLoop) {
-  const auto draws = test::property_draws(200);
-  const auto tally = test::for_all(113, draws, random_paper_case, orbit_scales);
-  EXPECT_GT(tally.held, draws / 4);
+  test::expect_property(113, 200, random_paper_case, orbit_scales, 0.25);
 }
 
 }  // namespace

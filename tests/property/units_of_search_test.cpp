@@ -7,7 +7,6 @@
 namespace holdfast {
 namespace {
 
-using test::Random;
 using test::UnitsCase;
 
 MaxDelayOptions options_of(const test::LoopCase& drawn, double unit_of_time) {
@@ -53,11 +52,7 @@ test::PropertyOutcome largest_period_scales(const UnitsCase& units) {
 }
 
 TEST(UnitsOfSearch, LargestSamplingPeriodScales) {
-  const auto draws = test::property_draws(100);
-  const auto tally = test::for_all(
-      121, draws, [](Random& random) { return test::random_units_case(random, true); },
-      largest_period_scales);
-  EXPECT_EQ(tally.held, draws);
+  test::expect_property(121, 100, test::case_in_other_units, largest_period_scales);
 }
 
 }  // namespace

@@ -44,9 +44,7 @@ test::PropertyOutcome verdicts_agree(const LoopCase& drawn) {
 }
 
 TEST(StabilityVerdicts, AgreeWithTheRoots) {
-  const auto draws = test::property_draws(2000);
-  const auto tally = test::for_all(701, draws, test::random_loop_case, verdicts_agree);
-  EXPECT_GT(tally.held, draws * 9 / 10);
+  test::expect_property(701, 2000, test::random_loop_case, verdicts_agree, 0.9);
 }
 
 /// A gain is moved to within 10⁻⁸ … 10⁻² of itself of an end of a stable interval.
@@ -63,9 +61,7 @@ LoopCase random_case_near_the_boundary(test::Random& random) {
 }
 
 TEST(StabilityVerdicts, AgreeWithTheRootsNearTheBoundary) {
-  const auto draws = test::property_draws(2000);
-  const auto tally = test::for_all(702, draws, random_case_near_the_boundary, verdicts_agree);
-  EXPECT_GT(tally.held, draws / 2);
+  test::expect_property(702, 2000, random_case_near_the_boundary, verdicts_agree, 0.5);
 }
 
 }  // namespace

@@ -79,18 +79,5 @@ TEST(PackedContactLaws, TheTouchedStopIsThatOfEveryLaneAlone) {
   }
 }
 
-TEST(PackedContactLaws, ThePlayOperatorIsThatOfEveryLaneAlone) {
-  PlayOperator<LawPack> together(LawPack(0.25), LawPack(0.0));
-  std::vector<PlayOperator<double>> alone(law_lanes, PlayOperator<double>(0.25, 0.0));
-  test::Random random(893);
-  for (int sample = 0; sample < 2000; ++sample) {
-    const LawLanes input = lattice_lanes(random);
-    LawLanes output{};
-    Lanes<LawPack>::store(together.step(input.pack()), output.values);
-    for (std::size_t lane = 0; lane < law_lanes; ++lane)
-      ASSERT_EQ(output.values[lane], alone[lane].step(input.values[lane]));
-  }
-}
-
 }  // namespace
 }  // namespace holdfast

@@ -13,6 +13,7 @@
 #include "support/polynomial/pair_gains.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
+#include "support/same_intervals.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::test {
@@ -32,24 +33,9 @@ TEST(AnyOrder, IntervalsOfTwoMassesAreTheClosedForms) {
     const Sampling<double> sampling = random_sampling(plant, random);
     const PdGains<double> gains = random_gains(plant, sampling.period, random);
     const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
-    const LoopMap<double> map = loop_map(plant, sampling);
-    const auto closed = stable_differential_gains(polynomial, gains.proportional);
-    const auto general = stable_gains(map, FreeGain::differential, gains);
-    if (closed.size() != general.size()) {
-      // Only an interval that round-off can hardly see may make a difference.
-      for (const auto& intervals : {closed, general})
-        for (const auto& interval : intervals)
-          if (intervals.size() > std::min(closed.size(), general.size())) {
-            EXPECT_LT(interval.upper - interval.lower, 1e-6 * std::abs(interval.lower)) << draw;
-          }
-      continue;
-    }
-    for (std::size_t k = 0; k < closed.size(); ++k) {
-      const double size = std::abs(closed[k].lower) + std::abs(closed[k].upper);
-      EXPECT_NEAR(general[k].lower, closed[k].lower, 1e-8 * size) << draw;
-      EXPECT_NEAR(general[k].upper, closed[k].upper, 1e-8 * size) << draw;
-      ++compared;
-    }
+    compared += expect_same_intervals(
+        stable_gains(loop_map(plant, sampling), FreeGain::differential, gains),
+        stable_differential_gains(polynomial, gains.proportional), 1e-8);
   }
   EXPECT_GT(compared, 150);
 }
@@ -58,15 +44,12 @@ TEST(AnyOrder, ProportionalIntervalsOfTwoMassesAreTheClosedForms) {
   const TwoMass<double> plant = kollar2022_plant();
   for (const double period : {0.001, 0.003, 0.01}) {
     const Sampling<double> sampling{period, 0.3 * period};
-    const auto closed =
-        stable_proportional_gains(characteristic_polynomial(sampled_loop(plant, sampling)), -8.0);
-    const auto general =
-        stable_gains(loop_map(plant, sampling), FreeGain::proportional, {0.0, -8.0});
-    ASSERT_EQ(general.size(), closed.size());
-    for (std::size_t k = 0; k < closed.size(); ++k) {
-      EXPECT_NEAR(general[k].lower, closed[k].lower, 1e-9 * std::abs(closed[k].lower));
-      EXPECT_NEAR(general[k].upper, closed[k].upper, 1e-9 * std::abs(closed[k].upper));
-    }
+    const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
+    const auto closed = stable_proportional_gains(polynomial, -8.0);
+    EXPECT_EQ(expect_same_intervals(
+                  stable_gains(loop_map(plant, sampling), FreeGain::proportional, {0.0, -8.0}),
+                  closed, 5e-11),
+              static_cast<int>(closed.size()));
   }
 }
 
@@ -131,18 +114,23 @@ TEST(AnyOrder, ChartOfTwoMassesIsTheClosedForms) {
   EXPECT_EQ(stability_chart(circle, grid), stability_chart(polynomial, grid));
 }
 
+/// G_z and G_v at λ = e^{iθ}, by a dense solution.
+CommandResponse<double> dense_response(const LoopMap<double>& map, double angle) {
+  Eigen::MatrixXcd matrix = -map.open_map.cast<Complex>();
+  matrix.diagonal().array() += std::polar(1.0, angle);
+  const Eigen::VectorXcd x = solution_of(matrix, map.command.cast<Complex>());
+  return {(map.displacement.cast<Complex>() * x).value(),
+          (map.velocity.cast<Complex>() * x).value()};
+}
+
 TEST(AnyOrder, ResponseIsThatOfTheDenseResolvent) {
   const auto plant = lagging_plant(50.0, 80.0);
   const LoopMap<double> map = loop_map(plant, {0.002, 0.0051});
   EXPECT_EQ(map.held_commands, 3);
   const LoopResponse<double> response(map);
   for (const double angle : {1e-3, 0.1, 0.7, 2.0, 3.1, pi<double>}) {
-    Eigen::MatrixXcd matrix = -map.open_map.cast<Complex>();
-    matrix.diagonal().array() += std::polar(1.0, angle);
-    const Eigen::VectorXcd solution = test::solution_of(matrix, map.command.cast<Complex>());
     const CommandResponse<double> g = response.at_angle(angle);
-    const Complex z = (map.displacement.cast<Complex>() * solution).value();
-    const Complex v = (map.velocity.cast<Complex>() * solution).value();
+    const auto [z, v] = dense_response(map, angle);
     EXPECT_LT(std::abs(g.displacement - z), 1e-10 * std::abs(z)) << angle;
     // At low frequencies the absorber's force hardly moves the conductor: G_v is a small
     // difference.
@@ -161,11 +149,9 @@ TEST(AnyOrder, BoundaryPointsHaveARootOnTheCircle) {
     EXPECT_LE(point.gains.proportional, 200.0);
     if (!std::isfinite(point.gains.differential)) continue;
     // 1 − P G_z − D G_v = 0 at the point's own λ, by a dense solution.
-    Eigen::MatrixXcd matrix = -map.open_map.cast<Complex>();
-    matrix.diagonal().array() += std::polar(1.0, point.angle);
-    const Eigen::VectorXcd x = test::solution_of(matrix, map.command.cast<Complex>());
-    const Complex z = point.gains.proportional * (map.displacement.cast<Complex>() * x).value();
-    const Complex v = point.gains.differential * (map.velocity.cast<Complex>() * x).value();
+    const auto g = dense_response(map, point.angle);
+    const Complex z = point.gains.proportional * g.displacement;
+    const Complex v = point.gains.differential * g.velocity;
     EXPECT_LT(std::abs(1.0 - z - v), 1e-7 * (1.0 + std::abs(z) + std::abs(v))) << point.angle;
     pairs += point.curve == BoundaryCurve::complex_pair ? 1 : 0;
   }
@@ -232,10 +218,7 @@ TEST(LinearPlant, FilterAndDriveMultiplyTheTransferFunction) {
 TEST(LinearPlant, RefusesWhatNoLoopCanBeClosedOn) {
   auto plant = through_ports(kollar2022_plant());
   EXPECT_NO_THROW(validate(plant));
-  EXPECT_THROW(with_measurement_filter(plant, 0.0), InvalidParameter);
-  EXPECT_THROW(with_drive_lag(plant, -1.0), InvalidParameter);
   EXPECT_THROW(with_drive_lag(plant, 10.0, 0.0), InvalidParameter);
-  EXPECT_THROW(loop_map(plant, {0.001, -1e-9}), InvalidParameter);
   EXPECT_THROW(loop_map(plant, {0.0, 0.0}), InvalidParameter);
   plant.force_input.setZero();
   EXPECT_THROW(validate(plant), InvalidParameter);

@@ -32,9 +32,9 @@ class Digits : public ::testing::Test {
   /// Compares f(x) in both types.
   /// @param f             generic: Vector<Scalar, N> → Scalar
   /// @param cancellation  ≥ 1, how many times larger the numbers are of which f is the difference
-  template <class Function, int N>
-  void compare(const std::string& quantity, const std::string& of, const Function& f,
-               const Vector<double, N>& x, double cancellation = 1.0) {
+  template <int N, class Function>
+  void compare(const std::string& quantity, const std::string& of, const Vector<double, N>& x,
+               const Function& f, double cancellation = 1.0) {
     const Vector<long double, N> wide = x.template cast<long double>();
     const long double reference = f(wide);
     const double promised = promised_digits(f, wide, reference) - std::log10(cancellation);

@@ -43,11 +43,17 @@ struct KollarCase {
   }
 };
 
-/// Its loop with another period (s), width (m) and δ/τ.
-inline IdealLoop<double> kollar_loop(double period, double width, double delay_fraction = 0.0) {
+/// The case with another period (s) and width (m).
+inline KollarCase kollar_case(double period, double width) {
   KollarCase which;
   which.sampling_period = period;
   which.width = width;
+  return which;
+}
+
+/// Its loop with another period (s), width (m) and δ/τ.
+inline IdealLoop<double> kollar_loop(double period, double width, double delay_fraction = 0.0) {
+  KollarCase which = kollar_case(period, width);
   which.processing_delay = delay_fraction * period;
   return which.ideal_loop();
 }

@@ -46,6 +46,13 @@ inline PdGains<double> random_gains(const TwoMass<double>& plant, double period,
           (random.unit() < 0.8 ? -1.0 : 1.0) * random.log_uniform(1e-3, 2.0) * mass / period};
 }
 
+/// The loop of those very doubles, in extended precision.
+inline SampledLoop<long double> precise_loop(const TwoMass<double>& plant,
+                                             const Sampling<double>& sampling) {
+  return sampled_loop(converted<long double>(plant),
+                      Sampling<long double>{sampling.period, sampling.processing_delay});
+}
+
 /// How far the loop's dominant root lies outside the unit circle, in extended precision.
 struct Growth {
   double excess;    ///< max |λ| − 1
@@ -55,10 +62,8 @@ struct Growth {
 inline Growth growth(const TwoMass<double>& plant, const Sampling<double>& sampling,
                      const PdGains<double>& gains) {
   using Precise = long double;
-  const auto loop = sampled_loop(converted<Precise>(plant),
-                                 Sampling<Precise>{sampling.period, sampling.processing_delay});
-  const auto polynomial =
-      characteristic_polynomial(loop).at(PdGains<Precise>{gains.proportional, gains.differential});
+  const auto polynomial = characteristic_polynomial(precise_loop(plant, sampling))
+                              .at(PdGains<Precise>{gains.proportional, gains.differential});
   Precise largest = -1, nearest = 2;
   for (const auto& mu : roots(polynomial)) {
     const Precise square = 2 * mu.real() + std::norm(mu);  // |1 + μ|² − 1 without cancellation

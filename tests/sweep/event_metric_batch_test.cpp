@@ -3,6 +3,7 @@
 #include "holdfast/sweep/event_metrics.hpp"
 #include "motion/batch/event_pack_setting.hpp"
 #include "support/testing.hpp"
+#include "sweep/sweep_setting.hpp"
 
 namespace holdfast {
 namespace {
@@ -16,15 +17,6 @@ std::vector<MotionMetrics> batch_of(const std::vector<test::ExactMotion>& motion
   return results;
 }
 
-void expect_close(double is, double should_be, double share) {
-  if (std::isnan(should_be) || std::isinf(should_be)) {
-    EXPECT_EQ(std::isnan(is), std::isnan(should_be));
-    EXPECT_EQ(std::isinf(is), std::isinf(should_be));
-    return;
-  }
-  EXPECT_LE(std::abs(is - should_be), share * std::abs(should_be));
-}
-
 void expect_same(const MotionMetrics& is, const MotionMetrics& should_be, double share) {
   EXPECT_EQ(is.end, should_be.end);
   EXPECT_EQ(is.samples, should_be.samples);
@@ -32,7 +24,7 @@ void expect_same(const MotionMetrics& is, const MotionMetrics& should_be, double
        {&MotionMetrics::first_peak, &MotionMetrics::steady_peak, &MotionMetrics::steady_rms,
         &MotionMetrics::engaged_fraction, &MotionMetrics::force_peak, &MotionMetrics::force_rms,
         &MotionMetrics::reversals_per_s, &MotionMetrics::absorber_stroke})
-    expect_close(is.*member, should_be.*member, share);
+    EXPECT_TRUE(test::agree(is.*member, should_be.*member, share));
 }
 
 TEST(EventMetricBatch, OfRegularMotionsAreThoseOfEventMetrics) {

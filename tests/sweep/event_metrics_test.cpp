@@ -1,7 +1,5 @@
 #include "holdfast/sweep/event_metrics.hpp"
 
-#include "holdfast/sweep/metric_batch.hpp"
-#include "support/kollar_case.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/testing.hpp"
 #include "sweep/sweep_setting.hpp"
@@ -9,25 +7,8 @@
 namespace holdfast {
 namespace {
 
-std::vector<MotionMetrics> batch_metrics_of(const std::vector<SweepMotion>& motions,
-                                            double duration) {
-  std::vector<MotionMetrics> results(motions.size());
-  motion_metrics<double>(motions.data(), motions.size(), duration, results.data());
-  return results;
-}
-
 MotionMetrics event_metrics_of(const SweepMotion& motion, double duration) {
   return event_metrics(implemented_loop(motion.loop), motion.initial_state, duration);
-}
-
-SweepMotion metric_motion(double sampling_period, double width,
-                          ForceHold hold = ForceHold::sampled) {
-  test::KollarCase which;
-  which.sampling_period = sampling_period;
-  which.width = width;
-  SweepMotion motion{which.ideal_loop(), Vector<double, 4>::Zero()};
-  motion.loop.hold = hold;
-  return motion;
 }
 
 /// The metrics of another way to compute them: counts identical, lengths to 1e-12 of the motion's
@@ -59,7 +40,7 @@ void expect_same_motion(const MotionMetrics& metrics, const MotionMetrics& expec
 
 /// @return how many of the motions switch
 int expect_those_of_the_batch(const std::vector<SweepMotion>& motions, double duration) {
-  const auto expected = batch_metrics_of(motions, duration);
+  const auto expected = test::metrics_of(motions, duration);
   int switching = 0;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     SCOPED_TRACE(k);
@@ -74,11 +55,11 @@ TEST(EventMetrics, OfTheLoopOfThePaperAreThoseOfTheBatch) {
   for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact})
     for (const double width : {0.0, 0.0005, 0.002})
       for (const double period : {0.001, 0.003})
-        motions.push_back(metric_motion(period, width, hold));
+        motions.push_back(test::kollar_motion(period, width, hold));
   EXPECT_EQ(expect_those_of_the_batch(motions, 20.0), 8);
   for (const SweepMotion& motion : motions) {
     const double reach = test::reach_of(test::record(motion, 20.0));
-    const auto expected = batch_metrics_of({motion}, 20.0).front();
+    const auto expected = test::metrics_of({motion}, 20.0).front();
     EXPECT_TRUE(test::agree(event_metrics_of(motion, 20.0), expected, 1e-12, reach));
   }
 }
@@ -90,7 +71,7 @@ TEST(EventMetrics, OfAnyLoopOfTheModelAreThoseOfTheBatch) {
 TEST(EventMetrics, OfAMotionThatDivergesAreThoseOfTheBatch) {
   auto motions = test::random_sweep_motions(200, 912, 20.0);
   for (auto& motion : motions) motion.loop.backlash_width = 0.0;
-  const auto expected = batch_metrics_of(motions, 4.0);
+  const auto expected = test::metrics_of(motions, 4.0);
   int diverged = 0;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     if (expected[k].end != MotionEnd::diverged) continue;
@@ -124,7 +105,7 @@ TEST(EventMetrics, OfAMotionWhoseContactsAccumulateAreNotNumbers) {
 }
 
 TEST(EventMetrics, OfShortMotionsAreThoseOfTheBatch) {
-  auto motion = metric_motion(0.01, 0.0005);
+  auto motion = test::kollar_motion(0.01, 0.0005);
   motion.initial_state << 0.001, 0.0, 0.003, 0.0;
   for (const double duration : {0.0, 0.009, 0.01, 0.02, 0.05})
     expect_those_of_the_batch({motion}, duration);
@@ -150,7 +131,7 @@ TEST(EventMetrics, AreTheirDefinitionsOfLoopsAsTheyAreBuilt) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     for (const ContactLaw law : {ContactLaw::kollar, ContactLaw::immediate, ContactLaw::play,
                                  ContactLaw::dead_zone, ContactLaw::none}) {
-      ImplementedLoop loop = implemented_loop(metric_motion(0.001, 0.001).loop);
+      ImplementedLoop loop = implemented_loop(test::kollar_motion(0.001, 0.001).loop);
       loop.backlash = {law, 0.001, 500.0, 1.0};
       loop.switching = switching;
       expect_defined(loop, 3.0);
@@ -168,7 +149,7 @@ TEST(EventMetrics, AreTheirDefinitionsOfLoopsAsTheyAreBuilt) {
 }
 
 TEST(EventMetrics, OfAJitteringClockHaveItsTimes) {
-  ImplementedLoop loop = implemented_loop(metric_motion(0.003, 0.0005).loop);
+  ImplementedLoop loop = implemented_loop(test::kollar_motion(0.003, 0.0005).loop);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     loop.digital.jitter = {0.0014, seed};
     // About a sample of the grid, before and after which the clock's may fall.
@@ -191,14 +172,15 @@ TEST(EventMetrics, TheSamplesOfAJitteringClockAreThoseWithinTheDuration) {
 }
 
 TEST(EventMetrics, ASaturatedDriveDeliversNoMore) {
-  ImplementedLoop loop = implemented_loop(metric_motion(0.001, 0.0).loop);
+  ImplementedLoop loop = implemented_loop(test::kollar_motion(0.001, 0.0).loop);
   const double free = event_metrics(loop, Vector<double, 4>::Zero(), 2.0).force_peak;
   loop.digital.limits.largest_force = 0.5 * free;
   EXPECT_EQ(event_metrics(loop, Vector<double, 4>::Zero(), 2.0).force_peak, 0.5 * free);
 }
 
 TEST(EventMetrics, WithExactSwitchingTheDriveReversesTwiceInEachForcingPeriod) {
-  ImplementedLoop loop = implemented_loop(metric_motion(0.001, 0.0005, ForceHold::exact).loop);
+  ImplementedLoop loop =
+      implemented_loop(test::kollar_motion(0.001, 0.0005, ForceHold::exact).loop);
   loop.switching = Switching::exact;
   const auto metrics = event_metrics(loop, Vector<double, 4>::Zero(), 20.0);
   EXPECT_NEAR(metrics.reversals_per_s, 20.0, 0.2);
@@ -207,7 +189,7 @@ TEST(EventMetrics, WithExactSwitchingTheDriveReversesTwiceInEachForcingPeriod) {
 }
 
 TEST(EventMetrics, PauseIsCalledNowAndThenAndMayEndAll) {
-  const ImplementedLoop loop = implemented_loop(metric_motion(0.001, 0.0).loop);
+  const ImplementedLoop loop = implemented_loop(test::kollar_motion(0.001, 0.0).loop);
   int pauses = 0;
   event_metrics(loop, Vector<double, 4>::Zero(), 40.0, [&] { ++pauses; });
   EXPECT_EQ(pauses, 3) << "at samples 0, 16384 and 32768";
@@ -216,7 +198,7 @@ TEST(EventMetrics, PauseIsCalledNowAndThenAndMayEndAll) {
 }
 
 TEST(EventMetrics, RefuseWhatIsNotAdmissible) {
-  ImplementedLoop loop = implemented_loop(metric_motion(0.001, 0.0).loop);
+  ImplementedLoop loop = implemented_loop(test::kollar_motion(0.001, 0.0).loop);
   Vector<double, 4> state = Vector<double, 4>::Zero();
   EXPECT_THROW(event_metrics(loop, state, -1.0), InvalidParameter);
   state[1] = std::numeric_limits<double>::infinity();
@@ -228,7 +210,7 @@ TEST(EventMetrics, RefuseWhatIsNotAdmissible) {
 
 TEST(EventMetrics, OfTheTwoMassesAsALinearPlantAreTheSame) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    const SweepMotion motion = metric_motion(0.001, 0.0005);
+    const SweepMotion motion = test::kollar_motion(0.001, 0.0005);
     ImplementedLoop loop = implemented_loop(motion.loop);
     loop.switching = switching;
     const ImplementedLoopOf<LinearPlant<double>> same{test::through_ports(loop.plant), loop.digital,

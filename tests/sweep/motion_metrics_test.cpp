@@ -1,27 +1,14 @@
 #include "holdfast/sweep/motion_metrics.hpp"
 
-#include "holdfast/sweep/metric_batch.hpp"
-#include "support/kollar_case.hpp"
 #include "support/testing.hpp"
 #include "sweep/sweep_setting.hpp"
 
 namespace holdfast {
 namespace {
 
+using test::kollar_motion;
 using test::metrics_by_definition;
-
-SweepMotion kollar_motion(double sampling_period = 0.001, double width = 0.0005) {
-  test::KollarCase which;
-  which.sampling_period = sampling_period;
-  which.width = width;
-  return {which.ideal_loop(), Vector<double, 4>::Zero()};
-}
-
-std::vector<MotionMetrics> metrics_of(const std::vector<SweepMotion>& motions, double duration) {
-  std::vector<MotionMetrics> results(motions.size());
-  motion_metrics<double>(motions.data(), motions.size(), duration, results.data());
-  return results;
-}
+using test::metrics_of;
 
 MotionMetrics metrics_of(const SweepMotion& motion, double duration) {
   return metrics_of(std::vector<SweepMotion>{motion}, duration).front();

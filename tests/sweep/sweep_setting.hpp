@@ -3,8 +3,10 @@
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"
+#include "holdfast/sweep/metric_batch.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
+#include "support/kollar_case.hpp"
 #include "support/random_loop.hpp"
 #include "support/testing.hpp"
 
@@ -38,6 +40,20 @@ inline std::vector<SweepMotion> random_sweep_motions(std::size_t count, std::uin
   for (std::size_t k = 0; k < count; ++k)
     motions.push_back(random_sweep_motion(random, gain_share));
   return motions;
+}
+
+inline SweepMotion kollar_motion(double sampling_period = 0.001, double width = 0.0005,
+                                 ForceHold hold = ForceHold::sampled) {
+  SweepMotion motion{kollar_loop(sampling_period, width), Vector<double, 4>::Zero()};
+  motion.loop.hold = hold;
+  return motion;
+}
+
+inline std::vector<MotionMetrics> metrics_of(const std::vector<SweepMotion>& motions,
+                                             double duration) {
+  std::vector<MotionMetrics> results(motions.size());
+  motion_metrics<double>(motions.data(), motions.size(), duration, results.data());
+  return results;
 }
 
 /// The samples of a motion by the plain stepper.

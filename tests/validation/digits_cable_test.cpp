@@ -18,8 +18,6 @@ using test::plant_inputs;
 using test::plant_of;
 using test::six;
 
-class CableDigits : public test::Digits {};
-
 /// [μ, L, f, A, E, ζ, g, x_p, m₂] of Table 1.
 Vector<double, 9> cable_inputs() {
   const auto c = kollar2022_conductor();
@@ -37,95 +35,69 @@ Scalar resting_load(const Vector<Scalar, 9>& x) {
   return x[8] * x[6];
 }
 
-/// Displacement beyond the equilibrium with the absorber's weight, by either statics.
-template <template <class> class PointLoad>
-struct Displacement {
-  double force;
-  template <class Scalar>
-  Scalar operator()(const Vector<Scalar, 9>& x) const {
-    const PointLoad<Scalar> cable(conductor_of(x), x[7]);
-    const Scalar rest = resting_load(x);
-    return cable.displacement(rest + Scalar(force)) - cable.displacement(rest);
+template <class Scalar>
+HangingCable<Scalar> cable_of(const Vector<Scalar, 9>& x) {
+  return HangingCable<Scalar>(conductor_of(x));
+}
+template <template <class> class PointLoad, class Scalar>
+PointLoad<Scalar> statics_of(const Vector<Scalar, 9>& x) {
+  return PointLoad<Scalar>(conductor_of(x), x[7]);
+}
+
+class CableDigits : public test::Digits {
+ protected:
+  /// Compares one of the two statics.
+  template <template <class> class PointLoad>
+  void compare_statics(const std::string& by) {
+    const auto x = cable_inputs();
+    const auto cable = [](const auto& v) { return statics_of<PointLoad>(v); };
+    compare("tension with the absorber, " + by, "Table 1", x,
+            [&](const auto& v) { return cable(v).tension(resting_load(v)); });
+    compare("drop under the absorber, " + by, "Table 1", x,
+            [&](const auto& v) { return cable(v).displacement(resting_load(v)); });
+    compare("stiffness k1, " + by, "Table 1", x,
+            [&](const auto& v) { return cable(v).stiffness(resting_load(v)); });
+    for (const double force : {-1.0, -0.4, 0.2, 0.4, 1.0}) {
+      // Beyond the equilibrium with the absorber's weight: a difference of two drops.
+      const auto displacement = [&](const auto& v) {
+        const auto loaded = cable(v);
+        const auto rest = resting_load(v);
+        return loaded.displacement(rest + std::decay_t<decltype(rest)>(force)) -
+               loaded.displacement(rest);
+      };
+      compare("displacement, " + by, "Fig. 2, " + std::to_string(force).substr(0, 4) + " N", x,
+              displacement,
+              1.0 + cable(x).displacement(resting_load(x)) / std::abs(displacement(x)));
+    }
   }
 };
 
 TEST_F(CableDigits, OfTheCableAsItHangs) {
   const auto x = cable_inputs();
   const std::string of = "Table 1";
-  compare(
-      "parabolic tension H", of, [](const auto& v) { return conductor_of(v).parabolic_tension(); },
-      x);
-  compare(
-      "Irvine parameter", of, [](const auto& v) { return conductor_of(v).irvine_parameter(); }, x);
-  compare(
-      "catenary tension H", of,
-      [](const auto& v) {
-        using Scalar = typename std::decay_t<decltype(v)>::Scalar;
-        return HangingCable<Scalar>(conductor_of(v)).bare_tension();
-      },
-      x);
-  compare(
-      "unstretched length", of,
-      [](const auto& v) {
-        using Scalar = typename std::decay_t<decltype(v)>::Scalar;
-        return HangingCable<Scalar>(conductor_of(v)).unstretched_length();
-      },
-      x);
+  compare("parabolic tension H", of, x,
+          [](const auto& v) { return conductor_of(v).parabolic_tension(); });
+  compare("Irvine parameter", of, x,
+          [](const auto& v) { return conductor_of(v).irvine_parameter(); });
+  compare("catenary tension H", of, x, [](const auto& v) { return cable_of(v).bare_tension(); });
+  compare("unstretched length", of, x,
+          [](const auto& v) { return cable_of(v).unstretched_length(); });
 }
 
 TEST_F(CableDigits, OfTheStaticsUnderTheAbsorber) {
-  const auto x = cable_inputs();
-  const auto exact = [](const auto& v) {
-    using Scalar = typename std::decay_t<decltype(v)>::Scalar;
-    return CatenaryPointLoad<Scalar>(conductor_of(v), v[7]);
-  };
-  const auto irvine = [](const auto& v) {
-    using Scalar = typename std::decay_t<decltype(v)>::Scalar;
-    return IrvinePointLoad<Scalar>(conductor_of(v), v[7]);
-  };
-  const std::string of = "Table 1";
-  compare(
-      "tension with the absorber, exact", of,
-      [&](const auto& v) { return exact(v).tension(resting_load(v)); }, x);
-  compare(
-      "tension with the absorber, Eq. 1", of,
-      [&](const auto& v) { return irvine(v).tension(resting_load(v)); }, x);
-  compare(
-      "drop under the absorber, exact", of,
-      [&](const auto& v) { return exact(v).displacement(resting_load(v)); }, x);
-  compare(
-      "drop under the absorber, Eq. 1", of,
-      [&](const auto& v) { return irvine(v).displacement(resting_load(v)); }, x);
-  compare(
-      "stiffness k1, exact", of, [&](const auto& v) { return exact(v).stiffness(resting_load(v)); },
-      x);
-  compare(
-      "stiffness k1, Eq. 1", of,
-      [&](const auto& v) { return irvine(v).stiffness(resting_load(v)); }, x);
-  for (const double force : {-1.0, -0.4, 0.2, 0.4, 1.0}) {
-    const std::string fig = "Fig. 2, " + std::to_string(force).substr(0, 4) + " N";
-    // Each is the difference of two drops from the bare cable.
-    const auto cancellation = [&](const auto& cable, double displacement) {
-      return 1.0 + cable.displacement(resting_load(x)) / std::abs(displacement);
-    };
-    const Displacement<CatenaryPointLoad> by_catenaries{force};
-    const Displacement<IrvinePointLoad> by_equation{force};
-    compare("displacement, exact", fig, by_catenaries, x, cancellation(exact(x), by_catenaries(x)));
-    compare("displacement, Eq. 1", fig, by_equation, x, cancellation(irvine(x), by_equation(x)));
-  }
+  compare_statics<CatenaryPointLoad>("exact");
+  compare_statics<IrvinePointLoad>("Eq. 1");
 }
 
 TEST_F(CableDigits, OfTheModes) {
   for (const int n : {1, 2, 3}) {
-    compare(
-        "symmetric frequency", "Table 1, mode " + std::to_string(n),
-        [n](const auto& v) {
-          using Scalar = typename std::decay_t<decltype(v)>::Scalar;
-          const auto conductor = conductor_of(v);
-          return Scalar(symmetric_frequency(n, conductor.irvine_parameter()) *
-                        conductor.transverse_wave_speed() / conductor.span);
-        },
-        cable_inputs());
+    compare("symmetric frequency", "Table 1, mode " + std::to_string(n), cable_inputs(),
+            [n](const auto& v) {
+              using Scalar = typename std::decay_t<decltype(v)>::Scalar;
+              const auto conductor = conductor_of(v);
+              return Scalar(symmetric_frequency(n, conductor.irvine_parameter()) *
+                            conductor.transverse_wave_speed() / conductor.span);
+            });
   }
 }
 
@@ -144,12 +116,11 @@ constexpr auto discriminant = [](const auto& v) { return reduction_discriminant(
 
 TEST_F(CableDigits, OfTheReduction) {
   const Vector<double, 4> table_1(50.3, 0.16, 1.999, 6.998);
-  compare("reduced k2", "Table 1", smaller_stiffness, table_1);
-  compare("reduced m1", "Table 1", mass, table_1);
-  compare("discriminant", "Table 1", discriminant, table_1);
-  compare(
-      "largest absorber mass", "Table 1",
-      [](const auto& v) { return largest_absorber_mass(asked_of(v)); }, table_1);
+  compare("reduced k2", "Table 1", table_1, smaller_stiffness);
+  compare("reduced m1", "Table 1", table_1, mass);
+  compare("discriminant", "Table 1", table_1, discriminant);
+  compare("largest absorber mass", "Table 1", table_1,
+          [](const auto& v) { return largest_absorber_mass(asked_of(v)); });
 }
 
 /// The absorber's mass for which the two roots lie `room` apart in the discriminant.
@@ -178,24 +149,19 @@ TEST_F(CableDigits, NearTheDoubleRootAreAsFewAsTheDiscriminantHas) {
 
 TEST_F(CableDigits, OfThePlantAndItsDecay) {
   const auto x = plant_inputs();
-  compare(
-      "slowest pole, |Re s|", "Table 1",
-      [](const auto& v) { return -spectral_abscissa(plant_of(v).state_matrix()); }, x);
+  compare("slowest pole, |Re s|", "Table 1", x,
+          [](const auto& v) { return -spectral_abscissa(plant_of(v).state_matrix()); });
   const DecayEvents events = free_decay_events(kollar2022_plant());
   const auto decay = [&](const auto& v) { return *relative_decay(plant_of(v), events); };
-  compare(
-      "first opposite peak", "§7, c2 = 4", [&](const auto& v) { return decay(v).first_peak; }, x);
-  compare(
-      "its time", "§7, c2 = 4", [&](const auto& v) { return decay(v).first_peak_time; }, x);
-  compare(
-      "period of the decay", "§7, c2 = 4", [&](const auto& v) { return decay(v).period; }, x);
-  compare(
-      "logarithmic decrement", "§7, c2 = 4",
-      [&](const auto& v) { return decay(v).logarithmic_decrement; }, x);
-  compare(
-      "tuned P, Eq. 6", "10 Hz",
-      [](const auto& v) { return tuned_proportional_gain(v[4], v[3], decltype(v[0] + v[0])(10)); },
-      x);
+  compare("first opposite peak", "§7, c2 = 4", x,
+          [&](const auto& v) { return decay(v).first_peak; });
+  compare("its time", "§7, c2 = 4", x, [&](const auto& v) { return decay(v).first_peak_time; });
+  compare("period of the decay", "§7, c2 = 4", x, [&](const auto& v) { return decay(v).period; });
+  compare("logarithmic decrement", "§7, c2 = 4", x,
+          [&](const auto& v) { return decay(v).logarithmic_decrement; });
+  compare("tuned P, Eq. 6", "10 Hz", x, [](const auto& v) {
+    return tuned_proportional_gain(v[4], v[3], decltype(v[0] + v[0])(10));
+  });
 }
 
 }  // namespace

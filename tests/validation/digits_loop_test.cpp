@@ -35,19 +35,16 @@ TEST_F(LoopDigits, OfTheMatricesOfOneSample) {
     const auto input = harmonic_input(kollar2022_plant(), narrow, ForceHold::exact, 62.8);
     const auto wide_input = harmonic_input(converted<long double>(kollar2022_plant()), wide,
                                            ForceHold::exact, static_cast<long double>(62.8));
-    const double promised = 12.5;
-    report("A_d", which.name, trusted_digits(narrow.transition, wide.transition), promised);
-    report("A_d - I", which.name, trusted_digits(narrow.increment, wide.increment), promised);
-    report("Gamma_0", which.name, trusted_digits(narrow.present_force, wide.present_force),
-           promised);
-    report("Gamma_1", which.name, trusted_digits(narrow.previous_force, wide.previous_force),
-           promised);
-    report("c_d", which.name, trusted_digits(narrow.held_excitation, wide.held_excitation),
-           promised);
-    report("c_d of the exact hold, cosine", which.name,
-           trusted_digits(input.cosine, wide_input.cosine), promised);
-    report("c_d of the exact hold, sine", which.name, trusted_digits(input.sine, wide_input.sine),
-           promised);
+    const auto tell = [&](const char* quantity, const auto& found, const auto& reference) {
+      report(quantity, which.name, trusted_digits(found, reference), 12.5);
+    };
+    tell("A_d", narrow.transition, wide.transition);
+    tell("A_d - I", narrow.increment, wide.increment);
+    tell("Gamma_0", narrow.present_force, wide.present_force);
+    tell("Gamma_1", narrow.previous_force, wide.previous_force);
+    tell("c_d", narrow.held_excitation, wide.held_excitation);
+    tell("c_d of the exact hold, cosine", input.cosine, wide_input.cosine);
+    tell("c_d of the exact hold, sine", input.sine, wide_input.sine);
   }
 }
 
@@ -59,40 +56,27 @@ TEST_F(LoopDigits, OfTheStabilityOfTheLoop) {
                  .front()
                  .representative();
     }
-    compare(
-        "spectral radius", which.name,
-        [](const auto& v) { return spectral_radius(sampled_of(v).engaged_map(loop_of(v).gains)); },
-        x);
-    compare(
-        "1 - radius", which.name,
-        [](const auto& v) { return -loop_polynomial(sampled_of(v)).excess(loop_of(v).gains); }, x);
-    compare("lowest stable D", which.name, lowest_differential_gain, x);
-    compare(
-        "highest stable D", which.name,
-        [](const auto& v) {
-          return stable_differential_gains(characteristic_polynomial(sampled_of(v)), v[8])
-              .back()
-              .upper;
-        },
-        x);
-    compare(
-        "lowest stable P", which.name,
-        [](const auto& v) {
-          return stable_proportional_gains(characteristic_polynomial(sampled_of(v)), v[9])
-              .front()
-              .lower;
-        },
-        x);
+    compare("spectral radius", which.name, x, [](const auto& v) {
+      return spectral_radius(sampled_of(v).engaged_map(loop_of(v).gains));
+    });
+    compare("1 - radius", which.name, x,
+            [](const auto& v) { return -loop_polynomial(sampled_of(v)).excess(loop_of(v).gains); });
+    compare("lowest stable D", which.name, x, lowest_differential_gain);
+    compare("highest stable D", which.name, x, [](const auto& v) {
+      return stable_differential_gains(characteristic_polynomial(sampled_of(v)), v[8]).back().upper;
+    });
+    compare("lowest stable P", which.name, x, [](const auto& v) {
+      return stable_proportional_gains(characteristic_polynomial(sampled_of(v)), v[9])
+          .front()
+          .lower;
+    });
   }
-  compare(
-      "lowest stable D", "continuous (Fig. 3)",
-      [](const auto& v) {
-        return stable_differential_gains(characteristic_polynomial(plant_of(v)),
-                                         decltype(v[0] + v[0])(-557))
-            .front()
-            .lower;
-      },
-      plant_inputs());
+  compare("lowest stable D", "continuous (Fig. 3)", plant_inputs(), [](const auto& v) {
+    return stable_differential_gains(characteristic_polynomial(plant_of(v)),
+                                     decltype(v[0] + v[0])(-557))
+        .front()
+        .lower;
+  });
 }
 
 template <class Scalar>
@@ -106,20 +90,14 @@ SteadyResponse<Scalar> response_of(const Vector<Scalar, 13>& x) {
 TEST_F(LoopDigits, OfTheSteadyResponse) {
   for (const SamplingCase& which : samplings) {
     const LoopInputs x = loop_inputs(which.period, which.delay, 0.0);
-    compare(
-        "steady amplitude", which.name,
-        [](const auto& v) { return response_of(v).amplitude_per_force(loop_of(v).gains); }, x);
-    compare(
-        "ratio to no control", which.name,
-        [](const auto& v) { return response_of(v).ratio_to_uncontrolled(loop_of(v).gains); }, x);
-    compare(
-        "D of least amplitude", which.name,
-        [](const auto& v) {
-          const auto stable =
-              stable_differential_gains(characteristic_polynomial(sampled_of(v)), v[8]);
-          return response_of(v).best_differential_gain(v[8], stable).differential_gain;
-        },
-        x);
+    compare("steady amplitude", which.name, x,
+            [](const auto& v) { return response_of(v).amplitude_per_force(loop_of(v).gains); });
+    compare("ratio to no control", which.name, x,
+            [](const auto& v) { return response_of(v).ratio_to_uncontrolled(loop_of(v).gains); });
+    compare("D of least amplitude", which.name, x, [](const auto& v) {
+      const auto stable = stable_differential_gains(characteristic_polynomial(sampled_of(v)), v[8]);
+      return response_of(v).best_differential_gain(v[8], stable).differential_gain;
+    });
   }
 }
 

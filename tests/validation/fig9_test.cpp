@@ -6,14 +6,8 @@
 namespace holdfast {
 namespace {
 
+using test::kollar_case;
 using test::KollarCase;
-
-KollarCase with(double period, double width) {
-  KollarCase which;
-  which.sampling_period = period;
-  which.width = width;
-  return which;
-}
 
 /// Largest |z(t + lag) − z(t)| over the last `lag` samples of a long motion, relative to the
 /// motion's size.
@@ -28,29 +22,30 @@ double closure(const KollarCase& which, double duration, std::size_t lag) {
 }
 
 TEST(Figure9, TheMotionOfHalfAMillimetreRepeatsWithTheForcing) {
-  EXPECT_LT(closure(with(0.001, 0.0005), 60.0, 100), 1e-9);
+  EXPECT_LT(closure(kollar_case(0.001, 0.0005), 60.0, 100), 1e-9);
 }
 
 TEST(Figure9, TheMotionOfTwoMillimetresRepeatsEveryFiveForcingPeriods) {
-  EXPECT_LT(closure(with(0.001, 0.002), 60.0, 500), 1e-9);
+  EXPECT_LT(closure(kollar_case(0.001, 0.002), 60.0, 500), 1e-9);
   for (const std::size_t forcing_periods : {1U, 2U, 3U, 4U}) {
-    EXPECT_GT(closure(with(0.001, 0.002), 60.0, 100 * forcing_periods), 1e-3) << forcing_periods;
+    EXPECT_GT(closure(kollar_case(0.001, 0.002), 60.0, 100 * forcing_periods), 1e-3)
+        << forcing_periods;
   }
 }
 
 TEST(Figure9, TheIrregularMotionOfElevenMillisecondsIsBounded) {
-  for (const auto& sample : test::record(with(0.011, 0.002), 1000.0)) {
+  for (const auto& sample : test::record(kollar_case(0.011, 0.002), 1000.0)) {
     ASSERT_LT(sample.state.cwiseAbs().maxCoeff(), 1.0);
   }
 }
 
 TEST(Figure9, TheIrregularMotionRepeatsAfterTwentyThreeSeconds) {
-  EXPECT_LT(closure(with(0.011, 0.002), 1000.0, 2100), 1e-9);
-  EXPECT_GT(closure(with(0.011, 0.002), 1000.0, 100), 1e-3);
+  EXPECT_LT(closure(kollar_case(0.011, 0.002), 1000.0, 2100), 1e-9);
+  EXPECT_GT(closure(kollar_case(0.011, 0.002), 1000.0, 100), 1e-3);
 }
 
 TEST(Figure9, AForceAWholePeriodLateWouldMakeThatMotionDiverge) {
-  KollarCase late = with(0.011, 0.0);
+  KollarCase late = kollar_case(0.011, 0.0);
   late.processing_delay = 0.011;
   auto motion = late.motion();
   EXPECT_EQ(run_trajectory(motion, 100'000, std::nullopt), TrajectoryOutcome::diverged);

@@ -26,11 +26,8 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr std::int64_t settling = 60000;
 
 ImplementedLoop loop_of(const SelfSustained& which) {
-  test::KollarCase base;
-  base.sampling_period = which.sampling_period;
-  base.gains = which.gains;
-  base.width = which.width;
-  ImplementedLoop loop = implemented_loop(base.ideal_loop());
+  ImplementedLoop loop = implemented_loop(test::kollar_loop(which.sampling_period, which.width));
+  loop.digital.gains = which.gains;
   loop.digital.force = {};
   loop.digital.limits.largest_force = which.largest_force;
   loop.digital.limits.displacement_quantum = which.quantum;

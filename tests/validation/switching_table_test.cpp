@@ -22,10 +22,7 @@ constexpr std::array<SwitchingTableRow, 4> switching_table{{
 }};
 
 ImplementedLoop table_loop(const SwitchingTableRow& row, ForceHold hold, Switching switching) {
-  test::KollarCase which;
-  which.sampling_period = row.sampling_period;
-  which.width = row.width;
-  ImplementedLoop loop = implemented_loop(which.ideal_loop());
+  ImplementedLoop loop = implemented_loop(test::kollar_loop(row.sampling_period, row.width));
   loop.digital.hold = hold;
   loop.switching = switching;
   return loop;
@@ -60,22 +57,13 @@ std::vector<ModeCounts> modes_begun(const SwitchingTableRow& row) {
   return begun;
 }
 
-TEST(SwitchingTable, SwitchingAtSamplesUnderAHeldForce) {
-  for (const auto& row : switching_table)
-    EXPECT_NEAR(late_amplitude(row, ForceHold::sampled, Switching::sampled), row.held, 0.0005)
-        << row.sampling_period << " s, " << row.width << " m";
-}
-
-TEST(SwitchingTable, SwitchingAtSamplesUnderTheExactForce) {
-  for (const auto& row : switching_table)
-    EXPECT_NEAR(late_amplitude(row, ForceHold::exact, Switching::sampled), row.sampled, 0.0005)
-        << row.sampling_period << " s, " << row.width << " m";
-}
-
-TEST(SwitchingTable, ExactSwitchingUnderTheExactForce) {
-  for (const auto& row : switching_table)
-    EXPECT_NEAR(late_amplitude(row, ForceHold::exact, Switching::exact), row.exact, 0.00005)
-        << row.sampling_period << " s, " << row.width << " m";
+TEST(SwitchingTable, LateAmplitudesAreTheStatedOnes) {
+  for (const auto& row : switching_table) {
+    SCOPED_TRACE(std::to_string(row.sampling_period) + " s, " + std::to_string(row.width) + " m");
+    EXPECT_NEAR(late_amplitude(row, ForceHold::sampled, Switching::sampled), row.held, 0.0005);
+    EXPECT_NEAR(late_amplitude(row, ForceHold::exact, Switching::sampled), row.sampled, 0.0005);
+    EXPECT_NEAR(late_amplitude(row, ForceHold::exact, Switching::exact), row.exact, 0.00005);
+  }
 }
 
 TEST(SwitchingTable, EveryHalfCycleHasOneStickOneGapAndOneEngagedPhase) {

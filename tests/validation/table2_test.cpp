@@ -14,9 +14,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Vector<double, 5> exponents(double period, double duration, bool printed_tangent) {
-  test::KollarCase which;
-  which.sampling_period = period;
-  which.width = 0.002;
+  const test::KollarCase which = test::kollar_case(period, 0.002);
   test::KollarCase tangent = which;
   if (printed_tangent) tangent.processing_delay = period;
   LyapunovObserver observer(tangent.loop(), which.gains);

@@ -53,49 +53,6 @@ ExponentEstimate largest_exponent(const LyapunovSpectrum<double, Size>& spectrum
   return exponent_estimate(value, found.standard_errors[which]);
 }
 
-}  // namespace detail
-
-/// The largest Lyapunov exponent of a sequence of tangent maps, with a 99 % interval that holds
-/// also where the sums are bounded.
-///
-/// First `settle` turns the basis into the directions of the exponents, and nothing is summed; then
-/// `push` sums ln |R_jj|.
-template <int Size>
-class LeadingExponent {
- public:
-  /// Begins without a map. The first argument is how many maps will be pushed after settling, ≥ 64;
-  /// the second their size, where that is known at run time alone.
-  /// @throws InvalidParameter for fewer
-  explicit LeadingExponent(std::int64_t expected_steps, Eigen::Index size = Size < 0 ? 0 : Size)
-      : basis_(Matrix<double, Size>::Identity(size, size)), spectrum_(basis_) {
-    require_within("number of steps", static_cast<double>(expected_steps), "", 64.0, 1e15);
-  }
-
-  /// Turns the basis by one map of the transient; call before the first push.
-  void settle(const Matrix<double, Size>& tangent) {
-    Matrix<double, Size> stretched = tangent * basis_;
-    basis_ = orthogonal_factor(stretched);
-  }
-
-  /// Takes in one map.
-  void push(const Matrix<double, Size>& tangent) {
-    if (spectrum_.steps() == 0) spectrum_ = LyapunovSpectrum<double, Size>(basis_);
-    spectrum_.push(tangent);
-  }
-
-  /// All exponents over the maps pushed.
-  const LyapunovSpectrum<double, Size>& spectrum() const { return spectrum_; }
-
-  /// The largest exponent; only after at least 64 maps.
-  ExponentEstimate indicators() const { return detail::largest_exponent(spectrum_); }
-
- private:
-  Matrix<double, Size> basis_;
-  LyapunovSpectrum<double, Size> spectrum_;
-};
-
-namespace detail {
-
 /// Notes when a state has grown beyond all measure: by 10³⁰ over the largest coordinate of the
 /// first 100 samples.
 template <int Size>
@@ -166,18 +123,47 @@ void weigh_returns(const std::vector<Vector<double, Size>>& states,
                            static_cast<std::int64_t>(repeat.largest_lag), repeat_tolerance};
   const std::vector<Vector<double, Size>> last(states.end() - 1000, states.end());
   indicators.closest_return = closest_return<Size>(last);
-  indicators.recurrence = recurrence_shares<Size>(last, recurrence_radius);
+  indicators.determinism = recurrence_determinism<Size>(last, recurrence_radius);
 }
 
+/// The exponents of the tangent maps of a discrete system, where there are any: up to restart()
+/// they turn the basis into the directions of the exponents, and nothing is summed.
+template <int Size>
+class TangentMaps {
+ public:
+  using OfState = std::function<Matrix<double, Size>(const Vector<double, Size>&)>;
+
+  /// @param map  outlives this
+  TangentMaps(Eigen::Index size, const OfState& map)
+      : map_(map), basis_(Matrix<double, Size>::Identity(size, size)), spectrum_(basis_) {}
+
+  void push(const Vector<double, Size>& before) {
+    if (!map_) return;
+    if (counts_) return spectrum_.push(map_(before));
+    Matrix<double, Size> stretched = map_(before) * basis_;
+    basis_ = orthogonal_factor(stretched);
+  }
+  void restart() {
+    counts_ = true;
+    spectrum_ = LyapunovSpectrum<double, Size>(basis_);
+  }
+  const LyapunovSpectrum<double, Size>& spectrum() const { return spectrum_; }
+
+ private:
+  const OfState& map_;
+  Matrix<double, Size> basis_;
+  LyapunovSpectrum<double, Size> spectrum_;
+  bool counts_ = false;
+};
+
 /// chaos_indicators() with exponents of any kind.
-/// @param take_tangent  called after each step with the state before it and whether the step is one
-///                      that counts
-template <int Size, class TakeTangent>
+/// @param tangents  push(before) takes each step, after it, with the state before it; restart()
+///                  comes before the first step that counts
+template <int Size, class Tangents>
 ChaosIndicators indicators_of_system(
     const Vector<double, Size>& initial, const std::function<void(Vector<double, Size>&)>& advance,
     const std::function<double(const Vector<double, Size>&)>& observable,
-    const IndicatorOptions& options, const TakeTangent& take_tangent,
-    const std::function<bool()>& contact) {
+    const IndicatorOptions& options, Tangents& tangents, const std::function<bool()>& contact) {
   validate(options);
   for (const double entry : initial) require_finite("initial state", entry, "");
   ChaosIndicators indicators;
@@ -195,14 +181,15 @@ ChaosIndicators indicators_of_system(
       indicators.diverged_at = index + 1;
       return indicators;
     }
-    take_tangent(before, is_looked_at);
+    if (index == options.transient) tangents.restart();
+    tangents.push(before);
     if (!is_looked_at) continue;
     states.push_back(before);
     observed.push_back(observable(before));
     if (contact) itinerary.push_back(contact());
   }
   weigh_returns<Size>(states, guard.largest(), indicators);
-  indicators.zero_one = zero_one_test(every(observed, options.zero_one_stride)).median;
+  indicators.zero_one = zero_one_test(every(observed, options.zero_one_stride));
   indicators.lines = spectral_indicators(observed, options.base_frequency);
   indicators.extent_growth = extent_growth(observed);
   if (contact) indicators.switching = switching_complexity(itinerary);
@@ -244,15 +231,11 @@ ChaosIndicators chaos_indicators(
     const IndicatorOptions& options = {},
     const std::function<Matrix<double, Size>(const Vector<double, Size>&)>& tangent = {},
     const std::function<bool()>& contact = {}) {
-  validate(options);
-  LeadingExponent<Size> exponent(options.samples, initial.size());
-  ChaosIndicators indicators = detail::indicators_of_system<Size>(
-      initial, advance, observable, options,
-      [&](const Vector<double, Size>& before, bool counts) {
-        if (tangent) counts ? exponent.push(tangent(before)) : exponent.settle(tangent(before));
-      },
-      contact);
-  if (tangent && !indicators.diverged_at) indicators.largest_exponent = exponent.indicators();
+  detail::TangentMaps<Size> tangents(initial.size(), tangent);
+  ChaosIndicators indicators =
+      detail::indicators_of_system<Size>(initial, advance, observable, options, tangents, contact);
+  if (tangent && !indicators.diverged_at)
+    indicators.largest_exponent = detail::largest_exponent(tangents.spectrum());
   return indicators;
 }
 

@@ -8,7 +8,6 @@
 #include <sstream>
 #include <string>
 
-#include "holdfast/chaos/recurrence.hpp"
 #include "holdfast/chaos/switching_complexity.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/math/stats/student_quantile.hpp"
@@ -77,10 +76,10 @@ struct ChaosIndicators {
   std::optional<ExponentEstimate> largest_exponent;  ///< natural logarithm per step
   std::optional<double> zero_one;                    ///< median K of the 0–1 test
   std::optional<SpectralIndicators> lines;           ///< of the observable
-  std::optional<double> extent_growth;  ///< extent of the last quarter over that of the first
-  std::optional<double> neighbour;      ///< how far a neighbour came, see neighbour_distance()
-  std::optional<ClosestReturn> closest_return;   ///< among the last states
-  std::optional<RecurrenceShares> recurrence;    ///< of the same states, at a given radius
+  std::optional<double> extent_growth;   ///< extent of the last quarter over that of the first
+  std::optional<double> neighbour;       ///< how far a neighbour came, see neighbour_distance()
+  std::optional<double> closest_return;  ///< closest_return() of the last states
+  std::optional<double> determinism;     ///< recurrence_determinism() of the same states
   std::optional<SwitchingComplexity> switching;  ///< of the contacts, where they are known
   std::optional<double> forcing_periods;         ///< that the series covers
   bool forcing_incommensurate = false;  ///< f τ is no fraction with a denominator in reach: no

@@ -17,35 +17,20 @@ namespace holdfast {
 
 namespace detail {
 
-/// The indicators of the motion of a conductor by its modes, from what conductor and absorber show.
-/// @tparam Loop  ModalLoop
-template <class Loop>
-ChaosIndicators indicators_of_motion(const Loop& loop, ModalMotion motion,
-                                     const IndicatorOptions& options) {
-  ModalSpectrum tangent(NaturalMotions(loop, plant_poles(loop.modes, loop.absorber)), loop.gains,
-                        loop.sampling.processing_delay > 0.0);
-  bool engaged = true, counted = false;
-  const auto seen = [&] {
-    Vector<double, 5> state;
-    state << motion.state(), motion.memory().previous_force;
-    return state;
-  };
-  const auto advance = [&](Vector<double, 5>& state) {
-    engaged = motion.sense().engaged;
-    motion.advance();
-    state = seen();
-  };
-  const auto take_tangent = [&](const Vector<double, 5>&, bool counts) {
-    if (counts && !counted) tangent.restart();
-    counted = counts;
-    tangent.push(engaged);
-  };
-  ChaosIndicators indicators = indicators_of_system<5>(
-      seen(), advance, [](const Vector<double, 5>& state) { return state[0]; }, options,
-      take_tangent, [&] { return engaged; });
-  if (!indicators.diverged_at) indicators.largest_exponent = largest_exponent(tangent.spectrum());
-  return indicators;
-}
+/// The exponents of a conductor by its modes, as indicators_of_system() takes them.
+/// @tparam Scalar  double; a parameter so that who does not ask compiles none of it
+template <class Scalar>
+struct ModalTangents : ModalSpectrum<Scalar> {
+  const bool& engaged;
+
+  template <class Loop>
+  ModalTangents(const Loop& loop, const bool& transmits)
+      : ModalSpectrum<Scalar>(NaturalMotions(loop, plant_poles(loop.modes, loop.absorber)),
+                              loop.gains, loop.sampling.processing_delay > 0.0),
+        engaged(transmits) {}
+
+  void push(const Vector<Scalar, 5>&) { ModalSpectrum<Scalar>::push(engaged); }
+};
 
 }  // namespace detail
 
@@ -67,17 +52,13 @@ SampledClassification classify_motion(const Loop& loop, const ModalMotion::Full&
     unknown.classification.rests_on = "Two natural motions of the plant cannot be told apart.";
     return unknown;
   }
-  SampledClassification found;
-  found.search = find_periodic_orbit(loop, initial_state, limits);
-  if (detail::is_decided_by_search(found, "it reproduces its own contacts")) return found;
-  IndicatorOptions options =
-      detail::indicator_options(loop.excitation.frequency * loop.sampling.period);
-  options.forcing_incommensurate = found.search.outcome == OrbitOutcome::incommensurate;
   const auto look = [&](const IndicatorOptions& plan) {
-    return std::optional(detail::indicators_of_motion(loop, *motion, plan));
+    bool engaged = true;
+    detail::ModalTangents<double> tangents(loop, engaged);
+    return detail::indicators_of_samples(*motion, plan, engaged, tangents);
   };
-  detail::weigh(found, *motion, options, {loop.excitation.amplitude > 0.0}, look);
-  return found;
+  return detail::classify_sampled(loop, find_periodic_orbit(loop, initial_state, limits), *motion,
+                                  look);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -100,26 +100,43 @@ inline IndicatorOptions indicator_options(double cycles) {
   return options;
 }
 
+/// The indicators of a motion that switches at its samples, from what conductor and absorber show.
+/// @param engaged   takes whether the drive transmits, for the tangents
+/// @param tangents  as indicators_of_system() takes them
+template <class Motion, class Tangents>
+ChaosIndicators indicators_of_samples(Motion motion, const IndicatorOptions& options, bool& engaged,
+                                      Tangents& tangents) {
+  using Seen = Vector<double, 5>;
+  const auto seen = [&] {
+    Seen state;
+    state << motion.state(), motion.memory().previous_force;
+    return state;
+  };
+  const auto advance = [&](Seen& state) {
+    engaged = motion.sense().engaged;
+    motion.advance();
+    state = seen();
+  };
+  ChaosIndicators indicators = indicators_of_system<5>(
+      seen(), advance, [](const Seen& state) { return state[0]; }, options, tangents,
+      [&] { return engaged; });
+  if (!indicators.diverged_at) indicators.largest_exponent = largest_exponent(tangents.spectrum());
+  return indicators;
+}
+
 /// The indicators of a motion of an IdealLoop from its samples.
 template <class Scalar>
 ChaosIndicators indicators_of_motion(const IdealLoop<Scalar>& loop,
-                                     const Vector<double, 4>& initial_state,
+                                     const HarmonicallyForcedMotion<Scalar>& motion,
                                      const IndicatorOptions& options) {
-  auto motion = harmonically_forced_motion(loop, initial_state);
   const Matrix<double, 5> maps[] = {motion.loop().backlash_map(),
                                     motion.loop().engaged_map(loop.gains)};
   bool engaged = true;
-  const auto advance = [&](Vector<double, 5>& state) {
-    engaged = motion.sense().engaged;
-    motion.advance();
-    state << motion.state(), motion.memory().previous_force;
+  const TangentMaps<5>::OfState map = [&](const Vector<double, 5>&) {
+    return maps[engaged ? 1 : 0];
   };
-  const auto displacement = [](const Vector<double, 5>& state) { return state[0]; };
-  const auto tangent = [&](const Vector<double, 5>&) { return maps[engaged ? 1 : 0]; };
-  const auto contact = [&] { return engaged; };
-  Vector<double, 5> first;
-  first << initial_state, 0.0;
-  return chaos_indicators<5>(first, advance, displacement, options, tangent, contact);
+  TangentMaps<5> tangents(5, map);
+  return indicators_of_samples(motion, options, engaged, tangents);
 }
 
 /// A motion seen by chaos_indicators(): states [x; u_{j−1}; 0; 0], as those of the indicators of an
@@ -273,6 +290,22 @@ bool weigh(ClassifiedMotion<Search>& found, const Motion& start, IndicatorOption
   return weigh(found, start, options, weighing, look);
 }
 
+/// The classification of a loop that switches at samples, from the orbit that its motion comes to
+/// or else by `look`, as weigh() takes it.
+/// @tparam Loop  IdealLoop or ModalLoop
+template <class Loop, class Motion, class Look>
+SampledClassification classify_sampled(const Loop& loop, OrbitResult search, const Motion& motion,
+                                       const Look& look) {
+  SampledClassification found;
+  found.search = std::move(search);
+  if (is_decided_by_search(found, "it reproduces its own contacts")) return found;
+  IndicatorOptions options = indicator_options(loop.excitation.frequency * loop.sampling.period);
+  options.forcing_incommensurate = found.search.outcome == OrbitOutcome::incommensurate;
+  const auto known = [&](const IndicatorOptions& plan) { return std::optional(look(plan)); };
+  weigh(found, motion, options, {loop.excitation.amplitude > 0.0}, known);
+  return found;
+}
+
 template <class Plant, class Contact>
 void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Contact>& start,
                    EventClassificationOf<states_of<Plant>>& found) {
@@ -321,18 +354,12 @@ template <class Scalar>
 SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
                                       const Vector<double, 4>& initial_state,
                                       const OrbitLimits& limits = {}) {
-  SampledClassification found;
-  found.search = find_periodic_orbit(loop, initial_state, limits);
-  if (detail::is_decided_by_search(found, "it reproduces its own contacts")) return found;
-  IndicatorOptions options =
-      detail::indicator_options(loop.excitation.frequency * loop.sampling.period);
-  options.forcing_incommensurate = found.search.outcome == OrbitOutcome::incommensurate;
-  const auto look = [&](const IndicatorOptions& plan) {
-    return std::optional(detail::indicators_of_motion(loop, initial_state, plan));
-  };
-  detail::weigh(found, harmonically_forced_motion(loop, initial_state), options,
-                {loop.excitation.amplitude > 0.0}, look);
-  return found;
+  OrbitResult search = find_periodic_orbit(loop, initial_state, limits);
+  const auto motion = harmonically_forced_motion(loop, initial_state);
+  return detail::classify_sampled(loop, std::move(search), motion,
+                                  [&](const IndicatorOptions& plan) {
+                                    return detail::indicators_of_motion(loop, motion, plan);
+                                  });
 }
 /// The same from any column of Eigen's.
 template <class Scalar, class Column>
@@ -365,7 +392,10 @@ EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<
                                                         const OrbitLimits& limits = {}) {
   validate(limits);
   const auto motion = event_motion(loop, initial_state);
-  EventClassificationOf<states_of<Plant>> found{{}, find_event_orbit(motion, limits), {}};
+  EventClassificationOf<states_of<Plant>> found;
+  auto search = find_event_orbit(motion, limits);
+  found.search = {search.outcome, std::move(search.orbit), search.samples, search.candidates,
+                  search.neutral_state};
   if (detail::is_decided_by_search(found, "it switches alike in three successive periods"))
     return found;
   detail::weigh_samples(loop, motion, found);

@@ -51,28 +51,20 @@ class RelativeDistance {
   Vector<double, Size> weights_;
 };
 
-/// The closest return of a series to one of its own states.
-struct ClosestReturn {
-  double distance;  ///< least d(x_j, x_{j−lag}), relative to the extent; 1 of a single state
-  std::size_t lag;  ///< samples between the two; 0 of a single state
-};
-
-/// Least distance over all pairs of states.
+/// Least distance over all pairs of states of a series, relative to its extent: its closest return.
 ///
 /// Work: N²/2 distances, N ≤ 5000.
 /// @param states  x_j at successive samples, whose extents are the measure
+/// @return 1 of a single state
 /// @throws InvalidParameter for no or more than 5000 states, or a state not finite
 template <int Size>
-ClosestReturn closest_return(const std::vector<Vector<double, Size>>& states) {
+double closest_return(const std::vector<Vector<double, Size>>& states) {
   require_within("number of states", static_cast<double>(states.size()), "", 1.0, 5000.0);
   const RelativeDistance<Size> distance(states);
-  ClosestReturn closest{1.0, 0};
-  for (std::size_t lag = 1; lag < states.size(); ++lag) {
-    for (std::size_t j = lag; j < states.size(); ++j) {
-      const double apart = distance(states[j], states[j - lag]);
-      if (closest.lag == 0 || apart < closest.distance) closest = {apart, lag};
-    }
-  }
+  double closest = 1.0;
+  for (std::size_t lag = 1; lag < states.size(); ++lag)
+    for (std::size_t j = lag; j < states.size(); ++j)
+      closest = std::min(closest, distance(states[j], states[j - lag]));
   return closest;
 }
 
@@ -114,24 +106,19 @@ RepeatSearch repeats_after(const std::vector<Vector<double, Size>>& states, doub
   return {0, largest};
 }
 
-/// Recurrence plot of a series in two numbers, the pairs of a state with itself left out.
-struct RecurrenceShares {
-  double rate;         ///< share of the pairs that are within the radius
-  double determinism;  ///< share of those pairs that lie on diagonal lines of two or more: of the
-                       ///< returns that are followed by another; 0 where nothing returns
-};
-
-/// Recurrence rate and determinism at a radius.
+/// Determinism of a series by its recurrence plot, the pairs of a state with itself left out: the
+/// share of the pairs within a radius that lie on diagonal lines of two or more, of the returns
+/// that are followed by another; 0 where nothing returns.
 ///
-/// Determinism is near 1 for a motion on a closed curve and about 1 − (1 − rate)² for chance.
-/// Work: N²/2 distances and no storage, N ≤ 5000. Source: N. Marwan et al., Physics Reports 438
-/// (2007), 237–329.
+/// It is near 1 for a motion on a closed curve and about 1 − (1 − rate)² for chance, the rate being
+/// the share of the pairs that are within the radius. Work: N²/2 distances and no storage,
+/// N ≤ 5000. Source: N. Marwan et al., Physics Reports 438 (2007), 237–329.
 /// @param states  x_j at successive samples, whose extents are the measure
 /// @param radius  share of the extent, > 0
 /// @throws InvalidParameter for fewer than two or more than 5000 states, a state not finite, or
 ///         another radius
 template <int Size>
-RecurrenceShares recurrence_shares(const std::vector<Vector<double, Size>>& states, double radius) {
+double recurrence_determinism(const std::vector<Vector<double, Size>>& states, double radius) {
   require_within("number of states", static_cast<double>(states.size()), "", 2.0, 5000.0);
   require_positive("recurrence radius", radius, "");
   const RelativeDistance<Size> distance(states);
@@ -148,9 +135,7 @@ RecurrenceShares recurrence_shares(const std::vector<Vector<double, Size>>& stat
       run = 0;
     }
   }
-  const double count = static_cast<double>(states.size());
-  return {static_cast<double>(recurrent) / (0.5 * count * (count - 1.0)),
-          recurrent > 0 ? static_cast<double>(in_lines) / static_cast<double>(recurrent) : 0.0};
+  return recurrent > 0 ? static_cast<double>(in_lines) / static_cast<double>(recurrent) : 0.0;
 }
 
 }  // namespace holdfast

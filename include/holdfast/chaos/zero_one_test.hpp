@@ -11,14 +11,6 @@
 
 namespace holdfast {
 
-/// What the 0–1 test found: K of the angular frequencies c that were tried.
-struct ZeroOneResult {
-  double median;          ///< near 0 for a regular motion, near 1 for a chaotic one
-  double lower_quartile;  ///< of K over the frequencies
-  double upper_quartile;  ///< of K over the frequencies
-  int frequencies;        ///< how many c were tried
-};
-
 namespace detail {
 
 /// The series drives a point of the plane; its mean-square displacement over n = 1, 2, … is the
@@ -98,9 +90,9 @@ inline std::vector<double> without_mean(std::vector<double> series) {
   return series;
 }
 
-/// Quantile of sorted values, linear between them.
-inline double quantile_of_sorted(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
+/// Median of sorted values, linear between the two in the middle.
+inline double median_of_sorted(const std::vector<double>& sorted) {
+  const double place = 0.5 * static_cast<double>(sorted.size() - 1);
   const std::size_t below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
@@ -126,17 +118,18 @@ inline double quantile_of_sorted(const std::vector<double>& sorted, double share
 ///
 /// Work: at most 500 lags from 5000 evenly spaced j for each c, and one cosine and sine a sample.
 /// Source: G. A. Gottwald, I. Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009), 129–145.
+/// @return K, near 0 for a regular motion, near 1 for a chaotic one
 /// @param series       200 … 100 000 finite values
 /// @param frequencies  number of c, 1 … 1000
 /// @throws InvalidParameter for another number of samples or frequencies, or values not finite
 /// @tparam Series  std::vector<double>; a template so that only who calls it compiles it
 template <class Series = std::vector<double>>
-ZeroOneResult zero_one_test(const Series& series, int frequencies = 100) {
+double zero_one_test(const Series& series, int frequencies = 100) {
   require_within("number of samples", static_cast<double>(series.size()), "", 200.0, 1e5);
   require_within("number of frequencies", frequencies, "", 1.0, 1000.0);
   for (const double value : series) require_finite("value of the series", value, "");
   const std::vector<double> centred = detail::without_mean(series);
-  if (centred.empty()) return {0.0, 0.0, 0.0, frequencies};
+  if (centred.empty()) return 0.0;
 
   detail::ZeroOneWalk walk(centred);
   std::vector<double> correlations(static_cast<std::size_t>(frequencies));
@@ -146,13 +139,11 @@ ZeroOneResult zero_one_test(const Series& series, int frequencies = 100) {
     correlations[k] = walk.correlation(frequency);
   }
   std::sort(correlations.begin(), correlations.end());
-  return {detail::quantile_of_sorted(correlations, 0.5),
-          detail::quantile_of_sorted(correlations, 0.25),
-          detail::quantile_of_sorted(correlations, 0.75), frequencies};
+  return detail::median_of_sorted(correlations);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template ZeroOneResult zero_one_test(const std::vector<double>&, int);
+extern template double zero_one_test(const std::vector<double>&, int);
 #endif
 
 }  // namespace holdfast

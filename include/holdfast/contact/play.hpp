@@ -4,42 +4,6 @@
 
 namespace holdfast {
 
-/// The play operator: an output y that is dragged along by an input x between two ends at the
-/// distance r.
-///
-///     y_j = max(x_j − r, min(x_j + r, y_{j−1}))
-///
-/// y rests while |x − y| ≤ r, moves up with x − r and down with x + r. It depends on the order of
-/// the extremes of x alone, not on how fast x passes between them (rate independence). Under a
-/// sine of amplitude X > r it runs through a parallelogram of area 4 r (X − r).
-///
-/// Source: Krasnosel'skii and Pokrovskii, Systems with Hysteresis, Springer 1989; Visintin,
-/// Differential Models of Hysteresis, Springer 1994; Macki, Nistri and Zecca, Mathematical models
-/// for hysteresis, SIAM Review 35 (1993).
-template <class Scalar>
-class PlayOperator {
- public:
-  /// @param half_width  r, ≥ 0, in the unit of the input
-  /// @param output      y before the first sample; the first step brings it within r of the input
-  PlayOperator(const Scalar& half_width, const Scalar& output)
-      : half_width_(half_width), output_(output) {}
-
-  /// Takes in x_j. @return y_j
-  Scalar step(const Scalar& input) {
-    const Scalar least = input - half_width_, largest = input + half_width_;
-    const Scalar not_above = select(output_ > largest, largest, output_);
-    output_ = select(not_above < least, least, not_above);
-    return output_;
-  }
-
-  /// y: of the last sample, or as given before the first one.
-  const Scalar& output() const { return output_; }
-
- private:
-  Scalar half_width_;
-  Scalar output_;
-};
-
 /// Backlash of the drive as a play of half-width r₀/2 on sampled Δz = z₂ − z₁: Δz moves the near
 /// side, y is the far side, which the near side drags along.
 ///
@@ -60,7 +24,9 @@ class PlayOperator {
 /// farther out there. A near side that passes the whole gap within one sampling period transmits
 /// without a pause. r₀ = 0 means a drive without backlash: it always transmits, at rest too.
 ///
-/// Source: see `PlayOperator`. One kernel for scalars and SIMD packs.
+/// Source: Krasnosel'skii and Pokrovskii, Systems with Hysteresis, Springer 1989; Visintin,
+/// Differential Models of Hysteresis, Springer 1994; Macki, Nistri and Zecca, Mathematical models
+/// for hysteresis, SIAM Review 35 (1993). One kernel for scalars and SIMD packs.
 template <class Scalar>
 class PlayBacklash {
  public:
@@ -74,7 +40,10 @@ class PlayBacklash {
     const Scalar behind = select(moves_up, Scalar(relative_displacement - half_width_),
                                  Scalar(relative_displacement + half_width_));
     const Scalar before = select(undecided, behind, far_side_);
-    const Scalar after = PlayOperator<Scalar>(half_width_, before).step(relative_displacement);
+    const Scalar least = relative_displacement - half_width_;
+    const Scalar largest = relative_displacement + half_width_;
+    const Scalar not_above = select(before > largest, largest, before);
+    const Scalar after = select(not_above < least, least, not_above);
     // The outer branches are strict, so a far side that was pushed is another number than before.
     const Mask<Scalar> is_pushed = (after > before) | (after < before);
 

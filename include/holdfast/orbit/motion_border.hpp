@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/math/roots/region_border.hpp"
 #include "holdfast/orbit/switching_borders.hpp"
@@ -111,6 +112,13 @@ inline RegionLook<MotionBorder> look_at_window(const PlanePoint& shares) {
   const double sides[] = {shares.x, 1.0 - shares.x, shares.y, 1.0 - shares.y};
   const auto least = std::min_element(std::begin(sides), std::end(sides));
   return {*least, {BorderKind::window, {}, -1, static_cast<int>(least - std::begin(sides)), {}}};
+}
+
+/// @throws InvalidParameter where a window is not finite or does not hold a point
+inline void validate(const ParameterWindow& window, const PlanePoint& at) {
+  require_finite("window", window.x_from + window.x_to + window.y_from + window.y_to, "");
+  require_within("first parameter", at.x, "", window.x_from, window.x_to);
+  require_within("second parameter", at.y, "", window.y_from, window.y_to);
 }
 
 /// The region of a motion within a window.

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "holdfast/core/errors.hpp"
 #include "holdfast/orbit/motion_border.hpp"
 #include "holdfast/orbit/orbit_continuation.hpp"
 #include "holdfast/orbit/state_scale.hpp"
@@ -69,9 +68,7 @@ template <class Family>
 MotionRegion motion_region(const Family& family, const PeriodicOrbit& orbit,
                            const ParameterWindow& window, const PlanePoint& at,
                            const BorderSteps& steps = {}) {
-  require_finite("window", window.x_from + window.x_to + window.y_from + window.y_to, "");
-  require_within("first parameter", at.x, "", window.x_from, window.x_to);
-  require_within("second parameter", at.y, "", window.y_from, window.y_to);
+  detail::validate(window, at);
   detail::OrbitContinuation<Family> continuation(family, orbit, family(at.x, at.y).backlash_width);
   const std::int64_t half = detail::mirrors_itself(orbit) ? orbit.period_samples() / 2 : 0;
   const bool stays = orbit.engaged_fraction() == 0.0;

@@ -84,6 +84,15 @@ struct FoundOrbit {
   std::optional<Orbit> orbit;  ///< certified, and not known yet
 };
 
+/// A motion's own orbit, from a search for it.
+/// @tparam Result  an OrbitResultOf, or made of one
+template <class Result>
+auto own_orbit(Result found) {
+  using Orbit = typename decltype(found.orbit)::value_type;
+  if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
+  return FoundOrbit<Orbit>{{found.outcome, -1}, std::move(found.orbit)};
+}
+
 /// Finds the labels of many initial states of one loop, in rounds: some of the states that are left
 /// are searched for their own orbits, one by one; then all that are left may move on together past
 /// the orbits known by now. Each round takes twice as many. Nothing depends on the order in which
@@ -188,9 +197,7 @@ struct BatchedMotions {
                                    const AttractorSet<Loop>& /*known*/) const {
     auto alone = start;
     alone.restore(motion.memory);
-    OrbitResult found = orbit_of_motion(loop, ratio, limits, alone);
-    if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
-    return {{found.outcome, -1}, std::move(found.orbit)};
+    return own_orbit(orbit_of_motion(loop, ratio, limits, alone));
   }
 
   template <class Tiles>

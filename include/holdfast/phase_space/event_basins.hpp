@@ -230,15 +230,6 @@ class EventApproaches final : public LaneApproaches {
   std::array<std::optional<Place>, 8> places_;
 };
 
-/// A motion's own orbit.
-template <class Motion>
-auto own_orbit(const Motion& motion, const OrbitLimits& limits) {
-  auto found = find_event_orbit(motion, limits);
-  if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
-  using Orbit = typename decltype(found.orbit)::value_type;
-  return FoundOrbit<Orbit>{{found.outcome, -1}, std::move(found.orbit)};
-}
-
 /// Motions of an ImplementedLoopOf a plant: each goes past the orbits that the rounds before have
 /// found, and is searched for its own where it comes to none of them.
 /// @tparam Begin  [z₁, ż₁, z₂, ż₂] ↦ x
@@ -259,7 +250,7 @@ struct SingleMotions {
     const int number =
         approached_orbit(motion, ratio, known, limits, patience(known.orbits(), limits));
     if (number >= 0) return {{OrbitOutcome::certified, number}, {}};
-    return own_orbit(motion, limits);
+    return own_orbit(find_event_orbit(motion, limits));
   }
 
   /// They move on in their searches alone.
@@ -284,7 +275,7 @@ struct BatchedEventMotions {
 
   FoundOrbit<EventOrbit> search(const ActiveTrajectory& from,
                                 const AttractorSet<Loop>& /*known*/) const {
-    return own_orbit(event_motion(loop, from.memory.state), limits);
+    return own_orbit(find_event_orbit(event_motion(loop, from.memory.state), limits));
   }
 
   template <class Tiles>

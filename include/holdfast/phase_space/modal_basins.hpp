@@ -87,9 +87,7 @@ struct ModalMotions {
     const int number = attracted(start, known);
     if (number >= 0) return {{OrbitOutcome::certified, number}, {}};
     const ModalItineraryMaps maps(loop, poles, ratio, limits.watch);
-    OrbitResult found = orbit_by_returns(loop, ratio, limits, start, ModalRegion<Loop>(loop, maps));
-    if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
-    return {{found.outcome, -1}, std::move(found.orbit)};
+    return own_orbit(orbit_by_returns(loop, ratio, limits, start, ModalRegion<Loop>(loop, maps)));
   }
 
   /// They move on in their searches alone.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <vector>
 
 #include "holdfast/plant/loop_hardware.hpp"
@@ -15,7 +16,18 @@ struct ConductorWithAbsorber {
   Absorber<double> absorber;             ///< with its clamp
   std::vector<PlantPole> poles;          ///< `plant_poles` of the two, all of them or none
   LoopHardware hardware = {};            ///< measurement filter and drive
+  bool has_devices = false;              ///< on the span, which the poles know and the modes do not
 };
+
+/// z/F (m/N) at s of the absorber's place under a force there, without control (unchecked).
+inline std::complex<double> place_receptance(const ConductorWithAbsorber& conductor,
+                                             const std::complex<double>& s) {
+  if (!conductor.has_devices)
+    return place_response(receptance(conductor.modes, s), conductor.absorber, s).to_force;
+  std::complex<double> to_drive(0.0);
+  for (const PlantPole& pole : conductor.poles) to_drive += pole.residue / (s - pole.s);
+  return to_drive / detail::transmitted_share(conductor.absorber, s);
+}
 
 /// It as a plant of order 2N + 2 and what states the hardware has.
 /// @tparam Scalar    double; a parameter so that nothing is compiled where this is not called

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "holdfast/core/types.hpp"
-#include "io/file/input.hpp"
+#include "io/file/whole_file.hpp"
 #include "io/text/csv.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -7,8 +7,8 @@
 #include <new>
 #include <utility>
 
-#include "io/text/compiled_texts.hpp"
-#include "io/text/text.hpp"
+#include "text/compiled_texts.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 

@@ -6,7 +6,7 @@
 #include "case/case_keys.hpp"
 #include "case/library/conductor_library.hpp"
 #include "case/units.hpp"
-#include "io/text/text.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

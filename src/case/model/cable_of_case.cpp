@@ -9,8 +9,8 @@
 #include "case/needed.hpp"
 #include "holdfast/cable/modes.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "case/model/modal/modal_plant_of_case.hpp"
-#include "io/text/text.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 

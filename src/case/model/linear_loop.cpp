@@ -3,6 +3,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/control/loop_map.hpp"
@@ -23,10 +24,6 @@
 
 namespace holdfast::program {
 
-bool has_closed_forms(const Case& the_case) {
-  return !is_modal(the_case) && the_case.control.velocity == "measured";
-}
-
 /// The loop as a sum over its poles, each part of it made when it is first asked for.
 struct LinearLoop::ByPoles {
   explicit ByPoles(const Case& of) : case_(of) {}
@@ -40,6 +37,10 @@ struct LinearLoop::ByPoles {
   }
   const ConductorWithAbsorber& conductor() const {
     return kept(conductor_, [this] { return conductor_with_absorber_of(case_); });
+  }
+  ModalResponse<double> response_at(const Sampling<double>& sampling) const {
+    return has_own_plant(case_) ? ModalResponse<double>(modal_plant_of(case_), sampling)
+                                : modal_response(conductor(), sampling);
   }
   const LoopMap<double>& map() const {
     return kept(map_, [this] {
@@ -148,21 +149,21 @@ MinimumRadius LinearLoop::fastest(double p) const {
 }
 
 MaxDelay LinearLoop::longest_period(const MaxDelayOptions& question) const {
-  return closed_ ? max_sampling_period(plant_of(case_), question)
-                 : modal_max_sampling_period(by_poles_->conductor(), question);
+  if (closed_) return max_sampling_period(plant_of(case_), question);
+  return has_own_plant(case_) ? max_sampling_period(modal_plant_of(case_), question)
+                              : modal_max_sampling_period(by_poles_->conductor(), question);
 }
 
 std::vector<Interval<double>> LinearLoop::stable_gains(const MaxDelayOptions& question,
                                                        double period) const {
   if (closed_) return feasible_differential_gains(plant_of(case_), question, period);
-  const ResolvedCircle<double> circle(
-      modal_response(by_poles_->conductor(), question.sampling(period)));
+  const ResolvedCircle<double> circle(by_poles_->response_at(question.sampling(period)));
   return circle.stable_gains(FreeGain::differential, {question.proportional_gain, 0.0});
 }
 
 double LinearLoop::excess(const Sampling<double>& sampling, const PdGains<double>& gains) const {
   if (closed_) return loop_polynomial(sampled_loop(plant_of(case_), sampling)).excess(gains);
-  return loop_excess_or_turn(modal_response(by_poles_->conductor(), sampling), gains);
+  return loop_excess_or_turn(by_poles_->response_at(sampling), gains);
 }
 
 StabilityMargins LinearLoop::margins(const PdGains<double>& gains) const {

@@ -87,8 +87,4 @@ class LinearLoop {
   std::shared_ptr<const ByPoles> by_poles_;
 };
 
-/// Whether the linear loop is of order 4 + 1, of which there are closed forms: two masses, the
-/// force within its sample, a measured velocity, neither filter nor lag, nothing of the user's own.
-bool has_closed_forms(const Case& the_case);
-
 }  // namespace holdfast::program

@@ -8,7 +8,7 @@
 #include "case/model/moving_loop.hpp"
 #include "case/needed.hpp"
 #include "holdfast/excitation/band_limited_noise.hpp"
-#include "io/text/text.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -75,14 +75,23 @@ bool has_ideal_computer(const Case& the_case) {
   return is_ideal(controller_limits_of(the_case)) && the_case.control.jitter == 0.0;
 }
 
-bool is_of_the_paper(const Case& the_case, Switching switching) {
+MotionKind motion_kind_of(const Case& the_case, Switching switching) {
   const auto excitation = effective_excitation(the_case);
   const ContactLaw law = law_of(the_case.backlash.law);
-  const bool late = the_case.control.processing_delay > the_case.control.sampling_period;
-  return switching == Switching::sampled && the_case.own == nullptr && !has_hardware(the_case) &&
-         !late && has_ideal_computer(the_case) && the_case.force_record == nullptr &&
-         excitation.harmonics.empty() && !(excitation.noise_rms > 0.0) &&
-         (law == ContactLaw::none || law == ContactLaw::kollar);
+  const bool prompt = the_case.own == nullptr && !has_hardware(the_case) &&
+                      !(the_case.control.processing_delay > the_case.control.sampling_period);
+  const bool sampled = prompt && switching == Switching::sampled && has_ideal_computer(the_case) &&
+                       the_case.force_record == nullptr && excitation.harmonics.empty() &&
+                       !(excitation.noise_rms > 0.0) &&
+                       (law == ContactLaw::none || law == ContactLaw::kollar);
+  if (prompt && is_two_masses(the_case))
+    return sampled ? MotionKind::sampled_masses : MotionKind::built_masses;
+  return sampled ? MotionKind::sampled_modes : MotionKind::built_plant;
+}
+
+bool has_closed_forms(const Case& the_case) {
+  return is_of_masses(motion_kind_of(the_case, Switching::sampled)) &&
+         the_case.control.velocity == "measured";
 }
 
 ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching) {
@@ -98,8 +107,7 @@ ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching) {
 }
 
 std::optional<IdealLoop<double>> exactly_switched_loop_of(const Case& the_case) {
-  if (is_modal(the_case) || the_case.own != nullptr || has_hardware(the_case)) return std::nullopt;
-  if (the_case.control.processing_delay > the_case.control.sampling_period) return std::nullopt;
+  if (!is_of_masses(motion_kind_of(the_case, Switching::exact))) return std::nullopt;
   ImplementedLoop loop = implemented_loop_of(the_case, Switching::sampled);
   const ContactLaw law = loop.backlash.law;
   // Between the samples they are one law.

@@ -34,10 +34,24 @@ ControllerLimits controller_limits_of(const Case& the_case);
 /// Whether the computer reads and commands without quanta, differences, limits and jitter.
 bool has_ideal_computer(const Case& the_case);
 
-/// Whether the motion is one of the paper's model, which IdealLoop describes: switching at
-/// samples, the paper's backlash or none, one harmonic, an ideal computer and drive whose force
-/// comes within the sample.
-bool is_of_the_paper(const Case& the_case, Switching switching);
+/// The four ways in which a case moves. Masses are two, alone with a computer whose force comes
+/// within the sample; a conductor itself, a filter, a lag, a later force and all that is the user's
+/// own are followed by natural motions. Sampled is the paper's model, which IdealLoop describes:
+/// switching at samples, the paper's backlash or none, one harmonic, an ideal computer; all else is
+/// built, and goes from event to event.
+enum class MotionKind { sampled_masses, built_masses, sampled_modes, built_plant };
+MotionKind motion_kind_of(const Case& the_case, Switching switching);
+
+constexpr bool is_sampled(MotionKind kind) {
+  return kind == MotionKind::sampled_masses || kind == MotionKind::sampled_modes;
+}
+constexpr bool is_of_masses(MotionKind kind) {
+  return kind == MotionKind::sampled_masses || kind == MotionKind::built_masses;
+}
+
+/// Whether the linear loop is of order 4 + 1, of which there are closed forms: masses with a
+/// measured velocity.
+bool has_closed_forms(const Case& the_case);
 
 /// The loop of a drive that switches when it happens, where that is all there is to the case beside
 /// the paper's model: exact play or none, one harmonic, an ideal computer. Nothing of any other.

@@ -54,7 +54,7 @@ double bound_of(const Moving& moving) {
 }  // namespace
 
 BuiltLoop built_loop_of(const Case& the_case, const MotionChoice& choice) {
-  if (is_modal(the_case))
+  if (!is_of_masses(motion_kind_of(the_case, choice.switching)))
     return BuiltPlant{conductor_loop_of(the_case, choice),
                       modal_state_of(the_case, initial_state_of(the_case))};
   const ImplementedLoop loop = implemented_loop_of(the_case, choice.switching);
@@ -62,10 +62,11 @@ BuiltLoop built_loop_of(const Case& the_case, const MotionChoice& choice) {
 }
 
 MovingLoop moving_loop_of(const Case& the_case, const MotionChoice& choice) {
-  if (!is_of_the_paper(the_case, choice.switching))
+  const MotionKind kind = motion_kind_of(the_case, choice.switching);
+  if (!is_sampled(kind))
     return std::visit([](auto built) -> MovingLoop { return built; },
                       built_loop_of(the_case, choice));
-  if (is_modal(the_case)) return sampled_modes_of(the_case, choice.controlled);
+  if (!is_of_masses(kind)) return sampled_modes_of(the_case, choice.controlled);
   SampledMasses masses = sampled_masses_of(the_case);
   if (!choice.controlled) masses.loop = uncontrolled(masses.loop);
   return masses;

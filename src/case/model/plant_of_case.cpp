@@ -6,8 +6,8 @@
 #include "case/needed.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
 #include "holdfast/motion/trajectory.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 

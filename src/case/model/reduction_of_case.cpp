@@ -4,8 +4,8 @@
 
 #include "case/model/cable_of_case.hpp"
 #include "case/needed.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

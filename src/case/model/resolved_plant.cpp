@@ -4,13 +4,13 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/model/conditioning.hpp"
+#include "case/model/decay/damping_fit.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/model/reduction_of_case.hpp"
-#include "io/text/text.hpp"
-#include "jobs/cable/damping_fit.hpp"
-#include "jobs/charts/conditioning.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -11,8 +11,8 @@
 #include "case/needed.hpp"
 #include "case/units.hpp"
 #include "holdfast/core/types.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

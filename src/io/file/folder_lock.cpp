@@ -8,18 +8,10 @@
 #include <string>
 
 #include "process/errors.hpp"
-#include "process/system_words.hpp"
 
 namespace holdfast::program {
-namespace {
 
 namespace fs = std::filesystem;
-
-bool means_no_locks_here(int error) {
-  return error == ENOLCK || error == EOPNOTSUPP || error == ENOSYS;
-}
-
-}  // namespace
 
 int lock_file(int descriptor) {
   int status = 0;
@@ -49,7 +41,8 @@ FolderLock::FolderLock(const fs::path& folder) {
     if (!opened.is_open()) refuse_to_write(file, errno);
     const int error = lock_file(opened.number());
     if (error == EWOULDBLOCK) throw OutputError(folder.string() + " is in use by another program");
-    if (error != 0 && !means_no_locks_here(error)) refuse_to_write(file, error);
+    const bool has_locks = error != ENOLCK && error != EOPNOTSUPP && error != ENOSYS;
+    if (error != 0 && has_locks) refuse_to_write(file, error);
     // Its last holder may have removed it.
     if (has_name(opened.number(), file)) descriptor_ = std::move(opened);
   }

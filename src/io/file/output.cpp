@@ -9,11 +9,10 @@
 
 #include "io/file/folder_lock.hpp"
 #include "io/file/whole_file.hpp"
-#include "io/text/checksum.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/progress.hpp"
-#include "process/system_words.hpp"
+#include "text/checksum.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

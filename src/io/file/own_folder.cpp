@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "process/errors.hpp"
-#include "process/system_words.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -59,14 +58,9 @@ bool OwnFolder::rename(const std::string& name, const std::string& to) const {
          renameat(descriptor_.number(), name.c_str(), descriptor_.number(), to.c_str()) == 0;
 }
 
-void OwnFolder::remove_file(const std::string& name) const {
-  if (S_ISREG(status_of(descriptor_, name).st_mode))
-    unlinkat(descriptor_.number(), name.c_str(), 0);
-}
-
-void OwnFolder::remove_empty_file(const std::string& name) const {
+void OwnFolder::remove_file(const std::string& name, bool empty_alone) const {
   const struct stat status = status_of(descriptor_, name);
-  if (S_ISREG(status.st_mode) && status.st_size == 0)
+  if (S_ISREG(status.st_mode) && (!empty_alone || status.st_size == 0))
     unlinkat(descriptor_.number(), name.c_str(), 0);
 }
 

@@ -23,8 +23,7 @@ class OwnFolder {
 
   /// Whether the file was given the other name, in the same folder.
   bool rename(const std::string& name, const std::string& to) const;
-  void remove_file(const std::string& name) const;
-  void remove_empty_file(const std::string& name) const;
+  void remove_file(const std::string& name, bool empty_alone = false) const;
   void remove_empty_folder(const std::string& name) const;
 
  private:

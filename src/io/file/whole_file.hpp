@@ -26,4 +26,11 @@ std::optional<std::string> name_behind_temporary(std::string_view name);
 /// folder, EINVAL for a device or a pipe, which are not waited for).
 std::optional<std::string> read_whole_file(const std::filesystem::path& file, int& error);
 
+/// The whole text of a file. Throws WrongInput, in the system's words, when it cannot be read.
+std::string read_input(const std::filesystem::path& file);
+
+/// Throws WrongInput where a result would take the place of a file that it is computed from.
+void require_not_overwritten(const std::filesystem::path& input,
+                             const std::optional<std::filesystem::path>& output);
+
 }  // namespace holdfast::program

@@ -6,10 +6,10 @@
 #include <optional>
 #include <stdexcept>
 
-#include "io/file/input.hpp"
-#include "io/text/text.hpp"
+#include "io/file/whole_file.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -288,10 +288,6 @@ void refuse_repeated_names(const std::vector<std::string>& names, const std::str
 }
 
 }  // namespace
-
-bool CsvTable::has(std::string_view column) const {
-  return std::find(names_.begin(), names_.end(), column) != names_.end();
-}
 
 std::size_t CsvTable::index(std::string_view column) const {
   const auto found = std::find(names_.begin(), names_.end(), column);

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "host/received_table.hpp"
-#include "io/column.hpp"
 #include "io/file/output.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "text/column.hpp"
 
 namespace holdfast::program {
 
@@ -34,28 +34,13 @@ class CsvWriter {
   /// From here on cells go to these columns, of which there are as many, and none becomes text.
   void give_to(std::vector<ReceivedColumn>& columns) { received_ = columns.data(); }
 
-  void cell(double value) {
+  /// A number, a text or a boolean.
+  template <typename Value>
+  void cell(const Value& value) {
     if (received_ != nullptr)
-      receive(value);
+      receive(received_as(value));
     else
       text_cell(value);
-  }
-  void cell(std::string_view text) {
-    if (received_ != nullptr)
-      receive(text);
-    else
-      text_cell(text);
-  }
-  void cell(const char* text) { cell(std::string_view(text)); }
-  void cell(const std::string& text) { cell(std::string_view(text)); }
-  template <typename Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
-  void cell(Integer value) {
-    if (received_ != nullptr) {
-      receive(static_cast<std::int64_t>(value));
-      return;
-    }
-    separate();
-    buffer_ += std::to_string(value);
   }
   void end_row() {
     if (received_ == nullptr || cells_in_row_ != width_) return end_text_row();
@@ -95,6 +80,11 @@ class CsvWriter {
 
   void text_cell(double value);
   void text_cell(std::string_view text);
+  template <typename Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
+  void text_cell(Integer value) {
+    separate();
+    buffer_ += std::to_string(value);
+  }
   template <typename Value>
   void receive(Value value) {
     if (cells_in_row_ < width_) received_[cells_in_row_].put(value);
@@ -124,7 +114,6 @@ class CsvTable {
  public:
   const std::vector<std::string>& names() const { return names_; }
   std::size_t rows() const { return lines_.size(); }
-  bool has(std::string_view column) const;
 
   /// Throws WrongInput unless there are these columns.
   void require(const std::vector<std::string>& columns);
@@ -143,9 +132,6 @@ class CsvTable {
 
   /// What is wrong with a row, with file and line.
   WrongInput fault(std::size_t row, const std::string& message) const;
-
-  /// The line of the file on which a row begins, for messages.
-  std::size_t line(std::size_t row) const { return lines_[row]; }
 
  private:
   friend CsvTable parse_csv(std::string_view text, const std::string& name);

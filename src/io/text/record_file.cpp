@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "io/file/input.hpp"
+#include "io/file/whole_file.hpp"
 #include "io/text/csv.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

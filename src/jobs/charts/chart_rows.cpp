@@ -10,14 +10,15 @@
 #include <vector>
 
 #include "case/model/linear_loop.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
-#include "jobs/charts/row_blocks.hpp"
 #include "jobs/columns.hpp"
 #include "kernels/pack_kernels.hpp"
+#include "output/row_blocks.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"

@@ -5,12 +5,12 @@
 #include <functional>
 #include <vector>
 
+#include "case/job_context.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/chart/chart.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
 #include "holdfast/stability/response/response.hpp"
-#include "io/grid/grid_output.hpp"
-#include "process/job_context.hpp"
+#include "output/grid/grid_output.hpp"
 
 namespace holdfast::program {
 

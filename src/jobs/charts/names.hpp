@@ -2,7 +2,7 @@
 
 #include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
-#include "io/text/names.hpp"
+#include "text/names.hpp"
 
 namespace holdfast::program {
 

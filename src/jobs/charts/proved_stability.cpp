@@ -1,6 +1,7 @@
 #include "jobs/charts/proved_stability.hpp"
 
 #include "case/model/linear_loop.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/chart/proved_modal_chart.hpp"

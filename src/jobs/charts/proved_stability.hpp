@@ -2,7 +2,7 @@
 
 #include "case/case.hpp"
 #include "holdfast/stability/chart/proved_chart.hpp"
-#include "io/text/names.hpp"
+#include "text/names.hpp"
 
 namespace holdfast::program {
 

@@ -9,10 +9,10 @@
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
-#include "io/text/text.hpp"
 #include "jobs/design/gain_margins.hpp"
 #include "jobs/motion/cell_motion.hpp"
 #include "process/interrupt.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -67,8 +67,9 @@ MinimumAmplitude BestGains::of(const Case& the_case) const {
 std::string play_warning(const Case& the_case, const PdGains<double>& gains, double ideal,
                          InstructionSet set) {
   const auto& backlash = the_case.backlash;
-  if (is_modal(the_case) || !(backlash.width > 0.0) || backlash.law == "none" ||
-      !std::isfinite(gains.differential) || !(excitation_of(the_case).amplitude > 0.0))
+  if (!is_of_masses(motion_kind_of(the_case, Switching::sampled)) || !(backlash.width > 0.0) ||
+      backlash.law == "none" || !std::isfinite(gains.differential) ||
+      !(excitation_of(the_case).amplitude > 0.0))
     return "";
   const double duration = std::min(settled_within, end_of_force(the_case));
   const Case there = case_with(case_with(the_case, "control.proportional_gain", gains.proportional),
@@ -93,8 +94,10 @@ MaxDelayOptions tuned_delay_question(const Case& the_case, double frequency) {
   question.relative_to_true_force = true;
   question.delay_fraction = the_case.control.processing_delay / the_case.control.sampling_period;
   question.frequency = frequency;
-  question.proportional_gain = tuned_proportional_gain(the_case.plant.absorber_stiffness,
-                                                       the_case.plant.absorber_mass, frequency);
+  question.proportional_gain =
+      has_own_plant(the_case) ? gains_of(the_case).proportional
+                              : tuned_proportional_gain(the_case.plant.absorber_stiffness,
+                                                        the_case.plant.absorber_mass, frequency);
   return question;
 }
 

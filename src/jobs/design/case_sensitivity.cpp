@@ -7,6 +7,7 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/linear_loop.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "process/errors.hpp"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/margins/modal_margins.hpp"

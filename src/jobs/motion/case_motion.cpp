@@ -1,9 +1,9 @@
 #include "jobs/motion/case_motion.hpp"
 
 #include "holdfast/motion/trajectory.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -5,12 +5,12 @@
 #include <variant>
 
 #include "case/case.hpp"
+#include "case/job_context.hpp"
 #include "case/model/moving_loop.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/plant/port_readings.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "process/job_context.hpp"
 
 namespace holdfast::program {
 

@@ -16,7 +16,6 @@
 #include "holdfast/sweep/event_metrics.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 #include "holdfast/sweep/modal_metrics.hpp"
-#include "jobs/motion/motion_run.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
 #include "kernels/pack_kernels.hpp"
 #include "process/errors.hpp"
@@ -75,20 +74,28 @@ void batch_event_metrics(const std::vector<EventSweepMotion>& motions,
   for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = metrics[k];
 }
 
-LyapunovResult exponents_of(const SampledMasses& moving, const LyapunovRun& run) {
+/// Along the itinerary of the motion, by the maps of a loop with the tangents' sampling.
+ExponentsOfMotion exponents_along(const SampledMasses& moving, const LyapunovRun& run,
+                                  const std::optional<Sampling<double>>& tangents) {
   const auto blocks = std::make_shared<const ItineraryBlocks>(
-      sampled_loop(moving.loop.plant, moving.loop.sampling), moving.loop.gains);
+      sampled_loop(moving.loop.plant, tangents.value_or(moving.loop.sampling)), moving.loop.gains);
   auto motion = motion_of(moving);
-  return run_lyapunov(motion, blocks, run, throw_if_interrupted);
+  const LyapunovResult result = run_lyapunov(motion, blocks, run, throw_if_interrupted);
+  return {result, {motion.time(), 0.0, {}}};
 }
-LyapunovResult exponents_of(const SampledModes& moving, const LyapunovRun& run) {
+ExponentsOfMotion exponents_along(const SampledModes& moving, const LyapunovRun& run,
+                                  const std::optional<Sampling<double>>&) {
   ModalLyapunov modes(moving.loop, motion_of(moving));
-  return run_lyapunov(modes, run, throw_if_interrupted);
+  const LyapunovResult result = run_lyapunov(modes, run, throw_if_interrupted);
+  return {result, {modes.time(), 0.0, {}}};
 }
+/// With the saltation at its switches.
 template <class Moving>
-LyapunovResult exponents_of(const Moving& moving, const LyapunovRun& run) {
+ExponentsOfMotion exponents_along(const Moving& moving, const LyapunovRun& run,
+                                  const std::optional<Sampling<double>>&) {
   auto motion = motion_of(moving);
-  return run_event_lyapunov(motion, run, throw_if_interrupted);
+  const LyapunovResult result = run_event_lyapunov(motion, run, throw_if_interrupted);
+  return {result, end_of(motion)};
 }
 
 }  // namespace
@@ -139,11 +146,16 @@ MotionMetrics diverging(const MotionMetrics& metrics) {
   return detail::diverged_metrics(seen, metrics.samples);
 }
 
+ExponentsOfMotion exponents_of(const MovingLoop& motion, const LyapunovRun& run,
+                               const std::optional<Sampling<double>>& tangents) {
+  return std::visit([&](const auto& moving) { return exponents_along(moving, run, tangents); },
+                    motion);
+}
+
 std::optional<LyapunovResult> run_largest_exponent(const MovingLoop& motion, std::int64_t samples) {
   if (samples < 1) return std::nullopt;
   const LyapunovRun run{samples, 0, 0.0, LyapunovScope::largest};
-  const LyapunovResult result =
-      std::visit([&](const auto& moving) { return exponents_of(moving, run); }, motion);
+  const LyapunovResult result = exponents_of(motion, run).result;
   if (result.outcome == LyapunovOutcome::diverged) return std::nullopt;
   return result;
 }

@@ -10,6 +10,7 @@
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
+#include "jobs/motion/case_motion.hpp"
 #include "kernels/instruction_set.hpp"
 
 namespace holdfast::program {
@@ -27,6 +28,18 @@ std::vector<MotionMetrics> metrics_of(const std::vector<MovingLoop>& motions, do
 
 /// The metrics of a motion that is known to diverge beyond the samples that were taken of it.
 MotionMetrics diverging(const MotionMetrics& metrics);
+
+/// The exponents of a motion and where it ended: of one from sample to sample the time alone.
+struct ExponentsOfMotion {
+  LyapunovResult result;
+  MotionEnd end;
+};
+
+/// The exponents of any moving loop; throws Interrupted.
+/// @param tangents  sampling of the loop whose S and S* are the tangents of sampled masses; else
+///                  that of the motion
+ExponentsOfMotion exponents_of(const MovingLoop& motion, const LyapunovRun& run,
+                               const std::optional<Sampling<double>>& tangents = {});
 
 /// The run of the largest exponent alone over so many samples; nothing where the motion diverges or
 /// the samples are none.

@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/decay/cable_decay.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/needed.hpp"
-#include "io/text/text.hpp"
-#include "jobs/cable/cable_decay.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "text/text.hpp"
 
 #ifdef HOLDFAST_HAS_SUNDIALS
 #include "holdfast/sundials/elements_motion.hpp"

@@ -5,8 +5,8 @@
 #include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
-#include "io/text/table.hpp"
 #include "jobs/columns.hpp"
+#include "output/table.hpp"
 
 namespace holdfast::program {
 

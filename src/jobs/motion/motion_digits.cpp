@@ -8,8 +8,8 @@
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/phase_space/deviation.hpp"
-#include "io/text/text.hpp"
 #include "jobs/motion/cell_motion.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -10,7 +10,7 @@
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/plant/reduction.hpp"
 #include "jobs/motion/case_motion.hpp"
-#include "jobs/motion/trusted_digits.hpp"
+#include "output/trusted_digits.hpp"
 
 namespace holdfast::program {
 

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "holdfast/motion/trajectory.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 

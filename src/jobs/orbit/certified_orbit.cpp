@@ -5,19 +5,19 @@
 #include <optional>
 #include <string>
 
+#include "case/model/conditioning.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/orbit/modal/modal_attraction.hpp"
 #include "holdfast/orbit/modal/modal_itinerary_maps.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
 #include "holdfast/plant/plant_poles.hpp"
-#include "io/text/names.hpp"
-#include "io/text/text.hpp"
-#include "jobs/charts/conditioning.hpp"
 #include "jobs/job_texts.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "process/interrupt.hpp"
+#include "text/names.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

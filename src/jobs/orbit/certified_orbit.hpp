@@ -2,13 +2,13 @@
 
 #include <cstdint>
 
+#include "case/job_context.hpp"
 #include "case/model/moving_loop.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/modal/modal_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
-#include "process/job_context.hpp"
 
 namespace holdfast::program {
 

@@ -1,8 +1,8 @@
 #include "jobs/orbit/followed_key.hpp"
 
 #include "case/case_keys.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

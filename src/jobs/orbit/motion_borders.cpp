@@ -9,15 +9,15 @@
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/orbit/event/event_motion_region.hpp"
 #include "holdfast/orbit/motion_region.hpp"
-#include "io/text/names.hpp"
-#include "io/text/table.hpp"
 #include "jobs/columns.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
 #include "jobs/orbit/followed_key.hpp"
 #include "jobs/orbit/surface_names.hpp"
+#include "output/table.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "process/interrupt.hpp"
+#include "text/names.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -181,7 +181,7 @@ void write_motion_borders(const JobContext& context, const std::vector<std::stri
                           std::int64_t largest_period, Switching switching) {
   const Case& the_case = context.case_data;
   const std::vector<MapKey> keys = map_keys(the_case, axes);
-  if (is_of_the_paper(the_case, switching))
+  if (is_sampled(motion_kind_of(the_case, switching)))
     return write_borders_of(context, keys, largest_period, sampled_masses_of);
   write_borders_of(context, keys, largest_period, [&](const Case& there) {
     return std::get<BuiltMasses>(built_loop_of(there, {switching}));

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "case/job_context.hpp"
 #include "holdfast/contact/contact.hpp"
-#include "process/job_context.hpp"
 
 namespace holdfast::program {
 

@@ -11,14 +11,14 @@
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/phase_space/motion_map.hpp"
-#include "io/grid/grid_output.hpp"
-#include "io/text/names.hpp"
-#include "io/text/table.hpp"
-#include "io/text/text.hpp"
-#include "jobs/charts/row_blocks.hpp"
 #include "jobs/columns.hpp"
+#include "output/grid/grid_output.hpp"
+#include "output/row_blocks.hpp"
+#include "output/table.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "text/names.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -100,7 +100,7 @@ bool all_of_the_paper(const Case& the_case, const MapGrid& grid, Switching switc
   const std::size_t last = grid.shape().cells() - 1, across = grid.shape().columns - 1;
   for (const std::size_t cell : {std::size_t{0}, across, last - across, last}) {
     const auto there = case_of_cell(the_case, grid, cell);
-    if (there && !is_of_the_paper(*there, switching)) return false;
+    if (there && !is_sampled(motion_kind_of(*there, switching))) return false;
   }
   return true;
 }

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "case/job_context.hpp"
 #include "holdfast/contact/contact.hpp"
 #include "holdfast/core/types.hpp"
-#include "process/job_context.hpp"
 
 namespace holdfast::program {
 

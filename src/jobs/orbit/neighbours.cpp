@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "holdfast/phase_space/attractor_set.hpp"
-#include "io/text/text.hpp"
 #include "process/interrupt.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

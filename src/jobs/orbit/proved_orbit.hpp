@@ -10,7 +10,7 @@
 #include "holdfast/orbit/proof/event_orbit_proof.hpp"
 #include "holdfast/orbit/proof/orbit_proof.hpp"
 #include "holdfast/orbit/proof/orbit_range.hpp"
-#include "io/text/names.hpp"
+#include "text/names.hpp"
 
 namespace holdfast::program {
 

@@ -2,7 +2,7 @@
 
 #include "holdfast/orbit/proof/enclosed_modes.hpp"
 #include "holdfast/orbit/switching_borders.hpp"
-#include "io/text/names.hpp"
+#include "text/names.hpp"
 
 namespace holdfast::program {
 

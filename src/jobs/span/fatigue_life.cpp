@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "case/model/span/span_of_case.hpp"
-#include "io/text/text.hpp"
 #include "jobs/span/aeolian_amplitudes.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -14,9 +14,9 @@
 #include "holdfast/math/roots/root_from_pole.hpp"
 #include "holdfast/span/span_roots.hpp"
 #include "holdfast/stability/response/modal_damping.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -9,9 +9,8 @@
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_loop.hpp"
 #include "case/model/span/span_of_case.hpp"
-#include "io/text/range_text.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 

@@ -7,9 +7,8 @@
 #include "case/model/cable_of_case.hpp"
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_of_case.hpp"
-#include "io/text/range_text.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -70,11 +70,11 @@ class Counter {
   Counter(Counter&&) = delete;
   Counter& operator=(Counter&&) = delete;
 
-  /// Gives the number, and with MPI_SUM adds the term to it; with MPI_NO_OP it stays.
-  std::int64_t apply(std::int64_t term, MPI_Op operation) {
+  /// Gives the number, and adds the term to it.
+  std::int64_t add(std::int64_t term) {
     const auto guard = session_.lock();
     std::int64_t before = 0;
-    check(MPI_Fetch_and_op(&term, &before, MPI_INT64_T, 0, 0, operation, window_), "count");
+    check(MPI_Fetch_and_op(&term, &before, MPI_INT64_T, 0, 0, MPI_SUM, window_), "count");
     check(MPI_Win_flush(0, window_), "count");
     return before;
   }
@@ -184,9 +184,7 @@ class MpiProcesses final : public ProcessGroup {
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
-  std::int64_t take_ticket() override { return tickets_.apply(1, MPI_SUM); }
-  void skip_tickets(std::int64_t count) override { tickets_.apply(count, MPI_SUM); }
-  std::int64_t tickets_taken() override { return tickets_.apply(0, MPI_NO_OP); }
+  std::int64_t take_tickets(std::int64_t count) override { return tickets_.add(count); }
 
   std::vector<std::string> exchange(const std::string& text) override;
 

@@ -1,22 +1,46 @@
 #include "process/group/process_group.hpp"
 
+#include <array>
 #include <atomic>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <optional>
 
 #include "process/errors.hpp"
 #include "process/exit.hpp"
-#include "process/group/mpi_launch.hpp"
 
 namespace holdfast::program {
 namespace {
+
+struct LauncherVariables {
+  const char* size;
+  const char* rank;
+};
+
+// mpirun may run under srun, so what mpirun sets comes first.
+constexpr std::array<LauncherVariables, 4> launchers = {{
+    {"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
+    {"PMI_SIZE", "PMI_RANK"},
+    {"MV2_COMM_WORLD_SIZE", "MV2_COMM_WORLD_RANK"},
+    {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"},
+}};
+
+std::optional<int> whole_number(const char* text) {
+  if (text == nullptr) return std::nullopt;
+  int value = 0;
+  const char* const end = text + std::strlen(text);
+  const auto [stop, error] = std::from_chars(text, end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
 
 class SingleProcess final : public ProcessGroup {
  public:
   int rank() const override { return 0; }
   int size() const override { return 1; }
-  std::int64_t take_ticket() override { return tickets_.fetch_add(1); }
-  void skip_tickets(std::int64_t count) override { tickets_.fetch_add(count); }
-  std::int64_t tickets_taken() override { return tickets_.load(); }
+  std::int64_t take_tickets(std::int64_t count) override { return tickets_.fetch_add(count); }
   std::vector<std::string> exchange(const std::string& text) override { return {text}; }
 
  private:
@@ -33,6 +57,19 @@ void require_all(const MpiLaunch& launch, const ProcessGroup& group) {
 }
 
 }  // namespace
+
+MpiLaunch mpi_launch(const EnvironmentLookup& environment) {
+  for (const LauncherVariables& variables : launchers) {
+    const auto size = whole_number(environment(variables.size));
+    const auto rank = whole_number(environment(variables.rank));
+    if (size && rank && 0 <= *rank && *rank < *size) return {*rank, *size};
+  }
+  return {};
+}
+
+MpiLaunch mpi_launch() {
+  return mpi_launch([](const char* name) -> const char* { return std::getenv(name); });
+}
 
 std::unique_ptr<ProcessGroup> single_process() { return std::make_unique<SingleProcess>(); }
 

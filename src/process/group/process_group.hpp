@@ -8,6 +8,26 @@
 
 namespace holdfast::program {
 
+/// This process among those that an MPI launcher started together, as far as the environment tells:
+/// known before MPI is, and without it.
+struct MpiLaunch {
+  int rank = 0;
+  int size = 1;  // 1: started alone
+};
+
+/// The value of an environment variable, or nullptr.
+using EnvironmentLookup = std::function<const char*(const char* name)>;
+
+/// Reads the variables of Open MPI (OMPI_COMM_WORLD_…), of PMI (MPICH, Intel MPI, Cray, and srun
+/// with PMI: PMI_…), of MVAPICH (MV2_COMM_WORLD_…) and of srun (SLURM_STEP_NUM_TASKS,
+/// SLURM_PROCID); the first pair that makes sense counts. A batch script of Slurm is itself started
+/// alone, although it finds SLURM_NTASKS and SLURM_PROCID: the number of tasks of a step has only
+/// what srun starts.
+MpiLaunch mpi_launch(const EnvironmentLookup& environment);
+
+/// The same of this process's environment.
+MpiLaunch mpi_launch();
+
 /// The processes that work on one computation: this one alone, or those that `mpirun` or `srun`
 /// started.
 ///
@@ -26,22 +46,16 @@ class ProcessGroup {
   virtual int rank() const = 0;
   virtual int size() const = 0;
 
-  /// The next number 0, 1, 2, … of a counter that all processes share: each number is given once.
-  /// Needs nothing of the other processes; any thread may ask.
+  /// Takes the next `count` ≥ 0 numbers of a counter that all processes share, 0, 1, 2, …, and
+  /// gives the first of them: each number is given once. A process that takes many passes over what
+  /// is left of the work; one that takes none learns how many have been taken. Needs nothing of the
+  /// other processes; any thread may ask.
   /// Throws NoAnswer where MPI fails, or can be used by the joining thread alone and another asks.
-  virtual std::int64_t take_ticket() = 0;
-
-  /// Passes over the next `count` ≥ 0 numbers: what is left of the work is given up, or done. Any
-  /// thread may. Throws what take_ticket() throws.
-  virtual void skip_tickets(std::int64_t count) = 0;
-
-  /// How many numbers the counter has given or passed over; any thread may ask. Throws what
-  /// take_ticket() throws.
-  virtual std::int64_t tickets_taken() = 0;
+  virtual std::int64_t take_tickets(std::int64_t count) = 0;
 
   /// Every process brings a text and gets those of all, in the order of their ranks. Waits for all
   /// of them, without burdening a core; one thread of each.
-  /// Throws Interrupted, what take_ticket() throws, and NoAnswer in every process where the texts
+  /// Throws Interrupted, what take_tickets() throws, and NoAnswer in every process where the texts
   /// together have 2³¹ bytes or more.
   virtual std::vector<std::string> exchange(const std::string& text) = 0;
 

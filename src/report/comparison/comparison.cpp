@@ -11,9 +11,9 @@
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "holdfast/stability/response/response.hpp"
-#include "io/text/compiled_texts.hpp"
-#include "io/text/text.hpp"
 #include "report/comparison/comparison_tools.hpp"
+#include "text/compiled_texts.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 
@@ -146,13 +146,10 @@ double settling_time(const PaperLoop& loop, double kick_time) {
   return settled - kick_time;
 }
 
-void compare_perturbations(Comparisons& rows) {
+void compare_perturbations_and_switching(Comparisons& rows) {
   rows.number("fig7a", settling_time({0.001, 0.0005}, 0.95));
   const double slow = settling_time({0.010, 0.002}, 0.84);
   rows.statement("fig7b", rounded(slow, 3) + " s", slow > 2.0);
-}
-
-void compare_switching(Comparisons& rows) {
   const SwitchLog log = PaperLoop{0.001, 0.0005}.seen_by(SwitchLog(9.06), 9.2);
   const char* printed[] = {"9.065", "9.068", "9.069", "9.095"};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -196,8 +193,7 @@ std::vector<Comparison> compare_with_paper() {
   compare_best_gain(rows);
   compare_delay(rows);
   compare_histories(rows);
-  compare_perturbations(rows);
-  compare_switching(rows);
+  compare_perturbations_and_switching(rows);
   compare_characteristics(rows);
   return rows.rows;
 }

@@ -3,13 +3,13 @@
 
 #include "case/case_file.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/model/decay/cable_decay.hpp"
+#include "case/model/decay/damping_fit.hpp"
 #include "holdfast/cable/chain_modes.hpp"
 #include "holdfast/cable/modes.hpp"
 #include "holdfast/cable/statics.hpp"
 #include "holdfast/plant/reduction.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "jobs/cable/cable_decay.hpp"
-#include "jobs/cable/damping_fit.hpp"
 #include "process/errors.hpp"
 #include "report/comparison/comparison_tools.hpp"
 
@@ -100,35 +100,21 @@ double peak_discrepancy(const Case& the_case, double force, bool equal_displacem
   return std::abs(decay_measures(plant).first_peak / decay_measures(cable.record).first_peak - 1.0);
 }
 
-/// Largest discrepancy of the first peaks over forces up to one (N), and the smallest force from
-/// which on it exceeds a limit.
-struct PeakScan {
-  double largest = 0.0;
-  double reaches = std::nan("");
-};
-
-PeakScan scan_peaks(const Case& the_case, double highest, double limit, bool equal_displacement) {
-  PeakScan scan;
+/// The largest discrepancy of the first peaks over forces up to one (N) against the paper's, and
+/// the smallest force from which on it exceeds that.
+void compare_peaks(Comparisons& rows, const Case& the_case, const char* row, double highest,
+                   double limit, bool equal_displacement) {
+  double largest = 0.0, reaches = std::nan("");
   constexpr int steps = 20;
   for (int k = 1; k <= steps; ++k) {
     const double force = highest * k / steps;
     const double found = peak_discrepancy(the_case, force, equal_displacement);
-    if (!(found <= scan.largest)) scan.largest = found;  // a peak that is missing shows as NaN
-    if (found >= limit && std::isnan(scan.reaches)) scan.reaches = force;
+    if (!(found <= largest)) largest = found;  // a peak that is missing shows as NaN
+    if (found >= limit && std::isnan(reaches)) reaches = force;
   }
-  return scan;
-}
-
-std::string scan_text(const PeakScan& scan) {
-  const std::string text = "up to " + rounded(scan.largest * 100.0, 2) + " %";
-  return std::isnan(scan.reaches) ? text : text + ", first at " + rounded(scan.reaches, 2) + " N";
-}
-
-void compare_peaks(Comparisons& rows, const Case& the_case) {
-  const PeakScan same_force = scan_peaks(the_case, 0.4, 0.1, false);
-  rows.statement("fig2b", scan_text(same_force), same_force.largest < 0.1);
-  const PeakScan same_start = scan_peaks(the_case, 1.0, 0.05, true);
-  rows.statement("fig2c", scan_text(same_start), same_start.largest < 0.05);
+  std::string text = "up to " + rounded(largest * 100.0, 2) + " %";
+  if (!std::isnan(reaches)) text += ", first at " + rounded(reaches, 2) + " N";
+  rows.statement(row, text, largest < limit);
 }
 
 void compare_decay(Comparisons& rows, const Case& the_case) {
@@ -154,7 +140,8 @@ void compare_cable(Comparisons& rows) {
   compare_reduction(rows, the_case);
   compare_statics(rows, the_case);
   try {
-    compare_peaks(rows, the_case);
+    compare_peaks(rows, the_case, "fig2b", 0.4, 0.1, false);
+    compare_peaks(rows, the_case, "fig2c", 1.0, 0.05, true);
     compare_decay(rows, the_case);
     compare_damping(rows, the_case);
   } catch (const NoAnswer& reason) {

@@ -47,10 +47,10 @@ std::string certificate_of(const OrbitResult& found) {
 }
 
 void compare_periods(Comparisons& rows) {
-  const OrbitResult fast = orbit_from_rest({0.001, 0.002});
-  rows.statement("fig9b", certificate_of(fast), fast.outcome == OrbitOutcome::certified);
-  const OrbitResult slow = orbit_from_rest({0.011, 0.002});
-  rows.statement("fig12", certificate_of(slow), slow.outcome == OrbitOutcome::certified);
+  for (const auto& [row, period] : {std::pair{"fig9b", 0.001}, {"fig12", 0.011}}) {
+    const OrbitResult found = orbit_from_rest({period, 0.002});
+    rows.statement(row, certificate_of(found), found.outcome == OrbitOutcome::certified);
+  }
 }
 
 std::vector<SpectralLine> steady_spectrum(const PaperLoop& loop, double frequency) {
@@ -117,9 +117,10 @@ void compare_coverage(Comparisons& rows) {
   }
   const std::string counts = std::to_string(visited[0]) + ", " + std::to_string(visited[1]) + ", " +
                              std::to_string(visited[2]) + " cells";
-  const double growth_first = static_cast<double>(visited[1]) / static_cast<double>(visited[0]);
-  const double growth_then = static_cast<double>(visited[2]) / static_cast<double>(visited[1]);
-  rows.statement("filling", counts, growth_first > 1.2 && growth_then < 1.05);
+  const auto growth = [&](std::size_t k) {
+    return static_cast<double>(visited[k]) / static_cast<double>(visited[k - 1]);
+  };
+  rows.statement("filling", counts, growth(1) > 1.2 && growth(2) < 1.05);
 }
 
 struct Table2Column {

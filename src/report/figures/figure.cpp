@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "io/text/text.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -47,6 +47,16 @@ Figure figure_of(const toml::array& row, const Values& others, std::vector<Value
   return figure_of_kind(std::move(figure), text_of(row[1]), nullptr, values, panels);
 }
 
+bool is_plain(const std::string& argument) {
+  constexpr const char* plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=.,:/+@%";
+  return !argument.empty() && argument.find_first_not_of(plain) == std::string::npos;
+}
+
+std::string quoted(const std::string& argument) {
+  return "'" + replaced(argument, "'", "'\\''") + "'";
+}
+
 }  // namespace
 
 Values values_of(const toml::table& table) {
@@ -60,6 +70,22 @@ std::vector<std::string> words_of(const std::string& command) {
   for (const std::string_view word : split(command, ' '))
     if (!word.empty()) words.emplace_back(word);
   return words;
+}
+
+std::vector<std::string> command_of(const std::vector<std::string>& arguments,
+                                    const std::vector<std::string>& case_arguments) {
+  std::vector<std::string> command = {arguments.front()};
+  command.insert(command.end(), case_arguments.begin(), case_arguments.end());
+  command.insert(command.end(), arguments.begin() + 1, arguments.end());
+  return command;
+}
+
+std::string shell_text(const std::vector<std::string>& arguments,
+                       const std::vector<std::string>& case_arguments) {
+  std::string text = "holdfast";
+  for (const std::string& argument : command_of(arguments, case_arguments))
+    text += " " + (is_plain(argument) ? argument : quoted(argument));
+  return text;
 }
 
 std::string rounded(double value, int digits) {
@@ -110,12 +136,8 @@ Figure figure_of_kind(Figure figure, const std::string& kind_name, const toml::a
 
 std::string listed_text(const std::string& name) { return texts()[name].value_or(std::string()); }
 
-std::string listed_word(const std::string& name) {
-  return texts()["words"][name].value_or(std::string());
-}
-
-std::string terminal_text(const std::string& ending) {
-  return texts()["terminal"][ending].value_or(std::string());
+std::string listed_text(const std::string& table, const std::string& name) {
+  return texts()[table][name].value_or(std::string());
 }
 
 const toml::array& listed_pictures() { return *texts()["pictures"].as_array(); }

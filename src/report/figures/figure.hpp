@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "case/case.hpp"
-#include "io/text/compiled_texts.hpp"
-#include "process/job_context.hpp"
+#include "case/job_context.hpp"
+#include "holdfast/core/axis.hpp"
+#include "text/compiled_texts.hpp"
 
 namespace holdfast::program {
 
@@ -58,10 +60,10 @@ Values values_of(const toml::table& table);
 Figure figure_of_kind(Figure figure, const std::string& kind_name, const toml::array* tables,
                       const Values& given, const std::vector<Values>& panels);
 
-/// A text of that file that is no figure's; "" where there is none.
+/// A text of that file that is no figure's, or one of a table in it, as "words"; "" where there is
+/// none.
 std::string listed_text(const std::string& name);
-std::string listed_word(const std::string& name);
-std::string terminal_text(const std::string& ending);
+std::string listed_text(const std::string& table, const std::string& name);
 
 /// The rows of its list of pictures.
 const toml::array& listed_pictures();
@@ -87,6 +89,18 @@ std::string greatest_frequency(const Case& the_case);
 /// The arguments of a command line without quotes.
 std::vector<std::string> words_of(const std::string& command);
 
+/// Does one command line of the program, without the program's name; throws what its job throws.
+using CommandRunner = std::function<void(const std::vector<std::string>&)>;
+
+/// A job's command line with the options that made the case before its own: job, case, the rest.
+/// @param arguments  the job and its own options
+std::vector<std::string> command_of(const std::vector<std::string>& arguments,
+                                    const std::vector<std::string>& case_arguments);
+
+/// A command line of the program as a shell reads it.
+std::string shell_text(const std::vector<std::string>& arguments,
+                       const std::vector<std::string>& case_arguments);
+
 /// Text of a number with so many significant digits.
 std::string rounded(double value, int digits);
 
@@ -95,5 +109,38 @@ double rounded_up(double value);
 
 /// The unit in which a length (m) is between 0.1 and 100 or so: mm, µm or nm.
 LengthUnit length_unit_for(double length);
+
+/// An axis of frequencies as the jobs read it: MIN:MAX:COUNT.
+std::string frequencies_text(const Axis& axis);
+
+/// What the texts leave open of the pictures of a span.
+Values span_values(const Case& the_case);
+
+/// What a line engineer draws of a span: its vibration and strain over frequency, what its devices
+/// take at each end, the damping of its modes, and the damage over wind speed.
+std::vector<Figure> span_figures(const Case& the_case);
+
+/// A key of the case along an axis of a map, and how the picture shows it.
+struct MapAxis {
+  std::string key;
+  double min, max;  // in the key's unit, min < max
+  bool logarithmic;
+  std::string label;
+  double scale;  // the picture shows scale times the key's value
+};
+
+/// gnuplot's expression for what the picture's axis shows of a value, itself an expression.
+std::string shown_on(const MapAxis& axis, const std::string& value);
+
+/// What the texts leave open of an axis: "x axis" of a sweep with 61 values, "x label", "x range",
+/// "x tics" and, as "x", the expression for what it shows of a column.
+Values values_of(const std::string& letter, const MapAxis& axis, const std::string& column);
+
+/// What an axis calls a key of the case, with the unit in which it shows it: "sampling period τ
+/// (ms)"; of another word, that word.
+std::string label_of(const std::string& key);
+
+/// So many times an axis of that label shows the key's value.
+double scale_of(const std::string& key);
 
 }  // namespace holdfast::program

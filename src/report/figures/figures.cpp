@@ -5,31 +5,31 @@
 #include <utility>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/decay/cable_decay.hpp"
 #include "case/model/linear_loop.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/math/signal/decay_measures.hpp"
-#include "io/text/text.hpp"
-#include "jobs/cable/cable_decay.hpp"
 #include "process/errors.hpp"
 #include "report/figures/figure.hpp"
-#include "report/figures/map_axis.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
 
 double frequency_of(const Case& the_case) { return effective_excitation(the_case).frequency; }
 
+MapAxis axis_over(const std::string& key, double min, double max, bool logarithmic = false) {
+  return {key, min, max, logarithmic, label_of(key), scale_of(key)};
+}
+
 /// Sampling periods between two fractions of the forcing period.
 MapAxis period_axis(const Case& the_case, double from, double to) {
   const double forcing_period = 1.0 / frequency_of(the_case);
   const double shortest = std::max(from * forcing_period, the_case.control.processing_delay);
-  return {"control.sampling_period",
-          shortest,
-          std::max(to * forcing_period, 10.0 * shortest),
-          true,
-          label_of("control.sampling_period"),
-          1e3};
+  return axis_over("control.sampling_period", shortest,
+                   std::max(to * forcing_period, 10.0 * shortest), true);
 }
 
 /// Both ends of the steady z₂ − z₁ without control apart (m): a backlash as wide swallows it.
@@ -50,29 +50,20 @@ double swing_without_control(const Case& the_case) {
 MapAxis backlash_axis(const Case& the_case) {
   const double swing = swing_without_control(the_case);
   const double widest = swing > 0.0 ? rounded_up(swing) : 1e-3;  // at rest any width does
-  const bool fine = widest < 1e-4;
-  return {"backlash.width",
-          0.0,
-          widest,
-          false,
-          replaced(label_of("backlash.width"), "(mm)", fine ? "(µm)" : "(mm)"),
-          fine ? 1e6 : 1e3};
+  MapAxis axis = axis_over("backlash.width", 0.0, widest);
+  if (widest < 1e-4) {
+    axis.label = replaced(axis.label, "(mm)", "(µm)");
+    axis.scale = 1e6;
+  }
+  return axis;
 }
 
 /// The excitation's frequency between two multiples of the case's; with [wind] its speed, to which
 /// the frequency of the vortices is proportional.
 MapAxis frequency_axis(const Case& the_case, double from, double to) {
-  if (the_case.wind) {
-    const double speed = the_case.wind->speed;
-    return {"wind.speed", from * speed, to * speed, false, label_of("wind.speed"), 1.0};
-  }
-  const double frequency = frequency_of(the_case);
-  return {"excitation.frequency",
-          from * frequency,
-          to * frequency,
-          false,
-          label_of("excitation.frequency"),
-          1.0};
+  const double of_case = the_case.wind ? the_case.wind->speed : frequency_of(the_case);
+  return axis_over(the_case.wind ? "wind.speed" : "excitation.frequency", from * of_case,
+                   to * of_case);
 }
 
 /// So many forcing periods, in seconds, to four digits.
@@ -82,18 +73,12 @@ std::string duration_of(const Case& the_case, double forcing_periods) {
   return format_rounded(std::round(exact / unit) * unit);
 }
 
-/// Of one of the maps side by side.
-/// @param heading  in gnuplot's enhanced text
-/// @param options  of the job sweep: duration, and what this panel alone sets
-Values panel(const std::string& heading, const std::string& options) {
-  return {{"heading", heading}, {"options", options}};
-}
-
-/// Of the D with which a motion settles in the first half of its duration (`BestGains`).
+/// One of the maps side by side, its heading in gnuplot's enhanced text and its options of the job
+/// sweep: of the D with which a motion settles in the first half of its duration (`BestGains`).
 Values settling_panel(const std::string& duration) {
   const double settling_time = 0.5 * std::strtod(duration.c_str(), nullptr);
-  return panel("{/:Italic D}\u00a0that settles in " + rounded(settling_time, 4) + " s",
-               "--duration " + duration);
+  return {{"heading", "{/:Italic D}\u00a0that settles in " + rounded(settling_time, 4) + " s"},
+          {"options", "--duration " + duration}};
 }
 
 /// What the texts leave open of a figure with these axes.
@@ -121,11 +106,13 @@ Figure delay_backlash_figure(const Case& the_case, bool builtin) {
 
 std::vector<Values> backlash_panels(const Case& the_case, const std::string& duration) {
   std::vector<Values> panels = {
-      panel("without backlash", "--duration " + duration + " --set backlash.width=0")};
+      {{"heading", "without backlash"},
+       {"options", "--duration " + duration + " --set backlash.width=0"}}};
   const double width = the_case.backlash.width;
   if (width > 0.0)
-    panels.push_back(panel("backlash\u00a0{/:Italic r}_0\u00a0= " + rounded(1e3 * width, 4) + " mm",
-                           "--duration " + duration));
+    panels.push_back(
+        {{"heading", "backlash\u00a0{/:Italic r}_0\u00a0= " + rounded(1e3 * width, 4) + " mm"},
+         {"options", "--duration " + duration}});
   return panels;
 }
 
@@ -219,6 +206,16 @@ std::vector<Figure> figures_of_cable(const Case& the_case) {
                 listed_figures("amplitudes"));
 }
 
+/// Whether the paper's window of gains shows those of the case, and its absorber's stiffness.
+bool is_of_papers_size(const Case& the_case) {
+  const PdGains<double> gains = gains_of(the_case);
+  const double size = std::max(std::abs(gains.proportional), plant_of(the_case).absorber_stiffness);
+  if (!(size > 0.0)) return true;
+  return Interval<double>{-1000.0, 200.0}.contains(gains.proportional) &&
+         Interval<double>{-40.0, 20.0}.contains(gains.differential) &&
+         Interval<double>{50.0, 1200.0}.contains(size);
+}
+
 }  // namespace
 
 Values window_of_gains(const Case& the_case) {
@@ -232,20 +229,6 @@ Values window_of_gains(const Case& the_case) {
       std::max({2.0 * std::abs(gains.differential), 5.0 * plant.absorber_damping, p_reach / 100.0});
   return {{"P", about(gains.proportional, p_reach)}, {"D", about(gains.differential, d_reach)}};
 }
-
-namespace {
-
-/// Whether the paper's window of gains shows those of the case, and its absorber's stiffness.
-bool is_of_papers_size(const Case& the_case) {
-  const PdGains<double> gains = gains_of(the_case);
-  const double size = std::max(std::abs(gains.proportional), plant_of(the_case).absorber_stiffness);
-  if (!(size > 0.0)) return true;
-  return Interval<double>{-1000.0, 200.0}.contains(gains.proportional) &&
-         Interval<double>{-40.0, 20.0}.contains(gains.differential) &&
-         Interval<double>{50.0, 1200.0}.contains(size);
-}
-
-}  // namespace
 
 std::string shown_gains(const JobContext& context, const std::string& option,
                         const std::string& range) {

@@ -5,13 +5,14 @@
 
 #include <cstdio>
 #include <memory>
+#include <utility>
 
-#include "io/file/input.hpp"
 #include "io/file/output.hpp"
-#include "io/text/text.hpp"
+#include "io/file/whole_file.hpp"
 #include "process/child.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -106,23 +107,6 @@ std::string reason_of(int status, const std::string& messages) {
   return one_line(without_panels(messages).substr(0, 1000));
 }
 
-/// Draws a figure into a file by the script in another one, and gives what gnuplot says.
-std::string run_script(const Figure& figure, const fs::path& folder, const fs::path& script,
-                       const OutputFile& picture, const std::string& ending) {
-  const std::string commands =
-      "picture = '/dev/stdout'; measure = '" + listed_text("measure") + "'";
-  const Messages messages;
-  const int status = run_gnuplot(folder, commands, fs::absolute(script),
-                                 fs::absolute(picture.temporary()), messages.descriptor());
-  const bool whole = is_whole(read_input(picture.temporary()), ending);
-  if (status != 0 || !whole) {
-    throw_if_interrupted();  // a terminal sends its signal to gnuplot as well
-    throw OutputError("gnuplot could not draw " + figure.name + ": " +
-                      reason_of(status, messages.text()));
-  }
-  return messages.text();
-}
-
 }  // namespace
 
 bool gnuplot_available() { return run_gnuplot(".", "", "--version", "/dev/null", -1) == 0; }
@@ -140,33 +124,31 @@ std::string gnuplot_script(const Figure& figure, const std::string& ending) {
       listed_text("script"),
       {{"name", figure.name},
        {"ending", ending},
-       {"terminal", filled(terminal_text(ending), height)},
+       {"terminal", filled(listed_text("terminal", ending), height)},
        {"heading", heading_line(figure)},
        {"plot", filled(with_measured_panels(with_unbroken_labels(figure.plot)), values)}});
 }
 
-std::vector<PicturePanel> draw(const Figure& figure, const fs::path& folder,
-                               const std::string& ending) {
+Drawing draw(const Figure& figure, const fs::path& folder, const std::string& ending, bool kept) {
   const fs::path pictures = folder / "pictures";
-  const fs::path script = pictures / (figure.name + ".gp");
-  OutputFile written(script);
-  written.write(gnuplot_script(figure, ending));
-  written.commit();
-  OutputFile picture(pictures / (figure.name + ending));
-  const std::string said = run_script(figure, folder, script, picture, ending);
-  picture.commit();
-  return measured_panels(said);
-}
-
-PassingPicture passing_picture(const Figure& figure, const fs::path& folder,
-                               const std::string& ending) {
-  const fs::path pictures = folder / "pictures";
-  OutputFile script(pictures / (figure.name + ending + ".gp"));
+  OutputFile script(pictures / (figure.name + (kept ? "" : ending) + ".gp"));
   script.write(gnuplot_script(figure, ending));
-  script.finish();
+  kept ? script.commit() : script.finish();
   OutputFile picture(pictures / (figure.name + ending));
-  const std::string said = run_script(figure, folder, script.temporary(), picture, ending);
-  return {read_input(picture.temporary()), measured_panels(said)};
+  const std::string commands =
+      "picture = '/dev/stdout'; measure = '" + listed_text("measure") + "'";
+  const Messages messages;
+  const int status =
+      run_gnuplot(folder, commands, fs::absolute(kept ? script.target() : script.temporary()),
+                  fs::absolute(picture.temporary()), messages.descriptor());
+  std::string bytes = read_input(picture.temporary());
+  if (status != 0 || !is_whole(bytes, ending)) {
+    throw_if_interrupted();  // a terminal sends its signal to gnuplot as well
+    throw OutputError("gnuplot could not draw " + figure.name + ": " +
+                      reason_of(status, messages.text()));
+  }
+  if (kept) picture.commit();
+  return {std::move(bytes), measured_panels(messages.text())};
 }
 
 }  // namespace holdfast::program

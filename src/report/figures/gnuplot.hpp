@@ -17,20 +17,16 @@ bool gnuplot_available();
 /// @param ending  of the picture: ".svg", ".png" or ".pdf"
 std::string gnuplot_script(const Figure& figure, const std::string& ending = ".svg");
 
-/// Draws pictures/NAME.svg in the report's folder, or with another ending, and leaves the script
-/// beside it as NAME.gp. The picture appears whole or not at all. Gives its panels. Throws
-/// OutputError when gnuplot fails, in its words.
-std::vector<PicturePanel> draw(const Figure& figure, const std::filesystem::path& folder,
-                               const std::string& ending = ".svg");
-
-/// The bytes of a picture of which no file is left, and its panels.
-struct PassingPicture {
+/// A picture in bytes, and its panels.
+struct Drawing {
   std::string bytes;
   std::vector<PicturePanel> panels;
 };
 
-/// Draws like draw(), but leaves nothing in the folder.
-PassingPicture passing_picture(const Figure& figure, const std::filesystem::path& folder,
-                               const std::string& ending);
+/// Draws pictures/NAME.svg in the report's folder, or with another ending, and leaves the script
+/// beside it as NAME.gp; or neither, where they are not kept. The picture appears whole or not at
+/// all. Throws OutputError when gnuplot fails, in its words.
+Drawing draw(const Figure& figure, const std::filesystem::path& folder,
+             const std::string& ending = ".svg", bool kept = true);
 
 }  // namespace holdfast::program

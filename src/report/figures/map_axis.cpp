@@ -1,10 +1,8 @@
-#include "report/figures/map_axis.hpp"
-
 #include <cmath>
 
 #include "case/case_keys.hpp"
-#include "io/text/text.hpp"
 #include "report/figures/figure.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -45,7 +43,7 @@ Values values_of(const std::string& letter, const MapAxis& axis, const std::stri
 }
 
 std::string label_of(const std::string& key) {
-  const std::string label = listed_word("label of " + key);
+  const std::string label = listed_text("words", "label of " + key);
   if (!label.empty()) return label;
   const CaseKey* known = find_case_key(key);
   if (known == nullptr) return key;
@@ -54,7 +52,7 @@ std::string label_of(const std::string& key) {
 }
 
 double scale_of(const std::string& key) {
-  return parse_number(listed_word("scale of " + key)).value_or(1.0);
+  return parse_number(listed_text("words", "scale of " + key)).value_or(1.0);
 }
 
 }  // namespace holdfast::program

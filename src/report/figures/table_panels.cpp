@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "io/text/text.hpp"
 #include "jobs/columns.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

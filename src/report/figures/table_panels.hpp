@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "io/text/csv.hpp"
-#include "io/text/filled.hpp"
 #include "report/figures/figure.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 

@@ -4,28 +4,27 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "case/case_keys.hpp"
 #include "case/model/held_force.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/margins/margins.hpp"
-#include "io/text/range_text.hpp"
-#include "io/text/text.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "jobs/design/gain_margins.hpp"
+#include "jobs/motion/cell_motion.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
-#include "report/page/cable_answer.hpp"
 #include "report/page/html.hpp"
 #include "report/page/motions.hpp"
-#include "report/page/vibration.hpp"
-#include "report/span/span_answers.hpp"
 #include "report/switching/switching_study.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -46,10 +45,51 @@ constexpr double worthwhile = 0.95;
 /// Of the vibration without control: so little more or less is the same vibration.
 constexpr double negligible = 0.005;
 
-/// The question of the name, with what is said of it whatever the answer.
-Answer asked(const std::string& name, const Values& values) {
-  return {page_text(name + " question"), "", page_text(name + " detail", values),
-          words_of(page_text(name + " command", values))};
+/// Largest |z₁| of the steady motion with control and without it, and what the drive does for it.
+struct LoopVibration {
+  double controlled, free;
+  double force;  ///< N, the largest that the computer asks for
+
+  double ratio() const { return controlled / free; }
+};
+
+/// What all answers about a case rest on.
+struct Question {
+  const Case& the_case;
+  InstructionSet set;
+  MotionRow motion;  ///< what its motion is
+  double free;  ///< largest |z₁| (m) of the steady motion without control, under the true force
+  double radius_without_play;  ///< spectral radius of the loop without play
+
+  bool is_unstable_without_play() const { return !(radius_without_play < 1.0); }
+};
+
+/// Seconds of a motion: 20, or as long as the case's force lasts.
+double duration_of(const Case& the_case) { return std::min(20.0, end_of_force(the_case)); }
+
+/// Throws InvalidParameter where the case's loop is not admissible.
+Question question_about(const Case& the_case, InstructionSet set) {
+  constexpr double motions = 150.0;  // that the answers compare
+  const double duration = duration_of(the_case);
+  require_bearable(motions * duration / the_case.control.sampling_period);
+  MotionRow motion = motion_of_the_case(the_case);
+  const MovingLoop alone = motion_without_control(the_case, duration);
+  return {the_case, set, std::move(motion), metrics_of({alone}, duration, set).front().steady_peak,
+          LinearLoop(the_case).radius(gains_of(the_case))};
+}
+
+/// The vibration of each case, each the question's but for the value of a key.
+std::vector<LoopVibration> vibrations_of(const std::vector<Case>& cases, const Question& question,
+                                         Switching switching = Switching::sampled) {
+  const double duration = duration_of(cases.front());
+  std::vector<MovingLoop> motions;
+  motions.reserve(cases.size());
+  for (const Case& the_case : cases) motions.push_back(cell_motion(the_case, switching, duration));
+  std::vector<LoopVibration> vibrations;
+  vibrations.reserve(cases.size());
+  for (const MotionMetrics& metrics : metrics_of(motions, duration, question.set))
+    vibrations.push_back({metrics.steady_peak, question.free, metrics.force_peak});
+  return vibrations;
 }
 
 /// A loop that is unstable without its play lives on it, and without play it grows: the text says
@@ -58,7 +98,8 @@ std::string help_text(const Question& question, const LoopVibration& vibration) 
   const bool unstable = question.is_unstable_without_play();
   const auto& backlash = question.the_case.backlash;
   const bool lives_on_play = unstable && backlash.width > 0.0 && backlash.law != "none";
-  const char* helps = !vibration.is_reduced() || (unstable && !lives_on_play) ? "No"
+  const char* helps = !(vibration.controlled < vibration.free) || (unstable && !lives_on_play)
+                          ? "No"
                       : lives_on_play                  ? "It lives on its play"
                       : vibration.ratio() < worthwhile ? "Yes"
                                                        : "Hardly";
@@ -97,7 +138,9 @@ std::string force_text(const LoopVibration& vibration) {
 std::string exact_switching_text(const Question& question) {
   // Between the samples a conductor by its modes is followed state by state: too slow for an
   // answer.
-  if (!(question.the_case.backlash.width > 0.0) || is_modal(question.the_case)) return "";
+  if (!(question.the_case.backlash.width > 0.0) ||
+      !is_of_masses(motion_kind_of(question.the_case, Switching::exact)))
+    return "";
   const LoopVibration exact =
       vibrations_of({question.the_case}, question, Switching::exact).front();
   if (!std::isfinite(exact.ratio())) return "";
@@ -358,13 +401,14 @@ Answer what_motion(const MotionRow& row) {
 
 }  // namespace
 
+Answer asked(const std::string& name, const Values& values) {
+  return {page_text(name + " question"), "", page_text(name + " detail", values),
+          words_of(page_text(name + " command", values))};
+}
+
 std::vector<Answer> answers_of(const JobContext& context) {
   const Case& the_case = context.case_data;
   if (!has_active_absorber(the_case)) return span_answers(context);
-  if (!the_case.devices.empty())
-    throw WrongInput(
-        "answers about a computer know its absorber alone, and the case has [[device]] beside it: "
-        "take the devices away, or ask report --for span");
   const Question question = question_about(the_case, context.instructions);
   std::vector<Answer> answers;
   if (!context.doubts.empty()) answers.push_back(what_is_doubtful(context.doubts));

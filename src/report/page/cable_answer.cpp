@@ -1,4 +1,4 @@
-#include "report/page/cable_answer.hpp"
+#include "report/page/answers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,10 @@
 #include "case/model/modal/modes_warning.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/plausibility/words.hpp"
-#include "io/text/range_text.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "report/page/html.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -73,12 +72,6 @@ std::string growth_text(const Case& cable, const std::complex<double>& root) {
       {{"frequency", rounded(turn / (2.0 * pi<double> * cable.control.sampling_period), 3)}});
 }
 
-std::string clamp_text(const Case& cable) {
-  const double clamp = least_clamp_mass(cable);
-  if (!std::isfinite(clamp)) return page_text("no clamp serves");
-  return page_text("a clamp serves", {{"clamp", rounded(1e3 * clamp, 2)}});
-}
-
 std::string damping_text(const Case& cable) {
   const auto& conductor = cable.conductor;
   const std::string ratio = rounded(100.0 * conductor.damping_ratio, 3);
@@ -110,31 +103,15 @@ Interval<double> nearest_interval(const std::vector<Interval<double>>& intervals
       [&](const auto& one, const auto& other) { return away(one) < away(other); });
 }
 
-/// What the cable says of the case's gains.
-enum class Holding { stable, unstable, nowhere, undecided };
-
-Holding holding_of(const Case& cable, const std::vector<Interval<double>>& stable) {
+/// The name of what the cable says of the case's gains.
+std::string holding_of(const Case& cable, const std::vector<Interval<double>>& stable) {
   const PdGains<double> gains = gains_of(cable);
   const bool is_stable = std::any_of(stable.begin(), stable.end(), [&](const auto& gap) {
     return gap.contains(gains.differential);
   });
-  if (is_stable != other_modes_of(cable).is_stable(gains)) return Holding::undecided;
-  if (is_stable) return Holding::stable;
-  return stable.empty() ? Holding::nowhere : Holding::unstable;
-}
-
-const char* name_of_answer(Holding holding) {
-  switch (holding) {
-    case Holding::stable:
-      return "stable on the cable";
-    case Holding::unstable:
-      return "unstable on the cable";
-    case Holding::nowhere:
-      return "no gain on the cable";
-    case Holding::undecided:
-      return "undecided on the cable";
-  }
-  return "";
+  if (is_stable != other_modes_of(cable).is_stable(gains)) return "undecided on the cable";
+  if (is_stable) return "stable on the cable";
+  return stable.empty() ? "no gain on the cable" : "unstable on the cable";
 }
 
 /// How much vibration is left there, and of two masses.
@@ -151,19 +128,21 @@ void judge(const Case& the_case, const Case& cable, Answer& answer) {
   const PdGains<double> gains = gains_of(the_case);
   const auto stable = LinearLoop(cable).stable_gains(FreeGain::differential, gains);
   throw_if_interrupted();
-  const Holding holding = holding_of(cable, stable);
+  const std::string holding = holding_of(cable, stable);
   Values values = {{"D", gain_text(gains.differential)}};
   if (!stable.empty()) {
     const Interval<double> nearest = nearest_interval(stable, gains.differential);
     values.emplace_back("stretch",
                         range_text(gain_text(nearest.lower), gain_text(nearest.upper), "from "));
   }
-  answer.answer = page_text(name_of_answer(holding), values);
+  answer.answer = page_text(holding, values);
   throw_if_interrupted();
-  if (holding == Holding::unstable) {
-    answer.answer += clamp_text(cable);
+  if (holding == "unstable on the cable") {
+    const double clamp = least_clamp_mass(cable);
+    answer.answer += page_text(std::isfinite(clamp) ? "a clamp serves" : "no clamp serves",
+                               {{"clamp", rounded(1e3 * clamp, 2)}});
     answer.detail += growth_text(cable, largest_root_of(cable, gains));
-  } else if (holding == Holding::stable) {
+  } else if (holding == "stable on the cable") {
     answer.answer += share_text(the_case, cable);
   }
 }

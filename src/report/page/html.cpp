@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "io/text/compiled_texts.hpp"
-#include "report/page/command_line.hpp"
-#include "report/picture/panels_json.hpp"
+#include "report/figures/figure.hpp"
+#include "text/compiled_texts.hpp"
 
 namespace holdfast::program {
 
@@ -98,27 +97,7 @@ std::string figure_html(const DrawnFigure& drawn) {
                               {"files", links_to_files(drawn)}});
 }
 
-}  // namespace
-
-std::string page_text(const std::string& name, const Values& values) {
-  static const toml::table texts = toml::parse(page_texts);
-  return text_of(texts[name], values);
-}
-
-std::string page_head(const std::string& title) {
-  static const toml::table style = toml::parse(page_style_texts);
-  return page_text("head", {{"title", escaped(title)}, {"style", text_of(style["style"])}});
-}
-
-std::string page_foot() {
-  static const toml::table script = toml::parse(page_script_texts);
-  return page_text("foot", {{"script", text_of(script["script"])}});
-}
-
-std::string case_html(const std::string& case_text) {
-  return page_text("case", {{"case", escaped(case_text)}});
-}
-
+/// Links to figures, folded up.
 std::string list_of_figures(const std::vector<DrawnFigure>& figures) {
   std::string links;
   for (const DrawnFigure& drawn : figures)
@@ -128,21 +107,33 @@ std::string list_of_figures(const std::vector<DrawnFigure>& figures) {
                    {{"count", std::to_string(figures.size())}, {"links", links}});
 }
 
-std::string figures_html(const std::vector<DrawnFigure>& figures) {
+/// Answers, each with the command that shows it.
+std::string answers_part(const Page& page) {
   std::string html;
-  for (const DrawnFigure& drawn : figures) html += figure_html(drawn);
+  for (const Answer& answer : page.answers)
+    html += page_text("answer",
+                      {{"question", escaped(answer.question)},
+                       {"answer", escaped(answer.answer)},
+                       {"detail", escaped(answer.detail)},
+                       {"command", escaped(shell_text(answer.arguments, page.case_arguments))}});
   return html;
 }
 
-std::string answers_html(const std::vector<Answer>& answers,
-                         const std::vector<std::string>& case_arguments) {
+/// The text of a file of texts that holds one.
+std::string only_text(std::string_view file, const char* name) {
+  return text_of(toml::parse(file)[name]);
+}
+
+}  // namespace
+
+std::string page_text(const std::string& name, const Values& values) {
+  static const toml::table texts = toml::parse(page_texts);
+  return text_of(texts[name], values);
+}
+
+std::string figures_html(const std::vector<DrawnFigure>& figures) {
   std::string html;
-  for (const Answer& answer : answers)
-    html +=
-        page_text("answer", {{"question", escaped(answer.question)},
-                             {"answer", escaped(answer.answer)},
-                             {"detail", escaped(answer.detail)},
-                             {"command", escaped(shell_text(answer.arguments, case_arguments))}});
+  for (const DrawnFigure& drawn : figures) html += figure_html(drawn);
   return html;
 }
 
@@ -174,21 +165,23 @@ std::string html_of(const Page& page) {
   const auto link_to = [](const std::string& part, bool is_there) {
     return is_there ? page_text("to " + part) : "";
   };
-  return page_text("page", {{"head", page_head(page.title)},
-                            {"title", escaped(page.title)},
-                            {"introduction", page.introduction},
-                            {"to explorer", link_to("explorer", page.explored)},
-                            {"to motions", link_to("motions", !page.motions.empty())},
-                            {"to switching", link_to("switching", !page.switching.empty())},
-                            {"to comparison", link_to("comparison", !page.comparisons.empty())},
-                            {"answers", answers_html(page.answers, page.case_arguments)},
-                            {"list of figures", list_of_figures(page.figures)},
-                            {"figures", figures_html(page.figures)},
-                            {"motions", motions_part(page)},
-                            {"switching", page.switching},
-                            {"comparison", comparison_part(page.comparisons)},
-                            {"case", case_html(page.case_text)},
-                            {"foot", page_foot()}});
+  return page_text(
+      "page", {{"head", page_text("head", {{"title", escaped(page.title)},
+                                           {"style", only_text(page_style_texts, "style")}})},
+               {"title", escaped(page.title)},
+               {"introduction", page.introduction},
+               {"to explorer", link_to("explorer", page.explored)},
+               {"to motions", link_to("motions", !page.motions.empty())},
+               {"to switching", link_to("switching", !page.switching.empty())},
+               {"to comparison", link_to("comparison", !page.comparisons.empty())},
+               {"answers", answers_part(page)},
+               {"list of figures", list_of_figures(page.figures)},
+               {"figures", figures_html(page.figures)},
+               {"motions", motions_part(page)},
+               {"switching", page.switching},
+               {"comparison", comparison_part(page.comparisons)},
+               {"case", page_text("case", {{"case", escaped(page.case_text)}})},
+               {"foot", page_text("foot", {{"script", only_text(page_script_texts, "script")}})}});
 }
 
 }  // namespace holdfast::program

@@ -39,24 +39,8 @@ std::string html_of(const Page& page);
 /// The text of texts/page.toml, which is compiled in, with its values.
 std::string page_text(const std::string& name, const Values& values = {});
 
-/// What a page begins with, up to its body, and what it ends with: its style and its script.
-std::string page_head(const std::string& title);
-std::string page_foot();
-
-/// The part of a page that shows its whole case.
-/// @param case_text  TOML
-std::string case_html(const std::string& case_text);
-
-/// Links to figures, folded up.
-std::string list_of_figures(const std::vector<DrawnFigure>& figures);
-
 /// Figures, each with its caption, its tables and the commands that make them.
 std::string figures_html(const std::vector<DrawnFigure>& figures);
-
-/// Answers, each with the command that shows it.
-/// @param case_arguments  the options that made the case
-std::string answers_html(const std::vector<Answer>& answers,
-                         const std::vector<std::string>& case_arguments);
 
 /// A row of a table. @param cells  HTML
 std::string html_row(const std::vector<std::string>& cells);

@@ -6,19 +6,20 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/chaos/modal_classification.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
-#include "io/text/compiled_texts.hpp"
-#include "io/text/text.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
 #include "jobs/orbit/neighbours.hpp"
 #include "process/interrupt.hpp"
 #include "report/figures/figure.hpp"
 #include "report/page/html.hpp"
+#include "text/compiled_texts.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -73,12 +74,6 @@ std::string border_text(const SwitchingMargins& margins) {
   return rounded(1e3 * margins.border_distance, 2) + " mm";
 }
 
-const Borders& borders_of(const PeriodicOrbit& orbit) { return orbit.borders; }
-template <class Orbit>
-const SwitchingMargins& borders_of(const Orbit& orbit) {
-  return orbit.margins;
-}
-
 std::string capture_text(const CaptureRadii& radii) {
   if (!(radii.largest > 0.0)) return "none found";
   if (std::isinf(radii.smallest)) return "everywhere";
@@ -108,7 +103,10 @@ MotionRow row_of(const std::string& place, const std::string& text, const Found&
   if (orbit == nullptr) return row;
   row.stays_in_play = orbit->engaged_fraction() == 0.0;
   row.multiplier = rounded(orbit->largest_multiplier(), 3);
-  row.border = border_text(borders_of(*orbit));
+  if constexpr (std::is_same_v<decltype(orbit), const PeriodicOrbit* const>)
+    row.border = border_text(orbit->borders);
+  else
+    row.border = border_text(orbit->margins);
   return row;
 }
 

@@ -10,19 +10,16 @@
 
 #include "case/axes/axis.hpp"
 #include "io/file/folder_lock.hpp"
-#include "io/file/input.hpp"
-#include "io/file/metadata.hpp"
 #include "io/file/output.hpp"
 #include "io/file/own_folder.hpp"
-#include "io/text/text.hpp"
+#include "output/metadata.hpp"
 #include "process/errors.hpp"
-#include "process/group/mpi_launch.hpp"
+#include "process/group/process_group.hpp"
 #include "report/figures/figure.hpp"
 #include "report/figures/gnuplot.hpp"
-#include "report/figures/map_axis.hpp"
 #include "report/figures/table_panels.hpp"
-#include "report/span/span_figures.hpp"
 #include "store/work_store.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -51,7 +48,7 @@ void remove_passing(const fs::path& path) {
     }
     folder.remove_empty_folder(part);
   }
-  folder.remove_empty_file(FolderLock::file_name);
+  folder.remove_file(FolderLock::file_name, true);
   rmdir(path.c_str());
 }
 
@@ -142,35 +139,27 @@ std::vector<KeyValues> axes_of(const PictureRequest& request) {
 /// Throws WrongInput for a single value; for a list where an image needs even steps.
 MapAxis map_axis_of(const KeyValues& axis, bool even) {
   MapAxis shown{axis.key, 0.0, 0.0, false, label_of(axis.key), scale_of(axis.key)};
-  std::size_t count = 0;
+  std::int64_t count = 0;
+  const auto take = [&](const auto& range) {
+    count = range.count;
+    shown.min = range.min;
+    shown.max = range.max;
+  };
   if (const auto* list = std::get_if<std::vector<double>>(&axis.values)) {
     if (even)
       throw WrongInput("--axis " + axis.key +
                        ": a picture over two axes needs MIN:MAX:COUNT, not a list");
-    count = list->size();
-    shown.min = *std::min_element(list->begin(), list->end());
-    shown.max = *std::max_element(list->begin(), list->end());
+    const auto [min, max] = std::minmax_element(list->begin(), list->end());
+    take(Axis{*min, *max, static_cast<std::int64_t>(list->size())});
   } else if (const auto* ratios = std::get_if<LogAxis>(&axis.values)) {
-    count = static_cast<std::size_t>(ratios->count);
     shown.logarithmic = true;
-    shown.min = ratios->min;
-    shown.max = ratios->max;
+    take(*ratios);
   } else {
-    const Axis& linear = std::get<Axis>(axis.values);
-    count = static_cast<std::size_t>(linear.count);
-    shown.min = linear.min;
-    shown.max = linear.max;
+    take(std::get<Axis>(axis.values));
   }
   if (count < 2)
     throw WrongInput("a picture needs at least two values of " + axis.key + " along its axis");
   return shown;
-}
-
-void require_gnuplot() {
-  if (!gnuplot_available())
-    throw NoAnswer(
-        "pictures need gnuplot, which is not installed (Debian package gnuplot-nox); an "
-        "--output that ends in .csv needs none");
 }
 
 /// Both ends of a range as gnuplot reads them.
@@ -224,18 +213,10 @@ Values picture_values(const PictureRequest& request) {
   return joined(joined(values, span_values(the_case)), values_of_axes(axes_of(request)));
 }
 
-/// "Stable gains — my-line".
-std::string heading_of(const PictureRequest& request, const std::string& title) {
-  const std::string stem = fs::path(request.context.case_source.name).stem().string();
-  return title + " — " + (stem.empty() ? "the built-in case" : one_line(stem));
-}
-
-bool is_own(const std::string& command) { return command.rfind("own", 0) == 0; }
-
 /// The command line of a table, "own" standing for the job's.
 std::vector<std::string> command_line(const PictureRequest& request, const std::string& command) {
   std::vector<std::string> words = words_of(command);
-  if (!is_own(command)) {
+  if (command.rfind("own", 0) != 0) {
     words.emplace_back("--quiet");
     return command_of(words, request.case_arguments);
   }
@@ -272,7 +253,10 @@ std::string drawn_picture(const PictureRequest& request, const CommandRunner& ru
   const std::string listed = text_of(row[2]);
   const std::string kind = listed == "cells" && axes < 2 ? "lines" : listed;
   Values values = joined(values_of(*row[3].as_table()), picture_values(request));
-  require_gnuplot();
+  if (!gnuplot_available())
+    throw NoAnswer(
+        "pictures need gnuplot, which is not installed (Debian package gnuplot-nox); an "
+        "--output that ends in .csv needs none");
   const PassingFolder folder;
   const CsvTable table = written_tables(request, run, *row[5].as_array(), values, folder);
   const LengthUnit unit = length_unit_for(largest_length(table));
@@ -283,10 +267,10 @@ std::string drawn_picture(const PictureRequest& request, const CommandRunner& ru
                                  row[5].as_array(), values, panels);
   figure.height *= static_cast<double>(std::max<std::size_t>(panels.size(), 1));
   figure.length_unit = unit;
-  figure.heading = heading_of(request, text_of(row[4]));
+  const std::string stem = fs::path(request.context.case_source.name).stem().string();
+  figure.heading = text_of(row[4]) + " — " + (stem.empty() ? "the built-in case" : one_line(stem));
   const std::string ending = request.context.output->extension().string();
-  draw(figure, folder.path(), ending);
-  return without_date(read_input(folder.path() / "pictures" / (figure.name + ending)));
+  return without_date(draw(figure, folder.path(), ending).bytes);
 }
 
 }  // namespace

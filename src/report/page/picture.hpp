@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "io/text/filled.hpp"
-#include "process/job_context.hpp"
-#include "report/page/command_line.hpp"
+#include "case/job_context.hpp"
+#include "report/figures/figure.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 

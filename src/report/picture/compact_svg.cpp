@@ -1,16 +1,113 @@
 #include "report/picture/compact_svg.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
-#include "io/text/text.hpp"
-#include "report/picture/svg_curve.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
 
 using Lines = std::vector<std::string>;
+
+/// A place in a drawing in hundredths of a point.
+struct SvgPlace {
+  long x = 0, y = 0;
+  bool begins = false;  ///< the pen goes there without drawing
+};
+
+/// The place in "60.45,278.47"; none where that is no place.
+std::optional<SvgPlace> place_of(std::string_view pair) {
+  const std::size_t comma = std::min(pair.find(','), pair.size() - 1);
+  const auto x = parse_number(pair.substr(0, comma)), y = parse_number(pair.substr(comma + 1));
+  if (!x || !y) return std::nullopt;
+  return SvgPlace{std::lround(100.0 * *x), std::lround(100.0 * *y)};
+}
+
+/// The places of a curve as gnuplot writes it, "M60.45,278.47 L70.20,278.47 …"; none where it has
+/// other commands.
+std::vector<SvgPlace> places_of_curve(const std::string& curve) {
+  std::vector<SvgPlace> places;
+  std::istringstream words(curve);
+  for (std::string word; words >> word;) {
+    std::optional<SvgPlace> place = place_of(std::string_view(word).substr(1));
+    if ((word[0] != 'M' && word[0] != 'L') || !place) return {};
+    place->begins = word[0] == 'M';
+    places.push_back(*place);
+  }
+  return places;
+}
+
+/// 140 is "1.4", −42 is "-.42".
+std::string number_of(long hundredths) {
+  const long size = std::labs(hundredths), part = size % 100;
+  std::string text = hundredths < 0 ? "-" : "";
+  if (size >= 100 || size == 0) text += std::to_string(size / 100);
+  if (part != 0)
+    text += (part < 10 ? ".0" : ".") + std::to_string(part % 10 == 0 ? part / 10 : part);
+  return text;
+}
+
+std::string pair_of(long x, long y) {
+  const std::string second = number_of(y);
+  return number_of(x) + (second[0] == '-' ? "" : " ") + second;
+}
+
+std::string step_between(const SvgPlace& from, const SvgPlace& to) {
+  return pair_of(to.x - from.x, to.y - from.y);
+}
+
+/// To the nearest tenth of a point.
+std::vector<SvgPlace> at_tenths(std::vector<SvgPlace> places) {
+  const auto nearest = [](long value) {
+    return 10 * std::lround(0.1 * static_cast<double>(value));
+  };
+  for (SvgPlace& place : places) {
+    place.x = nearest(place.x);
+    place.y = nearest(place.y);
+  }
+  return places;
+}
+
+/// A curve through places by steps, which are shorter than places; those of no length are left out.
+/// The places of a long curve are rounded to tenths of a point.
+std::string curve_by_steps(const std::vector<SvgPlace>& places) {
+  constexpr std::size_t long_curve = 500;
+  const std::vector<SvgPlace> shown = places.size() < long_curve ? places : at_tenths(places);
+  std::string text;
+  bool draws = false;
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const SvgPlace& place = shown[k];
+    if (k == 0 || place.begins) {
+      text += "M" + pair_of(place.x, place.y);
+      draws = false;
+      continue;
+    }
+    const std::string step = step_between(shown[k - 1], place);
+    if (draws && step == "0 0") continue;
+    text += (!draws ? "l" : step[0] == '-' ? "" : " ") + step;
+    draws = true;
+  }
+  return text;
+}
+
+/// A curve that has a part of no length at each place, in tenths of a point, which ends that are
+/// round make a dot of.
+std::string dots_by_steps(const std::vector<SvgPlace>& places) {
+  const std::vector<SvgPlace> shown = at_tenths(places);
+  std::string text;
+  for (std::size_t k = 0; k < shown.size(); ++k)
+    text += (k == 0 ? "M" + pair_of(shown[k].x, shown[k].y)
+                    : "m" + step_between(shown[k - 1], shown[k])) +
+            "h0";
+  return text;
+}
 
 /// The shapes of points are short, and drawn at any size.
 std::string shortened_curve(const std::string& curve) {
@@ -63,7 +160,7 @@ Lines lines_of(const std::string& svg) {
 
 /// A filled circle: where it is, how large, and its colour.
 struct Dot {
-  std::vector<SvgPlace> place;  ///< one; none where the line draws something else
+  std::optional<SvgPlace> place;  ///< none where the line draws something else
   std::string scale, colour;
 };
 
@@ -101,9 +198,9 @@ Lines with_joined_dots(const Lines& lines) {
     const Dot first = dot_of(*line);
     std::vector<SvgPlace> places;
     const auto begin = line;
-    for (Dot dot = first; !dot.place.empty() && alike(dot, first);
+    for (Dot dot = first; dot.place && alike(dot, first);
          dot = ++line == lines.end() ? Dot{} : dot_of(*line))
-      places.push_back(dot.place.front());
+      places.push_back(*dot.place);
     constexpr std::size_t cloud = 8;
     if (places.size() >= cloud)
       joined.push_back(drawn_dots(first, places));

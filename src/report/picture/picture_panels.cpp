@@ -3,14 +3,45 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "io/text/text.hpp"
 #include "report/figures/figure.hpp"
-#include "report/picture/plain_label.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
+
+/// Digits as indices, all else as it is.
+std::string lowered(const std::string& index) {
+  constexpr std::array<const char*, 10> indices = {"₀", "₁", "₂", "₃", "₄",
+                                                   "₅", "₆", "₇", "₈", "₉"};
+  std::string text;
+  for (const char character : index) {
+    const bool is_digit = character >= '0' && character <= '9';
+    text +=
+        is_digit ? indices[static_cast<std::size_t>(character - '0')] : std::string(1, character);
+  }
+  return text;
+}
+
+/// The index that begins at a place behind "_": what braces hold, or one character.
+std::string index_at(const std::string& label, std::size_t at) {
+  if (label[at] != '{') return label.substr(at, 1);
+  return label.substr(at, label.find('}', at) + 1 - at);
+}
+
+/// Without braces, nor the font that one of them begins with.
+std::string without_braces(const std::string& label) {
+  std::string text;
+  for (std::size_t at = 0; at < label.size(); ++at) {
+    const bool opens = label[at] == '{';
+    if (opens && label.compare(at, 2, "{/") == 0) at = std::min(label.find(' ', at), label.size());
+    if (!opens && label[at] != '}') text += label[at];
+  }
+  return text;
+}
 
 constexpr std::string_view of_panel = "panel ", of_logarithms = "logscaling on ";
 
@@ -97,6 +128,18 @@ void share_names(std::vector<PicturePanel>& panels) {
   }
 }
 
+using Json = nlohmann::ordered_json;
+
+/// A hundred-thousandth of a picture is less than a pixel.
+double of_picture(double part) { return std::round(1e5 * part) / 1e5; }
+
+void add_axis(Json& panel, const char* which, const PanelAxis& axis) {
+  if (axis.name.empty()) return;
+  panel[which] = {{"name", axis.name}, {"from", axis.from}, {"to", axis.to}};
+  if (!axis.unit.empty()) panel[which]["unit"] = axis.unit;
+  if (axis.logarithmic) panel[which]["log"] = true;
+}
+
 }  // namespace
 
 std::string with_measured_panels(const std::string& plot) {
@@ -132,6 +175,34 @@ std::string without_panels(const std::string& messages) {
   for (const std::string_view line : split(messages, '\n'))
     if (!trimmed(line).empty() && !is_of_panels(trimmed(line))) others += std::string(line) + "\n";
   return others;
+}
+
+std::string plain_label(const std::string& label) {
+  std::string text;
+  for (std::size_t at = 0; at < label.size(); ++at) {
+    if (label[at] != '_' || at + 1 == label.size()) {
+      text += label[at];
+      continue;
+    }
+    const std::string index = index_at(label, at + 1);
+    text += lowered(index);
+    at += index.size();
+  }
+  return without_braces(replaced(text, "\u00a0", " "));
+}
+
+std::string panels_json(const std::vector<PicturePanel>& panels) {
+  Json list = Json::array();
+  for (const PicturePanel& panel : panels) {
+    Json told;
+    told["box"] = {of_picture(panel.left), of_picture(panel.top), of_picture(panel.right),
+                   of_picture(panel.bottom)};
+    add_axis(told, "x", panel.x);
+    add_axis(told, "y", panel.y);
+    add_axis(told, "right", panel.right_axis);
+    list.push_back(std::move(told));
+  }
+  return list.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace holdfast::program

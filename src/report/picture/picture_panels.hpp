@@ -32,4 +32,13 @@ std::vector<PicturePanel> measured_panels(const std::string& messages);
 /// The other messages.
 std::string without_panels(const std::string& messages);
 
+/// The label of an axis as plain text, without gnuplot's marks of fonts, indices and blanks that do
+/// not break: "displacement {/:Italic z}_1 (mm)" is "displacement z₁ (mm)".
+std::string plain_label(const std::string& label);
+
+/// The panels of a picture as the script of the page reads them: a list of
+/// {"box": [left, top, right, bottom], "x": {"name", "unit", "from", "to", "log"}, "y", "right"},
+/// in which an axis without a name is left out.
+std::string panels_json(const std::vector<PicturePanel>& panels);
+
 }  // namespace holdfast::program

@@ -1,4 +1,4 @@
-#include "report/span/span_answers.hpp"
+#include "report/page/answers.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,15 +8,15 @@
 #include "case/model/span/span_loop.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "holdfast/span/end_response.hpp"
-#include "io/text/range_text.hpp"
 #include "jobs/span/aeolian_amplitudes.hpp"
 #include "jobs/span/fatigue_life.hpp"
 #include "jobs/span/mode_dampings.hpp"
 #include "jobs/span/span_words.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "report/figures/figure.hpp"
 #include "report/page/html.hpp"
-#include "report/span/span_figures.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -93,11 +93,6 @@ std::string vibration_text(const AeolianBalance& balance, const std::vector<Band
   return text + (balance.knows_strain() ? strain_text(bands) : page_text("strain unknown"));
 }
 
-Answer question_of(const std::string& name, const Values& values = {}) {
-  return {page_text(name + " question"), "", page_text(name + " detail", values),
-          words_of(page_text(name + " command", values))};
-}
-
 /// The answer, or why the case has none.
 template <class Tell>
 Answer answered(Answer answer, const Tell& tell) {
@@ -123,7 +118,7 @@ void require_steady(const Case& the_case) {
 
 Answer what_vibrates(const Case& the_case, const Axis& axis, bool damped) {
   const Values values = {{"frequencies", frequencies_text(axis)}};
-  return answered(question_of(damped ? "damped" : "bare", values), [&](Answer& answer) {
+  return answered(asked(damped ? "damped" : "bare", values), [&](Answer& answer) {
     const AeolianBalance balance(the_case, true);
     if (damped && !balance.has_devices()) {
       answer.answer = page_text("no device");
@@ -142,7 +137,7 @@ std::string by_laws(const std::string& lowest, const std::string& highest) {
 }
 
 Answer how_long_it_lives(const Case& the_case, const Axis& axis, const Values& values) {
-  return answered(question_of("life", values), [&](Answer& answer) {
+  return answered(asked("life", values), [&](Answer& answer) {
     require_steady(the_case);
     const FatigueLife life = fatigue_life_of(the_case, true, axis.min, axis.max);
     const Band damped = years_of(life.damage), bare = years_of(life.damage_bare);
@@ -161,7 +156,7 @@ Answer how_long_it_lives(const Case& the_case, const Axis& axis, const Values& v
 std::string megapascal(double stress) { return rounded(1e-6 * stress, 3); }
 
 Answer which_frequency(const Case& the_case, const Axis& axis, const Values& values) {
-  return answered(question_of("worst", values), [&](Answer& answer) {
+  return answered(asked("worst", values), [&](Answer& answer) {
     require_steady(the_case);
     const AeolianBalance balance(the_case, true);
     const FatigueLife life = fatigue_life_of(the_case, true, axis.min, axis.max);
@@ -210,7 +205,7 @@ Answer what_devices_take(const Case& the_case, const Axis& axis) {
   const auto ends = span_ends(devices, string_of(the_case).span);
   const Values values = {{"frequencies", frequencies_text(axis)},
                          {"end", ends[0].devices.empty() ? "right" : "left"}};
-  return answered(question_of("taken", values), [&](Answer& answer) {
+  return answered(asked("taken", values), [&](Answer& answer) {
     if (ends[0].devices.empty() && ends[1].devices.empty())
       answer.answer = page_text("no device");
     else
@@ -222,7 +217,7 @@ Answer what_devices_take(const Case& the_case, const Axis& axis) {
 Answer how_modes_are_damped(const Case& the_case) {
   constexpr int count = 20;
   const Values values = {{"count", std::to_string(count)}};
-  return answered(question_of("modes", values), [&](Answer& answer) {
+  return answered(asked("modes", values), [&](Answer& answer) {
     Case on_string = the_case;
     on_string.plant.model = "string";
     const auto modes = mode_rows_of(on_string, count, true);
@@ -246,7 +241,7 @@ Answer how_modes_are_damped(const Case& the_case) {
 }
 
 Answer is_loop_stable(const Case& the_case) {
-  return answered(question_of("loop"), [&](Answer& answer) {
+  return answered(asked("loop"), [&](Answer& answer) {
     if (!has_active_absorber(the_case)) {
       answer.answer = page_text("no loop");
       return;

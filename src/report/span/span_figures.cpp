@@ -1,4 +1,4 @@
-#include "report/span/span_figures.hpp"
+#include "report/figures/figure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "holdfast/span/end_response.hpp"
-#include "io/text/text.hpp"
 #include "jobs/span/span_words.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -9,14 +9,155 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "io/text/text.hpp"
+#include "holdfast/contact/hysteresis.hpp"
+#include "jobs/columns.hpp"
+#include "output/table.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
 
 using Motions = std::vector<StudiedMotion>;
 using Loops = std::vector<StudiedLoop>;
+
+/// The contact of one motion in a window.
+struct ContactStrip {
+  std::string name;    ///< left of the strip
+  std::string remark;  ///< right of it
+  MotionWindow window;
+};
+
+/// Text for gnuplot between double quotes.
+std::string label_at(const std::string& text, const std::string& place, const std::string& style) {
+  return "set label \"" + text + "\" at " + place + " " + style + "\n";
+}
+
+std::string place_of(double time, double height) {
+  return format_number(time) + "," + format_number(height);
+}
+
+/// The names of the strips as tics, their remarks beyond the right end.
+std::string strip_names(const std::vector<ContactStrip>& all) {
+  std::string tics, remarks;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const std::string y = std::to_string(all.size() - k);
+    tics += (k == 0 ? "\"" : ", \"") + all[k].name + "\" " + y;
+    if (!all[k].remark.empty())
+      remarks += label_at(all[k].remark, "graph 1.01, first " + y, "left font ',12'");
+  }
+  return "set ytics (" + tics + ") scale 0\nset grid noy\n" + remarks;
+}
+
+/// The modes written into their places, where these are wide enough.
+std::string mode_words(const MotionWindow& window, double height) {
+  std::string text;
+  for (const ContactPhase& phase : window.phases) {
+    if (phase.end - phase.begin < 0.1 * (window.end - window.begin)) continue;
+    const std::string colour = phase.mode == ContactMode::engaged ? "#ffffff" : "#222222";
+    text += label_at(word_for(phase.mode), place_of(0.5 * (phase.begin + phase.end), height),
+                     "center front font ',12' tc rgb '" + colour + "'");
+  }
+  return text;
+}
+
+/// When the drive enters its gap, above the strip, and leaves it, below.
+std::string instants_of_changes(const MotionWindow& window, double height) {
+  std::string text;
+  std::array<int, 2> labels{};
+  for (std::size_t k = 1; k < window.phases.size() && k < 8; ++k) {
+    const ContactPhase& phase = window.phases[k];
+    const bool leaves = phase.mode == ContactMode::engaged;
+    const bool first = labels[leaves ? 1 : 0]++ == 0;
+    const double place = (phase.begin - window.begin) / (window.end - window.begin);
+    const bool ends_here = place > 0.85 || (first && place > 0.15);
+    text += label_at((leaves ? "out " : "in ") + rounded(phase.begin, 5),
+                     place_of(phase.begin, height + (leaves ? -0.45 : 0.45)),
+                     std::string(ends_here ? "right" : "left") + " font ',11'");
+  }
+  return text;
+}
+
+/// The phases of a motion as tints behind the curves.
+std::string tinted(const MotionWindow& window) {
+  std::string text;
+  for (const ContactPhase& phase : window.phases)
+    text += "set object rectangle from " + format_number(phase.begin) + ",graph 0 to " +
+            format_number(phase.end) + ",graph 1 behind fs solid noborder fc rgb '@tint " +
+            word_for(phase.mode) + "@'\n";
+  return text;
+}
+
+/// Time is shown in s, as in the tables.
+std::string time_range(const MotionWindow& window) {
+  return format_number(window.begin) + ":" + format_number(window.end);
+}
+
+/// The context of a table of the report.
+JobContext context_of(const JobContext& context, const std::string& table) {
+  JobContext own = context;
+  own.output = *context.output / "data" / (table + ".csv");
+  return own;
+}
+
+/// The values that texts/figures.toml leaves open of a drive in a window, switching at samples,
+/// with the instants at which it enters and leaves its gap, and exactly.
+Values values_of_window(const ContactStrip& sampled, const ContactStrip& exact) {
+  return {{"range", time_range(exact.window)},
+          {"rows", "3"},
+          {"strips", strip_names({sampled, exact}) + instants_of_changes(sampled.window, 2.0) +
+                         mode_words(sampled.window, 2.0) + mode_words(exact.window, 1.0)},
+          {"tints", tinted(exact.window)},
+          {"sampled", sampled.name}};
+}
+
+/// The values that it leaves open of the contacts of many motions as strips over one window.
+Values values_of_strips(const std::vector<ContactStrip>& all) {
+  return {{"range", time_range(all.front().window)},
+          {"count", std::to_string(all.size())},
+          {"rows", std::to_string(all.size() + 1)},
+          {"strips", strip_names(all)}};
+}
+
+/// Tables of the figures, FOLDER/data/NAME.csv with metadata. A row a motion.
+void write_motions(const JobContext& context, const std::string& name,
+                   const std::vector<StudiedMotion>& motions) {
+  Table table(context_of(context, name), columns_of("switching motions"));
+  for (const StudiedMotion& motion : motions) {
+    const auto& [studied, steady, period] = motion;
+    const Case& of = studied.the_case;
+    table.row(of.backlash.law, of.control.sampling_period, of.backlash.width,
+              studied.reading.switching_word(), studied.reading.hold_word(), studied.duration,
+              steady.largest_displacement, steady.largest_of_samples,
+              steady.phases_per_half_cycle[0], steady.phases_per_half_cycle[1],
+              steady.phases_per_half_cycle[2], period.verdict, period.samples, period.seconds,
+              period.forcing_periods, shortest_period(studied), period.largest_multiplier);
+  }
+  table.commit();
+}
+
+/// A row a phase, strip by strip.
+void write_strips(const JobContext& context, const std::string& name,
+                  const std::vector<ContactStrip>& strips) {
+  Table table(context_of(context, name), columns_of("switching strips"));
+  for (std::size_t k = 0; k < strips.size(); ++k) {
+    for (const ContactPhase& phase : strips[k].window.phases)
+      table.row(k + 1, phase.begin, phase.end, word_for(phase.mode), strips[k].name);
+  }
+  table.commit();
+}
+
+/// A row an instant.
+void write_window(const JobContext& context, const std::string& name, const MotionWindow& exact,
+                  const MotionWindow& sampled) {
+  Table table(context_of(context, name), columns_of("switching window"));
+  for (std::size_t k = 0; k < std::min(exact.instants.size(), sampled.instants.size()); ++k) {
+    const InstantOfMotion &a = exact.instants[k], &b = sampled.instants[k];
+    table.row(a.time, relative_displacement(a.state), a.command, a.transmitted,
+              relative_displacement(b.state), b.command, b.transmitted);
+  }
+  table.commit();
+}
 
 double forcing_period(const Case& the_case) {
   return 1.0 / effective_excitation(the_case).frequency;
@@ -129,27 +270,26 @@ DrawnFigure write_phases(const JobContext& context, bool builtin) {
   }
 }
 
-/// The values of backlash.law, and their words: gnuplot sets what follows an underscore lower.
-constexpr std::array<std::pair<const char*, const char*>, 5> law_words = {
-    {{"kollar", "kollar"},
-     {"immediate", "immediate"},
-     {"play", "play"},
-     {"dead_zone", "dead zone"},
-     {"none", "no backlash"}}};
+/// The values of backlash.law.
+constexpr std::array<const char*, 5> law_names = {"kollar", "immediate", "play", "dead_zone",
+                                                  "none"};
 
 std::vector<StudiedLaw> study_laws(const JobContext& context) {
   Loops loops;
-  for (const auto& law : law_words) {
+  for (const char* law : law_names) {
     Case changed = context.case_data;
-    changed.backlash.law = law.first;
+    changed.backlash.law = law;
     for (const std::size_t reading : {sampled_switching, exact_switching})
       loops.push_back({changed, readings[reading], studied_duration(changed)});
   }
   const Motions motions = study(loops, context.threads);
   write_motions(context, "switching-law-motions", motions);
   std::vector<StudiedLaw> studied;
-  for (std::size_t k = 0; k < law_words.size(); ++k)
-    studied.push_back({law_words[k].second, motions[2 * k], motions[2 * k + 1]});
+  for (std::size_t k = 0; k < law_names.size(); ++k) {
+    // gnuplot sets what follows an underscore lower.
+    const std::string words = k == 4 ? "no backlash" : replaced(law_names[k], "_", " ");
+    studied.push_back({words, motions[2 * k], motions[2 * k + 1]});
+  }
   return studied;
 }
 
@@ -168,18 +308,17 @@ ContactStrip strip_with_amplitude(const std::string& name, const StudiedMotion& 
 
 /// The strips of the laws that differ. Exactly taken, the first three are one.
 std::vector<ContactStrip> strips_of_laws(const std::vector<StudiedLaw>& studied) {
+  constexpr std::array<std::tuple<std::size_t, const char*, bool>, 7> shown = {
+      {{0, "kollar, at samples", false},
+       {1, "immediate, at samples", false},
+       {2, "play, at samples", false},
+       {2, "these three, exact", true},
+       {3, "dead zone, at samples", false},
+       {3, "dead zone, exact", true},
+       {4, "no backlash", false}}};
   std::vector<ContactStrip> strips;
-  const auto add = [&](std::size_t law, const char* how, bool exact) {
-    const StudiedLaw& of = studied[law];
-    strips.push_back(strip_with_amplitude(how, exact ? of.exact : of.sampled));
-  };
-  add(0, "kollar, at samples", false);
-  add(1, "immediate, at samples", false);
-  add(2, "play, at samples", false);
-  add(2, "these three, exact", true);
-  add(3, "dead zone, at samples", false);
-  add(3, "dead zone, exact", true);
-  add(4, "no backlash", false);
+  for (const auto& [law, how, exact] : shown)
+    strips.push_back(strip_with_amplitude(how, exact ? studied[law].exact : studied[law].sampled));
   return strips;
 }
 
@@ -248,9 +387,9 @@ void add_charts(std::vector<DrawnFigure>& figures, const JobContext& context,
   figures.push_back(write_chart(context, charts[1], "backlash.width", shown_widths(the_case)));
 }
 
-}  // namespace
-
-std::vector<StudiedLoop> loops_of_paper(const Case& the_case) {
+/// The loops of Kollár's figures and two beside them, from rest: largest |z₁| in the second half of
+/// 3 s, or the next whole number of samples.
+Loops loops_of_paper(const Case& the_case) {
   constexpr double milliseconds = 1e-3, millimetres = 1e-3;
   constexpr std::array<std::pair<double, double>, 7> settings = {
       {{1.0, 0.5}, {1.0, 2.0}, {3.0, 2.0}, {5.0, 1.0}, {10.0, 2.0}, {11.0, 1.0}, {11.0, 2.0}}};
@@ -264,6 +403,8 @@ std::vector<StudiedLoop> loops_of_paper(const Case& the_case) {
   }
   return loops;
 }
+
+}  // namespace
 
 SwitchingPage make_switching_page(const JobContext& context, bool builtin) {
   const Case& the_case = context.case_data;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "process/job_context.hpp"
+#include "case/job_context.hpp"
 #include "report/page/html.hpp"
 #include "report/switching/switching_study.hpp"
 
@@ -23,11 +23,6 @@ struct SwitchingPage {
   std::vector<DrawnFigure> figures;  ///< whose tables are written, but no pictures
 };
 
-/// The loops of Kollár's figures and two beside them, from rest: largest |z₁| in the second half of
-/// 3 s, or the next whole number of samples.
-/// @param the_case  the built-in one
-std::vector<StudiedLoop> loops_of_paper(const Case& the_case);
-
 /// Computes the page on many threads and writes its tables as FOLDER/data/switching-*.csv.
 /// @param context  its output is the report's folder
 /// @param builtin  the case is the paper's: its loops and its Fig. 8 are shown
@@ -46,29 +41,5 @@ std::string subharmonics_text(const std::vector<StudiedMotion>& motions);
 
 /// The page "How much the sampled switching matters" as a part of the report's HTML.
 std::string html_of(const SwitchingPage& page);
-
-/// The contact of one motion in a window.
-struct ContactStrip {
-  std::string name;    ///< left of the strip
-  std::string remark;  ///< right of it
-  MotionWindow window;
-};
-
-/// What texts/figures.toml leaves open of a drive in a window, switching at samples, with the
-/// instants at which it enters and leaves its gap, and exactly.
-Values values_of_window(const ContactStrip& sampled, const ContactStrip& exact);
-
-/// The same of the contacts of many motions as strips over one window.
-Values values_of_strips(const std::vector<ContactStrip>& all);
-
-/// Tables of the figures, FOLDER/data/NAME.csv with metadata: a row a motion; a row a phase, strip
-/// by strip; a row an instant. All throw what Table throws.
-/// @param context  its output is the report's folder
-void write_motions(const JobContext& context, const std::string& name,
-                   const std::vector<StudiedMotion>& motions);
-void write_strips(const JobContext& context, const std::string& name,
-                  const std::vector<ContactStrip>& strips);
-void write_window(const JobContext& context, const std::string& name, const MotionWindow& exact,
-                  const MotionWindow& sampled);
 
 }  // namespace holdfast::program

@@ -12,9 +12,9 @@
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
-#include "jobs/charts/row_blocks.hpp"
 #include "jobs/motion/motion_run.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
+#include "output/row_blocks.hpp"
 #include "process/errors.hpp"
 
 namespace holdfast::program {
@@ -35,8 +35,6 @@ bool is_beyond(const Vector<double, 4>& state, double bound) {
   return !(state.cwiseAbs().maxCoeff() < bound);
 }
 
-std::size_t index_of(ContactMode mode) { return static_cast<std::size_t>(mode); }
-
 /// Counts how often each mode begins.
 class ModeCounter {
  public:
@@ -50,7 +48,7 @@ class ModeCounter {
 
   /// A motion that switches at samples counts no modes itself.
   void take(const EventSample& sample) {
-    if (started_ && sample.mode != mode_) ++at_samples_[index_of(sample.mode)];
+    if (started_ && sample.mode != mode_) ++at_samples_[static_cast<std::size_t>(sample.mode)];
     mode_ = sample.mode;
   }
 
@@ -70,14 +68,6 @@ class ModeCounter {
   ContactMode mode_ = ContactMode::engaged;
   std::array<std::int64_t, 3> at_samples_{}, before_{};
 };
-
-/// @tparam Orbit  PeriodicOrbit or EventOrbit
-template <class Orbit>
-FoundPeriod found_period(const Orbit& orbit) {
-  return {attractor_type_text(AttractorType::periodic, orbit.period_samples()),
-          orbit.period_samples(), orbit.forcing_periods(), orbit.period(),
-          orbit.largest_multiplier()};
-}
 
 /// F (N), in the sample that the motion has just left behind.
 double transmitted_force(const EventMotion<>& motion, ContactMode mode, const ContactInstant& now) {
@@ -185,8 +175,11 @@ FoundPeriod period_of(const StudiedLoop& studied) {
   context.case_data = studied.the_case;
   context.case_data.excitation.hold = studied.reading.hold_word();
   try {
-    const auto period = [&](const auto& moving) {
-      return found_period(certified_orbit(context, moving, longest_studied_period));
+    const auto period = [&](const auto& moving) -> FoundPeriod {
+      const auto orbit = certified_orbit(context, moving, longest_studied_period);
+      return {attractor_type_text(AttractorType::periodic, orbit.period_samples()),
+              orbit.period_samples(), orbit.forcing_periods(), orbit.period(),
+              orbit.largest_multiplier()};
     };
     return std::visit(period, moving_loop_of(context.case_data, {studied.reading.switching}));
   } catch (const NoAnswer& reason) {

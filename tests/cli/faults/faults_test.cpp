@@ -6,8 +6,6 @@ namespace {
 
 TEST(WrongInput, CaseValuesAreNamedWithTheirRange) {
   expect_refused("simulate --set plant.conductor_mass=-1", {"plant.conductor_mass"});
-  expect_refused("simulate --set control.sampling_period=0", {"control.sampling_period"});
-  expect_refused("simulate --set control.processing_delay=0.5", {"control.processing_delay"});
   expect_refused("simulate --set excitation.amplitude=nan", {"finite"});
   expect_refused("simulate --set excitation.frequency=inf", {"finite"});
   expect_refused("simulate --set initial.z1=fast", {"initial.z1"});
@@ -18,8 +16,8 @@ TEST(WrongInput, UnknownKeysComeWithTheNearestKnownOne) {
   expect_refused("simulate --set control.sampling_perod=0.1", {"control.sampling_period"});
   const TemporaryFolder folder;
   std::ofstream(folder / "case.toml") << "[backlash]\nwidht = 0.001\n";
-  expect_refused("simulate --case '" + (folder / "case.toml").string() + "'", {"case.toml:2"});
-  expect_refused("simulate --case '" + (folder / "case.toml").string() + "'", {"width"});
+  expect_refused("simulate --case '" + (folder / "case.toml").string() + "'",
+                 {"case.toml:2", "width"});
   expect_refused("simulate --case '" + (folder / "absent.toml").string() + "'", {"absent.toml"});
 }
 
@@ -38,19 +36,13 @@ TEST(WrongInput, OptionsAreNamedWithWhatWasExpected) {
                  {"processing delay"});
   expect_refused("stability --p 0:1:2 --axis plant.absorber_mass=1:2:3", {"excludes"});
   expect_refused("max-delay --frequency 0:5:3", {"frequency"});
-  expect_refused("simulate --duration -1", {"duration"});
-  expect_refused("simulate --duration 1 --from 2", {"--from"});
-  expect_refused("simulate --duration nan", {"duration"});
   expect_refused("simulate --from nan", {"from"});
   expect_refused("simulate --kick nan:1", {"--kick"});
   expect_refused("deviation --offset nan", {"offset"});
   expect_refused("spectrum --discard inf", {"discard"});
-  expect_refused("simulate --kick 1", {"--kick"});
   expect_refused("simulate --switching exakt", {"switching"});
   expect_refused("coverage --window 1:0:0:1", {"--window"});
-  expect_refused("coverage --durations 0", {"--durations"});
   expect_refused("lyapunov --tangent best", {"tangent"});
-  expect_refused("spectrum --duration 1 --discard 2", {"--discard"});
   expect_refused("spectrum --duration 0.05", {"less than one period of the excitation", "0.1 s"});
   expect_refused("simulate --threads -1", {"threads"});
   expect_refused("simulate --duration 1 --kick 2:0.001", {"--kick"});
@@ -72,26 +64,21 @@ TEST(Output, UnwritablePlacesAreRefusedBeforeAnythingIsComputed) {
 
 TEST(Output, FileAndMetadataAppearTogether) {
   const TemporaryFolder folder;
-  const Outcome outcome =
-      run_holdfast("simulate --duration 0.1 --output '" + (folder / "motion.csv").string() + "'");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  printed_by("simulate --duration 0.1 --output '" + (folder / "motion.csv").string() + "'");
   std::vector<std::string> names = folder.names();
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, (std::vector<std::string>{"motion.csv", "motion.csv-metadata.json"}));
-  EXPECT_NE(read_text(folder / "motion.csv-metadata.json").find("\"sampling_period\": 0.001"),
-            std::string::npos);
+  expect_holds(read_text(folder / "motion.csv-metadata.json"), {"\"sampling_period\": 0.001"});
 }
 
 TEST(NoAnswer, DivergingMotionSaysWhenAndLeavesNoFile) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_holdfast(
+  expect_refused(
       "simulate --duration 1000 --set control.sampling_period=0.011 --set "
       "control.processing_delay=0.011 "
       "--output '" +
-      (folder / "motion.csv").string() + "'");
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(outcome.error_lines(), 1U);
-  EXPECT_NE(outcome.errors.find("diverges"), std::string::npos) << outcome.errors;
+          (folder / "motion.csv").string() + "'",
+      {"diverges"}, 1);
   EXPECT_TRUE(folder.names().empty());
 }
 
@@ -108,17 +95,14 @@ TEST(Faults, ALongMessageIsCut) {
   EXPECT_LT(outcome.errors.size(), 2000U);
 }
 
-TEST(Report, OfAShortRecordShowsWhatItReachesAndSaysWhyNotTheRest) {
+TEST(PaperReport, OfAShortRecordShowsWhatItReachesAndSaysWhyNotTheRest) {
   const TemporaryFolder folder;
   const std::string record = (folder / "short.csv").string();
   write_text(record, "time_s,force_N\n0,0\n0.2,0.3\n0.45,0\n");
-  const Outcome outcome = run_holdfast("report --set excitation.record=" + record + " --output '" +
-                                       (folder / "mine").string() + "'");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  printed_by("report --set excitation.record=" + record + " --output '" +
+             (folder / "mine").string() + "'");
   const std::string page = read_text(folder / "mine/report.html");
-  EXPECT_NE(page.find("No picture: "), std::string::npos);
-  EXPECT_NE(page.find("ends at"), std::string::npos);
-  EXPECT_NE(page.find("id=\"stability\""), std::string::npos);
+  expect_holds(page, {"No picture: ", "ends at", "id=\"stability\""});
 }
 
 /// Work without an end in sight is named instead of begun.
@@ -127,15 +111,10 @@ TEST(NoAnswer, MotionsOfMoreSamplesThanAreFollowed) {
   for (const std::string job :
        {"simulate --duration 1", "deviation", "coverage", "section", "lyapunov", "spectrum",
         "answers", "diagram --axis backlash.width=0:0.001:2"}) {
-    const Outcome outcome = run_holdfast(job + fast);
-    EXPECT_EQ(outcome.exit_code, 1) << job;
-    EXPECT_NE(outcome.errors.find("samples, more than the 1e+10"), std::string::npos)
-        << job << outcome.errors;
+    expect_refused(job + fast + " --quiet", {"samples, more than the 1e+10"}, 1);
   }
-  const Outcome sweep =
-      run_holdfast("sweep --axis backlash.width=0:0.001:2 --metric outcome" + fast);
-  EXPECT_EQ(sweep.exit_code, 0);
-  EXPECT_NE(sweep.errors.find("samples, more than"), std::string::npos) << sweep.errors;
+  expect_said("sweep --axis backlash.width=0:0.001:2 --metric outcome" + fast,
+              {"samples, more than"});
   expect_refused("simulate --duration 20000", {"20000001 rows", "--yes"});
   expect_refused("deviation --duration 20000", {"20000001 rows", "--yes"});
 }

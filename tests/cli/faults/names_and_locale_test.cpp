@@ -81,7 +81,7 @@ TEST(FileNames, ANameThatIsTooLongIsRefused) {
     words.insert(words.end(), {"--duration", "0.1", "--output", std::string(255, 'n')});
     const Ending ending = done_in(folder, words);
     EXPECT_EQ(ending.exit_code, 2);
-    EXPECT_NE(ending.errors.find("File name too long"), std::string::npos) << ending.errors;
+    expect_holds(ending.errors, {"File name too long"});
     EXPECT_EQ(folder.names(), std::vector<std::string>{});
   }
 }

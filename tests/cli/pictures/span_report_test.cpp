@@ -27,9 +27,7 @@ std::string page_of(const fs::path& report) {
 
 fs::path written_report(const std::string& of_case, const TemporaryFolder& folder) {
   fs::path report = folder / "report";
-  const Outcome outcome =
-      run_holdfast("report --for span" + of_case + " --output '" + report.string() + "'");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  printed_by("report --for span" + of_case + " --output '" + report.string() + "'");
   return report;
 }
 
@@ -42,14 +40,6 @@ void expect_tables_of_their_jobs(const fs::path& report,
     EXPECT_EQ(written, run_holdfast(command + " --quiet").output) << name;
     expect_holds(page, {"data/" + name + ".csv"});
   }
-}
-
-/// The row of a table of quantities.
-std::size_t row_of(const program::CsvTable& table, const std::string& quantity) {
-  for (std::size_t row = 0; row < table.rows(); ++row)
-    if (table.text(row, "quantity") == quantity) return row;
-  ADD_FAILURE() << quantity;
-  return 0;
 }
 
 TEST(SpanReport, ShowsWhatTheJobsTellOfALine) {
@@ -95,7 +85,7 @@ TEST(SpanReport, ItsAnswersHaveTheNumbersOfItsTables) {
   const std::string page = page_of(report);
   const auto year = program::read_csv(report / "data/damage-year.csv");
   const auto years = [&](const std::string& quantity, const std::string& column) {
-    const double value = year.number(row_of(year, quantity), column);
+    const double value = value_of(year, quantity, column);
     return value > 1000.0 ? "more than 1000" : program::rounded(value, 2);
   };
   expect_holds(page, {years("life", "value") + " years, by the laws from " +
@@ -154,7 +144,7 @@ TEST(Fatigue, OfEachWindSpeedAddsUpToTheYear) {
   const TemporaryFolder folder;
   const auto table = [&](const std::string& command) {
     const std::string file = (folder / "table.csv").string();
-    EXPECT_EQ(run_holdfast(command + line + " --quiet --output '" + file + "'").exit_code, 0);
+    printed_by(command + line + " --quiet --output '" + file + "'");
     return program::read_csv(file);
   };
   const auto year = table("fatigue"), speeds = table("fatigue --by-speed");
@@ -162,7 +152,7 @@ TEST(Fatigue, OfEachWindSpeedAddsUpToTheYear) {
                               const std::string& of_year) {
     double sum = 0.0;
     for (const double part : speeds.numbers(column)) sum += part;
-    const double whole = year.number(row_of(year, quantity), of_year);
+    const double whole = value_of(year, quantity, of_year);
     EXPECT_NEAR(sum, whole, 1e-9 * whole) << column;
   };
   expect_sum("damage_bare", "damage_per_year_bare", "value");

@@ -12,6 +12,12 @@ inline const std::string chunked_sweep =
     "sweep --axis initial.z1=0:0.001:40 --axis backlash.width=0.0005:0.002:12 --duration 100"
     " --chunk 8 --metric steady_peak --metric reversals_per_s --metric engaged_fraction";
 
+/// Cells with and without backlash, of unequal numbers of samples, one that diverges and some that
+/// are not admissible.
+inline const std::string mixed_sweep =
+    "sweep --axis control.sampling_period=0.001,0.004 --axis control.differential_gain=-13,900"
+    " --axis control.processing_delay=0:0.0015:3 --axis backlash.width=0:0.002:5 --duration 1.5";
+
 /// Tells a file from another one of the same name that was written later.
 struct FileStamp {
   std::uint64_t inode;
@@ -90,9 +96,10 @@ inline void wait_for_chunks(const RunningProgram& program, const std::filesystem
 /// A sweep that a signal ended after some of its chunks.
 class StoppedSweep {
  public:
-  explicit StoppedSweep(int signal_number, const std::string& name = "sweep.csv")
+  explicit StoppedSweep(int signal_number, const std::string& name = "sweep.csv",
+                        const std::string& more = "")
       : output_(folder_ / name) {
-    RunningProgram program(sweep_words(output_, ""));
+    RunningProgram program(sweep_words(output_, more));
     wait_for_chunks(program, output_, 8);
     program.send(signal_number);
     ending_ = program.wait();

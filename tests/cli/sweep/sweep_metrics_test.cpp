@@ -77,13 +77,9 @@ std::string as_the_plant_alone(const std::string& settings, double duration) {
   const std::size_t at = settings.rfind(key);
   const double frequency =
       at == std::string::npos ? 10.0 : std::stod(settings.substr(at + key.size()));
-  char period[64];  // NOLINT: snprintf fills it
-  std::snprintf(period, sizeof period, "%.17g",
-                std::min(duration / 20000.0, 1.0 / (200.0 * frequency)));
-  return std::string(
-             " --set excitation.hold=exact --set control.processing_delay=0 --set "
-             "control.sampling_period=") +
-         period;
+  return " --set excitation.hold=exact --set control.processing_delay=0 --set "
+         "control.sampling_period=" +
+         program::format_number(std::min(duration / 20000.0, 1.0 / (200.0 * frequency)));
 }
 
 /// What `simulate` says of the metrics, after their definitions.
@@ -184,16 +180,18 @@ TEST(SweepMetrics, AreWhatTheOtherJobsSayWhereForcingAndSamplingNeverCoincide) {
       "--axis backlash.width=0.002 --axis excitation.frequency=9.8765432101", "", 1, 7.0);
 }
 
+const std::string reduced_cable =
+    "[conductor]\nmass_per_length = 0.043\nspan = 6.4\nsag = 0.29\narea = 5.5e-6\n"
+    "youngs_modulus = 18e9\ndamping_ratio = 0.02\n[absorber]\nmass = 0.16\nposition = 0.64\n"
+    "[reduction]\nfirst_frequency = 1.999\nsecond_frequency = 6.998\n"
+    "[control]\ndifferential_gain = -13\nsampling_period = 0.001\n"
+    "[backlash]\nwidth = 0.0005\n";
+
 TEST(SweepMetrics, FollowTheWindAndTheConductorThatThePlantIsMadeFrom) {
-  const TemporaryFolder folder;
-  write_text(folder / "cable.toml",
-             "[conductor]\nmass_per_length = 0.043\nspan = 6.4\nsag = 0.29\narea = 5.5e-6\n"
-             "youngs_modulus = 18e9\ndamping_ratio = 0.02\n[absorber]\nmass = 0.16\n"
-             "position = 0.64\n[reduction]\nfirst_frequency = 1.999\nsecond_frequency = "
-             "6.998\n[wind]\nspeed = 1.0\ndiameter = 0.02\n"
-             "effective_length = 5.0\n[control]\nproportional_gain = \"tuned\"\n"
-             "differential_gain = -13\nsampling_period = 0.001\n[backlash]\nwidth = 0.0005\n");
-  const std::string common = "--case '" + (folder / "cable.toml").string() + "'";
+  const TextFile cable(reduced_cable +
+                       "[wind]\nspeed = 1.0\ndiameter = 0.02\n"
+                       "effective_length = 5.0\n");
+  const std::string common = cable.as_case() + " --set control.proportional_gain=tuned";
   const CsvTable sweep =
       table_of("sweep --axis wind.speed=0.9,1.1 --axis absorber.mass=0.15,0.16 " + common +
                every_metric + " --duration 4");
@@ -203,15 +201,8 @@ TEST(SweepMetrics, FollowTheWindAndTheConductorThatThePlantIsMadeFrom) {
 }
 
 TEST(SweepMetrics, OfAReducedPlantAreThoseOfTheCaseWithOneValueSet) {
-  const TemporaryFolder folder;
-  write_text(folder / "line.toml",
-             "[conductor]\nmass_per_length = 0.043\nspan = 6.4\nsag = 0.29\narea = 5.5e-6\n"
-             "youngs_modulus = 18e9\ndamping_ratio = 0.02\n[absorber]\nmass = 0.16\n"
-             "position = 0.64\n[reduction]\nfirst_frequency = 1.999\nsecond_frequency = "
-             "6.998\n[control]\nproportional_gain = -557\n"
-             "differential_gain = -13\nsampling_period = 0.001\n[backlash]\nwidth = 0.0005\n"
-             "[excitation]\namplitude = 0.5\nfrequency = 10\n");
-  const std::string common = "--case '" + (folder / "line.toml").string() + "'";
+  const TextFile line(reduced_cable + "[excitation]\namplitude = 0.5\nfrequency = 10\n");
+  const std::string common = line.as_case() + " --set control.proportional_gain=-557";
   const CsvTable sweep = table_of("sweep --axis plant.absorber_damping=3,4 " + common +
                                   every_metric + " --duration 2");
   for (std::size_t row = 0; row < 2; ++row)
@@ -247,16 +238,14 @@ TEST(SweepMetrics, WithTheBestGainSayWhereTheSamplesDoNotShowTheVibration) {
 
 TEST(SweepMetrics, WithTheBestGainAreThoseOfTheGainThatDesignGives) {
   const double duration = 20.0, sampling_period = 0.001;
-  char radius[64];  // NOLINT: snprintf fills it
-  std::snprintf(radius, sizeof radius, "%.17g", std::exp(-10.0 * sampling_period / duration));
+  const std::string radius = program::format_number(std::exp(-10.0 * sampling_period / duration));
   const CsvTable sweep =
       table_of("sweep --best-gain --axis excitation.frequency=8,10,12 --set backlash.width=0" +
                every_metric);
   ASSERT_EQ(sweep.rows(), 3U);
   for (std::size_t row = 0; row < 3; ++row) {
     const std::string settings = " --set backlash.width=0" + settings_of(sweep, row);
-    const CsvTable design =
-        table_of("design --margin 0.5 --largest-radius " + std::string(radius) + settings);
+    const CsvTable design = table_of("design --margin 0.5 --largest-radius " + radius + settings);
     const std::string gain = design.text(0, "least_amplitude_gain");
     EXPECT_NEAR(sweep.number(row, "differential_gain"), std::stod(gain),
                 1e-9 * std::abs(std::stod(gain)));
@@ -284,7 +273,7 @@ TEST(SweepMetrics, WithTheBestGainSayThatNoGainSettlesInTheDuration) {
       " --metric outcome");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(program::parse_csv(outcome.output, "sweep").text(0, "outcome"), "no_gain");
-  EXPECT_NE(outcome.errors.find("settle"), std::string::npos) << outcome.errors;
+  expect_holds(outcome.errors, {"settle"});
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #ifdef HOLDFAST_HAS_NETCDF
 
+#include "cli/sweep/stopped_sweep.hpp"
 #include "io/text/csv.hpp"
 #include "program/netcdf_variable.hpp"
 #include "support/testing.hpp"
@@ -11,19 +12,13 @@ namespace {
 
 using program::CsvTable;
 
-/// Cells with and without backlash, of unequal numbers of samples, one that diverges and some that
-/// are not admissible.
-const std::string gridded_sweep =
-    "sweep --axis control.sampling_period=0.001,0.004 --axis control.differential_gain=-13,900"
-    " --axis control.processing_delay=0:0.0015:3 --axis backlash.width=0:0.002:5 --duration 1.5";
-
 void expect_same_number(double one, double other, const std::string& name) {
   EXPECT_TRUE(one == other || (std::isnan(one) && std::isnan(other)))
       << name << ": " << one << " and " << other;
 }
 
 TEST(SweepJob, ItsNetcdfFileHoldsTheValuesOfTheTable) {
-  const std::string sweep = gridded_sweep +
+  const std::string sweep = mixed_sweep +
                             " --metric steady_peak --metric attenuates --metric period_samples"
                             " --metric verdict --metric outcome";
   const TemporaryFolder folder;
@@ -45,9 +40,7 @@ TEST(SweepJob, ItsNetcdfFileHoldsTheValuesOfTheTable) {
   const auto widths = NetcdfVariable(file, "backlash_width").values();
   EXPECT_EQ(NetcdfVariable(file, "backlash_width").text("key"), "backlash.width");
   const std::string history = NetcdfVariable(file).text("history");
-  EXPECT_NE(history.find("holdfast sweep --axis 'control.sampling_period=0.001,0.004'"),
-            std::string::npos)
-      << history;
+  expect_holds(history, {"holdfast sweep --axis 'control.sampling_period=0.001,0.004'"});
   for (std::size_t row = 0; row < 60; ++row) {
     EXPECT_EQ(periods[row / 30], table.number(row, "control.sampling_period"));
     EXPECT_EQ(widths[row % 5], table.number(row, "backlash.width"));
@@ -58,7 +51,7 @@ TEST(SweepJob, ItsNetcdfFileIsTheSameForAnyChunkAndThreads) {
   const TemporaryFolder folder;
   const auto written = [&](const std::string& name, const std::string& way) {
     const std::string file = (folder / name).string();
-    EXPECT_EQ(printed_by(gridded_sweep + way + " --output '" + file + "'"), "");
+    EXPECT_EQ(printed_by(mixed_sweep + way + " --output '" + file + "'"), "");
     return read_text(file);
   };
   const std::string bytes = written("one.nc", "");

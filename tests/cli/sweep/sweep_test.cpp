@@ -1,5 +1,5 @@
 #include "cli/program.hpp"
-#include "cli/running_program.hpp"
+#include "cli/sweep/stopped_sweep.hpp"
 #include "io/text/csv.hpp"
 #include "support/testing.hpp"
 
@@ -7,18 +7,6 @@ namespace holdfast::tests {
 namespace {
 
 using program::CsvTable;
-
-/// Cells with and without backlash, of unequal numbers of samples, one that diverges and some that
-/// are not admissible.
-const std::string mixed_sweep =
-    "sweep --axis control.sampling_period=0.001,0.004 --axis control.differential_gain=-13,900"
-    " --axis control.processing_delay=0:0.0015:3 --axis backlash.width=0:0.002:5 --duration 1.5";
-
-std::string bytes_of(const std::string& arguments) {
-  const Outcome outcome = run_holdfast(arguments);
-  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
-  return outcome.output;
-}
 
 TEST(SweepJob, ColumnsAreTheKeysThenTheMetricsAsAskedAndTheFirstAxisIsSlowest) {
   const CsvTable table = table_of(
@@ -41,11 +29,11 @@ TEST(SweepJob, ThreadsAndTilesDoNotChangeAnyByte) {
   const std::string sweep = mixed_sweep +
                             " --metric steady_peak --metric steady_rms --metric force_rms --metric "
                             "reversals_per_s --metric ratio_to_uncontrolled --metric outcome";
-  const std::string bytes = bytes_of(sweep);
+  const std::string bytes = printed_by(sweep);
   EXPECT_EQ(lines_of(bytes).size(), 61U);
   for (const std::string way : {" --threads 1", " --threads 2", " --threads 5", " --chunk 1",
                                 " --chunk 7", " --chunk 1000"}) {
-    EXPECT_EQ(bytes_of(sweep + way), bytes) << way;
+    EXPECT_EQ(printed_by(sweep + way), bytes) << way;
   }
 }
 
@@ -61,10 +49,10 @@ TEST(SweepJob, AnAxisIsTheListOfItsValues) {
   const std::string key = "control.sampling_period";
   for (const std::string axis : {"0.001:0.005:5", "log:0.001:0.016:5"}) {
     const std::string sweep = "sweep --duration 1 --axis " + key + "=";
-    const std::string bytes = bytes_of(sweep + axis);
+    const std::string bytes = printed_by(sweep + axis);
     const CsvTable table = program::parse_csv(bytes, axis);
     ASSERT_EQ(table.rows(), 5U);
-    EXPECT_EQ(bytes_of(sweep + values_of_axis(table, key)), bytes) << axis;
+    EXPECT_EQ(printed_by(sweep + values_of_axis(table, key)), bytes) << axis;
   }
 }
 
@@ -78,27 +66,19 @@ TEST(SweepJob, ALogarithmicAxisHasItsEndsAndEqualRatios) {
   for (std::size_t i = 1; i < 5; ++i) EXPECT_NEAR(periods[i] / periods[i - 1], 2.0, 1e-13);
 }
 
-double quantity_of(const CsvTable& table, const std::string& name) {
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (table.text(row, "quantity") == name) return table.number(row, "value");
-  }
-  ADD_FAILURE() << name;
-  return std::nan("");
-}
-
 TEST(SweepJob, ADryRunOfAHundredMillionCellsComputesNothingAndLeavesNothing) {
   const TemporaryFolder folder;
   const std::string sweep =
       "sweep --axis initial.z1=0:0.001:10000 --axis initial.z2=0:0.001:10000 --dry-run";
   const CsvTable table = table_of(sweep + " --output '" + (folder / "sweep.csv").string() + "'");
   EXPECT_EQ(table.names(), (std::vector<std::string>{"quantity", "value", "unit"}));
-  EXPECT_EQ(quantity_of(table, "cells"), 1e8);
-  EXPECT_GE(quantity_of(table, "chunks"), 1.0);
-  EXPECT_LE(quantity_of(table, "chunks"), 1e8);
+  EXPECT_EQ(value_of(table, "cells"), 1e8);
+  EXPECT_GE(value_of(table, "chunks"), 1.0);
+  EXPECT_LE(value_of(table, "chunks"), 1e8);
   // 20 s at 1 ms, the first sample and the last one counted.
-  EXPECT_GE(quantity_of(table, "samples"), 1e8 * 20001.0);
-  EXPECT_EQ(quantity_of(table_of(sweep + " --chunk 1000"), "chunks"), 1e5);
-  EXPECT_EQ(quantity_of(table_of(sweep + " --chunk 10000000"), "chunks"), 10.0);
+  EXPECT_GE(value_of(table, "samples"), 1e8 * 20001.0);
+  EXPECT_EQ(value_of(table_of(sweep + " --chunk 1000"), "chunks"), 1e5);
+  EXPECT_EQ(value_of(table_of(sweep + " --chunk 10000000"), "chunks"), 10.0);
   EXPECT_TRUE(folder.names().empty());
 }
 
@@ -138,8 +118,7 @@ TEST(SweepJob, SaysOfEachCellThatDivergesThatItDoes) {
     EXPECT_EQ(std::isinf(table.number(row, "steady_peak")), diverges) << row;
   }
   EXPECT_GT(diverging, 2);
-  EXPECT_NE(outcome.errors.find(std::to_string(diverging) + " diverge"), std::string::npos)
-      << outcome.errors;
+  expect_holds(outcome.errors, {std::to_string(diverging) + " diverge"});
 }
 
 }  // namespace

@@ -43,57 +43,6 @@ TEST(EventMotion, WithoutBacklashItIsTheSampledMotion) {
   }
 }
 
-/// The states of a motion from rest without backlash.
-std::vector<Vector<double, 4>> linear_response(const std::vector<Harmonic>& lines, ForceHold hold,
-                                               double delay) {
-  DigitalLoop loop = kollar_digital(0.004, delay, hold);
-  loop.gains = {-200.0, -5.0};
-  loop.force.harmonics = lines;
-  BacklashMotion motion = kollar_motion(loop, 0.0);
-  std::vector<Vector<double, 4>> states;
-  for (int j = 0; j < 500; ++j) {
-    motion.sense();
-    motion.advance();
-    states.push_back(motion.state());
-  }
-  return states;
-}
-
-TEST(EventMotion, WithoutBacklashItsForcesAddUp) {
-  const std::vector<Harmonic> lines{{0.5, 10.0, 0.3}, {0.3, 27.0, -1.1}, {0.2, 1.7, 2.9}};
-  for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
-    for (const double delay : {0.0, 0.001, 0.004}) {
-      const auto together = linear_response(lines, hold, delay);
-      std::vector<Vector<double, 4>> sum(together.size(), Vector<double, 4>::Zero());
-      double size = 0.0;
-      for (const Harmonic& line : lines) {
-        const auto alone = linear_response({line}, hold, delay);
-        for (std::size_t j = 0; j < sum.size(); ++j) {
-          sum[j] += alone[j];
-          size = std::max(size, alone[j].norm());
-        }
-      }
-      for (std::size_t j = 0; j < sum.size(); ++j)
-        ASSERT_LE((sum[j] - together[j]).norm(), 1e-12 * size) << j;
-    }
-  }
-}
-
-// F cos(ω t + φ) = cos φ · F cos ω t + sin φ · F cos(ω t + π/2): the phase goes with ω.
-TEST(EventMotion, WithoutBacklashAPhaseTurnsTheResponse) {
-  for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
-    const double phase = 1.234;
-    const auto straight = linear_response({{0.5, 10.0, 0.0}}, hold, 0.001);
-    const auto across = linear_response({{0.5, 10.0, pi<double> / 2.0}}, hold, 0.001);
-    const auto turned = linear_response({{0.5, 10.0, phase}}, hold, 0.001);
-    for (std::size_t j = 0; j < turned.size(); ++j) {
-      const Vector<double, 4> expected =
-          straight[j] * std::cos(phase) + across[j] * std::sin(phase);
-      ASSERT_LE((turned[j] - expected).norm(), 1e-12) << j;
-    }
-  }
-}
-
 /// Both motions, sample by sample, with their changes of contact.
 void expect_the_same_motion(const DigitalLoop& first, const DigitalLoop& second, double width,
                             double tolerance) {
@@ -130,26 +79,6 @@ TEST(EventMotion, TheMatricesOfAPeriodAndItsSeriesGiveTheSameMotion) {
         expect_the_same_motion(plain, jittering, width, 1e-12);
       }
     }
-  }
-}
-
-// From both ends of a period, at every δ, a mirrored force moves a mirrored state.
-TEST(EventMotion, AMirroredMotionIsMirrored) {
-  for (const double delay : {0.0, 0.0004}) {
-    DigitalLoop loop = kollar_digital(0.001, delay);
-    if (delay > 0.0) loop.gains = {-300.0, -4.0};
-    DigitalLoop mirrored = loop;
-    mirrored.force.harmonics[0].phase = pi<double>;
-    BacklashMotion motion = kollar_motion(loop, 0.0005, 0.1 * pushed_state());
-    BacklashMotion mirror = kollar_motion(mirrored, 0.0005, -0.1 * pushed_state());
-    for (int j = 0; j < 1500; ++j) {
-      const auto sample = motion.sense(), other = mirror.sense();
-      ASSERT_EQ(sample.mode, other.mode) << j;
-      ASSERT_LE((sample.state + other.state).norm(), 1e-12) << j;
-      motion.advance();
-      mirror.advance();
-    }
-    EXPECT_GT(motion.counts().entered[1], 20);
   }
 }
 

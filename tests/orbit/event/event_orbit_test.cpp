@@ -2,6 +2,7 @@
 
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
+#include "orbit/event/return_differences.hpp"
 #include "support/contacts.hpp"
 #include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
@@ -50,13 +51,6 @@ RepeatingMotion<DriveContact<>> motion_on(const EventMotion<>& any,
   RepeatingMotion<DriveContact<>> repeating(motion, found.orbit->ratio.denominator);
   repeating.go_to(*found.point);
   return repeating;
-}
-
-void pass_samples(RepeatingMotion<DriveContact<>>& motion, std::int64_t samples) {
-  for (std::int64_t j = 0; j < samples; ++j) {
-    motion.sense();
-    motion.advance();
-  }
 }
 
 struct EventOrbitCase {
@@ -122,18 +116,6 @@ TEST(EventOrbit, ExactSwitchingLeavesOfEveryKnownMotionTheCommonPeriod) {
   }
 }
 
-TEST(EventOrbit, TheLongPeriodsAreMadeBySwitchingAtSamples) {
-  for (const double width : {0.001, 0.002}) {
-    for (const ForceHold hold : {ForceHold::exact, ForceHold::sampled}) {
-      const auto loop = event_orbit_loop(0.011, width, hold);
-      const OrbitResult sampled = find_periodic_orbit(loop, Vector<double, 4>::Zero(), {10000, 0});
-      ASSERT_EQ(sampled.outcome, OrbitOutcome::certified);
-      EXPECT_GE(sampled.orbit->period_samples(), 1000);
-      EXPECT_EQ(certified_event_orbit(loop).orbit->period_samples(), 100);
-    }
-  }
-}
-
 TEST(EventOrbit, AllStartsComeToTheSameOneWhereSwitchingAtSamplesHasSeveral) {
   const auto loop = event_orbit_loop(0.003, 0.002, ForceHold::sampled);
   const EventOrbit orbit = certified_event_orbit(loop).orbit.value();
@@ -183,40 +165,18 @@ TEST(EventOrbit, OfAnEvenCommonPeriodIsItsOwnOppositeHalfAPeriodLater) {
   }
 }
 
-/// Eigenvalues of the derivative of X_N by X_0 at an orbit's first sample, by differences; |λ| in
-/// falling order.
-std::vector<double> moduli_by_differences(const EventMotion<>& any,
-                                          const EventOrbitResult<DriveContact<>>& found) {
-  RepeatingMotion<DriveContact<>> motion = motion_on(any, found);
-  Vector<double, 7> step;
-  step << 1e-8, 1e-6, 1e-8, 1e-6, 1e-5, 1e-8, 1e-8;
-  Matrix<double, 7> derivative;
-  for (int i = 0; i < 7; ++i) {
-    Vector<double, 7> ends[2];
-    for (const int side : {0, 1}) {
-      const double sign = side == 0 ? 1.0 : -1.0;
-      const Vector<double, 7> by = sign * step[i] * Vector<double, 7>::Unit(i);
-      motion.go_to(detail::shifted(*found.point, by));
-      pass_samples(motion, found.orbit->period_samples());
-      ends[side] = detail::difference(*found.point, motion.point());
-    }
-    derivative.col(i) = (ends[0] - ends[1]) / (2.0 * step[i]);
-  }
-  const Vector<double, 7> inverse = step.cwiseInverse();
-  derivative = inverse.asDiagonal() * derivative * step.asDiagonal();
-  const Eigen::VectorXd moduli = test::moduli_of(derivative);
-  return {moduli.begin(), moduli.end()};
-}
-
 void expect_multipliers_of_differences(const EventMotion<>& motion) {
   const auto found = find_event_orbit(motion, OrbitLimits{20000});
   ASSERT_EQ(found.outcome, OrbitOutcome::certified);
-  const std::vector<double> moduli = moduli_by_differences(motion, found);
+  Vector<double, 7> steps;
+  steps << 1e-8, 1e-6, 1e-8, 1e-6, 1e-5, 1e-8, 1e-8;
+  const Eigen::VectorXd moduli = test::moduli_by_differences(motion_on(motion, found), *found.point,
+                                                             found.orbit->period_samples(), steps);
   const auto& multipliers = found.orbit->multipliers;
   // As often as the differences are above their own rounding.
   for (std::size_t i = 0; i < multipliers.size(); ++i) {
     const double modulus = std::exp(multipliers[i].log_modulus);
-    EXPECT_NEAR(modulus, moduli[i], 2e-6 + 1e-5 * modulus) << i;
+    EXPECT_NEAR(modulus, moduli[static_cast<Eigen::Index>(i)], 2e-6 + 1e-5 * modulus) << i;
   }
 }
 
@@ -311,12 +271,12 @@ TEST(EventOrbit, APushedMotionComesBackAsTheMultipliersSay) {
     StroboscopicState<DriveContact<>> pushed = *found.point;
     pushed.state[0] += 1e-8;
     motion.go_to(pushed);
-    pass_samples(motion, orbit.period_samples());
+    test::pass_samples(motion, orbit.period_samples());
     constexpr int count = 8;
     std::vector<Vector<double, 4>> deviation;
     for (int k = 0; k < count; ++k) {
       deviation.push_back(motion.motion().state() - orbit.states.front());
-      pass_samples(motion, orbit.period_samples());
+      test::pass_samples(motion, orbit.period_samples());
     }
     Eigen::Matrix<double, 4 * (count - 3), 3> past;
     Eigen::Matrix<double, 4 * (count - 3), 1> next;
@@ -334,18 +294,6 @@ TEST(EventOrbit, APushedMotionComesBackAsTheMultipliersSay) {
     EXPECT_NEAR(symmetric[1], (z[0] * z[1] + z[1] * z[2] + z[2] * z[0]).real(), 1e-4);
     EXPECT_NEAR(symmetric[2], (z[0] * z[1] * z[2]).real(), 1e-4);
   }
-}
-
-TEST(EventOrbit, StickHasOneNullDirectionMore) {
-  const auto finite = [](const EventOrbit& orbit) {
-    return std::count_if(orbit.multipliers.begin(), orbit.multipliers.end(),
-                         [](const Multiplier& m) { return std::isfinite(m.log_modulus); });
-  };
-  const auto sticking = certified_event_orbit(event_orbit_loop(0.001, 0.002, ForceHold::exact));
-  const auto rigid = certified_event_orbit(event_orbit_loop(0.001, 0.0, ForceHold::exact));
-  ASSERT_GT(sticking.orbit->entries(ContactMode::stick), 0);
-  EXPECT_EQ(finite(*rigid.orbit), 4);
-  EXPECT_EQ(finite(*sticking.orbit), 3);
 }
 
 TEST(EventOrbit, InAGapThatIsNeverLeftIsThatOfThePlant) {
@@ -519,45 +467,6 @@ TEST(EventOrbit, HasItsShortestPeriod) {
   EXPECT_LT(orbit.closure_error, 1e-14);
 }
 
-TEST(EventOrbit, GrowingMotionsDiverge) {
-  for (const double width : {0.0, 0.002}) {
-    const auto loop = event_orbit_loop(0.011, width, ForceHold::sampled, 1.0);
-    const auto found =
-        find_event_orbit(exactly_switching(loop, {0.05, 0.0, 0.0, 0.0}), OrbitLimits{10000});
-    EXPECT_EQ(found.outcome, OrbitOutcome::diverges);
-    EXPECT_FALSE(found.orbit);
-  }
-}
-
-TEST(EventOrbit, RestWithoutExcitationTouchesTheSurfaceOfReversal) {
-  auto loop = event_orbit_loop(0.001, 0.002, ForceHold::exact);
-  loop.excitation.amplitude = 0.0;
-  const auto found = find_event_orbit(exactly_switching(loop), OrbitLimits{1000});
-  ASSERT_EQ(found.outcome, OrbitOutcome::on_surface);
-  EXPECT_EQ(found.orbit->amplitude(), 0.0);
-  EXPECT_EQ(found.orbit->forcing_periods(), 0);
-}
-
-TEST(EventOrbit, AFreeVibrationEndsAtRestInItsGap) {
-  auto loop = event_orbit_loop(0.001, 0.002, ForceHold::exact);
-  loop.excitation.amplitude = 0.0;
-  const auto found = certified_event_orbit(loop, {0.0002, 0.0, 0.0, 0.01});
-  EXPECT_EQ(found.orbit->period_samples(), 1);
-  EXPECT_EQ(found.orbit->modes.front(), ContactMode::gap);
-  EXPECT_LT(found.orbit->states.front().norm(), 1e-12);
-}
-
-TEST(EventOrbit, LooksAtNoMoreSamplesThanAllowed) {
-  const auto loop = event_orbit_loop(0.011, 0.002, ForceHold::exact);
-  for (const std::int64_t most : {1, 99, 100, 234}) {
-    const auto found = find_event_orbit(exactly_switching(loop), OrbitLimits{1000, most});
-    EXPECT_EQ(found.outcome, OrbitOutcome::none_found) << most;
-    EXPECT_LE(found.samples, most);
-  }
-  EXPECT_EQ(find_event_orbit(exactly_switching(loop), OrbitLimits{99}).outcome,
-            OrbitOutcome::none_found);
-}
-
 TEST(EventOrbit, AMotionSeenTooShortlyIsSaidToApproach) {
   const auto loop = event_orbit_loop(0.001, 0.002, ForceHold::exact);
   const auto whole = certified_event_orbit(loop);
@@ -604,12 +513,6 @@ TEST(EventOrbit, IsNotLookedForWhereNothingRepeats) {
     EXPECT_EQ(found.outcome, OrbitOutcome::incommensurate);
     EXPECT_EQ(found.samples, 0);
   }
-}
-
-TEST(EventOrbit, RefusesWhatDoesNotFitTheMotion) {
-  const auto motion = exactly_switching(event_orbit_loop(0.011, 0.0005, ForceHold::exact));
-  EXPECT_THROW(find_event_orbit(motion, OrbitLimits{0}), InvalidParameter);
-  EXPECT_THROW(find_event_orbit(motion, OrbitLimits{1000, -1}), InvalidParameter);
 }
 
 TEST(EventOrbitMeasuresDetail, FindsEverySignChangeOfASeries) {

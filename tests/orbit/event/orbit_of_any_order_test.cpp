@@ -1,7 +1,7 @@
 // Periodic orbits of a plant of another order than that of the two masses.
 
-#include "holdfast/math/linalg/eigenvalues.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
+#include "orbit/event/return_differences.hpp"
 #include "support/lagging_loop.hpp"
 #include "support/testing.hpp"
 
@@ -51,48 +51,6 @@ TEST(OrbitOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMasses) {
   }
 }
 
-/// The motion some samples after a point of it.
-template <class Contact>
-StroboscopicState<Contact> after_samples(const RepeatingMotion<Contact>& any,
-                                         const StroboscopicState<Contact>& from,
-                                         std::int64_t samples) {
-  RepeatingMotion<Contact> motion = any;
-  motion.go_to(from);
-  for (std::int64_t j = 0; j < samples; ++j) {
-    motion.sense();
-    motion.advance();
-  }
-  return motion.point();
-}
-
-/// The largest |λ| of the map of [x; u_{j−1}] over a period, by central differences of motions from
-/// a point at which the drive is engaged.
-template <class Contact>
-double largest_multiplier_by_differences(const RepeatingMotion<Contact>& motion,
-                                         const StroboscopicState<Contact>& point,
-                                         std::int64_t period,
-                                         const Vector<double, Eigen::Dynamic>& sizes) {
-  const Eigen::Index order = point.state.size();
-  Eigen::MatrixXd map(order + 1, order + 1);
-  for (Eigen::Index k = 0; k <= order; ++k) {
-    Vector<double, Eigen::Dynamic> ends[2];
-    const double step = 1e-5 * sizes[k];
-    for (const int side : {0, 1}) {
-      StroboscopicState<Contact> from = point;
-      const double by = side == 0 ? step : -step;
-      (k < order ? from.state[k] : from.previous_command) += by;
-      const StroboscopicState<Contact> to = after_samples(motion, from, period);
-      ends[side].resize(order + 1);
-      ends[side] << to.state, to.previous_command;
-    }
-    map.col(k) = ((ends[0] - ends[1]) / (2.0 * step)).cwiseQuotient(sizes) * sizes[k];
-  }
-  double largest = 0.0;
-  for (const std::complex<double>& value : eigenvalues(map))
-    largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
 template <class Plant>
 void expect_closes_with_multiplier(const ImplementedLoopOf<Plant>& loop) {
   const auto found = orbit_from_rest(loop);
@@ -104,10 +62,11 @@ void expect_closes_with_multiplier(const ImplementedLoopOf<Plant>& loop) {
   EXPECT_GT(orbit.entries(ContactMode::gap), 0);
   EXPECT_GT(orbit.entries(ContactMode::engaged), 0);
 
-  Vector<double, Eigen::Dynamic> sizes = Vector<double, Eigen::Dynamic>::Zero(order + 1);
+  Vector<double, Eigen::Dynamic> sizes = Vector<double, Eigen::Dynamic>::Zero(order + 3);
   for (const auto& state : orbit.states)
     sizes.head(order) = sizes.head(order).cwiseMax(state.cwiseAbs());
   for (const double force : orbit.forces) sizes[order] = std::max(sizes[order], std::abs(force));
+  sizes.tail(2).setConstant(orbit.extent.displacement);
 
   // Another motion, from another time on: sampling and forcing go on as they are.
   auto motion = event_motion(loop, found.point->state);
@@ -120,13 +79,16 @@ void expect_closes_with_multiplier(const ImplementedLoopOf<Plant>& loop) {
       (motion.state() - found.point->state).cwiseAbs().cwiseQuotient(sizes.head(order)).maxCoeff();
   EXPECT_LE(residual, 1e-9);
 
-  const RepeatingMotion<DriveContact<Plant>> repeating(motion, 20);
+  // From a point at which the drive is engaged.
+  RepeatingMotion<DriveContact<Plant>> repeating(motion, 20);
   std::size_t engaged = 0;
   while (orbit.modes[engaged] != ContactMode::engaged ||
          orbit.modes[engaged + 1] != ContactMode::engaged)
     ++engaged;
-  const auto point = after_samples(repeating, *found.point, static_cast<std::int64_t>(engaged) + 1);
-  const double expected = largest_multiplier_by_differences(repeating, point, period, sizes);
+  repeating.go_to(*found.point);
+  test::pass_samples(repeating, static_cast<std::int64_t>(engaged) + 1);
+  const double expected =
+      test::moduli_by_differences(repeating, repeating.point(), period, 1e-5 * sizes)[0];
   std::cout << "period " << period << ", residual " << residual << ", largest multiplier "
             << orbit.largest_multiplier() << ", by differences less "
             << expected - orbit.largest_multiplier() << "\n";

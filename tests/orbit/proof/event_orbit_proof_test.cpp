@@ -229,78 +229,121 @@ TEST(EventOrbitProof, IsNotWhereAnEndOfTheGapIsTouched) {
   EXPECT_NE(shifted(-1e-9).outcome, OrbitProofOutcome::proved);
 }
 
-TEST(EventOrbitProof, WithoutBacklashAllIsAttracted) {
-  const ProposedEvents smooth = event_orbit_to_prove(proved_loop(0.001, 0.0));
-  const EventOrbitProof proof = smooth.proof();
-  EXPECT_EQ(proof.outcome, OrbitProofOutcome::proved);
-  EXPECT_EQ(proof.radius, HUGE_VAL);
+// ---- both kinds of switching -------------------------------------------------------------------
+
+struct SampledProof {
+  static constexpr std::uint64_t seed = 52;
+  static constexpr std::int64_t draws = 150;
+  static constexpr double least_width = 1e-5;
+  static constexpr double least_proved(double certified) { return 0.99 * certified - 1.0; }
+  static std::optional<test::ProposedOrbit> found(const IdealLoop<double>& loop) {
+    const OrbitResult result =
+        find_periodic_orbit(loop, Vector<double, 4>::Zero(), {4000, 400'000});
+    if (result.outcome != OrbitOutcome::certified) return std::nullopt;
+    return test::ProposedOrbit{loop, *result.orbit};
+  }
+  static Vector<double, 2> distance(const test::ProposedOrbit& proposed) {
+    const OrbitVerification wide = verify_orbit<long double>(proposed.loop, proposed.orbit);
+    EXPECT_TRUE(wide.same_itinerary);
+    return {wide.displacement_difference, wide.velocity_difference};
+  }
+};
+
+struct EventProof {
+  static constexpr std::uint64_t seed = 62;
+  static constexpr std::int64_t draws = 6;
+  static constexpr double least_width = 1e-4;
+  static constexpr double least_proved(double certified) { return 0.8 * certified; }
+  static std::optional<ProposedEvents> found(const IdealLoop<double>& loop) {
+    const auto result = find_event_orbit(
+        event_motion(ProposedEvents::switching_exactly(loop), Vector<double, 4>::Zero().eval()),
+        {200, 100'000});
+    if (result.outcome != OrbitOutcome::certified) return std::nullopt;
+    return ProposedEvents{loop, *result.orbit, *result.point};
+  }
+  static Vector<double, 2> distance(const ProposedEvents& proposed) {
+    return distance_in_extended_precision(proposed);
+  }
+};
+
+template <class Model>
+class ProofOf : public testing::Test {
+ protected:
+  static auto proposed(double period, double width) {
+    return Model::found(proved_loop(period, width)).value();
+  }
+};
+
+using ProofModels = testing::Types<SampledProof, EventProof>;
+TYPED_TEST_SUITE(ProofOf, ProofModels, );
+
+TYPED_TEST(ProofOf, WithoutBacklashAllIsAttracted) {
+  const auto smooth = this->proposed(0.001, 0.0);
+  EXPECT_EQ(smooth.proof().outcome, OrbitProofOutcome::proved);
+  EXPECT_EQ(smooth.proof().radius, HUGE_VAL);
   const OrbitProof sampled = prove_orbit(smooth.loop, test::orbit_to_prove(smooth.loop));
-  EXPECT_NEAR(proof.multiplier_bound, sampled.multiplier_bound, 0.01);
+  EXPECT_NEAR(smooth.proof().multiplier_bound, sampled.multiplier_bound, 0.01);
 }
 
 /// Without backlash a drive never is in a gap, whatever it is said to remember.
-TEST(EventOrbitProof, IsNotOfAGapThatIsNotThere) {
-  ProposedEvents inside = event_orbit_to_prove(proved_loop(0.001, 0.05));
+TYPED_TEST(ProofOf, AGapThatIsNotThereIsRefused) {
+  auto inside = this->proposed(0.001, 0.05);
+  ASSERT_EQ(inside.orbit.engaged_fraction(), 0.0);
   inside.loop.backlash_width = 0.0;
   EXPECT_NE(inside.proof().outcome, OrbitProofOutcome::proved);
 }
 
-TEST(EventOrbitProof, RefusesWhatIsNoOrbitOfTheLoop) {
-  const ProposedEvents proposed = event_orbit_to_prove(proved_loop(0.01, 0.002));
-  ProposedEvents other = proposed;
-  other.orbit.states.pop_back();
-  EXPECT_THROW(other.proof(), InvalidParameter) << "not a multiple of q";
-  other = proposed;
-  other.orbit.multipliers.clear();
-  EXPECT_THROW(other.proof(), InvalidParameter);
-  other = proposed;
-  other.first.phase = 1;
-  EXPECT_THROW(other.proof(), InvalidParameter) << "not at a coincidence";
-  other = proposed;
-  other.loop.excitation.frequency = 10.0000000000005;
-  EXPECT_THROW(other.proof(), InvalidParameter) << "f tau is not 1/10";
-  other = proposed;
-  other.loop.plant.conductor_mass = 0.0;
-  EXPECT_THROW(other.proof(), InvalidParameter);
+TYPED_TEST(ProofOf, WhatIsNoOrbitOfTheLoopIsRefused) {
+  const auto sound = this->proposed(0.01, 0.002);
+  const auto refuses = [&](auto&& spoil) {
+    auto other = sound;
+    spoil(other);
+    EXPECT_THROW(other.proof(), InvalidParameter);
+  };
+  refuses([](auto& bad) { bad.orbit.states.pop_back(); });
+  refuses([](auto& bad) { bad.orbit.multipliers.clear(); });
+  refuses([](auto& bad) { bad.orbit.ratio.numerator += 1; });
+  refuses([](auto& bad) { bad.loop.excitation.frequency = 10.0000000000005; });
+  refuses([](auto& bad) { bad.loop.plant.conductor_mass = 0.0; });
+  if constexpr (std::is_same_v<TypeParam, SampledProof>)
+    refuses([](auto& bad) { bad.orbit.itinerary.pop_back(); });
+  else
+    refuses([](auto& bad) { bad.first.phase = 1; });
 }
 
 /// Orbits of random loops: most are proved, and none that extended precision refutes.
-TEST(EventOrbitProof, OfMostRandomOrbits) {
-  const std::int64_t draws = test::property_draws(6);
+TYPED_TEST(ProofOf, MostRandomOrbitsAreProved) {
+  const std::int64_t draws = test::property_draws(TypeParam::draws);
   int certified = 0, proved = 0;
   for (std::int64_t draw = 0; certified < draws && draw < 40 * draws; ++draw) {
-    test::Random random = test::detail::random_of_draw(62, draw);
+    test::Random random = test::detail::random_of_draw(TypeParam::seed, draw);
     IdealLoop<double> loop =
         proved_loop(0.001 * (1.0 + static_cast<double>(random.index(20))), 0.0);
     loop.gains = {random.uniform(-900.0, 100.0), random.uniform(-25.0, 2.0)};
     loop.excitation = {0.5, 2.0 + 0.5 * static_cast<double>(random.index(30))};
-    loop.backlash_width = random.log_uniform(1e-4, 1e-2);
+    loop.backlash_width = random.log_uniform(TypeParam::least_width, 1e-2);
     if (random.index(3) == 0) loop.sampling.processing_delay = random.unit() * loop.sampling.period;
     if (random.index(3) == 0) loop.hold = ForceHold::exact;
-    const auto found = find_event_orbit(
-        event_motion(ProposedEvents::switching_exactly(loop), Vector<double, 4>::Zero().eval()),
-        {200, 100'000});
-    if (found.outcome != OrbitOutcome::certified) continue;
-    const ProposedEvents proposed{loop, *found.orbit, *found.point};
+    const auto proposed = TypeParam::found(loop);
+    if (!proposed) continue;
     ++certified;
-    const EventOrbitProof proof = proposed.proof();
+    const auto proof = proposed->proof();
     if (proof.outcome != OrbitProofOutcome::proved) {
-      std::printf("draw %lld: %d, surface %d, order %d, %g of %g, multiplier %g, %lld samples\n",
+      std::printf("draw %lld: %d, multiplier %g, error %g, %lld samples\n",
                   static_cast<long long>(draw), static_cast<int>(proof.outcome),
-                  static_cast<int>(proof.nearest.surface), proof.nearest.order,
-                  proof.nearest.distance, proof.nearest.error, proposed.orbit.largest_multiplier(),
-                  static_cast<long long>(proposed.orbit.period_samples()));
+                  proposed->orbit.largest_multiplier(), proof.displacement_error,
+                  static_cast<long long>(proposed->orbit.period_samples()));
       continue;
     }
     ++proved;
-    EXPECT_GE(proof.multiplier_bound, proposed.orbit.largest_multiplier()) << draw;
-    if (proposed.orbit.period_samples() > 200) continue;
-    const Vector<double, 2> distance = distance_in_extended_precision(proposed);
+    EXPECT_GE(proof.multiplier_bound, proposed->orbit.largest_multiplier()) << draw;
+    EXPECT_GE(proof.radius, 0.0) << draw;
+    const Vector<double, 2> distance = TypeParam::distance(*proposed);
     EXPECT_LE(distance[0], proof.displacement_error) << draw;
     EXPECT_LE(distance[1], proof.velocity_error) << draw;
   }
   EXPECT_EQ(certified, draws);
-  EXPECT_GE(proved, static_cast<int>(0.8 * static_cast<double>(draws)));
+  EXPECT_GE(proved, static_cast<int>(TypeParam::least_proved(static_cast<double>(draws))));
 }
 
 }  // namespace

@@ -11,10 +11,7 @@ namespace {
 using test::orbit_to_prove;
 using test::proved_loop;
 
-struct Proposed {
-  IdealLoop<double> loop;
-  PeriodicOrbit orbit;
-};
+using Proposed = test::ProposedOrbit;
 
 std::vector<Proposed> proposals() {
   std::vector<Proposed> all;
@@ -257,81 +254,11 @@ TEST(OrbitProof, IsNotOfAMultiplierOutsideTheCircle) {
   }
 }
 
-TEST(OrbitProof, WithoutBacklashAllIsAttracted) {
-  const IdealLoop<double> loop = proved_loop(0.001, 0.0);
-  const OrbitProof proof = prove_orbit(loop, orbit_to_prove(loop));
-  EXPECT_EQ(proof.outcome, OrbitProofOutcome::proved);
-  EXPECT_EQ(proof.radius, HUGE_VAL);
-}
-
-/// Without backlash a drive never is in a gap, whatever it is said to remember.
-TEST(OrbitProof, IsNotOfAGapThatIsNotThere) {
-  const IdealLoop<double> loop = proved_loop(0.001, 0.05);
-  const PeriodicOrbit orbit = orbit_to_prove(loop);
-  ASSERT_EQ(orbit.engaged_fraction(), 0.0);
-  IdealLoop<double> without = loop;
-  without.backlash_width = 0.0;
-  EXPECT_NE(prove_orbit(without, orbit).outcome, OrbitProofOutcome::proved);
-}
-
-TEST(OrbitProof, RefusesWhatIsNoOrbitOfTheLoop) {
-  const IdealLoop<double> loop = proved_loop(0.01, 0.002);
-  const PeriodicOrbit orbit = orbit_to_prove(loop);
-  PeriodicOrbit other = orbit;
-  other.states.pop_back();
-  EXPECT_THROW(prove_orbit(loop, other), InvalidParameter) << "not a multiple of q";
-  other = orbit;
-  other.itinerary.pop_back();
-  EXPECT_THROW(prove_orbit(loop, other), InvalidParameter);
-  other = orbit;
-  other.multipliers.clear();
-  EXPECT_THROW(prove_orbit(loop, other), InvalidParameter);
-  other = orbit;
-  other.ratio = {1, 5};
-  EXPECT_THROW(prove_orbit(loop, other), InvalidParameter) << "another fraction";
-  IdealLoop<double> beside = loop;
-  beside.excitation.frequency = 10.0000000000005;
-  EXPECT_THROW(prove_orbit(beside, orbit), InvalidParameter) << "f tau is not 1/10";
-}
-
 TEST(OrbitProof, RefusesContactsThatAreNotThoseOfTheStates) {
   const IdealLoop<double> loop = proved_loop(0.01, 0.002);
   PeriodicOrbit orbit = orbit_to_prove(loop);
   orbit.itinerary[3] ^= 1;
   EXPECT_NE(prove_orbit(loop, orbit).outcome, OrbitProofOutcome::proved);
-}
-
-/// Orbits of random loops: nearly all are proved, and none that extended precision refutes.
-TEST(OrbitProof, OfNearlyAllRandomOrbits) {
-  const std::int64_t draws = test::property_draws(150);
-  int certified = 0, proved = 0;
-  for (std::int64_t draw = 0; certified < draws && draw < 40 * draws; ++draw) {
-    test::Random random = test::detail::random_of_draw(52, draw);
-    IdealLoop<double> loop =
-        proved_loop(0.001 * (1.0 + static_cast<double>(random.index(20))), 0.0);
-    loop.gains = {random.uniform(-900.0, 100.0), random.uniform(-25.0, 2.0)};
-    loop.excitation = {0.5, 2.0 + 0.5 * static_cast<double>(random.index(30))};
-    loop.backlash_width = random.log_uniform(1e-5, 1e-2);
-    if (random.index(3) == 0) loop.sampling.processing_delay = random.unit() * loop.sampling.period;
-    const OrbitResult found = find_periodic_orbit(loop, Vector<double, 4>::Zero(), {4000, 400'000});
-    if (found.outcome != OrbitOutcome::certified) continue;
-    ++certified;
-    const OrbitProof proof = prove_orbit(loop, *found.orbit);
-    if (proof.outcome != OrbitProofOutcome::proved) {
-      std::printf("draw %lld: %d, decided by %g, multiplier %g, error %g, %lld samples\n",
-                  static_cast<long long>(draw), static_cast<int>(proof.outcome), proof.decided_by,
-                  found.orbit->largest_multiplier(), proof.displacement_error,
-                  static_cast<long long>(found.orbit->period_samples()));
-      continue;
-    }
-    ++proved;
-    const OrbitVerification wide = verify_orbit<long double>(loop, *found.orbit);
-    EXPECT_TRUE(wide.same_itinerary) << draw;
-    EXPECT_LE(wide.displacement_difference, proof.displacement_error) << draw;
-    EXPECT_GE(proof.radius, 0.0) << draw;
-  }
-  EXPECT_EQ(certified, draws);
-  EXPECT_GE(proved, static_cast<int>(0.99 * static_cast<double>(draws)) - 1);
 }
 
 }  // namespace

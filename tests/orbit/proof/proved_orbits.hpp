@@ -1,6 +1,7 @@
 #pragma once
 
 #include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/orbit/proof/orbit_proof.hpp"
 #include "support/kollar_case.hpp"
 #include "support/testing.hpp"
 
@@ -22,5 +23,15 @@ inline PeriodicOrbit orbit_to_prove(const IdealLoop<double>& loop, double displa
   EXPECT_EQ(found.outcome, OrbitOutcome::certified) << loop.sampling.period;
   return found.orbit.value();
 }
+
+/// An orbit that switches at samples.
+struct ProposedOrbit {
+  IdealLoop<double> loop;
+  PeriodicOrbit orbit;
+
+  OrbitProof proof(double largest_miss = 1e-12) const {
+    return prove_orbit(loop, orbit, largest_miss);
+  }
+};
 
 }  // namespace holdfast::test

@@ -1,9 +1,9 @@
 #include "case/axes/axis.hpp"
 
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
 #include "support/testing.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -7,8 +7,8 @@
 #include "case/needed.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "case/units.hpp"
-#include "io/text/text.hpp"
 #include "program/case/case_text.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

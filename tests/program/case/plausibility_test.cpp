@@ -1,7 +1,7 @@
 #include "case/case_file.hpp"
 #include "case/model/resolved_plant.hpp"
 #include "case/plausibility/doubts.hpp"
-#include "io/file/input.hpp"
+#include "io/file/whole_file.hpp"
 #include "process/errors.hpp"
 #include "program/case/case_text.hpp"
 #include "support/testing.hpp"

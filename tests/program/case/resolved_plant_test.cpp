@@ -3,9 +3,9 @@
 #include "case/case_file.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
-#include "io/text/text.hpp"
 #include "program/case/case_text.hpp"
 #include "support/testing.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "case/case_file.hpp"
 #include "holdfast/stability/chart/chart.hpp"
-#include "io/grid/grid_output.hpp"
-#include "io/text/table.hpp"
 #include "jobs/charts/chart_rows.hpp"
 #include "jobs/columns.hpp"
+#include "output/grid/grid_output.hpp"
+#include "output/table.hpp"
 #include "process/exit.hpp"
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"

@@ -1,4 +1,4 @@
-#include "io/grid/grid_output.hpp"
+#include "output/grid/grid_output.hpp"
 
 #include <sys/resource.h>
 
@@ -6,12 +6,13 @@
 
 #include "case/case_file.hpp"
 #include "io/file/output.hpp"
-#include "io/grid/chunk_grid.hpp"
-#include "io/grid/grid_attributes.hpp"
-#include "io/grid/netcdf_library.hpp"
-#include "io/text/table.hpp"
+#include "output/grid/chunk_grid.hpp"
+#include "output/grid/grid_attributes.hpp"
+#include "output/grid/netcdf_library.hpp"
+#include "output/table.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "program/child_process.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/testing.hpp"
@@ -223,12 +224,13 @@ TEST(GridOutput, ValuesThatTheirColumnCannotHaveAreADefect) {
     altered.values[column].back() = value;
     write_cells(folder / "out.csv", altered, altered.count());
   };
-  for (const double value : {0.5, no_number, endless, 9007199254740994.0})
-    EXPECT_THROW(append(1, value), std::logic_error) << value;
-  for (const double value : {2.0, -1.0, 0.5, no_number})
-    EXPECT_THROW(append(2, value), std::logic_error) << value;
-  for (const double value : {3.0, -1.0, 0.5, no_number})
-    EXPECT_THROW(append(3, value), std::logic_error) << value;
+  const std::map<std::size_t, std::vector<double>> refused = {
+      {1, {0.5, no_number, endless, 9007199254740994.0}},
+      {2, {2.0, -1.0, 0.5, no_number}},
+      {3, {3.0, -1.0, 0.5, no_number}}};
+  for (const auto& [column, values] : refused)
+    for (const double value : values)
+      EXPECT_THROW(append(column, value), std::logic_error) << value;
   EXPECT_EQ(folder.files(), 0);
 }
 
@@ -242,12 +244,11 @@ TEST(GridOutput, LayoutsThatCannotBeWrittenAreADefect) {
   };
   EXPECT_THROW(begin({{}, columns_of_every_kind()}), std::logic_error);
   EXPECT_THROW(begin({{{{"a", "", ""}, std::vector<double>{}}}, {}}), std::logic_error);
-  EXPECT_THROW(with_column("boolean", {}), std::logic_error);
-  EXPECT_THROW(with_column("double", {"no", "yes"}), std::logic_error);
-  EXPECT_THROW(with_column("string", {}), std::logic_error);
-  EXPECT_THROW(with_column("string", {"two words"}), std::logic_error);
-  EXPECT_THROW(with_column("string", {""}), std::logic_error);
-  EXPECT_THROW(with_column("string", std::vector<std::string>(129, "x")), std::logic_error);
+  const std::vector<std::pair<const char*, std::vector<std::string>>> refused = {
+      {"boolean", {}},           {"double", {"no", "yes"}}, {"string", {}},
+      {"string", {"two words"}}, {"string", {""}},          {"string", {129, "x"}}};
+  for (const auto& [datatype, words] : refused)
+    EXPECT_THROW(with_column(datatype, words), std::logic_error) << datatype;
   EXPECT_NO_THROW(with_column("string", std::vector<std::string>(128, "x")));
   EXPECT_EQ(folder.files(), 0);
 }
@@ -318,21 +319,16 @@ TEST(ChunkShape, IsContiguousInTheOrderOfCellsAndAboutAsLargeAsItMayBe) {
 }
 
 TEST(Units, AreWrittenAsUdunitsLikesThem) {
-  EXPECT_EQ(udunits(""), "1");
-  EXPECT_EQ(udunits("m"), "m");
-  EXPECT_EQ(udunits("N/m"), "N m-1");
-  EXPECT_EQ(udunits("N.s/m"), "N s m-1");
-  EXPECT_EQ(udunits("1/s"), "s-1");
-  EXPECT_EQ(udunits("m/s2"), "m s-2");
-  EXPECT_EQ(udunits("m2"), "m2");
+  const std::map<std::string, std::string> units = {
+      {"", "1"},      {"m", "m"},       {"m2", "m2"}, {"N/m", "N m-1"}, {"N.s/m", "N s m-1"},
+      {"1/s", "s-1"}, {"m/s2", "m s-2"}};
+  for (const auto& [ours, theirs] : units) EXPECT_EQ(udunits(ours), theirs);
 }
 
 TEST(NetcdfName, IsOneThatEndsInNc) {
-  EXPECT_TRUE(is_netcdf_name("chart.nc"));
-  EXPECT_TRUE(is_netcdf_name("folder/.nc"));
-  EXPECT_FALSE(is_netcdf_name("chart.nc/chart.csv"));
-  EXPECT_FALSE(is_netcdf_name("chart.nc4"));
-  EXPECT_FALSE(is_netcdf_name("nc"));
+  for (const char* name : {"chart.nc", "folder/.nc"}) EXPECT_TRUE(is_netcdf_name(name)) << name;
+  for (const char* name : {"chart.nc/chart.csv", "chart.nc4", "nc"})
+    EXPECT_FALSE(is_netcdf_name(name)) << name;
   EXPECT_FALSE(is_netcdf_name(std::nullopt));
 }
 
@@ -372,9 +368,11 @@ TEST(GridNetcdf, HoldsTheCellsOverAnyNumberOfAxes) {
   for (std::size_t axes = 1; axes <= 4; ++axes) {
     const TemporaryFolder folder;
     const GridCells cells = cells_over(axes);
-    write_cells(folder / "out.nc", cells, 10);
-    expect_in_netcdf(folder / "out.nc", cells);
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"out.nc"});
+    for (const std::size_t portion : {1, 10}) {
+      write_cells(folder / "out.nc", cells, portion);
+      expect_in_netcdf(folder / "out.nc", cells);
+      EXPECT_EQ(folder.names(), std::vector<std::string>{"out.nc"});
+    }
   }
 }
 
@@ -399,39 +397,35 @@ TEST(GridNetcdf, HoldsManyChunksAndIsTheSameInAnyPortions) {
   }
 }
 
-TEST(GridNetcdf, HoldsCellsThatComeOneByOne) {
-  const TemporaryFolder folder;
-  const GridCells cells = cells_over(3);
-  write_cells(folder / "out.nc", cells, 1);
-  expect_in_netcdf(folder / "out.nc", cells);
-}
-
 TEST(GridNetcdf, SaysWhatItsVariablesAre) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder / "out.nc";
   write_cells(file, cells_over(1), 7);
-  const NetcdfVariable width(file, "backlash_width"), peak(file, "steady_peak"),
-      period(file, "period_samples"), attenuates(file, "attenuates"), kind(file, "kind");
-  EXPECT_EQ(width.type(), NC_DOUBLE);
-  EXPECT_EQ(width.text("key"), "backlash.width");
-  EXPECT_EQ(width.text("units"), "m");
-  EXPECT_EQ(width.text("long_name"), "r0");
-  EXPECT_FALSE(width.has("_FillValue"));
-  EXPECT_EQ(peak.type(), NC_DOUBLE);
-  EXPECT_EQ(peak.text("units"), "m");
+  const std::map<std::string, int> types = {{"backlash_width", NC_DOUBLE},
+                                            {"steady_peak", NC_DOUBLE},
+                                            {"period_samples", NC_INT64},
+                                            {"attenuates", NC_BYTE},
+                                            {"kind", NC_BYTE}};
+  for (const auto& [name, type] : types) EXPECT_EQ(NetcdfVariable(file, name).type(), type) << name;
+  const std::vector<std::array<const char*, 3>> texts = {
+      {"backlash_width", "key", "backlash.width"},
+      {"backlash_width", "units", "m"},
+      {"backlash_width", "long_name", "r0"},
+      {"steady_peak", "units", "m"},
+      {"rate", "units", "s-1"},
+      {"period_samples", "units", "1"},
+      {"attenuates", "flag_meanings", "no yes"},
+      {"kind", "flag_meanings", "periodic quasi-periodic not,\"known\""},
+      {"kind", "long_name", "of motion"}};
+  for (const auto& [name, attribute, text] : texts)
+    EXPECT_EQ(NetcdfVariable(file, name).text(attribute), text) << name;
+  EXPECT_FALSE(NetcdfVariable(file, "backlash_width").has("_FillValue"));
+  EXPECT_FALSE(NetcdfVariable(file, "period_samples").has("flag_meanings"));
+  const NetcdfVariable peak(file, "steady_peak");
   EXPECT_EQ(peak.format(), NC_FORMAT_NETCDF4);
   EXPECT_TRUE(std::isnan(peak.numbers("_FillValue").at(0)));
-  EXPECT_EQ(NetcdfVariable(file, "rate").text("units"), "s-1");
-  EXPECT_EQ(period.type(), NC_INT64);
-  EXPECT_EQ(period.text("units"), "1");
-  EXPECT_FALSE(period.has("flag_meanings"));
-  EXPECT_EQ(attenuates.type(), NC_BYTE);
-  EXPECT_EQ(attenuates.numbers("flag_values"), (std::vector<double>{0, 1}));
-  EXPECT_EQ(attenuates.text("flag_meanings"), "no yes");
-  EXPECT_EQ(kind.type(), NC_BYTE);
-  EXPECT_EQ(kind.numbers("flag_values"), (std::vector<double>{0, 1, 2}));
-  EXPECT_EQ(kind.text("flag_meanings"), "periodic quasi-periodic not,\"known\"");
-  EXPECT_EQ(kind.text("long_name"), "of motion");
+  EXPECT_EQ(NetcdfVariable(file, "attenuates").numbers("flag_values"), (std::vector<double>{0, 1}));
+  EXPECT_EQ(NetcdfVariable(file, "kind").numbers("flag_values"), (std::vector<double>{0, 1, 2}));
 }
 
 TEST(GridNetcdf, CarriesTheCaseAndTheOptionsInPlaceOfAMetadataFile) {
@@ -469,11 +463,7 @@ TEST(GridNetcdf, ThatFindsNoSpaceIsAnOutputErrorInTheSystemsWordsAndLeavesNothin
         message_of<OutputError>([&] { write_cells(folder / "out.nc", cells, 703); });
     return message.find("out.nc: File too large") != std::string::npos ? 7 : 1;
   };
-  const pid_t child = fork();
-  if (child == 0) _exit(write_within_64_kib());
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 7) << status;
+  EXPECT_EQ(tests::exit_code_of_child(write_within_64_kib), 7);
   EXPECT_EQ(folder.files(), 0);
 }
 

@@ -2,10 +2,9 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "process/errors.hpp"
+#include "program/child_process.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/testing.hpp"
@@ -22,15 +21,11 @@ using tests::write_text;
 /// Runs the work in a child whose standard output is `descriptor`; gives how the child ended.
 template <typename Work>
 int status_of_child(int descriptor, const Work& work) {
-  const pid_t child = fork();
-  if (child == 0) {
+  return tests::exit_code_of_child([&] {
     if (descriptor >= 0) dup2(descriptor, STDOUT_FILENO);
     install_signal_handlers();
-    _exit(work());
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return work();
+  });
 }
 
 int write_to_standard_output() {
@@ -75,7 +70,7 @@ void leave_unfinished(const fs::path& file) {
     raise(SIGKILL);
     return 0;
   };
-  EXPECT_EQ(status_of_child(-1, killed), -1);
+  EXPECT_EQ(status_of_child(-1, killed), -SIGKILL);
 }
 
 TEST(OutputFile, RemovesWhatAKilledProcessLeftOfTheSameFileAndNoOther) {
@@ -149,15 +144,17 @@ TEST(OutputFile, MayBeReadAsTheUsersMaskAllows) {
 TEST(OutputFile, PathsThatCannotBeWrittenAreWrongInput) {
   const TemporaryFolder folder;
   write_text(folder / "file", "");
-  const auto refused = [](const fs::path& path) {
-    return message_of<WrongInput>([&] { OutputFile output(path); });
-  };
-  EXPECT_NE(refused(folder.path()).find("is a folder"), std::string::npos);
-  EXPECT_NE(refused(folder.path() / "").find("is a folder"), std::string::npos);
-  EXPECT_NE(refused(folder / "absent/out.csv").find("No such file"), std::string::npos);
-  EXPECT_NE(refused(folder / "file/out.csv").find("Not a directory"), std::string::npos);
-  EXPECT_NE(refused(folder / std::string(300, 'a')).find("too long"), std::string::npos);
-  EXPECT_NE(refused("").find("without a name"), std::string::npos);
+  const std::vector<std::pair<fs::path, std::string>> refused = {
+      {folder.path(), "is a folder"},
+      {folder.path() / "", "is a folder"},
+      {folder / "absent/out.csv", "No such file"},
+      {folder / "file/out.csv", "Not a directory"},
+      {folder / std::string(300, 'a'), "too long"},
+      {"", "without a name"}};
+  for (const auto& [path, words] : refused) {
+    const auto said = message_of<WrongInput>([&file = path] { OutputFile output(file); });
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  }
   EXPECT_EQ(folder.files(), 1);
 }
 
@@ -183,26 +180,20 @@ TEST(OutputFile, AFullDeviceIsAnOutputError) {
   EXPECT_NE(message.find("/dev/full: No space left"), std::string::npos) << message;
 }
 
-TEST(StandardOutput, ThatIsFullIsAnOutputError) {
+TEST(StandardOutput, ThatCannotBeWrittenIsAnOutputErrorAndNoSignal) {
   const int full = open("/dev/full", O_WRONLY);
   EXPECT_EQ(status_of_child(full, write_to_standard_output), 7);
   close(full);
-}
-
-TEST(StandardOutput, ThatIsClosedIsAnOutputErrorAndNoSignal) {
-  int ends[2];
+  int ends[2];  // of a pipe that nobody reads
   ASSERT_EQ(pipe(ends), 0);
   close(ends[0]);
   EXPECT_EQ(status_of_child(ends[1], write_to_standard_output), 7);
   close(ends[1]);
-}
-
-TEST(StandardOutput, ThatWasNeverOpenIsAnOutputError) {
-  const auto closed = [] {
+  const auto never_open = [] {
     close(STDOUT_FILENO);
     return write_to_standard_output();
   };
-  EXPECT_EQ(status_of_child(-1, closed), 7);
+  EXPECT_EQ(status_of_child(-1, never_open), 7);
 }
 
 TEST(Interrupt, OneSignalLeavesNoFileAndIsThrownAtCommit) {

@@ -9,10 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
-#include "io/file/metadata.hpp"
-#include "io/grid/grid_output.hpp"
-#include "io/text/checksum.hpp"
-#include "io/text/table.hpp"
+#include "output/grid/grid_output.hpp"
+#include "output/metadata.hpp"
+#include "output/table.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "program/child_process.hpp"
@@ -20,6 +19,7 @@
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/testing.hpp"
+#include "text/checksum.hpp"
 
 namespace {
 
@@ -199,15 +199,13 @@ TEST(StoreFolder, FinishesAChunkOnTheDiskBeforeItHasItsName) {
 
 #ifdef HOLDFAST_HAS_NETCDF
 
-int fails_once(const char* name) {
-  const bool writes = std::string(name) == "pwrite" || std::string(name) == "ftruncate";
-  return writes && is_last_call() ? EIO : 0;
+bool is_write(const char* name) {
+  return std::string(name) == "pwrite" || std::string(name) == "ftruncate";
 }
 
-int fails_from_then_on(const char* name) {
-  const bool writes = std::string(name) == "pwrite" || std::string(name) == "ftruncate";
-  return writes && calls_left-- <= 0 ? EIO : 0;
-}
+int fails_once(const char* name) { return is_write(name) && is_last_call() ? EIO : 0; }
+
+int fails_from_then_on(const char* name) { return is_write(name) && calls_left-- <= 0 ? EIO : 0; }
 
 /// 0: written; 1: refused with the reason.
 int write_grid(const fs::path& file) {

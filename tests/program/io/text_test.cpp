@@ -1,6 +1,5 @@
-#include "io/text/text.hpp"
+#include "text/text.hpp"
 
-#include "io/text/range_text.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::program {
@@ -29,28 +28,26 @@ TEST(Text, NumbersReadBackTheSame) {
   }
 }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 TEST(Text, NumbersHaveNoDigitTooMany) {
-  EXPECT_EQ(format_number(0.1), "0.1");
-  EXPECT_EQ(format_number(0.1 + 0.2), "0.30000000000000004");
-  EXPECT_EQ(format_number(-557.0), "-557");
-  EXPECT_EQ(format_number(1e-9), "1e-09");
-  EXPECT_EQ(format_number(std::numeric_limits<double>::infinity()), "inf");
-  EXPECT_EQ(format_number(-std::numeric_limits<double>::infinity()), "-inf");
-  EXPECT_EQ(format_number(-std::numeric_limits<double>::quiet_NaN()), "nan");
+  const std::vector<std::pair<double, const char*>> texts = {
+      {0.1, "0.1"},
+      {0.1 + 0.2, "0.30000000000000004"},
+      {-557.0, "-557"},
+      {1e-9, "1e-09"},
+      {infinity, "inf"},
+      {-infinity, "-inf"},
+      {-std::numeric_limits<double>::quiet_NaN(), "nan"}};
+  for (const auto& [number, text] : texts) EXPECT_EQ(format_number(number), text);
 }
 
 TEST(Text, ANumberIsTheWholeTextOrNone) {
-  EXPECT_EQ(parse_number("+1.5"), 1.5);
-  EXPECT_EQ(parse_number("-.5e1"), -5.0);
-  for (const char* text : {"", " 1", "1 ", "1,5", "0x10", "1e", "+-1", "+", "one", "1m"}) {
+  const std::vector<std::pair<const char*, double>> numbers = {
+      {"+1.5", 1.5}, {"-.5e1", -5.0}, {"1e999", infinity}, {"-1e999", -infinity}, {"1e-999", 0.0}};
+  for (const auto& [text, number] : numbers) EXPECT_EQ(parse_number(text), number) << text;
+  for (const char* text : {"", " 1", "1 ", "1,5", "0x10", "1e", "+-1", "+", "one", "1m"})
     EXPECT_FALSE(parse_number(text).has_value()) << text;
-  }
-}
-
-TEST(Text, NumbersBeyondADoubleBecomeInfiniteOrZero) {
-  EXPECT_EQ(parse_number("1e999"), std::numeric_limits<double>::infinity());
-  EXPECT_EQ(parse_number("-1e999"), -std::numeric_limits<double>::infinity());
-  EXPECT_EQ(parse_number("1e-999"), 0.0);
 }
 
 TEST(Text, OneLineKeepsNoControlCharacter) {
@@ -109,10 +106,9 @@ TEST(Text, ALongTextIsCutBetweenCharacters) {
 }
 
 TEST(FormatRounded, GivesFiveDigitsAtMost) {
-  EXPECT_EQ(format_rounded(0.6000000000000001), "0.6");
-  EXPECT_EQ(format_rounded(1354.087523), "1354.1");
-  EXPECT_EQ(format_rounded(-2e-7), "-2e-07");
-  EXPECT_EQ(format_rounded(100.0), "100");
+  const std::vector<std::pair<double, const char*>> texts = {
+      {0.6000000000000001, "0.6"}, {1354.087523, "1354.1"}, {-2e-7, "-2e-07"}, {100.0, "100"}};
+  for (const auto& [number, text] : texts) EXPECT_EQ(format_rounded(number), text);
 }
 
 }  // namespace

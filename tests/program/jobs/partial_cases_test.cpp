@@ -78,7 +78,7 @@ struct Said {
 
 Said said_of(const Words& job, const std::string& text) {
   JobHost host;
-  host.source = CaseSource{};
+  host.source = std::make_shared<CaseSource>();
   host.source->text = text;
   host.source->name = "case.toml";
   const HostedHere here(host);

@@ -1,12 +1,12 @@
-#include "jobs/motion/trusted_digits.hpp"
+#include "output/trusted_digits.hpp"
 
 #include "case/case_file.hpp"
 #include "case/model/moving_loop.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"
-#include "io/file/metadata.hpp"
-#include "io/text/text.hpp"
 #include "jobs/motion/motion_digits.hpp"
+#include "output/metadata.hpp"
 #include "support/testing.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "case/case_keys.hpp"
 #include "case/case_source.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
@@ -13,6 +14,7 @@
 #include "holdfast/excitation/recorded_force.hpp"
 #include "holdfast/plant/natural_modes.hpp"
 #include "jobs/motion/case_motion.hpp"
+#include "jobs/motion/cell_motion.hpp"
 #include "jobs/support.hpp"
 #include "process/errors.hpp"
 #include "support/lagging_plant.hpp"
@@ -38,7 +40,7 @@ CaseSource source_of(std::optional<LinearPlant<double>> plant, OwnForce controll
 
 TEST(OwnPlant, AnswersAsTheTwoMassesThatItIs) {
   const Case theirs = CaseSource{}.load(), ours = source_of(two_masses()).load();
-  EXPECT_TRUE(is_modal(ours));
+  EXPECT_EQ(motion_kind_of(ours, Switching::sampled), MotionKind::built_plant);
   EXPECT_FALSE(is_two_masses(ours));
   EXPECT_NEAR(LinearLoop(ours).radius(gains_of(ours)), LinearLoop(theirs).radius(gains_of(theirs)),
               1e-12);
@@ -52,6 +54,35 @@ TEST(OwnPlant, AnswersAsTheTwoMassesThatItIs) {
     a.advance();
     b.advance();
   }
+}
+
+TEST(OwnPlant, LargestPeriodIsThatOfTheTwoMassesThatItIs) {
+  const Case theirs = CaseSource{}.load(), ours = source_of(two_masses()).load();
+  MaxDelayOptions question;
+  question.frequency = 10.0;
+  question.proportional_gain = gains_of(theirs).proportional;
+  for (const DelayCriterion criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
+    question.criterion = criterion;
+    const MaxDelay one = LinearLoop(ours).longest_period(question);
+    const MaxDelay other = LinearLoop(theirs).longest_period(question);
+    EXPECT_EQ(one.outcome, other.outcome);
+    EXPECT_NEAR(one.sampling_period, other.sampling_period, 1e-6 * other.sampling_period);
+  }
+}
+
+TEST(OwnPlant, CellsOfASweepAreThoseOfTheTwoMassesThatItIs) {
+  const Case theirs = CaseSource{}.load(), ours = source_of(two_masses()).load();
+  const auto metrics = [](const Case& of) {
+    return metrics_of(
+        {cell_motion(case_with(of, "backlash.width", 0.0007), Switching::sampled, 5.0),
+         motion_without_control(of, 5.0)},
+        5.0, InstructionSet::baseline);
+  };
+  const auto one = metrics(ours), other = metrics(theirs);
+  for (const std::size_t k : {0U, 1U})
+    EXPECT_NEAR(one[k].steady_peak, other[k].steady_peak, 1e-7 * other[k].steady_peak) << k;
+  EXPECT_THROW(case_with(ours, "plant.absorber_mass", 0.2), WrongInput);
+  EXPECT_THROW(case_with(ours, "initial.z1", 0.2), WrongInput);
 }
 
 TEST(OwnPlant, PolesAreItsEigenvaluesWithTheirResidues) {
@@ -109,7 +140,7 @@ TEST(OwnController, DecidesInThePlaceOfTheGains) {
                       EXPECT_DOUBLE_EQ(t, static_cast<double>(k) * 0.001);
                       return gains.proportional * z + gains.differential * v;
                     }).load();
-  EXPECT_FALSE(is_of_the_paper(ours, Switching::sampled));
+  EXPECT_EQ(motion_kind_of(ours, Switching::sampled), MotionKind::built_plant);
   CaseMotion a(ours, {}), b(theirs, {});
   for (int j = 0; j < 1000; ++j) {
     ASSERT_NEAR(a.sense().state[2], b.sense().state[2], 1e-10) << "sample " << j;

@@ -33,22 +33,18 @@ TEST(RunGuarded, GivesTheWorksOwnCodeSilently) {
   }
 }
 
-TEST(RunGuarded, EveryExceptionHasItsCode) {
-  EXPECT_EQ(outcome_of(WrongInput("x")).code, 2);
-  EXPECT_EQ(outcome_of(InvalidParameter("sampling period", -1.0, "s", "> 0")).code, 2);
-  EXPECT_EQ(outcome_of(NoAnswer("x")).code, 1);
-  EXPECT_EQ(outcome_of(OutputError("x")).code, 1);
-  EXPECT_EQ(outcome_of(std::bad_alloc()).code, 1);
-  EXPECT_EQ(outcome_of(std::runtime_error("x")).code, 1);
-  EXPECT_EQ(outcome_of(3).code, 1);
-  EXPECT_EQ(outcome_of(Interrupted()).code, 130);
-}
-
-TEST(RunGuarded, TheMessageIsOneLineThatNamesTheProgram) {
-  for (const Outcome& result :
-       {outcome_of(WrongInput("a\nb")), outcome_of(std::runtime_error("a\r\nb\n")),
-        outcome_of(InvalidParameter("a\nb", 1.0, "s", "> 2")), outcome_of(std::bad_alloc()),
-        outcome_of(Interrupted()), outcome_of(3)}) {
+TEST(RunGuarded, EveryExceptionHasItsCodeAndALineThatNamesTheProgram) {
+  const std::vector<std::pair<Outcome, int>> outcomes = {
+      {outcome_of(WrongInput("a\nb")), 2},
+      {outcome_of(InvalidParameter("a\nb", -1.0, "s", "> 0")), 2},
+      {outcome_of(NoAnswer("x")), 1},
+      {outcome_of(OutputError("x")), 1},
+      {outcome_of(std::bad_alloc()), 1},
+      {outcome_of(std::runtime_error("a\r\nb\n")), 1},
+      {outcome_of(3), 1},
+      {outcome_of(Interrupted()), 130}};
+  for (const auto& [result, code] : outcomes) {
+    EXPECT_EQ(result.code, code) << result.message;
     EXPECT_EQ(result.message.rfind("holdfast: ", 0), 0u) << result.message;
     EXPECT_EQ(std::count(result.message.begin(), result.message.end(), '\n'), 1);
     EXPECT_EQ(result.message.back(), '\n');

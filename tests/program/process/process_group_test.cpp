@@ -4,9 +4,9 @@
 
 #include "process/errors.hpp"
 #include "process/exit.hpp"
-#include "process/group/mpi_launch.hpp"
 #include "process/interrupt.hpp"
 #include "process/worker_threads.hpp"
+#include "support/other_gnuplot.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::program {
@@ -22,20 +22,10 @@ MpiLaunch launch_in(const LauncherEnvironment& environment) {
 }
 
 /// This process as one that Open MPI's launcher started, while the object lives.
-class LaunchedProcess {
- public:
-  LaunchedProcess(const char* rank, const char* size) {
-    setenv("OMPI_COMM_WORLD_RANK", rank, 1);
-    setenv("OMPI_COMM_WORLD_SIZE", size, 1);
-  }
-  ~LaunchedProcess() {
-    unsetenv("OMPI_COMM_WORLD_RANK");
-    unsetenv("OMPI_COMM_WORLD_SIZE");
-  }
-  LaunchedProcess(const LaunchedProcess&) = delete;
-  LaunchedProcess& operator=(const LaunchedProcess&) = delete;
-  LaunchedProcess(LaunchedProcess&&) = delete;
-  LaunchedProcess& operator=(LaunchedProcess&&) = delete;
+struct LaunchedProcess {
+  tests::Variable rank, size;
+  LaunchedProcess(const char* of, const char* all)
+      : rank("OMPI_COMM_WORLD_RANK", of), size("OMPI_COMM_WORLD_SIZE", all) {}
 };
 
 /// One that stands in for several: exchange() gives the texts of the others.
@@ -44,9 +34,7 @@ class StandInGroup final : public ProcessGroup {
   StandInGroup(int rank, std::vector<std::string> texts) : rank_(rank), texts_(std::move(texts)) {}
   int rank() const override { return rank_; }
   int size() const override { return static_cast<int>(texts_.size()); }
-  std::int64_t take_ticket() override { return 0; }
-  void skip_tickets(std::int64_t) override {}
-  std::int64_t tickets_taken() override { return 0; }
+  std::int64_t take_tickets(std::int64_t) override { return 0; }
   std::vector<std::string> exchange(const std::string& text) override {
     for (std::string& other : texts_) {
       if (other.empty()) other = text;
@@ -59,53 +47,37 @@ class StandInGroup final : public ProcessGroup {
   std::vector<std::string> texts_;
 };
 
-TEST(MpiLaunch, AProcessStartedAloneIsTheOnlyOne) {
-  const MpiLaunch alone = launch_in({});
-  EXPECT_EQ(alone.rank, 0);
-  EXPECT_EQ(alone.size, 1);
-}
-
-TEST(MpiLaunch, KnowsTheVariablesOfEveryLauncher) {
-  const std::vector<std::pair<std::string, std::string>> variables = {
-      {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
-      {"PMI_RANK", "PMI_SIZE"},
-      {"MV2_COMM_WORLD_RANK", "MV2_COMM_WORLD_SIZE"},
-      {"SLURM_PROCID", "SLURM_STEP_NUM_TASKS"}};
-  for (const auto& [rank, size] : variables) {
-    const MpiLaunch launch = launch_in({{rank, "2"}, {size, "48"}});
-    EXPECT_EQ(launch.rank, 2) << rank;
-    EXPECT_EQ(launch.size, 48) << size;
+TEST(MpiLaunch, IsWhatTheVariablesOfALauncherSay) {
+  const std::vector<std::tuple<LauncherEnvironment, int, int>> launches = {
+      {{{"OMPI_COMM_WORLD_RANK", "2"}, {"OMPI_COMM_WORLD_SIZE", "48"}}, 2, 48},
+      {{{"PMI_RANK", "2"}, {"PMI_SIZE", "48"}}, 2, 48},
+      {{{"MV2_COMM_WORLD_RANK", "2"}, {"MV2_COMM_WORLD_SIZE", "48"}}, 2, 48},
+      {{{"SLURM_PROCID", "2"}, {"SLURM_STEP_NUM_TASKS", "48"}}, 2, 48},
+      // mpirun within a step of Slurm.
+      {{{"SLURM_PROCID", "0"},
+        {"SLURM_STEP_NUM_TASKS", "2"},
+        {"OMPI_COMM_WORLD_RANK", "5"},
+        {"OMPI_COMM_WORLD_SIZE", "96"}},
+       5,
+       96},
+      // Alone: a batch script of Slurm too.
+      {{}, 0, 1},
+      {{{"SLURM_JOB_ID", "7"}, {"SLURM_NTASKS", "48"}, {"SLURM_PROCID", "0"}}, 0, 1},
+      {{{"PMI_SIZE", "2"}}, 0, 1},
+      {{{"PMI_RANK", "1"}}, 0, 1}};
+  for (const auto& [environment, rank, size] : launches) {
+    const MpiLaunch launch = launch_in(environment);
+    EXPECT_EQ(launch.rank, rank) << ::testing::PrintToString(environment);
+    EXPECT_EQ(launch.size, size) << ::testing::PrintToString(environment);
   }
-}
-
-TEST(MpiLaunch, ABatchScriptOfSlurmIsNotLaunched) {
-  EXPECT_EQ(launch_in({{"SLURM_JOB_ID", "7"}, {"SLURM_NTASKS", "48"}, {"SLURM_PROCID", "0"}}).size,
-            1);
-}
-
-TEST(MpiLaunch, MpirunCountsWithinAStepOfSlurm) {
-  const MpiLaunch launch = launch_in({{"SLURM_PROCID", "0"},
-                                      {"SLURM_STEP_NUM_TASKS", "2"},
-                                      {"OMPI_COMM_WORLD_RANK", "5"},
-                                      {"OMPI_COMM_WORLD_SIZE", "96"}});
-  EXPECT_EQ(launch.rank, 5);
-  EXPECT_EQ(launch.size, 96);
 }
 
 TEST(MpiLaunch, WhatMakesNoSenseDoesNotCount) {
-  for (const auto& [rank, size] :
-       std::vector<std::pair<const char*, const char*>>{{"2", "2"},
-                                                        {"-1", "2"},
-                                                        {"0", "0"},
-                                                        {"0", "-3"},
-                                                        {"0", "many"},
-                                                        {"", "2"},
-                                                        {"0x", "2"},
-                                                        {"0", "99999999999999999999"}}) {
+  const std::vector<std::pair<const char*, const char*>> senseless = {
+      {"2", "2"},    {"-1", "2"}, {"0", "0"},  {"0", "-3"},
+      {"0", "many"}, {"", "2"},   {"0x", "2"}, {"0", "99999999999999999999"}};
+  for (const auto& [rank, size] : senseless)
     EXPECT_EQ(launch_in({{"PMI_RANK", rank}, {"PMI_SIZE", size}}).size, 1) << rank << ' ' << size;
-  }
-  EXPECT_EQ(launch_in({{"PMI_SIZE", "2"}}).size, 1);
-  EXPECT_EQ(launch_in({{"PMI_RANK", "1"}}).rank, 0);
 }
 
 TEST(ProcessGroup, AloneItIsTheFirstAndHearsItself) {
@@ -123,7 +95,7 @@ TEST(ProcessGroup, ThreadsGetEveryTicketOnce) {
   threads.reserve(drawn.size());
   for (auto& own : drawn) {
     threads.emplace_back([&group, &own] {
-      for (std::int64_t k = 0; k < tickets_of_thread; ++k) own.push_back(group->take_ticket());
+      for (std::int64_t k = 0; k < tickets_of_thread; ++k) own.push_back(group->take_tickets(1));
     });
   }
   for (std::thread& thread : threads) thread.join();
@@ -132,17 +104,17 @@ TEST(ProcessGroup, ThreadsGetEveryTicketOnce) {
     for (const std::int64_t ticket : own) ++given.at(static_cast<std::size_t>(ticket));
   }
   EXPECT_EQ(given, std::vector<int>(given.size(), 1));
-  EXPECT_EQ(group->tickets_taken(), 4 * tickets_of_thread);
+  EXPECT_EQ(group->take_tickets(0), 4 * tickets_of_thread);
 }
 
 TEST(ProcessGroup, WhatIsPassedOverIsGivenToNobody) {
   const auto group = single_process();
-  EXPECT_EQ(group->take_ticket(), 0);
-  group->skip_tickets(10);
-  EXPECT_EQ(group->tickets_taken(), 11);
-  EXPECT_EQ(group->take_ticket(), 11);
-  group->skip_tickets(0);
-  EXPECT_EQ(group->take_ticket(), 12);
+  EXPECT_EQ(group->take_tickets(1), 0);
+  group->take_tickets(10);
+  EXPECT_EQ(group->take_tickets(0), 11);
+  EXPECT_EQ(group->take_tickets(1), 11);
+  group->take_tickets(0);
+  EXPECT_EQ(group->take_tickets(1), 12);
 }
 
 TEST(ProcessGroup, AThreadThatGivesUpEndsTheHandOutForAll) {
@@ -153,15 +125,15 @@ TEST(ProcessGroup, AThreadThatGivesUpEndsTheHandOutForAll) {
   threads.reserve(drawn.size());
   for (auto& own : drawn) {
     threads.emplace_back([&group, &own] {
-      while (group->take_ticket() < tickets) ++own;
+      while (group->take_tickets(1) < tickets) ++own;
     });
   }
-  group->skip_tickets(tickets);
-  EXPECT_GE(group->take_ticket(), tickets);
+  group->take_tickets(tickets);
+  EXPECT_GE(group->take_tickets(1), tickets);
   for (std::thread& thread : threads) thread.join();
   const std::int64_t given = std::accumulate(drawn.begin(), drawn.end(), std::int64_t{0});
   constexpr std::int64_t refused = 4;
-  EXPECT_EQ(group->tickets_taken(), given + tickets + refused);
+  EXPECT_EQ(group->take_tickets(0), given + tickets + refused);
 }
 
 TEST(ProcessGroup, WithoutALauncherItIsThisProcessAlone) {
@@ -177,28 +149,24 @@ TEST(ProcessGroup, WithoutMpiSeveralProcessesAreRefused) {
 }
 #endif
 
-TEST(RunGuarded, TheFirstOfSeveralProcessesTellsOfWrongInput) {
-  const auto message_in_rank = [](const char* rank) {
-    const LaunchedProcess launched(rank, "2");
-    ::testing::internal::CaptureStderr();
-    const int code = run_guarded([&rank]() -> int {
-      // What the launcher does to the others once the first has ended.
-      if (*rank != '0') raise(SIGTERM);
-      throw WrongInput("the words");
-    });
-    clear_interrupt();
-    EXPECT_EQ(code, exit_code::wrong_input);
-    return ::testing::internal::GetCapturedStderr();
-  };
-  EXPECT_EQ(message_in_rank("0"), "holdfast: the words\n");
-  EXPECT_EQ(message_in_rank("1"), "");
+/// What the process of a rank tells of an input that is wrong.
+/// @param ended  as the launcher ends the others once the first has ended
+std::string told_in_rank(const char* rank, bool ended) {
+  const LaunchedProcess launched(rank, "2");
+  ::testing::internal::CaptureStderr();
+  const int code = run_guarded([&]() -> int {
+    if (ended) raise(SIGTERM);
+    throw WrongInput("the words");
+  });
+  clear_interrupt();
+  EXPECT_EQ(code, exit_code::wrong_input);
+  return ::testing::internal::GetCapturedStderr();
 }
 
-TEST(RunGuarded, InputThatIsWrongInAnotherProcessAloneIsToldByThatOne) {
-  const LaunchedProcess launched("1", "2");
-  ::testing::internal::CaptureStderr();
-  EXPECT_EQ(run_guarded([]() -> int { throw WrongInput("the words"); }), exit_code::wrong_input);
-  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "holdfast: the words\n");
+TEST(RunGuarded, TheFirstOfSeveralProcessesTellsOfWrongInputUnlessItIsWrongInAnotherAlone) {
+  EXPECT_EQ(told_in_rank("0", false), "holdfast: the words\n");
+  EXPECT_EQ(told_in_rank("1", true), "");
+  EXPECT_EQ(told_in_rank("1", false), "holdfast: the words\n");
 }
 
 std::vector<int> shares_of(const std::vector<ProcessCores>& processes) {
@@ -213,9 +181,15 @@ std::vector<int> first_cores(int count) {
   return cores;
 }
 
-TEST(ShareOfCores, ProcessesWithCoresOfTheirOwnTakeThemAll) {
-  EXPECT_EQ(shares_of({{"a", {0, 1, 2}}, {"a", {3}}, {"a", {4, 5}}}), (std::vector<int>{3, 1, 2}));
-  EXPECT_EQ(shares_of({{"a", {0, 1}}, {"b", {0, 1}}}), (std::vector<int>{2, 2}));
+TEST(ShareOfCores, GoesToTheProcessThatHasFewest) {
+  // Cores of their own; two machines; more processes than cores; none; an overlap.
+  const std::vector<std::pair<std::vector<ProcessCores>, std::vector<int>>> shares = {
+      {{{"a", {0, 1, 2}}, {"a", {3}}, {"a", {4, 5}}}, {3, 1, 2}},
+      {{{"a", {0, 1}}, {"b", {0, 1}}}, {2, 2}},
+      {{{"a", {0, 1}}, {"a", {0, 1}}, {"a", {0, 1}}}, {1, 1, 1}},
+      {{{"a", {}}}, {1}},
+      {{{"a", {0, 1}}, {"a", {1, 2, 3}}}, {2, 2}}};
+  for (const auto& [processes, expected] : shares) EXPECT_EQ(shares_of(processes), expected);
 }
 
 TEST(ShareOfCores, EveryCoreGoesToOneProcessAndNoneToTwo) {
@@ -228,15 +202,6 @@ TEST(ShareOfCores, EveryCoreGoesToOneProcessAndNoneToTwo) {
       EXPECT_LE(*most - *fewest, 1) << cores << " cores, " << processes << " processes";
     }
   }
-}
-
-TEST(ShareOfCores, EveryProcessHasAThreadWhereThereAreMoreThanCores) {
-  EXPECT_EQ(shares_of({{"a", {0, 1}}, {"a", {0, 1}}, {"a", {0, 1}}}), (std::vector<int>{1, 1, 1}));
-  EXPECT_EQ(shares_of({{"a", {}}}), std::vector<int>{1});
-}
-
-TEST(ShareOfCores, WhatOverlapsInPartIsDividedThere) {
-  EXPECT_EQ(shares_of({{"a", {0, 1}}, {"a", {1, 2, 3}}}), (std::vector<int>{2, 2}));
 }
 
 TEST(WorkerThreads, ANumberThatWasAskedForIsTaken) {

@@ -81,13 +81,9 @@ TEST(Progress, TicksWhereAJobSaysNothing) {
 }
 
 TEST(Progress, IsWantedWhenAskedForAndNeverWhenQuiet) {
-  JobContext context;
-  context.progress = true;
-  EXPECT_TRUE(progress_wanted(context));
-  context.quiet = true;
-  EXPECT_FALSE(progress_wanted(context));
-  context = {};
-  EXPECT_EQ(progress_wanted(context), isatty(STDERR_FILENO) == 1);
+  EXPECT_TRUE(progress_wanted(false, true));
+  EXPECT_FALSE(progress_wanted(true, true));
+  EXPECT_EQ(progress_wanted(false, false), isatty(STDERR_FILENO) == 1);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "report/picture/compact_svg.hpp"
 
-#include "report/picture/data_url.hpp"
+#include "report/picture/page_picture.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::program {

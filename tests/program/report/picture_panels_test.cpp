@@ -1,8 +1,6 @@
 #include "report/picture/picture_panels.hpp"
 
 #include "report/figures/gnuplot.hpp"
-#include "report/picture/panels_json.hpp"
-#include "report/picture/plain_label.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/testing.hpp"
 
@@ -13,10 +11,12 @@ namespace fs = std::filesystem;
 using tests::TemporaryFolder;
 
 TEST(PlainLabel, HasIndicesAndNoMarks) {
-  EXPECT_EQ(plain_label("displacement {/:Italic z}_1 (mm)"), "displacement z₁ (mm)");
-  EXPECT_EQ(plain_label("|{/:Italic z}_{1,b} − {/:Italic z}_{1,a}| (m)"), "|z₁,b − z₁,a| (m)");
-  EXPECT_EQ(plain_label("sampling period τ (ms)"), "sampling period τ (ms)");
-  EXPECT_EQ(plain_label(""), "");
+  const std::map<std::string, std::string> labels = {
+      {"displacement {/:Italic z}_1 (mm)", "displacement z₁ (mm)"},
+      {"|{/:Italic z}_{1,b} − {/:Italic z}_{1,a}| (m)", "|z₁,b − z₁,a| (m)"},
+      {"sampling period τ (ms)", "sampling period τ (ms)"},
+      {"", ""}};
+  for (const auto& [label, plain] : labels) EXPECT_EQ(plain_label(label), plain);
 }
 
 std::vector<PicturePanel> panels_of_plot(const std::string& plot, const std::string& ending) {
@@ -25,7 +25,7 @@ std::vector<PicturePanel> panels_of_plot(const std::string& plot, const std::str
   Figure figure;
   figure.name = "line";
   figure.plot = plot;
-  return draw(figure, folder.path(), ending);
+  return draw(figure, folder.path(), ending).panels;
 }
 
 TEST(PicturePanels, AreWhereGnuplotHasDrawnThem) {

@@ -8,33 +8,30 @@
 #include "support/reference/state_between_samples.hpp"
 #include "support/testing.hpp"
 
-namespace holdfast::tests {
+namespace holdfast::program {
 namespace {
 
-using program::StudiedLoop;
-using program::StudiedMotion;
-
 StudiedLoop loop_of_paper(double sampling_period, double backlash_width, std::size_t reading) {
-  program::Case the_case = program::load_case({}, {});
+  Case the_case = load_case({}, {});
   the_case.control.sampling_period = sampling_period;
   the_case.backlash.width = backlash_width;
-  return {the_case, program::readings[reading], 3.0};
+  return {the_case, readings[reading], 3.0};
 }
 
 /// Largest |z₁| of the samples of the second half, by the motions themselves.
 double largest_of_samples(const StudiedLoop& studied) {
-  const program::Case& the_case = studied.the_case;
+  const Case& the_case = studied.the_case;
   PhaseExtent extent(0.5 * studied.duration);
   const std::int64_t samples = samples_within(studied.duration, the_case.control.sampling_period);
   if (studied.reading.switching == Switching::sampled) {
-    IdealLoop<double> loop = program::ideal_loop_of(the_case);
+    IdealLoop<double> loop = ideal_loop_of(the_case);
     loop.hold = studied.reading.hold;
-    auto motion = harmonically_forced_motion(loop, program::initial_state_of(the_case));
+    auto motion = harmonically_forced_motion(loop, initial_state_of(the_case));
     run_trajectory(motion, samples, {}, extent);
   } else {
-    ImplementedLoop loop = program::implemented_loop_of(the_case, Switching::exact);
+    ImplementedLoop loop = implemented_loop_of(the_case, Switching::exact);
     loop.digital.hold = studied.reading.hold;
-    auto motion = event_motion(loop, program::initial_state_of(the_case));
+    auto motion = event_motion(loop, initial_state_of(the_case));
     run_trajectory(motion, samples, {}, extent);
   }
   return extent.displacement();
@@ -45,7 +42,7 @@ TEST(SwitchingPage, LooksForTheLargestSampleAsTheMotionsShowIt) {
     for (std::size_t k = 0; k < 3; ++k) {
       const StudiedLoop studied = loop_of_paper(0.004, width, k);
       const double expected = largest_of_samples(studied);
-      EXPECT_NEAR(program::steady_motion(studied).largest_of_samples, expected, 1e-9 * expected);
+      EXPECT_NEAR(steady_motion(studied).largest_of_samples, expected, 1e-9 * expected);
     }
   }
 }
@@ -53,9 +50,9 @@ TEST(SwitchingPage, LooksForTheLargestSampleAsTheMotionsShowIt) {
 // With the state by matrix exponentials, 200 instants a sample miss a peak of curvature ω² z₁ by
 // (ω τ/400)²/2 of it, and no more.
 TEST(SwitchingPage, SeesThePeaksBetweenTheSamples) {
-  const StudiedLoop studied = loop_of_paper(0.011, 0.002, program::sampled_and_held);
-  const IdealLoop<double> loop = program::ideal_loop_of(studied.the_case);
-  auto motion = harmonically_forced_motion(loop, program::initial_state_of(studied.the_case));
+  const StudiedLoop studied = loop_of_paper(0.011, 0.002, sampled_and_held);
+  const IdealLoop<double> loop = ideal_loop_of(studied.the_case);
+  auto motion = harmonically_forced_motion(loop, initial_state_of(studied.the_case));
   double previous_force = 0.0, largest = 0.0;
   while (motion.time() < studied.duration - 0.011) {
     const MotionSample<double> sample = motion.sense();
@@ -67,23 +64,23 @@ TEST(SwitchingPage, SeesThePeaksBetweenTheSamples) {
     previous_force = sample.control_force;
     motion.advance();
   }
-  const program::SteadyMotion steady = program::steady_motion(studied);
+  const SteadyMotion steady = steady_motion(studied);
   EXPECT_NEAR(steady.largest_displacement, largest, 1e-4 * largest);
   EXPECT_GT(steady.largest_displacement, 1.02 * steady.largest_of_samples);
 }
 
 TEST(SwitchingPage, CountsOnePhaseOfEachKindInAHalfCycleOfExactSwitching) {
-  const StudiedLoop exact = loop_of_paper(0.001, 0.0005, program::exact_switching);
-  for (const double phases : program::steady_motion(exact).phases_per_half_cycle)
+  const StudiedLoop exact = loop_of_paper(0.001, 0.0005, exact_switching);
+  for (const double phases : steady_motion(exact).phases_per_half_cycle)
     EXPECT_NEAR(phases, 1.0, 1e-12);
-  const StudiedLoop sampled = loop_of_paper(0.001, 0.0005, program::sampled_and_held);
-  const auto flicker = program::steady_motion(sampled).phases_per_half_cycle;
+  const StudiedLoop sampled = loop_of_paper(0.001, 0.0005, sampled_and_held);
+  const auto flicker = steady_motion(sampled).phases_per_half_cycle;
   EXPECT_GT(flicker[static_cast<std::size_t>(ContactMode::gap)], 1.5);
   EXPECT_EQ(flicker[static_cast<std::size_t>(ContactMode::stick)], 0.0);
 }
 
 /// The instants at which phases of a mode begin inside a window.
-std::vector<double> beginnings(const program::MotionWindow& window, ContactMode mode) {
+std::vector<double> beginnings(const MotionWindow& window, ContactMode mode) {
   std::vector<double> instants;
   for (std::size_t k = 1; k < window.phases.size(); ++k)
     if (window.phases[k].mode == mode) instants.push_back(window.phases[k].begin);
@@ -91,8 +88,8 @@ std::vector<double> beginnings(const program::MotionWindow& window, ContactMode 
 }
 
 TEST(SwitchingPage, ShowsTheInstantsOfFig8) {
-  const StudiedLoop studied = loop_of_paper(0.001, 0.0005, program::sampled_and_held);
-  const auto window = program::window_of(studied, 9.05, 9.11, 0);
+  const StudiedLoop studied = loop_of_paper(0.001, 0.0005, sampled_and_held);
+  const auto window = window_of(studied, 9.05, 9.11, 0);
   const auto in = beginnings(window, ContactMode::gap);
   const auto out = beginnings(window, ContactMode::engaged);
   ASSERT_EQ(in.size(), 2U);
@@ -103,14 +100,13 @@ TEST(SwitchingPage, ShowsTheInstantsOfFig8) {
   EXPECT_NEAR(out[1], 9.095, 1e-9);
 }
 
-ContactMode mode_at(const program::MotionWindow& window, double time) {
+ContactMode mode_at(const MotionWindow& window, double time) {
   const auto phase = std::find_if(window.phases.begin(), window.phases.end(),
                                   [time](const auto& part) { return time < part.end; });
   return phase == window.phases.end() ? window.phases.back().mode : phase->mode;
 }
 
-void expect_law_of_the_modes(const program::MotionWindow& window,
-                             const program::InstantOfMotion& now) {
+void expect_law_of_the_modes(const MotionWindow& window, const InstantOfMotion& now) {
   switch (mode_at(window, now.time)) {
     case ContactMode::engaged:
       EXPECT_EQ(now.transmitted, now.command);
@@ -126,8 +122,8 @@ void expect_law_of_the_modes(const program::MotionWindow& window,
 }
 
 TEST(SwitchingPage, ShowsThePhasesOfTheExactMotionWithoutSpaceBetweenThem) {
-  const StudiedLoop studied = loop_of_paper(0.001, 0.0005, program::exact_switching);
-  const auto window = program::window_of(studied, 9.05, 9.11, 1201);
+  const StudiedLoop studied = loop_of_paper(0.001, 0.0005, exact_switching);
+  const auto window = window_of(studied, 9.05, 9.11, 1201);
   ASSERT_EQ(window.instants.size(), 1201U);
   EXPECT_EQ(window.phases.front().begin, 9.05);
   EXPECT_EQ(window.phases.back().end, 9.11);
@@ -147,26 +143,26 @@ TEST(SwitchingPage, ShowsThePhasesOfTheExactMotionWithoutSpaceBetweenThem) {
 
 // MODEL.md, section 6: 2100 samples, 231 forcing periods.
 TEST(SwitchingPage, AnswersWhetherTheLongPeriodSurvivesExactSwitching) {
-  const auto sampled = program::period_of(loop_of_paper(0.011, 0.002, program::sampled_and_held));
+  const auto sampled = period_of(loop_of_paper(0.011, 0.002, sampled_and_held));
   EXPECT_EQ(sampled.samples, 2100);
   EXPECT_EQ(sampled.forcing_periods, 231);
   EXPECT_NEAR(sampled.seconds, 23.1, 1e-9);
-  const StudiedLoop loop = loop_of_paper(0.011, 0.002, program::exact_switching);
-  const auto exact = program::period_of(loop);
+  const StudiedLoop loop = loop_of_paper(0.011, 0.002, exact_switching);
+  const auto exact = period_of(loop);
   // f τ = 11/100: no orbit is shorter than 100 samples.
-  EXPECT_EQ(program::shortest_period(loop), 100);
+  EXPECT_EQ(shortest_period(loop), 100);
   EXPECT_EQ(exact.samples, 100);
   EXPECT_LT(exact.largest_multiplier, 1.0);
 }
 
 TEST(SwitchingPage, SaysWhyThereIsNoPeriod) {
-  StudiedLoop studied = loop_of_paper(0.011, 0.0005, program::sampled_and_held);
+  StudiedLoop studied = loop_of_paper(0.011, 0.0005, sampled_and_held);
   studied.the_case.control.processing_delay = 0.011;
-  const auto none = program::period_of(studied);
+  const auto none = period_of(studied);
   EXPECT_EQ(none.samples, 0);
   EXPECT_NE(none.verdict.find("diverges"), std::string::npos);
-  EXPECT_TRUE(program::steady_motion({studied.the_case, studied.reading, 20.0}).diverges);
-  EXPECT_THROW(program::window_of(studied, 9.05, 9.11, 0), program::NoAnswer);
+  EXPECT_TRUE(steady_motion({studied.the_case, studied.reading, 20.0}).diverges);
+  EXPECT_THROW(window_of(studied, 9.05, 9.11, 0), NoAnswer);
 }
 
 StudiedMotion made_motion(std::size_t reading, double amplitude, std::int64_t forcing_periods) {
@@ -182,9 +178,9 @@ StudiedMotion made_motion(std::size_t reading, double amplitude, std::int64_t fo
 
 std::string lead_of(double held, double sampled, double exact, std::int64_t sampled_periods,
                     std::int64_t exact_periods) {
-  return program::switching_lead({made_motion(program::sampled_and_held, held, sampled_periods),
-                                  made_motion(program::sampled_switching, sampled, sampled_periods),
-                                  made_motion(program::exact_switching, exact, exact_periods)});
+  return switching_lead({made_motion(sampled_and_held, held, sampled_periods),
+                         made_motion(sampled_switching, sampled, sampled_periods),
+                         made_motion(exact_switching, exact, exact_periods)});
 }
 
 void expect_in(const std::string& text, const std::vector<std::string>& parts) {
@@ -205,22 +201,20 @@ TEST(SwitchingPage, LeadsWithWhatTheSwitchingChanges) {
 }
 
 TEST(SwitchingPage, CountsTheShortestPeriods) {
-  const std::string text =
-      program::subharmonics_text({made_motion(program::sampled_and_held, 1e-3, 7),
-                                  made_motion(program::sampled_switching, 1e-3, 1),
-                                  made_motion(program::exact_switching, 1e-3, 1)});
+  const std::string text = subharmonics_text({made_motion(sampled_and_held, 1e-3, 7),
+                                              made_motion(sampled_switching, 1e-3, 1),
+                                              made_motion(exact_switching, 1e-3, 1)});
   expect_in(text, {"With exact switching 1 of the 1", "1 of the 1 with the exact force",
                    "0 of the 1 with the force held", "has 7 forcing periods (0.7 s)",
                    "with exact switching it is 1 forcing period (0.1 s)"});
 }
 
 TEST(SwitchingPage, NamesBothSwitchings) {
-  program::SwitchingPage page;
-  page.of_case = {made_motion(program::sampled_and_held, 1e-3, 2),
-                  made_motion(program::sampled_switching, 1.1e-3, 2),
-                  made_motion(program::exact_switching, 1e-3, 1)};
+  SwitchingPage page;
+  page.of_case = {made_motion(sampled_and_held, 1e-3, 2), made_motion(sampled_switching, 1.1e-3, 2),
+                  made_motion(exact_switching, 1e-3, 1)};
   page.laws = {{"play", page.of_case[1], page.of_case[2]}};
-  const std::string html = program::html_of(page);
+  const std::string html = html_of(page);
   expect_in(html,
             {"id=\"switching\"", "How much the sampled switching matters",
              "<td>at samples</td><td>held</td>", "<td>at samples</td><td>exact</td>",
@@ -229,4 +223,4 @@ TEST(SwitchingPage, NamesBothSwitchings) {
 }
 
 }  // namespace
-}  // namespace holdfast::tests
+}  // namespace holdfast::program

@@ -1,4 +1,4 @@
-#include "io/grid/chunk_grid.hpp"
+#include "output/grid/chunk_grid.hpp"
 
 #include "support/testing.hpp"
 

@@ -36,15 +36,12 @@ int fill_small_disk(const std::filesystem::path& disk) {
   }
   const std::string words =
       message_of<OutputError>([&] { store.put(0, values_of_small_store(0)); });
-  if (words.find("steady_peak") == std::string::npos &&
-      words.find("period_samples") == std::string::npos && words.find("kind") == std::string::npos)
-    return 1;
+  const std::array<const char*, 3> columns = {"steady_peak", "period_samples", "kind"};
+  const auto is_named = [&](const char* name) { return words.find(name) != std::string::npos; };
+  if (std::none_of(columns.begin(), columns.end(), is_named)) return 1;
   if (words.find(": No space left on device") == std::string::npos) return 2;
   if (store.has(0)) return 3;
-  std::filesystem::remove(disk / "filling0");
-  std::filesystem::remove(disk / "filling1");
-  std::filesystem::remove(disk / "filling2");
-  std::filesystem::remove(disk / "filling3");
+  for (int k = 0; k < 4; ++k) std::filesystem::remove(disk / ("filling" + std::to_string(k)));
   store.put(0, values_of_small_store(0));  // goes on once there is room
   return store.read(0) == values_of_small_store(0) ? 0 : 4;
 }

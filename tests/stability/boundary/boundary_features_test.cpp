@@ -1,7 +1,5 @@
 #include "holdfast/stability/boundary/boundary_features.hpp"
 
-#include "holdfast/stability/boundary/boundary.hpp"
-#include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "support/polynomial/made_polynomial.hpp"
 #include "support/polynomial/rounding.hpp"
 #include "support/random_loop.hpp"
@@ -92,48 +90,6 @@ TEST(BoundaryFeatures, AreRootsOfThePolynomial) {
   EXPECT_GE(noticed, moved / 2) << "gains that are further off";
   EXPECT_EQ(seen[static_cast<int>(Kind::cusp)], 0) << "a cusp takes a coincidence";
   EXPECT_GT(std::min({seen[0], seen[1], seen[3], seen[4], lines_meet}), 100);
-}
-
-/// Values of the gain in the role of D at which roots cross at the fixed one in the role of P.
-std::vector<double> crossings_of_row(const AffinePolynomial<double, 5>& polynomial, double p) {
-  const auto q = in_half_plane(polynomial);
-  return boundary_crossings<double, 6>(q.base + p * q.proportional, q.differential);
-}
-
-/// At a tangent two crossings within `reach` of D are born or die.
-void expect_two_meet(const AffinePolynomial<double, 5>& polynomial, double p, double d,
-                     double reach) {
-  const auto near = [&](double row) {
-    int result = 0;
-    for (const double crossing : crossings_of_row(polynomial, row)) {
-      result += std::abs(crossing - d) < reach ? 1 : 0;
-    }
-    return result;
-  };
-  const double step = 1e-7 * std::abs(p);
-  EXPECT_EQ(std::abs(near(p + step) - near(p - step)), 2) << p << ' ' << d;
-}
-
-TEST(BoundaryFeatures, TangentsAreWhereTwoCrossingsMeet) {
-  for (const double period : {0.002, 0.01, 0.03, 0.1}) {
-    for (const double fraction : {0.0, 0.4, 1.0}) {
-      const auto polynomial = characteristic_polynomial(
-          sampled_loop(kollar2022_plant(), Sampling<double>{period, fraction * period}));
-      const AffinePolynomial<double, 5> exchanged{polynomial.base, polynomial.differential,
-                                                  polynomial.proportional};
-      int seen = 0;
-      for (const auto& feature : boundary_features(polynomial, {{-1e4, 1e4}, {-1e3, 1e3}})) {
-        const double p = feature.gains.proportional, d = feature.gains.differential;
-        if (feature.kind == Kind::vertical_tangent) {
-          expect_two_meet(polynomial, p, d, 0.02 * std::abs(d));
-        } else if (feature.kind == Kind::horizontal_tangent) {
-          expect_two_meet(exchanged, d, p, 0.05 * std::abs(p));
-        }
-        ++seen;
-      }
-      EXPECT_GT(seen, 1);
-    }
-  }
 }
 
 TEST(BoundaryFeatures, CrossingsWithALineAreAllChangesOfSideAlongTheCurve) {
@@ -347,113 +303,6 @@ TEST(BoundaryFeatures, TangentsAreAllTurnsAlongTheCurve) {
         characteristic_polynomial(sampled_loop(plant, sampling)));
   }
   EXPECT_GT(seen, 200);
-}
-
-using Extended = long double;
-
-/// f = n′ Δ − n Δ′, zero where a gain n/Δ is stationary, and its slope.
-struct Turning {
-  Extended value, slope;
-};
-
-Turning turning(const RootPairCurve<Extended>& curve, Extended square, bool of_p) {
-  const auto& n = of_p ? curve.proportional_numerator() : curve.differential_numerator();
-  const auto& delta = curve.denominator();
-  const auto first = [&](const auto& p) { return evaluate(derivative<Extended, 5>(p), square); };
-  const auto second = [&](const auto& p) {
-    return evaluate(derivative<Extended, 4>(derivative<Extended, 5>(p)), square);
-  };
-  const Extended of_n = evaluate(n, square), of_delta = evaluate(delta, square);
-  return {first(n) * of_delta - of_n * first(delta), second(n) * of_delta - of_n * second(delta)};
-}
-
-/// How far rounding may move y = unit √Y where a gain is stationary, of y: what is unknown of
-/// f = n′ Δ − n Δ′, of degree ≤ 4 each, over 2 Y |f′|. Unknown are a rounding of each coefficient
-/// of the polynomial and those that the curve takes for round-off.
-template <int Degree>
-Extended stationary_rounding(const HalfPlanePolynomial<Extended, Degree>& polynomial,
-                             const RootPairCurve<Extended>& curve, Extended square, bool of_p,
-                             Extended rounding) {
-  using Part = Polynomial<Extended, Degree>;
-  using Sizes = Vector<Extended, 2>;  // Σ of the even and of the odd |terms|, w in the unit
-  const auto sizes = [&](const Part& part) {
-    const ParityParts<Extended> parts(part, curve.unit());
-    return Sizes(evaluate(Vector<Extended, 3>(parts.even.cwiseAbs()), square),
-                 evaluate(Vector<Extended, 3>(parts.odd.cwiseAbs()), square));
-  };
-  const auto unknown = [&](const Part& part) {
-    const Part kept = detail::without_round_off<Extended, Degree + 1>(part, curve.unit());
-    Part sums = part.cwiseAbs();  // of which a coefficient is what cancellation leaves
-    for (int k = 1; k <= Degree; ++k) sums[k] += sums[k - 1];
-    return Sizes(rounding * sizes(sums) + sizes(part - kept));
-  };
-  const auto cross = [](const Sizes& a, const Sizes& b) { return a[0] * b[1] + a[1] * b[0]; };
-  const Part &fixed = polynomial.base, &one = polynomial.proportional,
-             &other = polynomial.differential, &turned = of_p ? other : one;
-  const Extended n = cross(sizes(turned), sizes(fixed)), delta = cross(sizes(one), sizes(other));
-  const Extended of_n = cross(unknown(turned), sizes(fixed)) + cross(sizes(turned), unknown(fixed));
-  const Extended of_delta = cross(unknown(one), sizes(other)) + cross(sizes(one), unknown(other));
-  const Extended slope = turning(curve, square, of_p).slope;
-  return 8 / square * (of_n * delta + n * of_delta) / (2 * square * std::abs(slope));
-}
-
-/// √Y with what the root finder has left of f taken out by a step of Newton's method, which is to
-/// be small.
-Extended polished_root(const RootPairCurve<Extended>& curve, Extended square, bool of_p) {
-  const Turning f = turning(curve, square, of_p);
-  const Extended step = f.value / f.slope;
-  EXPECT_LE(std::abs(step), 1e-3L * square);
-  return curve.root(square - step);
-}
-
-TEST(BoundaryFeatures, OfTheLoopWithoutDelayAreThoseWithoutItsRootAtZero) {
-  test::Random random(831);
-  int seen = 0, crossings = 0;
-  double worst = 0.0;
-  for (int draw = 0; draw < 200; ++draw) {
-    auto plant = test::random_plant(random);
-    // Without damping the curve crosses itself at no control.
-    const bool undamped = draw % 4 == 0;
-    if (undamped) plant.conductor_damping = plant.absorber_damping = 0.0;
-    // The curve leaves out a factor of numerator and denominator that is known to 1e−12.
-    const Extended rounding = undamped ? 1e-12L : std::numeric_limits<Extended>::epsilon();
-    const Sampling<Extended> sampling{test::random_sampling(plant, random).period, 0};
-    const BoundaryCurves<Extended, 5> curves(
-        characteristic_polynomial(sampled_loop(converted<Extended>(plant), sampling)));
-    // λ = 0 is w = −1.
-    const auto& q = curves.polynomial();
-    // From the constant upwards, since the low ones are small where sampling is fast.
-    const auto without = [](const Polynomial<Extended, 5>& part) {
-      Polynomial<Extended, 4> quotient;
-      for (int k = 0; k < 5; ++k) quotient[k] = part[k] - (k > 0 ? quotient[k - 1] : 0);
-      return quotient;
-    };
-    const AffinePolynomial<Extended, 4> divided{without(q.base), without(q.proportional),
-                                                without(q.differential)};
-    const RootPairCurve<Extended> reduced(divided);
-    const auto expect_same = [&](const std::vector<Extended>& all,
-                                 const std::vector<Extended>& expected, bool of_p) {
-      ASSERT_EQ(all.size(), expected.size()) << draw;
-      for (std::size_t k = 0; k < all.size(); ++k, ++seen) {
-        const Extended ratio =
-            polished_root(curves.pairs(), all[k], of_p) / polished_root(reduced, expected[k], of_p);
-        const Extended bound = stationary_rounding(q, curves.pairs(), all[k], of_p, rounding) +
-                               stationary_rounding(divided, reduced, expected[k], of_p, rounding);
-        worst = std::max(worst, static_cast<double>(std::abs(ratio - 1) / bound));
-      }
-    };
-    expect_same(curves.pairs().proportional_extremes(), reduced.proportional_extremes(), true);
-    expect_same(curves.pairs().differential_extremes(), reduced.differential_extremes(), false);
-    EXPECT_EQ(double_neimark_sacker_points(curves.pairs()).size(),
-              double_neimark_sacker_points(reduced).size())
-        << draw;
-    crossings += static_cast<int>(double_neimark_sacker_points(reduced).size());
-  }
-  std::cout << "  furthest apart " << worst << " roundings\n";
-  EXPECT_LE(worst, 4.0) << "of the two ways";
-  EXPECT_GT(worst, 0.01) << "the bound is of the size of the errors";
-  EXPECT_GT(seen, 300);
-  EXPECT_GT(crossings, 20);
 }
 
 TEST(BoundaryFeatures, WithoutDampingTheContinuousCurveTurnsBackOnItself) {

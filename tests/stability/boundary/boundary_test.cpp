@@ -1,8 +1,6 @@
 #include "holdfast/stability/boundary/boundary.hpp"
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
-#include "support/polynomial/pair_gains.hpp"
-#include "support/random_loop.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -73,19 +71,6 @@ TEST(Boundary, ALineThatTheDifferentialGainDoesNotMoveIsVertical) {
     EXPECT_EQ(point.curve, BoundaryCurve::imaginary_pair);
 }
 
-TEST(Boundary, PointsLieInTheRangeInAscendingAngle) {
-  const auto loop = sampled_loop(plant(), Sampling<Precise>{0.01L});
-  Precise previous = 0;
-  for (const auto& point : stability_boundary(characteristic_polynomial(loop), range)) {
-    EXPECT_GE(point.gains.proportional, range.lower);
-    EXPECT_LE(point.gains.proportional, range.upper);
-    if (point.curve != BoundaryCurve::complex_pair) continue;
-    EXPECT_GT(point.angle, previous);
-    EXPECT_LT(point.angle, pi<Precise>);
-    previous = point.angle;
-  }
-}
-
 TEST(Boundary, ANarrowRangeIsNotSteppedOver) {
   const auto continuous = characteristic_polynomial(kollar2022_plant());
   const auto sampled =
@@ -119,58 +104,6 @@ TEST(Boundary, ThePointsFollowTheCurveClosely) {
   EXPECT_GT(steps, 50);
   EXPECT_LE(widest, 0.02L);
 }
-
-TEST(Boundary, TheLineOfMinusOneIsStraight) {
-  const auto loop = sampled_loop(plant(), Sampling<Precise>{0.01L});
-  const auto points = stability_boundary(characteristic_polynomial(loop), range);
-  std::vector<PdGains<Precise>> ends;
-  for (const auto& point : points) {
-    if (point.curve == BoundaryCurve::minus_one) ends.push_back(point.gains);
-  }
-  ASSERT_EQ(ends.size(), 2U);
-  for (const Precise share : {0.1L, 0.5L, 0.77L}) {
-    const PdGains<Precise> between{
-        ends[0].proportional * (1 - share) + ends[1].proportional * share,
-        ends[0].differential * (1 - share) + ends[1].differential * share};
-    EXPECT_LE(distance<5>(loop.engaged_map(between), PreciseComplex(-1, 0)), 1e-9L);
-  }
-}
-
-TEST(Boundary, GainsForAPairAreExactForRandomLoops) {
-  test::Random random(211);
-  int solved = 0;
-  for (int draw = 0; draw < 300; ++draw) {
-    const auto rough = test::random_plant(random);
-    const auto sampling = test::random_sampling(rough, random);
-    const auto loop = sampled_loop(converted<Precise>(rough),
-                                   Sampling<Precise>{sampling.period, sampling.processing_delay});
-    const Precise angle = random.uniform(0.05, 3.0);
-    const auto gains = test::complex_pair_gains(characteristic_polynomial(loop), angle);
-    if (!gains) continue;
-    ++solved;
-    EXPECT_LE(distance<5>(loop.engaged_map(*gains), std::polar(Precise(1), angle)), 1e-9L);
-  }
-  EXPECT_GT(solved, 250);
-}
-
-TEST(Boundary, GainsThatCannotPlaceARootAreNotInvented) {
-  AffinePolynomial<double, 5> idle;
-  idle.base = Polynomial<double, 5>::Ones();
-  idle.proportional = Polynomial<double, 5>::Unit(1);
-  idle.differential = 2 * idle.proportional;
-  EXPECT_FALSE(test::gains_with_root(idle, std::complex<double>(0.3, 0.8)));
-}
-
-TEST(Boundary, TheCircleNearOneIsReachedWithoutCancellation) {
-  for (const double angle : {1e-9, 1e-3, 1.0, 3.0}) {
-    const PreciseComplex expected = std::polar(Precise(1), Precise(angle)) - Precise(1);
-    const std::complex<double> found = test::unit_circle_minus_one(angle);
-    EXPECT_NEAR(found.imag() / static_cast<double>(expected.imag()), 1.0, 1e-15);
-    EXPECT_NEAR(found.real(), -angle * angle / 2,
-                angle * angle * angle * angle / 24 + 1e-15 * angle * angle);
-  }
-}
-
 TEST(Boundary, ABadRangeIsRefused) {
   const auto polynomial = characteristic_polynomial(kollar2022_plant());
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -32,10 +32,7 @@ struct TracedLoop {
     return characteristic_polynomial(sampled_loop(plant, sampling));
   }
 
-  SampledLoop<LongDouble> precise() const {
-    return sampled_loop(converted<LongDouble>(plant),
-                        Sampling<LongDouble>{sampling.period, sampling.processing_delay});
-  }
+  SampledLoop<LongDouble> precise() const { return test::precise_loop(plant, sampling); }
 };
 
 /// The crossings of the whole boundary at P, in closed form (by elimination of D).
@@ -222,8 +219,11 @@ TEST(CurveTracer, ExtremeLoopsGiveNumbersAndAscendingAngles) {
         for (const auto& point :
              stability_boundary(characteristic_polynomial(loop), {-1000.0, 200.0})) {
           EXPECT_TRUE(std::isfinite(point.gains.differential));
+          EXPECT_GE(point.gains.proportional, -1000.0);
+          EXPECT_LE(point.gains.proportional, 200.0);
           if (point.curve != BoundaryCurve::complex_pair) continue;
           EXPECT_GT(point.angle, previous);
+          EXPECT_LT(point.angle, pi<double>);
           previous = point.angle;
         }
       }

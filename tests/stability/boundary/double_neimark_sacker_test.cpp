@@ -1,7 +1,6 @@
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
 
-#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"
 #include "support/polynomial/made_polynomial.hpp"
 #include "support/random_loop.hpp"
@@ -66,33 +65,6 @@ TEST(DoubleNeimarkSackerPoints, OfAnUndampedPlantAreItsOwnFrequenciesAtZeroGains
     };
     EXPECT_TRUE(std::any_of(pairs.begin(), pairs.end(), at_rest)) << draw;
   }
-}
-
-TEST(DoubleNeimarkSackerPoints, ArePairsOfEigenvalues) {
-  test::Random random(814);
-  int seen = 0;
-  long double worst = 0;
-  for (int draw = 0; draw < 1000; ++draw) {
-    const auto rough = test::random_plant(random);
-    const auto sampling = test::random_sampling(rough, random);
-    const auto loop =
-        sampled_loop(converted<long double>(rough),
-                     Sampling<long double>{sampling.period, sampling.processing_delay});
-    const BoundaryCurves<long double, 5> curves(characteristic_polynomial(loop));
-    for (const auto& pair : double_neimark_sacker_points(curves.pairs())) {
-      ++seen;
-      const auto eigenvalues =
-          detail::balanced_eigenvalues<long double, 5>(loop.engaged_map(pair.gains));
-      for (const long double square : {pair.lower_square, pair.upper_square}) {
-        const auto root = std::polar(1.0L, curves.angle(square));
-        worst = std::max(worst, (eigenvalues.array() - root).abs().minCoeff());
-      }
-    }
-  }
-  std::cout << "  " << seen << " double pairs, furthest eigenvalue " << static_cast<double>(worst)
-            << '\n';
-  EXPECT_GT(seen, 300);
-  EXPECT_LE(worst, 1e-9L);
 }
 
 /// A point of a finely sampled curve; θ in equal steps of ln tan(θ/2).

@@ -65,18 +65,13 @@ TEST(InfiniteString, ItsReceptanceIsThatOfTwoWaves) {
 }
 
 TEST(InfiniteString, RefusesWhatIsNone) {
-  EXPECT_NE(tests::message_of<InvalidParameter>([] {
-              infinite_string_mode(0.0, 0.0, 1e-3);
-            }).find("wave impedance"),
-            std::string::npos);
-  EXPECT_NE(tests::message_of<InvalidParameter>([] {
-              infinite_string_mode(1.0, -1.0, 1e-3);
-            }).find("clamp mass"),
-            std::string::npos);
-  EXPECT_NE(tests::message_of<InvalidParameter>([] {
-              infinite_string_mode(1.0, 0.0, 0.0);
-            }).find("sampling period"),
-            std::string::npos);
+  const auto message = [](double of_string, double clamp_mass, double period) {
+    return tests::message_of<InvalidParameter>(
+        [&] { infinite_string_mode(of_string, clamp_mass, period); });
+  };
+  EXPECT_NE(message(0.0, 0.0, 1e-3).find("wave impedance"), std::string::npos);
+  EXPECT_NE(message(1.0, -1.0, 1e-3).find("clamp mass"), std::string::npos);
+  EXPECT_NE(message(1.0, 0.0, 0.0).find("sampling period"), std::string::npos);
 }
 
 }  // namespace

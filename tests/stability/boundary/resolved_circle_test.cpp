@@ -7,6 +7,7 @@
 #include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/random.hpp"
+#include "support/same_intervals.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::test {
@@ -185,25 +186,10 @@ TEST(ResolvedCircle, IntervalsAreThoseOfThePencil) {
     const FreeGain free = draw % 3 == 0 ? FreeGain::proportional : FreeGain::differential;
     const PdGains<double> held{random.uniform(-2.0, 1.0) * span.stiffness,
                                random.uniform(-1.0, 0.0) * span.resistance};
+    SCOPED_TRACE(draw);
     const auto found = ResolvedCircle<double>({plant, span.sampling}).stable_gains(free, held);
     const auto expected = stable_gains(loop_map(plant, span.sampling), free, held);
-    const auto reach = [](const auto& intervals) {
-      double sum = 0.0;
-      for (const auto& interval : intervals)
-        if (std::isfinite(interval.upper - interval.lower)) sum += interval.upper - interval.lower;
-      return sum;
-    };
-    if (found.size() != expected.size()) {
-      // Only what round-off can hardly see may make a difference.
-      EXPECT_NEAR(reach(found), reach(expected), 1e-6 * reach(expected)) << draw;
-      continue;
-    }
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      const double size = std::abs(expected[k].lower) + std::abs(expected[k].upper);
-      EXPECT_NEAR(found[k].lower, expected[k].lower, 1e-7 * size) << draw;
-      EXPECT_NEAR(found[k].upper, expected[k].upper, 1e-7 * size) << draw;
-      ++compared;
-    }
+    compared += expect_same_intervals(found, expected, 1e-7);
   }
   EXPECT_GT(compared, 60);
 }

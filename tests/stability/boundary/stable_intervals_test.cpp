@@ -9,40 +9,27 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-TEST(StableIntervals, OfAQuarticWithAMovingConstantAreKnownByHand) {
-  // (s + 1)(s + 2)(s + 3)(s + 4) + x: a₀ = 24 + x > 0, H₃ = 50 · 300 − 100 (24 + x) > 0.
-  Polynomial<double, 4> a;
-  a << 24, 50, 35, 10, 1;
-  const auto intervals = stable_intervals<double, 5>(a, Polynomial<double, 4>::Unit(0));
-  ASSERT_EQ(intervals.size(), 1U);
-  EXPECT_NEAR(intervals[0].lower, -24.0, 1e-12);
-  EXPECT_NEAR(intervals[0].upper, 126.0, 1e-11);
-}
-
-TEST(StableIntervals, MayReachToInfinity) {
-  // A growing middle coefficient only separates the roots further: stable beyond H₃ = 0.
-  Polynomial<double, 4> a;
-  a << 24, 50, 35, 10, 1;
-  const auto intervals = stable_intervals<double, 5>(a, Polynomial<double, 4>::Unit(2));
-  ASSERT_EQ(intervals.size(), 1U);
-  // H₃ = 50 (10 (35 + x) − 50) − 2400 = 0 at x = −25.2
-  EXPECT_NEAR(intervals[0].lower, -25.2, 1e-12);
-  EXPECT_EQ(intervals[0].upper, infinity);
-}
-
-TEST(StableIntervals, AreEmptyWhereNothingHelps) {
-  Polynomial<double, 4> a;
-  a << 24, -50, 35, 10, 1;
-  EXPECT_TRUE((stable_intervals<double, 5>(a, Polynomial<double, 4>::Unit(3)).empty()));
-}
-
-TEST(StableIntervals, AreTheWholeLineWhereTheGainIsIdle) {
-  Polynomial<double, 4> a;
-  a << 24, 50, 35, 10, 1;
-  const auto intervals = stable_intervals<double, 5>(a, Polynomial<double, 4>::Zero());
-  ASSERT_EQ(intervals.size(), 1U);
-  EXPECT_EQ(intervals[0].lower, -infinity);
-  EXPECT_EQ(intervals[0].upper, infinity);
+/// (s + 1)(s + 2)(s + 3)(s + 4) + x sᵏ, and of another sign before s.
+TEST(StableIntervals, OfQuarticsAreKnownByHand) {
+  const auto of = [](double linear, const Polynomial<double, 4>& slope) {
+    Polynomial<double, 4> a;
+    a << 24, linear, 35, 10, 1;
+    return stable_intervals<double, 5>(a, slope);
+  };
+  const auto expect_one = [](const std::vector<Interval<double>>& found, double from, double to) {
+    ASSERT_EQ(found.size(), 1U);
+    const auto is_near = [](double end, double expected) {
+      return end == expected || std::abs(end - expected) <= 4e-14 * std::abs(expected);
+    };
+    EXPECT_TRUE(is_near(found[0].lower, from)) << found[0].lower;
+    EXPECT_TRUE(is_near(found[0].upper, to)) << found[0].upper;
+  };
+  // a₀ = 24 + x > 0, H₃ = 50 · 300 − 100 (24 + x) > 0
+  expect_one(of(50, Polynomial<double, 4>::Unit(0)), -24.0, 126.0);
+  // H₃ = 50 (10 (35 + x) − 50) − 2400 = 0 at x = −25.2: more of s² only parts the roots
+  expect_one(of(50, Polynomial<double, 4>::Unit(2)), -25.2, infinity);
+  expect_one(of(50, Polynomial<double, 4>::Zero()), -infinity, infinity);
+  EXPECT_TRUE(of(-50, Polynomial<double, 4>::Unit(3)).empty());
 }
 
 TEST(StableIntervals, EndWhereARootReachesTheUnitCircle) {
@@ -86,5 +73,46 @@ TEST(StableIntervals, MissNoStableGainOfAScan) {
   }
 }
 
+/// The place of each end against bisection on the dominant root in extended precision.
+TEST(StableIntervals, EndWhereTheDominantRootCrossesInExtendedPrecision) {
+  test::Random random(20260404);
+  int compared = 0;
+  for (int draw = 0; draw < 200; ++draw) {
+    const auto plant = test::random_plant(random);
+    const auto sampling = test::random_sampling(plant, random);
+    const auto q = in_half_plane(characteristic_polynomial(sampled_loop(plant, sampling)));
+    const double p = test::random_gains(plant, sampling.period, random).proportional;
+    const auto precise = characteristic_polynomial(test::precise_loop(plant, sampling));
+    const auto excess = [&](long double d) {
+      long double largest = -1;
+      for (const auto& root : roots(precise.at({p, d}))) {
+        largest = std::max(largest, 2 * root.real() + std::norm(root));
+      }
+      return largest;
+    };
+    for (const Interval<double>& interval :
+         stable_intervals<double, 6>(q.base + p * q.proportional, q.differential)) {
+      if (!std::isfinite(interval.lower) || !std::isfinite(interval.upper)) continue;
+      const long double width = static_cast<long double>(interval.upper) - interval.lower;
+      long double inside = interval.representative(), outside = interval.lower - width / 1000;
+      if (!(excess(inside) < 0) || !(excess(outside) > 0)) continue;
+      while (std::abs(inside - outside) > 1e-14L * width) {
+        const long double middle = (inside + outside) / 2;
+        (excess(middle) < 0 ? inside : outside) = middle;
+      }
+      EXPECT_LT(std::abs(excess(interval.lower)), 1e-10) << draw;
+      // Near a fold of the curve the end moves as the root of what moves it: there its place says
+      // less than the root's modulus does.
+      const long double slope =
+          (excess(inside + width / 1000000) - excess(inside - width / 1000000)) / (width / 500000);
+      const double round_off = static_cast<double>(1e-12L / std::abs(slope));
+      EXPECT_NEAR(interval.lower, static_cast<double>(inside),
+                  1e-10 * static_cast<double>(width) + round_off)
+          << draw;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 50);
+}
 }  // namespace
 }  // namespace holdfast

@@ -94,8 +94,37 @@ TEST(LoopChart, RefusesWhatIsNoLoop) {
   EXPECT_THROW(validate(LoopChart{chart_point, axis_p, beyond}), InvalidParameter);
   const LoopAxis massless{Parameter::conductor_mass, {0.0, 0.1, 3}};
   EXPECT_THROW(validate(LoopChart{chart_point, massless, axis_d}), InvalidParameter);
-  const LoopAxis endless{Parameter::differential_gain, {0.0, INFINITY, 3}};
-  EXPECT_THROW(validate(LoopChart{chart_point, axis_p, endless}), InvalidParameter);
+}
+
+/// All numbers of a loop in the order of LoopParameter.
+std::array<double, 10> numbers_of(const OperatingPoint& point) {
+  const TwoMass<double>& plant = point.plant;
+  return {plant.conductor_mass,    plant.conductor_stiffness,       plant.conductor_damping,
+          plant.absorber_mass,     plant.absorber_stiffness,        plant.absorber_damping,
+          point.sampling.period,   point.sampling.processing_delay, point.gains.proportional,
+          point.gains.differential};
+}
+
+TEST(OperatingPoint, AParameterIsSetAndNoOther) {
+  for (int k = 0; k < 10; ++k) {
+    const auto parameter = static_cast<LoopParameter>(k);
+    if (parameter == LoopParameter::sampling_period) continue;
+    auto expected = numbers_of(chart_point);
+    expected[static_cast<std::size_t>(k)] = 0.0123;
+    OperatingPoint point = chart_point;
+    set(point, parameter, 0.0123);
+    EXPECT_EQ(numbers_of(point), expected) << k;
+    EXPECT_EQ(is_gain(parameter), k >= 8) << k;
+  }
+}
+
+TEST(OperatingPoint, TheDelayKeepsItsFractionOfTheSamplingPeriod) {
+  auto expected = numbers_of(chart_point);
+  OperatingPoint point = chart_point;
+  set(point, LoopParameter::sampling_period, 0.020);
+  expected[6] = 0.020;
+  expected[7] = 0.008;
+  EXPECT_EQ(numbers_of(point), expected);
 }
 
 }  // namespace

@@ -7,18 +7,13 @@
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "support/dense_routes.hpp"
 #include "support/random.hpp"
-#include "support/string_case.hpp"
+#include "support/string_loop.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {
 
-struct Setting {
-  ConductorWithAbsorber conductor;
-  Sampling<double> sampling;
-};
-
-std::vector<Setting> settings() {
+std::vector<StringLoop> charted_loops() {
   return {{string_with_absorber(40, 0.02), {0.001, 0.0}},
           {string_with_absorber(12, 0.02), {0.003, 0.003}},
           {string_with_absorber(10, 1e-3), {0.004, 0.0107}},
@@ -27,8 +22,10 @@ std::vector<Setting> settings() {
 
 const GainGrid grid{{-1000.0, 200.0, 13}, {-40.0, 20.0, 13}};
 
-EnclosedResponse response_of(const Setting& setting) {
-  return {enclosed_poles(setting.conductor), setting.sampling};
+constexpr auto unwatched = [] {};
+
+ProvedChart chart_of(const StringLoop& setting, double undecided = 2e-3) {
+  return proved_chart(setting.enclosed(), grid, undecided, unwatched);
 }
 
 PdGains<double> random_gains_in(const GainBox& box, Random& random) {
@@ -43,8 +40,8 @@ PdGains<double> random_gains_in(const GainBox& box, Random& random) {
 }
 
 TEST(ProvedModalChart, LeavesLittleUndecidedAndNothingOut) {
-  for (const Setting& setting : settings()) {
-    const ProvedChart chart = proved_chart(response_of(setting), grid, 2e-3);
+  for (const StringLoop& setting : charted_loops()) {
+    const ProvedChart chart = chart_of(setting);
     EXPECT_NEAR(chart.area(), 1200.0 * 60.0, 1e-6);
     EXPECT_LE(chart.share(ProvedStability::undecided), 2e-3);
     EXPECT_GT(chart.share(ProvedStability::stable), 0.02);
@@ -59,11 +56,10 @@ TEST(ProvedModalChart, LeavesLittleUndecidedAndNothingOut) {
 
 TEST(ProvedModalChart, NoEigenvalueContradictsIt) {
   Random random(1);
-  for (const Setting& setting : settings()) {
-    const ProvedChart chart = proved_chart(response_of(setting), grid, 2e-3);
-    const LoopMap<double> map = loop_map(linear_plant(setting.conductor), setting.sampling);
-    const ResolvedCircle<double> circle(
-        modal_response<double>(setting.conductor, setting.sampling));
+  for (const StringLoop& setting : charted_loops()) {
+    const ProvedChart chart = chart_of(setting);
+    const LoopMap<double> map = setting.map();
+    const ResolvedCircle<double> circle(setting.doubles());
     std::array<int, 3> asked{};
     for (int trial = 0; trial < 20000; ++trial) {
       const auto& [box, stability] = chart.boxes[random.index(chart.boxes.size())];
@@ -90,10 +86,9 @@ TEST(ProvedModalChart, NoEigenvalueContradictsIt) {
 
 /// No cell that is proved holds gains at which a root is on the circle.
 TEST(ProvedModalChart, StableCellsHoldNoBoundary) {
-  for (const Setting& setting : settings()) {
-    const ProvedChart chart = proved_chart(response_of(setting), grid, 2e-3);
-    const auto response = modal_response<double>(setting.conductor, setting.sampling);
-    const ResolvedCircle<double> circle(response);
+  for (const StringLoop& setting : charted_loops()) {
+    const ProvedChart chart = chart_of(setting);
+    const ResolvedCircle<double> circle(setting.doubles());
     int seen = 0;
     for (double p = -990.0; p < 200.0; p += 61.7)
       for (const auto& interval : circle.stable_gains(FreeGain::differential, {p, 0.0}))
@@ -120,7 +115,7 @@ TEST(ProvedModalChart, OfOneModeIsThatOfHurwitz) {
   conductor.poles = plant_poles(conductor.modes, conductor.absorber);
   for (const Sampling<double>& sampling :
        {Sampling<double>{0.001, 0.0}, {0.003, 0.003}, {0.011, 0.004}}) {
-    const ProvedChart ours = proved_chart(response_of({conductor, sampling}), grid, 1e-3);
+    const ProvedChart ours = chart_of({conductor, sampling}, 1e-3);
     const ProvedChart theirs = proved_chart(gain_box_proof(masses, sampling), grid, 1e-3);
     for (const auto stability : {ProvedStability::stable, ProvedStability::unstable})
       EXPECT_NEAR(ours.share(stability), theirs.share(stability), 1e-3);
@@ -138,21 +133,22 @@ TEST(ProvedModalChart, IsUndecidedWhereAMotionIsNotDamped) {
   ConductorWithAbsorber conductor = string_with_absorber(4, 0.0);
   conductor.modes[2].shape = 0.0;  // so that the absorber does not damp it
   conductor.poles = plant_poles(conductor.modes, conductor.absorber);
-  const ProvedChart chart = proved_chart(response_of({conductor, {0.01, 0.0}}), grid);
+  const ProvedChart chart = chart_of({conductor, {0.01, 0.0}});
   EXPECT_EQ(chart.share(ProvedStability::undecided), 1.0);
   EXPECT_EQ(chart.boxes.size(), 144U);
 }
 
 TEST(ProvedModalChart, EndsWhereItIsTold) {
-  const EnclosedResponse response = response_of({string_with_absorber(4, 0.02), {0.01, 0.0}});
-  const ProvedChart chart = proved_chart(
-      response, grid, 0.0, [] {}, 2000);
+  const EnclosedResponse response =
+      StringLoop{string_with_absorber(4, 0.02), {0.01, 0.0}}.enclosed();
+  const ProvedChart chart = proved_chart(response, grid, 0.0, unwatched, 2000);
   EXPECT_LE(chart.boxes.size(), 2000U);
   EXPECT_GT(chart.share(ProvedStability::undecided), 1e-4);
   struct Enough {};
   EXPECT_THROW(proved_chart(response, grid, 1e-3, [] { throw Enough(); }), Enough);
-  EXPECT_THROW(proved_chart(response, {{0.0, 1.0, 1}, {0.0, 1.0, 5}}), InvalidParameter);
-  EXPECT_THROW(proved_chart(response, grid, -0.1), InvalidParameter);
+  EXPECT_THROW(proved_chart(response, {{0.0, 1.0, 1}, {0.0, 1.0, 5}}, 1e-3, unwatched),
+               InvalidParameter);
+  EXPECT_THROW(proved_chart(response, grid, -0.1, unwatched), InvalidParameter);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "support/lagging_plant.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -15,6 +16,10 @@ MaxDelayOptions tuned_to(double frequency, DelayCriterion criterion) {
   return options;
 }
 
+bool is_feasible(const TwoMass<double>& plant, const MaxDelayOptions& options, double period) {
+  return !feasible_differential_gains(plant, options, period).empty();
+}
+
 TEST(MaxDelay, JustBelowIsFeasibleAndJustAboveIsNot) {
   const auto plant = kollar2022_plant();
   for (const auto criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
@@ -22,9 +27,9 @@ TEST(MaxDelay, JustBelowIsFeasibleAndJustAboveIsNot) {
       const auto options = tuned_to(frequency, criterion);
       const auto answer = max_sampling_period(plant, options);
       ASSERT_EQ(answer.outcome, MaxDelayOutcome::found);
-      EXPECT_TRUE(feasible_differential_gain(plant, options, answer.sampling_period));
-      EXPECT_TRUE(feasible_differential_gain(plant, options, answer.sampling_period * (1 - 1e-9)));
-      EXPECT_FALSE(feasible_differential_gain(plant, options, answer.sampling_period * (1 + 1e-9)));
+      EXPECT_TRUE(is_feasible(plant, options, answer.sampling_period));
+      EXPECT_TRUE(is_feasible(plant, options, answer.sampling_period * (1 - 1e-9)));
+      EXPECT_FALSE(is_feasible(plant, options, answer.sampling_period * (1 + 1e-9)));
       EXPECT_TRUE(std::isfinite(answer.differential_gain));
     }
   }
@@ -91,17 +96,16 @@ TEST(MaxDelay, NoGainServesWhereTheSamplesDoNotShowTheVibration) {
   const auto plant = kollar2022_plant();
   auto options = tuned_to(10.0, DelayCriterion::attenuates);
   options.proportional_gain = 0.0;
-  EXPECT_FALSE(feasible_differential_gains(plant, options, 0.049).empty());
-  EXPECT_TRUE(feasible_differential_gains(plant, options, 0.051).empty());
-  EXPECT_TRUE(feasible_differential_gain(plant, options, 0.049));
-  EXPECT_FALSE(feasible_differential_gain(plant, options, 0.051));
+  EXPECT_TRUE(is_feasible(plant, options, 0.049));
+  EXPECT_FALSE(is_feasible(plant, options, 0.051));
 }
 
 TEST(MaxDelay, TheGainThatItNamesServes) {
   const auto plant = kollar2022_plant();
   const auto options = tuned_to(10.0, DelayCriterion::attenuates);
   for (const double period : {0.001, 0.01, 0.02}) {
-    const auto gain = feasible_differential_gain(plant, options, period);
+    const auto gain =
+        detail::serving_gain(options, period, detail::delay_offer(plant, options, period));
     ASSERT_TRUE(gain);
     const auto loop = sampled_loop(plant, Sampling<double>{period});
     const double omega = 2.0 * pi<double> * 10.0;
@@ -223,7 +227,7 @@ TEST(MaxDelay, SaysHowFarItCameWhereItGivesUp) {
   EXPECT_EQ(near.outcome, MaxDelayOutcome::beyond_search);
   EXPECT_LE(near.sampling_period, far.sampling_period);
   for (const MaxDelay& answer : {near, far}) {
-    EXPECT_TRUE(feasible_differential_gain(stiff, bounded, answer.sampling_period));
+    EXPECT_TRUE(is_feasible(stiff, bounded, answer.sampling_period));
     EXPECT_EQ(answer.limit, MaxDelayLimit::none);
   }
   brief.most_steps = 0;
@@ -254,8 +258,62 @@ TEST(MaxDelay, AttenuatesBelowWhatTheTrueForceGives) {
       EXPECT_LT(ratio(answer.sampling_period, answer.differential_gain), 1.0 + 1e-9);
       if (answer.limit != MaxDelayLimit::attenuation) continue;
       EXPECT_NEAR(ratio(answer.sampling_period, answer.differential_gain), 1.0, 1e-6) << frequency;
-      EXPECT_FALSE(feasible_differential_gain(plant, options, 1.001 * answer.sampling_period));
+      EXPECT_FALSE(is_feasible(plant, options, 1.001 * answer.sampling_period));
     }
+  }
+}
+
+/// The question of a delay, to one per cent.
+MaxDelayOptions roughly_tuned_to(double frequency, DelayCriterion criterion, double fraction) {
+  MaxDelayOptions options = tuned_to(frequency, criterion);
+  options.delay_fraction = fraction;
+  options.search_ratio = 1.01;
+  return options;
+}
+
+TEST(AnyOrderDelay, OfTwoMassesIsThatOfTheClosedForms) {
+  const TwoMass<double> plant = kollar2022_plant();
+  for (const auto criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
+    for (const double frequency : {8.0, 20.0}) {
+      const auto options = roughly_tuned_to(frequency, criterion, frequency > 10.0 ? 0.5 : 0.0);
+      const MaxDelay closed = max_sampling_period(plant, options);
+      const MaxDelay general = max_sampling_period(test::through_ports(plant), options);
+      EXPECT_EQ(general.outcome, closed.outcome);
+      EXPECT_EQ(general.limit, closed.limit);
+      EXPECT_NEAR(general.sampling_period, closed.sampling_period, 1e-7 * closed.sampling_period);
+    }
+  }
+}
+
+/// Whether one of many D serves, by the eigenvalues of the map.
+template <class Plant>
+bool feasible_in_a_scan(const Plant& plant, const MaxDelayOptions& options, double period) {
+  const Sampling<double> sampling = options.sampling(period);
+  const LoopMap<double> map = loop_map(plant, sampling);
+  const auto response = steady_response(plant, sampling, options.hold, options.angular_frequency());
+  for (double d = -20.0; d < 20.0; d += 0.002) {
+    const PdGains<double> gains{options.proportional_gain, d};
+    if (spectral_radius(map.closed_map(gains)) < 1.0 &&
+        (options.criterion == DelayCriterion::stable ||
+         response.ratio_to_uncontrolled(gains) < 1.0))
+      return true;
+  }
+  return false;
+}
+
+TEST(AnyOrderDelay, OfSevenStatesJustBelowIsFeasibleAndJustAboveIsNot) {
+  const auto plant = test::lagging_plant(100.0, 150.0);
+  for (const auto criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
+    const auto options = roughly_tuned_to(10.0, criterion, 0.3);
+    const MaxDelay answer = max_sampling_period(plant, options);
+    ASSERT_EQ(answer.outcome, MaxDelayOutcome::found);
+    const auto is_feasible = [&](double share) {
+      return !feasible_differential_gains(plant, options, share * answer.sampling_period).empty();
+    };
+    EXPECT_FALSE(is_feasible(1.0 + 1e-6));
+    for (int k = 1; k <= 60; ++k) EXPECT_TRUE(is_feasible(k / 60.0));
+    EXPECT_TRUE(feasible_in_a_scan(plant, options, 0.98 * answer.sampling_period));
+    EXPECT_FALSE(feasible_in_a_scan(plant, options, 1.002 * answer.sampling_period));
   }
 }
 

@@ -6,17 +6,11 @@ namespace holdfast {
 namespace {
 
 struct BandCase {
+  TwoMass<double> plant;
   AmplitudeOptions options;
   double proportional_gain;
   FrequencyBand band;
 };
-
-const BandCase band_cases[] = {
-    {{Sampling<double>{0.001}, ForceHold::sampled, 1.0}, -557.0, {9.0, 11.0}},
-    {{Sampling<double>{0.010}, ForceHold::exact, 0.995}, -557.0, {8.0, 12.0}},
-    {{Sampling<double>{0.005, 0.0025}, ForceHold::sampled, 0.995}, -200.0, {1.0, 20.0}},
-    {{Sampling<double>{0.002}, ForceHold::sampled, 1.0}, 0.0, {0.5, 10.0}},
-    {{Sampling<double>{0.020}, ForceHold::sampled, 1.0}, -10.0, {1.0, 25.0}}};
 
 /// Lightly damped, so that the amplitude has narrow peaks over the frequency.
 TwoMass<double> light_plant() {
@@ -25,50 +19,44 @@ TwoMass<double> light_plant() {
   return plant;
 }
 
+/// The last one is lightly damped.
+std::vector<BandCase> band_cases() {
+  const TwoMass<double> plant = kollar2022_plant();
+  return {
+      {plant, {Sampling<double>{0.001}, ForceHold::sampled, 1.0}, -557.0, {9.0, 11.0}},
+      {plant, {Sampling<double>{0.010}, ForceHold::exact, 0.995}, -557.0, {8.0, 12.0}},
+      {plant, {Sampling<double>{0.005, 0.0025}, ForceHold::sampled, 0.995}, -200.0, {1.0, 20.0}},
+      {plant, {Sampling<double>{0.002}, ForceHold::sampled, 1.0}, 0.0, {0.5, 10.0}},
+      {plant, {Sampling<double>{0.020}, ForceHold::sampled, 1.0}, -10.0, {1.0, 25.0}},
+      {light_plant(), {Sampling<double>{0.02}, ForceHold::exact}, -20.0, {1.0, 20.0}}};
+}
+
 /// The ratio at one D and frequency, from the loop's own response.
 double ratio_of(const SampledLoop<double>& loop, const BandCase& c, double frequency, double d) {
   const double omega = 2.0 * pi<double> * frequency;
-  const auto input = harmonic_input(kollar2022_plant(), loop, c.options.hold, omega);
+  const auto input = harmonic_input(c.plant, loop, c.options.hold, omega);
   return SteadyResponse<double>(loop, input, omega).ratio_to_uncontrolled({c.proportional_gain, d});
 }
 
 TEST(AmplitudeBand, FindsTheWorstFrequencyOfADenseScan) {
-  for (const BandCase& c : band_cases) {
-    const auto loop = sampled_loop(kollar2022_plant(), c.options.sampling);
-    const AmplitudeBand band(
-        PlantOverBand<TwoMass<double>>{kollar2022_plant(), loop, c.options.hold, false},
-        c.proportional_gain, c.band);
-    for (const double d : {-13.0, -5.0, 1.0}) {
+  for (const BandCase& c : band_cases()) {
+    const bool is_light = c.plant.absorber_damping < 1.0;
+    const auto loop = sampled_loop(c.plant, c.options.sampling);
+    const AmplitudeBand band(PlantOverBand<TwoMass<double>>{c.plant, loop, c.options.hold, false},
+                             c.proportional_gain, c.band);
+    for (const double d : is_light ? std::vector<double>{-1.0, 0.3, 1.0, 2.0}
+                                   : std::vector<double>{-13.0, -5.0, 1.0}) {
       const WorstFrequency worst = band.worst(d);
       double scanned = 0.0;
       for (int k = 0; k <= 20000; ++k) {
         const double f = c.band.lower + (c.band.upper - c.band.lower) * k / 20000.0;
         scanned = std::max(scanned, ratio_of(loop, c, f, d));
       }
-      EXPECT_GE(worst.ratio, scanned * (1.0 - 1e-9));
-      EXPECT_LE(worst.ratio, scanned * (1.0 + 1e-3));
+      EXPECT_GE(worst.ratio, scanned * (1.0 - 1e-9)) << d;
+      EXPECT_LE(worst.ratio, scanned * (1.0 + (is_light ? 1e-2 : 1e-3))) << d;
       EXPECT_NEAR(ratio_of(loop, c, worst.frequency, d), worst.ratio, 1e-9 * worst.ratio);
       EXPECT_TRUE(worst.frequency >= c.band.lower && worst.frequency <= c.band.upper);
     }
-  }
-}
-
-TEST(AmplitudeBand, FindsANarrowPeak) {
-  const auto plant = light_plant();
-  const auto loop = sampled_loop(plant, Sampling<double>{0.02});
-  const AmplitudeBand band(PlantOverBand<TwoMass<double>>{plant, loop, ForceHold::exact, false},
-                           -20.0, {1.0, 20.0});
-  for (const double d : {-1.0, 0.3, 1.0, 2.0}) {
-    const WorstFrequency worst = band.worst(d);
-    double scanned = 0.0;
-    for (int k = 0; k <= 20000; ++k) {
-      const double omega = 2.0 * pi<double> * (1.0 + 19.0 * k / 20000.0);
-      const auto input = harmonic_input(plant, loop, ForceHold::exact, omega);
-      scanned = std::max(
-          scanned, SteadyResponse<double>(loop, input, omega).ratio_to_uncontrolled({-20.0, d}));
-    }
-    EXPECT_GE(worst.ratio, scanned * (1.0 - 1e-9)) << d;
-    EXPECT_LE(worst.ratio, scanned * (1.0 + 1e-2)) << d;
   }
 }
 
@@ -80,14 +68,14 @@ TEST(MinimaxAmplitude, OfALightlyDampedPlantHasItsBoundsInOrder) {
 }
 
 TEST(MinimaxAmplitude, NoGainOfADenseScanIsBetter) {
-  for (const BandCase& c : band_cases) {
-    const auto answer =
-        minimax_amplitude(kollar2022_plant(), c.options, c.proportional_gain, c.band);
+  for (const BandCase& c : band_cases()) {
+    if (c.plant.absorber_damping < 1.0) continue;
+    const auto answer = minimax_amplitude(c.plant, c.options, c.proportional_gain, c.band);
     ASSERT_EQ(answer.outcome, MinimaxOutcome::found);
     EXPECT_LE(answer.lower_bound, answer.worst_ratio);
     EXPECT_GE(answer.lower_bound, answer.worst_ratio * (1.0 - 1e-8));
     EXPECT_NEAR(std::pow(10.0, -answer.attenuation / 20.0), answer.worst_ratio, 1e-9);
-    const auto loop = sampled_loop(kollar2022_plant(), c.options.sampling);
+    const auto loop = sampled_loop(c.plant, c.options.sampling);
     double scanned = std::numeric_limits<double>::infinity();
     for (double d = -60.0; d <= 60.0; d += 0.2) {
       const PdGains<double> gains{c.proportional_gain, d};

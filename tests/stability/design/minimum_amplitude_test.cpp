@@ -1,5 +1,6 @@
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 
+#include "support/lagging_plant.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -89,6 +90,70 @@ TEST(MinimumAmplitude, RefusesWhatIsNoQuestion) {
   AmplitudeOptions divergent = options;
   divergent.largest_radius = 1.1;
   EXPECT_THROW(minimum_amplitude(plant, divergent, 10.0, -557.0), InvalidParameter);
+}
+
+TEST(AnyOrderAmplitude, OfTwoMassesIsThatOfTheClosedForms) {
+  const TwoMass<double> plant = kollar2022_plant();
+  for (const double largest_radius : {1.0, 0.995}) {
+    const AmplitudeOptions options{{0.002, 0.001}, ForceHold::exact, largest_radius};
+    for (const double frequency : {8.0, 10.0}) {
+      const double p = tuned_proportional_gain(74.4, 0.16, frequency);
+      const MinimumAmplitude closed = minimum_amplitude(plant, options, frequency, p);
+      const MinimumAmplitude general =
+          minimum_amplitude(test::through_ports(plant), options, frequency, p);
+      EXPECT_EQ(general.outcome, closed.outcome);
+      if (closed.outcome == MinimumAmplitudeOutcome::none) continue;
+      EXPECT_NEAR(general.differential_gain, closed.differential_gain,
+                  1e-7 * std::abs(closed.differential_gain));
+      EXPECT_NEAR(general.ratio_to_uncontrolled, closed.ratio_to_uncontrolled,
+                  1e-7 * closed.ratio_to_uncontrolled);
+    }
+  }
+}
+
+TEST(AnyOrderAmplitude, OfSevenStatesIsTheLeastOfAScan) {
+  const auto plant = test::lagging_plant(100.0, 150.0);
+  const AmplitudeOptions options{{0.002, 0.001}, ForceHold::sampled, 1.0};
+  const MinimumAmplitude least = minimum_amplitude(plant, options, 9.0, -50.0);
+  ASSERT_NE(least.outcome, MinimumAmplitudeOutcome::none);
+  const LoopMap<double> map = loop_map(plant, options.sampling);
+  const auto response =
+      steady_response(plant, options.sampling, options.hold, 2.0 * pi<double> * 9.0);
+  double scanned = 1e300;
+  for (double d = -8.0; d < 8.0; d += 0.01) {
+    if (spectral_radius(map.closed_map({-50.0, d})) >= 1.0) continue;
+    scanned = std::min(scanned, response.ratio_to_uncontrolled({-50.0, d}));
+  }
+  EXPECT_LE(least.ratio_to_uncontrolled, scanned * (1.0 + 1e-12));
+  EXPECT_GT(least.ratio_to_uncontrolled, 0.98 * scanned);
+}
+
+TEST(AnyOrderRadius, OfTwoMassesIsThatOfTheClosedForms) {
+  const TwoMass<double> plant = kollar2022_plant();
+  for (const Sampling<double>& sampling :
+       {Sampling<double>{0.001, 0.0}, {0.005, 0.002}, {0.02, 0.02}}) {
+    for (const double p : {-300.0, -20.0}) {
+      const MinimumRadius closed = minimum_radius(sampled_loop(plant, sampling), p);
+      const MinimumRadius general = minimum_radius(loop_map(plant, sampling), p);
+      EXPECT_NEAR(general.radius, closed.radius, 1e-8);
+      EXPECT_LE(general.lower_bound, general.radius);
+    }
+  }
+}
+
+TEST(AnyOrderRadius, OfSevenStatesIsTheLeastOfAScan) {
+  const auto plant = test::lagging_plant(100.0, 150.0);
+  for (const double delay : {0.001, 0.005}) {
+    const LoopMap<double> map = loop_map(plant, {0.002, delay});
+    const MinimumRadius least = minimum_radius(map, -50.0);
+    double scanned = 1e300;
+    for (double d = -10.0; d < 10.0; d += 0.005)
+      scanned = std::min(scanned, spectral_radius(map.closed_map({-50.0, d})));
+    EXPECT_LE(least.radius, scanned + 1e-9);
+    EXPECT_GT(least.radius, scanned - 1e-4);
+    EXPECT_NEAR(spectral_radius(map.closed_map({-50.0, least.differential_gain})), least.radius,
+                1e-7);
+  }
 }
 
 }  // namespace

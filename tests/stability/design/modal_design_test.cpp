@@ -9,6 +9,7 @@
 #include "holdfast/stability/design/minimum_amplitude_gains.hpp"
 #include "holdfast/stability/margins/modal_margins.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
+#include "support/margin_ends.hpp"
 #include "support/string_case.hpp"
 #include "support/testing.hpp"
 
@@ -17,17 +18,33 @@ namespace {
 
 const Sampling<double> samplings[] = {{1e-3, 3e-4}, {3e-3, 3e-3}, {0.01, 0.0}, {0.01, 0.016}};
 
-std::vector<PlaceMode<double>> some_modes() {
-  return string_modes(taut_string(kollar2022_conductor()), 0.64, 5);
-}
+/// Five modes of the paper's string with its absorber, by its poles and by its matrices.
+struct SomeString {
+  std::vector<PlaceMode<double>> modes = string_modes(taut_string(kollar2022_conductor()), 0.64, 5);
+  Absorber<double> absorber;
+  ConductorWithAbsorber conductor{modes, absorber, plant_poles(modes, absorber), {}};
+  LinearPlant<double> plant = modal_plant(modes, absorber);
+
+  explicit SomeString(double clamp_mass = 0.01) : absorber(papers_absorber(clamp_mass)) {}
+
+  ModalResponse<double> response(const Sampling<double>& sampling) const {
+    return modal_response(conductor, sampling);
+  }
+  LoopMap<double> map(const Sampling<double>& sampling) const { return loop_map(plant, sampling); }
+  /// The response at 10 Hz, relative to no control under the true force.
+  SteadyResponse<double> steady(const Sampling<double>& sampling, ForceHold hold) const {
+    const double omega = 2.0 * pi<double> * 10.0;
+    return steady_response(conductor, sampling, hold, omega)
+        .relative_to(true_amplitude_per_force({modes, absorber, {}}, omega));
+  }
+};
 
 TEST(ModalDesign, GainsWithinARadiusAreThoseOfTheMap) {
-  const auto modes = some_modes();
-  const auto absorber = papers_absorber(0.01);
+  const SomeString string;
   std::size_t intervals = 0;
   for (const Sampling<double>& sampling : samplings) {
-    const auto response = modal_response(modes, absorber, sampling);
-    const auto map = loop_map(modal_plant(modes, absorber), sampling);
+    const auto response = string.response(sampling);
+    const auto map = string.map(sampling);
     for (const double p : {-557.0, -100.0, 0.0})
       for (const double radius : {0.9, 0.996, 0.9999, 1.0, 1.2}) {
         const auto found = differential_gains_within_radius(response, p, radius);
@@ -44,23 +61,19 @@ TEST(ModalDesign, GainsWithinARadiusAreThoseOfTheMap) {
 }
 
 TEST(ModalDesign, BestGainsAreThoseOfTheMatrices) {
-  const auto modes = some_modes();
-  const auto absorber = papers_absorber(0.01);
-  const auto plant = modal_plant(modes, absorber);
+  const SomeString string;
   for (const Sampling<double>& sampling : samplings) {
-    const auto response = modal_response(modes, absorber, sampling);
+    const auto response = string.response(sampling);
     for (const double p : {-557.0, -100.0}) {
       const MinimumRadius radius = minimum_radius(response, p);
-      const MinimumRadius by_map = minimum_radius(loop_map(plant, sampling), p);
+      const MinimumRadius by_map = minimum_radius(string.map(sampling), p);
       EXPECT_NEAR(radius.margin, by_map.margin, 2e-6 * std::abs(by_map.margin) + 1e-9);
       for (const double largest : {1.0, 0.9999}) {
         for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
           const AmplitudeOptions options{sampling, hold, largest, 0.0, true};
-          const double omega = 2.0 * pi<double> * 10.0;
-          const auto steady = steady_response(modes, absorber, sampling, hold, omega)
-                                  .relative_to(true_amplitude_per_force(modes, absorber, omega));
-          const auto found = minimum_amplitude(response, options, 10.0, p, steady);
-          const auto expected = minimum_amplitude(plant, options, 10.0, p);
+          const auto found =
+              minimum_amplitude(response, options, 10.0, p, string.steady(sampling, hold));
+          const auto expected = minimum_amplitude(string.plant, options, 10.0, p);
           EXPECT_EQ(found.outcome, expected.outcome) << sampling.period << ' ' << p;
           if (expected.outcome == MinimumAmplitudeOutcome::none) continue;
           EXPECT_NEAR(found.differential_gain, expected.differential_gain,
@@ -96,13 +109,12 @@ class Modulus {
 /// The admissible gains end where the modulus margin is the share of the largest that was asked, or
 /// so far from the gain that has that as was asked.
 TEST(ModalDesign, AMarginIsAShareOfTheLargestModulus) {
-  const auto modes = some_modes();
-  const auto absorber = papers_absorber(0.01);
+  const SomeString string;
   int by_modulus = 0, by_way = 0;
   for (const Sampling<double>& sampling :
        {Sampling<double>{1e-3, 3e-4}, Sampling<double>{0.01, 0.016}}) {
-    const auto response = modal_response(modes, absorber, sampling);
-    const Modulus modulus(loop_map(modal_plant(modes, absorber), sampling));
+    const auto response = string.response(sampling);
+    const Modulus modulus(string.map(sampling));
     const double p = -100.0;
     const auto stable = differential_gains_within_radius(response, p, 1.0);
     ASSERT_EQ(stable.size(), 1U);
@@ -136,19 +148,16 @@ TEST(ModalDesign, AMarginIsAShareOfTheLargestModulus) {
 
 /// One D for a band, against a scan of the band and of D by the matrices.
 TEST(ModalDesign, OneGainForABandIsThatOfAScan) {
-  const auto modes = some_modes();
-  const Absorber<double> absorber = papers_absorber(0.01);
+  const SomeString string;
   const Sampling<double> sampling{1e-3, 3e-4};
-  const ConductorWithAbsorber conductor{modes, absorber, plant_poles(modes, absorber), {}};
   const AmplitudeOptions options{sampling, ForceHold::exact, 1.0, 0.5, true};
-  const auto found = modal_minimax_amplitude(conductor, options, -100.0, {8.0, 14.0});
+  const auto found = modal_minimax_amplitude(string.conductor, options, -100.0, {8.0, 14.0});
   ASSERT_EQ(found.outcome, MinimaxOutcome::found);
-  const auto plant = modal_plant(modes, absorber);
   std::vector<RatioOfQuadratics<double>> ratios;
   for (double frequency = 8.0; frequency <= 14.0; frequency += 0.005) {
     const double omega = 2.0 * pi<double> * frequency;
-    ratios.push_back(steady_response(plant, sampling, ForceHold::exact, omega)
-                         .relative_to(true_amplitude_per_force(plant, omega))
+    ratios.push_back(steady_response(string.plant, sampling, ForceHold::exact, omega)
+                         .relative_to(true_amplitude_per_force(string.plant, omega))
                          .squared_ratio(-100.0));
   }
   const auto worst = [&](double d) {
@@ -158,7 +167,7 @@ TEST(ModalDesign, OneGainForABandIsThatOfAScan) {
   };
   EXPECT_NEAR(worst(found.differential_gain), found.worst_ratio, 1e-4);
   for (const auto& interval :
-       admissible_differential_gains(modal_response(conductor, sampling), -100.0, options))
+       admissible_differential_gains(string.response(sampling), -100.0, options))
     for (int i = 1; i < 200; ++i)
       EXPECT_GT(worst(interval.lower + (interval.upper - interval.lower) * i / 200.0),
                 found.worst_ratio - 1e-4);
@@ -176,49 +185,41 @@ void expect_same(const MarginEnd& found, const MarginEnd& expected, double perio
 }
 
 TEST(ModalMargins, AreThoseOfTheMatrices) {
-  const auto modes = some_modes();
-  const auto absorber = papers_absorber(0.01);
-  const auto plant = modal_plant(modes, absorber);
-  const auto poles = plant_poles(modes, absorber);
+  const SomeString string;
   MarginSearch search;
   search.longest_period_ratio = 100.0;
   for (const Sampling<double>& sampling : samplings) {
     const PdGains<double> gains{-300.0, -2.0};
-    const auto found = modal_stability_margins(poles, sampling, gains, search);
-    const auto expected = stability_margins(plant, sampling, gains, search);
+    const auto found = modal_stability_margins(string.conductor.poles, sampling, gains, search);
+    const auto expected = stability_margins(string.plant, sampling, gains, search);
     ASSERT_EQ(found.outcome, expected.outcome) << sampling.period;
     EXPECT_NEAR(found.unit_circle, expected.unit_circle, 1e-10);
-    expect_same(found.differential_gain.below, expected.differential_gain.below, sampling.period);
-    expect_same(found.differential_gain.above, expected.differential_gain.above, sampling.period);
-    expect_same(found.proportional_gain.below, expected.proportional_gain.below, sampling.period);
-    expect_same(found.proportional_gain.above, expected.proportional_gain.above, sampling.period);
-    expect_same(found.sampling_period.below, expected.sampling_period.below, sampling.period);
-    expect_same(found.sampling_period.above, expected.sampling_period.above, sampling.period);
-    expect_same(found.processing_delay.below, expected.processing_delay.below, sampling.period);
-    expect_same(found.processing_delay.above, expected.processing_delay.above, sampling.period);
+    const auto ours = two_sided_of(found), theirs = two_sided_of(expected);
+    for (std::size_t k = 0; k < ours.size(); ++k) {
+      expect_same(ours[k].below, theirs[k].below, sampling.period);
+      expect_same(ours[k].above, theirs[k].above, sampling.period);
+    }
   }
 }
 
 /// Behind twenty commands no roots are looked for; the turn of p decides.
 TEST(ModalMargins, NeedNoRoots) {
-  const auto poles = plant_poles(some_modes(), papers_absorber(0.0));
-  const auto margins = modal_stability_margins(poles, {1e-4, 25e-4}, {-300.0, -2.0});
+  const SomeString string(0.0);
+  const auto margins =
+      modal_stability_margins(string.conductor.poles, {1e-4, 25e-4}, {-300.0, -2.0});
   EXPECT_EQ(margins.outcome, MarginOutcome::stable);
   EXPECT_EQ(margins.sampling_period.above.outcome, MarginEndOutcome::boundary);
-  const auto map = loop_map(modal_plant(some_modes(), papers_absorber(0.0)),
-                            {0.999 * margins.sampling_period.above.position,
-                             25 * 0.999 * margins.sampling_period.above.position});
+  const double below = 0.999 * margins.sampling_period.above.position;
+  const auto map = string.map({below, 25 * below});
   EXPECT_LT(spectral_radius(map.closed_map({-300.0, -2.0})), 1.0);
 }
 
 /// One mode is two masses, whose margins of the loop as a whole are in closed form.
 TEST(ModalMargins, OfTheLoopAsAWholeAreThoseOfTwoMasses) {
-  const PlaceMode<double> mode = some_modes().front();
-  const double mass = mode.mass / (mode.shape * mode.shape), omega = mode.angular_frequency;
-  const Absorber<double> absorber = papers_absorber(0.0);
-  const TwoMass<double> masses{
-      mass,          mass * omega * omega, 2.0 * mode.damping_ratio * omega * mass,
-      absorber.mass, absorber.stiffness,   absorber.damping};
+  const SomeString string(0.0);
+  const PlaceMode<double>& mode = string.modes.front();
+  const Absorber<double>& absorber = string.absorber;
+  const TwoMass<double> masses = two_masses_of(mode, absorber);
   for (const Sampling<double> sampling :
        {Sampling<double>{1e-3, 0.0}, Sampling<double>{1e-3, 5e-4}, Sampling<double>{0.01, 0.002}}) {
     const PdGains<double> gains{-557.0, -5.0};
@@ -238,16 +239,14 @@ TEST(ModalMargins, OfTheLoopAsAWholeAreThoseOfTwoMasses) {
 
 /// Of a grid of gains none that the map shows to have the margin leaves less amplitude.
 TEST(ModalDesign, NoPairOfAGridIsQuieterThanTheBest) {
-  const auto modes = some_modes();
-  const auto absorber = papers_absorber(0.01);
-  const double omega = 2.0 * pi<double> * 10.0, margin = 0.5;
+  const SomeString string;
+  const double margin = 0.5;
   int admissible = 0;
   for (const Sampling<double>& sampling :
        {Sampling<double>{1e-3, 3e-4}, Sampling<double>{0.01, 0.004}}) {
-    const auto response = modal_response(modes, absorber, sampling);
-    const auto map = loop_map(modal_plant(modes, absorber), sampling);
-    const auto steady = steady_response(modes, absorber, sampling, ForceHold::exact, omega)
-                            .relative_to(true_amplitude_per_force(modes, absorber, omega));
+    const auto response = string.response(sampling);
+    const auto map = string.map(sampling);
+    const auto steady = string.steady(sampling, ForceHold::exact);
     const AmplitudeOptions options{sampling, ForceHold::exact, 1.0, margin, true};
     const auto best = minimum_amplitude_gains(response, options, 10.0, {-1200.0, 200.0}, steady);
     const PdGains<double> gains{best.proportional_gain, best.quietest.differential_gain};

@@ -5,6 +5,9 @@
 
 #include "holdfast/plant/linear_plant.hpp"
 #include "support/dense_routes.hpp"
+#include "support/lagging_plant.hpp"
+#include "support/margin_ends.hpp"
+#include "support/random_loop.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -24,80 +27,126 @@ const std::vector<MarginCase>& margin_cases() {
   return cases;
 }
 
-double radius_of(const Sampling<double>& sampling, const PdGains<double>& gains) {
-  return spectral_radius<double, 5>(sampled_loop(kollar2022_plant(), sampling).engaged_map(gains));
+/// ρ, the commands on their way being states.
+double radius_of(const TwoMass<double>& plant, const Sampling<double>& sampling,
+                 const PdGains<double>& gains) {
+  return spectral_radius(loop_map(plant, sampling).closed_map(gains));
 }
 
-/// The same however late, the commands on their way being states.
-double radius_of_delay(const TwoMass<double>& plant, const Sampling<double>& sampling,
-                       const PdGains<double>& gains) {
-  return test::moduli_of(loop_map(linear_plant(plant), sampling).closed_map(gains))[0];
-}
-
-/// One quantity of a loop as it is moved: its margin, its value, and ρ at another value.
-struct Moved {
-  const char* name;
-  TwoSidedMargin margin;
-  double value;
-  std::function<double(double)> radius;
+/// How many points of a margin are looked at, how far where it has no end, how near to one ρ is at
+/// an end, and beside it by which share of the way to it ρ is on the right side of one.
+struct Look {
+  int points;
+  double far, rounding, beside;
 };
 
-std::vector<Moved> all_moved(const MarginCase& c) {
-  const auto margins = stability_margins(kollar2022_plant(), c.sampling, c.gains);
-  EXPECT_EQ(margins.outcome, MarginOutcome::stable);
-  EXPECT_NEAR(margins.unit_circle, 1.0 - radius_of(c.sampling, c.gains), 1e-9);
-  const double fraction = c.sampling.processing_delay / c.sampling.period;
-  return {{"D", margins.differential_gain, c.gains.differential,
-           [c](double d) {
-             return radius_of(c.sampling, {c.gains.proportional, d});
-           }},
-          {"P", margins.proportional_gain, c.gains.proportional,
-           [c](double p) {
-             return radius_of(c.sampling, {p, c.gains.differential});
-           }},
-          {"period", margins.sampling_period, c.sampling.period,
-           [c, fraction](double t) {
-             return radius_of({t, fraction * t}, c.gains);
-           }},
-          {"delay", margins.processing_delay, c.sampling.processing_delay, [c](double t) {
-             return radius_of_delay(kollar2022_plant(), {c.sampling.period, t}, c.gains);
-           }}};
-}
-
-void expect_edge(const Moved& moved, const MarginEnd& end) {
+void expect_first_loss(const test::Moved& moved, const MarginEnd& end, double far,
+                       const Look& look) {
+  SCOPED_TRACE(moved.name);
+  ASSERT_NE(end.outcome, MarginEndOutcome::undefined);
+  const double goal = std::isfinite(end.position) ? end.position : moved.value + far;
+  for (int k = 1; k < look.points; ++k) {
+    const double at = moved.value + (goal - moved.value) * k / look.points;
+    ASSERT_LT(moved.radius(at), 1.0) << at << ", end " << goal;
+  }
   if (end.outcome != MarginEndOutcome::boundary) return;
-  EXPECT_DOUBLE_EQ(end.distance, std::abs(end.position - moved.value)) << moved.name;
-  EXPECT_NEAR(moved.radius(end.position), 1.0, 1e-10) << moved.name << ' ' << end.position;
-  const double step = 1e-6 * (end.position - moved.value);
-  EXPECT_LT(moved.radius(end.position - step), 1.0) << moved.name << ' ' << end.position;
-  EXPECT_GT(moved.radius(end.position + step), 1.0) << moved.name << ' ' << end.position;
+  EXPECT_DOUBLE_EQ(end.distance, std::abs(end.position - moved.value));
+  EXPECT_NEAR(moved.radius(end.position), 1.0, look.rounding) << end.position;
+  const double step = look.beside * (end.position - moved.value);
+  EXPECT_LT(moved.radius(end.position - step), 1.0) << end.position;
+  EXPECT_GT(moved.radius(end.position + step), 1.0) << end.position;
 }
 
-TEST(Margins, EndWhereTheSpectralRadiusIsOne) {
-  for (const MarginCase& c : margin_cases()) {
-    for (const Moved& moved : all_moved(c)) {
-      expect_edge(moved, moved.margin.below);
-      expect_edge(moved, moved.margin.above);
-    }
+template <class Plant>
+StabilityMargins expect_first_losses(const Plant& plant, const MarginCase& c, const Look& look) {
+  const auto margins = stability_margins(plant, c.sampling, c.gains);
+  EXPECT_EQ(margins.outcome, MarginOutcome::stable);
+  const auto all = test::all_moved(margins, plant, c.sampling, c.gains);
+  EXPECT_NEAR(margins.unit_circle, 1.0 - all[0].radius(c.gains.differential), look.rounding);
+  for (const test::Moved& moved : all) {
+    expect_first_loss(moved, moved.margin.below, -look.far, look);
+    expect_first_loss(moved, moved.margin.above, look.far, look);
   }
+  return margins;
 }
 
-/// Eigenvalues on a fine grid from the value to the margin's end, or far where there is none.
-TEST(Margins, NothingUnstableLiesBetween) {
-  for (const MarginCase& c : margin_cases()) {
-    for (const Moved& moved : all_moved(c)) {
-      const auto scan = [&](const MarginEnd& end, double far) {
-        ASSERT_NE(end.outcome, MarginEndOutcome::undefined) << moved.name;
-        const double goal = std::isfinite(end.position) ? end.position : far;
-        for (int k = 1; k < 2000; ++k) {
-          const double at = moved.value + (goal - moved.value) * k / 2000.0;
-          ASSERT_LT(moved.radius(at), 1.0) << moved.name << " = " << at << ", end " << goal;
-        }
-      };
-      scan(moved.margin.below, moved.value - 1e4);
-      scan(moved.margin.above, moved.value + 1e4);
+TEST(Margins, EndWhereTheSpectralRadiusIsOneAndNotBefore) {
+  for (const MarginCase& c : margin_cases())
+    expect_first_losses(kollar2022_plant(), c, {2000, 1e4, 1e-10, 1e-6});
+}
+
+struct LaggingCase {
+  double filter, drive;
+  MarginCase loop;
+};
+
+/// Stable loops of seven states, with delays of none, part of a sample, and several.
+const std::vector<LaggingCase>& lagging_cases() {
+  static const std::vector<LaggingCase> cases = {{200.0, 300.0, {{0.001, 0.0}, {-100.0, -5.0}}},
+                                                 {100.0, 150.0, {{0.002, 0.001}, {-50.0, -3.0}}},
+                                                 {200.0, 300.0, {{0.001, 0.0025}, {-60.0, -4.0}}},
+                                                 {100.0, 300.0, {{0.001, 0.003}, {-30.0, -2.0}}},
+                                                 {200.0, 300.0, {{0.005, 0.002}, {-100.0, -6.5}}},
+                                                 {200.0, 300.0, {{0.0005, 0.0031}, {-60.0, -5.5}}},
+                                                 {30.0, 60.0, {{0.01, 0.0}, {-20.0, -1.0}}}};
+  return cases;
+}
+
+TEST(AnyOrderMargins, OfSevenStatesAreTheFirstLossesOfStability) {
+  int late = 0;
+  for (const LaggingCase& c : lagging_cases()) {
+    SCOPED_TRACE(c.loop.sampling.processing_delay / c.loop.sampling.period);
+    const auto margins =
+        expect_first_losses(test::lagging_plant(c.filter, c.drive), c.loop, {500, 1e4, 1e-9, 1e-5});
+    const MarginEnd& delay = margins.processing_delay.above;
+    late +=
+        delay.outcome == MarginEndOutcome::boundary && delay.position > 2.0 * c.loop.sampling.period
+            ? 1
+            : 0;
+  }
+  EXPECT_GE(late, 1);
+}
+
+void expect_same_end(const MarginEnd& general, const MarginEnd& closed, double value) {
+  EXPECT_EQ(general.outcome, closed.outcome);
+  if (general.outcome != closed.outcome) return;
+  if (!std::isfinite(closed.position)) {
+    EXPECT_EQ(general.position, closed.position);
+    return;
+  }
+  EXPECT_NEAR(general.position, closed.position,
+              1e-7 * std::max(std::abs(value), std::abs(closed.position)));
+  if (closed.outcome != MarginEndOutcome::boundary) return;
+  EXPECT_EQ(general.curve, closed.curve);
+  EXPECT_NEAR(general.frequency, closed.frequency, 1e-6 * closed.frequency);
+}
+
+TEST(AnyOrderMargins, OfTwoMassesAreTheClosedForms) {
+  test::Random random(20263);
+  int stable = 0, boundaries = 0;
+  for (int draw = 0; draw < 400 && stable < 40; ++draw) {
+    const TwoMass<double> plant = test::random_plant(random);
+    const Sampling<double> sampling = test::random_sampling(plant, random);
+    const PdGains<double> gains = test::random_gains(plant, sampling.period, random);
+    const StabilityMargins closed = stability_margins(plant, sampling, gains);
+    if (closed.outcome != MarginOutcome::stable || closed.unit_circle < 1e-4) continue;
+    ++stable;
+    SCOPED_TRACE(draw);
+    const auto general = stability_margins(test::through_ports(plant), sampling, gains);
+    ASSERT_EQ(general.outcome, MarginOutcome::stable);
+    EXPECT_NEAR(general.unit_circle, closed.unit_circle, 1e-9);
+    const auto expected = test::all_moved(closed, plant, sampling, gains);
+    const auto found = test::two_sided_of(general);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      SCOPED_TRACE(expected[k].name);
+      const auto& [below, above] = expected[k].margin;
+      expect_same_end(found[k].below, below, expected[k].value);
+      expect_same_end(found[k].above, above, expected[k].value);
+      boundaries += above.outcome == MarginEndOutcome::boundary ? 1 : 0;
     }
   }
+  EXPECT_EQ(stable, 40);
+  EXPECT_GT(boundaries, 40);
 }
 
 /// Lightly damped plants at periods at which a mode is sampled twice a cycle: a pair meets at −1,
@@ -132,35 +181,6 @@ TEST(Margins, ARealRootThatPassesMinusOneAndComesBackIsSeen) {
     for (int k = 1; k < 5000; ++k) {
       ASSERT_LT(radius(w.period + (end.position - w.period) * k / 5000.0), 1.0) << k;
     }
-  }
-}
-
-/// Random plants, most of them lightly damped, against eigenvalues on a fine grid of periods.
-TEST(Margins, OfRandomLoopsHoldOnAFineGrid) {
-  std::mt19937 generator(7);
-  std::uniform_real_distribution<double> share(0.0, 1.0);
-  int tried = 0;
-  while (tried < 40) {
-    const auto between = [&](double a, double b) { return a * std::pow(b / a, share(generator)); };
-    const TwoMass<double> plant{between(0.05, 0.5), between(20, 200),   between(1e-3, 1.0),
-                                between(0.05, 0.5), between(20.0, 200), between(1e-3, 5.0)};
-    const Sampling<double> sampling{between(1e-3, 0.3), 0.0};
-    const PdGains<double> gains{-between(1.0, 100.0),
-                                between(0.05, 5.0) * (share(generator) - 0.5)};
-    const auto margins = stability_margins(plant, sampling, gains);
-    if (margins.outcome != MarginOutcome::stable) continue;
-    ++tried;
-    const auto scan = [&](const MarginEnd& end, double far) {
-      const double goal = std::isfinite(end.position) && end.position > 0.0 ? end.position : far;
-      for (int k = 1; k < 1500; ++k) {
-        const double period = sampling.period * std::pow(goal / sampling.period, k / 1500.0);
-        const auto loop = sampled_loop(plant, Sampling<double>{period});
-        ASSERT_LT((spectral_radius<double, 5>(loop.engaged_map(gains))), 1.0 + 1e-12)
-            << "loop " << tried << ", period " << period << ", end " << goal;
-      }
-    };
-    scan(margins.sampling_period.below, 1e-2 * sampling.period);
-    scan(margins.sampling_period.above, 30.0 * sampling.period);
   }
 }
 
@@ -206,7 +226,7 @@ TEST(Margins, NoScanOfALightlyDampedLoopFindsAnEarlierExit) {
     const PdGains<double> gains{(share(generator) - 0.5) * between(0.01, 10.0),
                                 (share(generator) - 0.7) * between(1e-3, 1.0)};
     const auto radius = [&](double t, double delay) {
-      if (delay > t) return radius_of_delay(plant, {t, delay}, gains);
+      if (delay > t) return radius_of(plant, {t, delay}, gains);
       return spectral_radius<double, 5>(
           sampled_loop(plant, Sampling<double>{t, delay}).engaged_map(gains));
     };
@@ -301,11 +321,10 @@ TEST(Margins, OfTheDelayGoOnBeyondASample) {
     ASSERT_TRUE(ends || above.outcome == MarginEndOutcome::beyond_search) << d;
     EXPECT_TRUE(std::isfinite(above.distance)) << d;
     for (int k = 1; k <= 40; ++k)
-      EXPECT_LT(
-          radius_of_delay(kollar2022_plant(), {0.001, above.position * 0.999 * k / 40}, gains), 1.0)
+      EXPECT_LT(radius_of(kollar2022_plant(), {0.001, above.position * 0.999 * k / 40}, gains), 1.0)
           << d;
     if (ends) {
-      EXPECT_GT(radius_of_delay(kollar2022_plant(), {0.001, 1.001 * above.position}, gains), 1.0);
+      EXPECT_GT(radius_of(kollar2022_plant(), {0.001, 1.001 * above.position}, gains), 1.0);
     } else {
       EXPECT_NEAR(above.position, 0.010, 1e-12) << "ten samples";
     }
@@ -351,6 +370,10 @@ TEST(Margins, AnUnstableLoopHasNone) {
     EXPECT_EQ(margins.differential_gain.below.outcome, MarginEndOutcome::undefined);
     EXPECT_TRUE(std::isnan(margins.sampling_period.above.position));
   }
+  const auto late =
+      stability_margins(test::lagging_plant(20.0, 20.0), {0.01, 0.03}, {-300.0, 40.0});
+  EXPECT_EQ(late.outcome, MarginOutcome::not_stable);
+  EXPECT_LE(late.unit_circle, 0.0);
 }
 
 TEST(Margins, SayWhenTheSearchEnds) {
@@ -372,10 +395,39 @@ TEST(Margins, RefuseWhatIsOutOfRange) {
   const auto plant = kollar2022_plant();
   const PdGains<double> gains{-557.0, -13.0};
   EXPECT_THROW(stability_margins(plant, {0.0}, gains), InvalidParameter);
+  EXPECT_THROW(stability_margins(test::through_ports(plant), {0.0}, gains), InvalidParameter);
   EXPECT_THROW(stability_margins(plant, {0.01}, {INFINITY, 0.0}), InvalidParameter);
-  EXPECT_THROW(stability_margins(plant, {0.01}, gains, {1.0, 1e-6}), InvalidParameter);
-  EXPECT_THROW(stability_margins(plant, {0.01}, gains, {10.0, 0.0}), InvalidParameter);
+  EXPECT_THROW(stability_margins(plant, {0.01}, gains, {1.0}), InvalidParameter);
+  EXPECT_THROW(stability_margins(plant, {0.01}, gains, {10.0, 0}), InvalidParameter);
 }
 
+/// The closed map anywhere in a stretch is its polynomial but for the remainder, which is small.
+TEST(SamplingFamily, TheMovingMapIsTheMapAllOverTheStretch) {
+  const LinearPlant<double> plant = test::lagging_plant(40.0, 60.0);
+  const PdGains<double> gains{-50.0, -3.0};
+  const double period = 0.003;
+  using Family = SamplingFamily<LinearPlant<double>>;
+  for (const bool by_period : {true, false}) {
+    for (const double fraction : {0.0, 0.4, 1.0, 2.3}) {
+      if (!by_period && fraction == std::floor(fraction)) continue;
+      const Family family = by_period
+                                ? Family::of_period(plant, fraction)
+                                : Family::of_delay(plant, period, held_commands({1.0, fraction}));
+      const double position = by_period ? period : fraction * period, radius = 0.3 * period;
+      const MovingMatrix moving = family.moving(family.map_at(position), gains, radius);
+      for (const double x : {-0.9, -0.3, 0.4, 0.9}) {
+        const Eigen::MatrixXd map = family.map_at(position + x * radius).closed_increment(gains);
+        Eigen::MatrixXd sum = moving.terms.back();
+        for (std::size_t k = moving.terms.size() - 1; k > 0; --k)
+          sum = (x * sum + moving.terms[k - 1]).eval();
+        if (!by_period && position + x * radius > held_commands({1.0, fraction}) * period) continue;
+        const Eigen::MatrixXd allowed =
+            moving.remainder.array() + 1e-12 * moving.terms.front().cwiseAbs().maxCoeff();
+        EXPECT_LE(((map - sum).cwiseAbs() - allowed).maxCoeff(), 0.0) << by_period << fraction << x;
+        EXPECT_LT(moving.remainder.maxCoeff(), 1e-8);
+      }
+    }
+  }
+}
 }  // namespace
 }  // namespace holdfast

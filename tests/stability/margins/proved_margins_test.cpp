@@ -9,6 +9,7 @@
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/design/proved_max_delay.hpp"
 #include "holdfast/stability/margins/modal_margins.hpp"
+#include "support/margin_ends.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
 #include "support/string_case.hpp"
@@ -66,7 +67,7 @@ struct PathTo {
 
 TEST(ProvedMargins, SayWhyTheyGoNoFurther) {
   const auto walked = [](double last, int steps) {
-    return detail::walked_end(PathTo{last}, 1.0, 2.0, {0.01, 1e-6, steps}, unwatched);
+    return detail::walked_end(PathTo{last}, 1.0, 2.0, {1e-6, steps}, unwatched);
   };
   EXPECT_EQ(walked(2.0, 1000).stop, ProofStop::at_end);
   EXPECT_EQ(walked(2.0, 3).stop, ProofStop::work);
@@ -90,23 +91,23 @@ void expect_end(const ProvedMarginEnd& end, double value, const RadiusAt& radius
   }
 }
 
+/// Proved margins of D, P, τ and δ, in this order.
+std::array<ProvedMargin, 4> margins_of(const ProvedMargins& proved) {
+  return {proved.differential_gain, proved.proportional_gain, proved.sampling_period,
+          proved.processing_delay};
+}
+
 TEST(ProvedMargins, HoldByTheSpectralRadius) {
   for (const ProvedLoop& loop : proved_loops()) {
     const ProvedMargins proved = loop.proved();
     ASSERT_EQ(proved.stability, ProvedStability::stable);
-    const double p = loop.gains.proportional, d = loop.gains.differential;
-    const auto of_d = [&](double value) { return loop.radius(loop.sampling, {p, value}); };
-    const auto of_p = [&](double value) { return loop.radius(loop.sampling, {value, d}); };
-    const auto of_period = [&](double tau) { return loop.radius_at_period(tau); };
-    const auto of_delay = [&](double delta) { return loop.radius_at_delay(delta); };
-    expect_end(proved.differential_gain.below, d, of_d);
-    expect_end(proved.differential_gain.above, d, of_d);
-    expect_end(proved.proportional_gain.below, p, of_p);
-    expect_end(proved.proportional_gain.above, p, of_p);
-    expect_end(proved.sampling_period.below, loop.sampling.period, of_period);
-    expect_end(proved.sampling_period.above, loop.sampling.period, of_period);
-    expect_end(proved.processing_delay.below, loop.sampling.processing_delay, of_delay);
-    expect_end(proved.processing_delay.above, loop.sampling.processing_delay, of_delay);
+    const auto moved = all_moved(loop.walked(), loop.plant, loop.sampling, loop.gains);
+    const auto ends = margins_of(proved);
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      SCOPED_TRACE(moved[k].name);
+      expect_end(ends[k].below, moved[k].value, moved[k].radius);
+      expect_end(ends[k].above, moved[k].value, moved[k].radius);
+    }
   }
 }
 
@@ -124,12 +125,12 @@ TEST(ProvedMargins, LeaveALittleAboutTheBoundaryUndecided) {
       EXPECT_LE(found.position, most + rounding);
       EXPECT_LT(most - least, 50.0 * resolution * found.distance);
     };
-    expect_around(proved.differential_gain.below, walked.differential_gain.below);
-    expect_around(proved.differential_gain.above, walked.differential_gain.above);
-    expect_around(proved.proportional_gain.below, walked.proportional_gain.below);
-    expect_around(proved.proportional_gain.above, walked.proportional_gain.above);
-    expect_around(proved.sampling_period.above, walked.sampling_period.above);
-    expect_around(proved.processing_delay.above, walked.processing_delay.above);
+    const auto ends = margins_of(proved);
+    const auto found = two_sided_of(walked);
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      if (k < 2) expect_around(ends[k].below, found[k].below);
+      expect_around(ends[k].above, found[k].above);
+    }
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include "holdfast/control/sampled_loop.hpp"
 #include "support/dense_routes.hpp"
+#include "support/lagging_plant.hpp"
+#include "support/random_loop.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -63,5 +65,18 @@ TEST(SlowSampling, IsNeverCertainWithoutDamping) {
     EXPECT_EQ(bound.at(period), std::numeric_limits<double>::infinity()) << period;
 }
 
+TEST(SlowSampling, OfAnyOrderIsThatOfTheResolventPolynomials) {
+  test::Random random(20264);
+  for (int draw = 0; draw < 50; ++draw) {
+    const TwoMass<double> plant = test::random_plant(random);
+    const PdGains<double> gains = test::random_gains(plant, 0.01, random);
+    const SlowSamplingBound closed(plant, gains, 0.3),
+        general(test::through_ports(plant), gains, 0.3);
+    for (const double period : {0.01, 0.3, 2.0}) {
+      if (!std::isfinite(closed.at(period))) continue;
+      EXPECT_NEAR(general.at(period), closed.at(period), 1e-6 * closed.at(period) + 1e-14) << draw;
+    }
+  }
+}
 }  // namespace
 }  // namespace holdfast

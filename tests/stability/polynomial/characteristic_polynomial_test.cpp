@@ -39,25 +39,31 @@ TEST(CharacteristicPolynomial, TheEigenvaluesOfTheLoopAreItsRoots) {
   }
 }
 
+/// |p(x) − det((c + x) I − S)| over the sum of the moduli of the terms of p.
+template <int Degree>
+long double off_determinant(const Polynomial<long double, Degree>& p,
+                            const Matrix<long double, Degree>& map,
+                            const std::complex<long double>& x, long double centre) {
+  using Square = Matrix<std::complex<long double>, Degree>;
+  const Square shifted =
+      (x + centre) * Square::Identity() - map.template cast<std::complex<long double>>();
+  long double size = 0, power = 1;
+  for (int k = 0; k <= Degree; ++k, power *= std::abs(x)) size += std::abs(p[k]) * power;
+  return std::abs(evaluate(p, x) - test::determinant_of(shifted)) / size;
+}
+
 TEST(CharacteristicPolynomial, IsTheDeterminantOfTheSampledLoop) {
   test::Random random(192);
   for (int draw = 0; draw < 500; ++draw) {
     const auto plant = test::random_plant(random);
     const auto sampling = test::random_sampling(plant, random);
     const auto gains = test::random_gains(plant, sampling.period, random);
-    const auto loop =
-        sampled_loop(converted<long double>(plant),
-                     Sampling<long double>{sampling.period, sampling.processing_delay});
+    const auto loop = test::precise_loop(plant, sampling);
     const PdGains<long double> precise{gains.proportional, gains.differential};
-    const auto p = characteristic_polynomial(loop).at(precise);
-    const std::complex<long double> mu(random.uniform(-3, 1), random.uniform(-2, 2));
-    using Complex5 = Matrix<std::complex<long double>, 5>;
-    const Complex5 shifted = (mu + 1.0L) * Complex5::Identity() -
-                             loop.engaged_map(precise).cast<std::complex<long double>>();
-    const std::complex<long double> determinant = test::determinant_of(shifted);
-    long double size = 0, power = 1;
-    for (int k = 0; k <= 5; ++k, power *= std::abs(mu)) size += std::abs(p[k]) * power;
-    EXPECT_LE(std::abs(evaluate(p, mu) - determinant) / size, 1e-13L);
+    EXPECT_LE(
+        off_determinant<5>(characteristic_polynomial(loop).at(precise), loop.engaged_map(precise),
+                           {random.uniform(-3, 1), random.uniform(-2, 2)}, 1.0L),
+        1e-13L);
   }
 }
 
@@ -67,14 +73,10 @@ TEST(CharacteristicPolynomial, IsTheDeterminantOfTheContinuousLoop) {
     const auto plant = converted<long double>(test::random_plant(random));
     const PdGains<long double> gains{random.uniform(-1000, 1000), random.uniform(-100, 100)};
     const auto p = characteristic_polynomial(plant).at(gains);
-    const std::complex<long double> s(random.uniform(-50, 50), random.uniform(-100, 100));
-    using Complex4 = Matrix<std::complex<long double>, 4>;
-    const Matrix<long double, 4> closed =
-        plant.state_matrix() + plant.control_input() * gains.feedback_row();
-    const Complex4 shifted = s * Complex4::Identity() - closed.cast<std::complex<long double>>();
-    long double size = 0, power = 1;
-    for (int k = 0; k <= 4; ++k, power *= std::abs(s)) size += std::abs(p[k]) * power;
-    EXPECT_LE(std::abs(evaluate(p, s) - test::determinant_of(shifted)) / size, 1e-13L);
+    EXPECT_LE(
+        off_determinant<4>(p, plant.state_matrix() + plant.control_input() * gains.feedback_row(),
+                           {random.uniform(-50, 50), random.uniform(-100, 100)}, 0.0L),
+        1e-13L);
     EXPECT_EQ(p[4], 1.0L);
   }
 }

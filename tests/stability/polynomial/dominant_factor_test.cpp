@@ -6,16 +6,16 @@
 namespace holdfast {
 namespace {
 
-/// A monic polynomial in powers of μ = λ − centre with the roots λ given and λ = 0.
-Polynomial<double, 5> polynomial_of_roots(const std::vector<std::complex<double>>& roots_in_lambda,
-                                          double centre) {
+/// A monic polynomial in powers of μ = λ − 1 with the roots λ given and λ = 0.
+Polynomial<double, 5> polynomial_of_roots(
+    const std::vector<std::complex<double>>& roots_in_lambda) {
   std::vector<std::complex<double>> product = {1.0};
   const auto times = [&product](const std::complex<double>& root) {
     product.insert(product.begin(), 0.0);
     for (std::size_t k = 0; k + 1 < product.size(); ++k) product[k] -= root * product[k + 1];
   };
-  for (const auto& root : roots_in_lambda) times(root - centre);
-  times(-centre);
+  for (const auto& root : roots_in_lambda) times(root - 1.0);
+  times(-1.0);
   Polynomial<double, 5> result;
   for (int k = 0; k <= 5; ++k) result[k] = product[static_cast<std::size_t>(k)].real();
   return result;
@@ -23,32 +23,27 @@ Polynomial<double, 5> polynomial_of_roots(const std::vector<std::complex<double>
 
 TEST(QuadraticFactor, GivesTheRadiusOfPairsAndOfRealRoots) {
   // λ = 0.5 ± 0.4i about 1: μ = −0.5 ± 0.4i
-  EXPECT_NEAR((QuadraticFactor<double>{1.0, 0.41}.radius(1.0)), std::sqrt(0.41), 1e-15);
+  EXPECT_NEAR((QuadraticFactor<double>{1.0, 0.41}.radius()), std::sqrt(0.41), 1e-15);
   // λ = 0.9 and −1.2 about 1: μ = −0.1 and −2.2
-  EXPECT_NEAR((QuadraticFactor<double>{2.3, 0.22}.radius(1.0)), 1.2, 1e-15);
-  // the same about 0
-  EXPECT_NEAR((QuadraticFactor<double>{0.3, -1.08}.radius(0.0)), 1.2, 1e-15);
+  EXPECT_NEAR((QuadraticFactor<double>{2.3, 0.22}.radius()), 1.2, 1e-15);
 }
 
 /// A pair and real roots move past one another: each in turn is dominant, and the pair becomes real
 /// on the way.
 TEST(DominantFactor, FollowsWhicheverRootIsDominant) {
-  for (const double centre : {0.0, 1.0}) {
-    DominantFactor<double, 5> follower(centre);
-    for (int step = 0; step <= 400; ++step) {
-      const double t = step / 400.0;
-      const std::complex<double> pair = std::polar(0.95 - 0.3 * t, 0.4);
-      const double spread = 0.02 - 0.05 * t;  // of a second pair, real from t = 0.4 on
-      const std::complex<double> offset =
-          spread > 0 ? std::complex<double>(0, std::sqrt(spread)) : std::sqrt(-spread);
-      const std::complex<double> other = -0.6 - 0.4 * t + offset;
-      const std::vector<std::complex<double>> all = {pair, std::conj(pair), other,
-                                                     -0.6 - 0.4 * t - offset};
-      double largest = 0.0;
-      for (const auto& root : all) largest = std::max(largest, std::abs(root));
-      EXPECT_NEAR(follower.radius(polynomial_of_roots(all, centre)), largest, 1e-10)
-          << centre << ' ' << step;
-    }
+  DominantFactor<double, 5> follower;
+  for (int step = 0; step <= 400; ++step) {
+    const double t = step / 400.0;
+    const std::complex<double> pair = std::polar(0.95 - 0.3 * t, 0.4);
+    const double spread = 0.02 - 0.05 * t;  // of a second pair, real from t = 0.4 on
+    const std::complex<double> offset =
+        spread > 0 ? std::complex<double>(0, std::sqrt(spread)) : std::sqrt(-spread);
+    const std::complex<double> other = -0.6 - 0.4 * t + offset;
+    const std::vector<std::complex<double>> all = {pair, std::conj(pair), other,
+                                                   -0.6 - 0.4 * t - offset};
+    double largest = 0.0;
+    for (const auto& root : all) largest = std::max(largest, std::abs(root));
+    EXPECT_NEAR(follower.radius(polynomial_of_roots(all)), largest, 1e-10) << step;
   }
 }
 
@@ -74,9 +69,7 @@ TEST(DominantFactor, AgreesWithExtendedPrecisionAlongRandomRows) {
     const auto from = test::random_gains(plant, sampling.period, random);
     const auto to = test::random_gains(plant, sampling.period, random);
     const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
-    const auto precise = characteristic_polynomial(
-        sampled_loop(converted<long double>(plant),
-                     Sampling<long double>{sampling.period, sampling.processing_delay}));
+    const auto precise = characteristic_polynomial(test::precise_loop(plant, sampling));
     DominantFactor<double, 6> follower;
     for (int step = 0; step <= 50; ++step) {
       const double t = step / 50.0;
@@ -86,8 +79,7 @@ TEST(DominantFactor, AgreesWithExtendedPrecisionAlongRandomRows) {
       for (const auto& root : roots(precise.at({p, d}))) {
         largest = std::max(largest, std::abs(1.0L + root));
       }
-      const double radius =
-          follower.radius(with_root_at_zero<double, 6>(polynomial.at({p, d}), 1.0));
+      const double radius = follower.radius(with_root_at_zero<double, 6>(polynomial.at({p, d})));
       const double error = std::abs(static_cast<double>(radius - largest));
       if (!(error <= worst)) worst = error;
     }

@@ -5,7 +5,7 @@
 
 #include "holdfast/stability/response/modal_response.hpp"
 #include "support/random.hpp"
-#include "support/string_case.hpp"
+#include "support/string_loop.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::test {
@@ -13,12 +13,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-struct Setting {
-  ConductorWithAbsorber conductor;
-  Sampling<double> sampling;
-};
-
-std::vector<Setting> settings() {
+std::vector<StringLoop> enclosed_loops() {
   return {{string_with_absorber(40, 0.02), {0.001, 0.0}},
           {string_with_absorber(40, 0.02), {0.003, 0.003}},
           {string_with_absorber(10, 1e-4), {0.011, 0.0047}},
@@ -27,16 +22,12 @@ std::vector<Setting> settings() {
           {string_with_absorber(5, 0.02, {80.0, 60.0, 0.4}), {0.002, 0.02}}};
 }
 
-EnclosedResponse response_of(const Setting& setting) {
-  return {enclosed_poles(setting.conductor), setting.sampling};
-}
-
 /// As far as doubles go.
 TEST(EnclosedResponse, IsThatOfDoubles) {
   Random random(1);
-  for (const Setting& setting : settings()) {
-    const auto doubles = modal_response<double>(setting.conductor, setting.sampling);
-    const EnclosedResponse enclosed = response_of(setting);
+  for (const StringLoop& setting : enclosed_loops()) {
+    const auto doubles = setting.doubles();
+    const EnclosedResponse enclosed = setting.enclosed();
     EXPECT_EQ(enclosed.held_commands(), doubles.held_commands());
     for (int trial = 0; trial < 100; ++trial) {
       const Complex lambda = std::polar(random.uniform(0.995, 1.2), random.uniform(0.0, 3.14));
@@ -68,8 +59,8 @@ double share_of_rest(const EnclosedExpansion& expansion, const EnclosedExpansion
 
 TEST(EnclosedResponse, ExpansionsHoldWhatIsNear) {
   Random random(2);
-  for (const Setting& setting : settings()) {
-    const EnclosedResponse response = response_of(setting);
+  for (const StringLoop& setting : enclosed_loops()) {
+    const EnclosedResponse response = setting.enclosed();
     double used = 0.0;
     for (int trial = 0; trial < 600; ++trial) {
       const Complex lambda = std::polar(random.uniform(1.0, 1.05), random.uniform(0.0, 3.14));
@@ -118,9 +109,9 @@ TEST(EnclosedResponse, ExpansionsOfOnePoleAreSharp) {
 }
 
 TEST(EnclosedResponse, KnowsNothingBesideAPole) {
-  const Setting setting{string_with_absorber(3, 0.02), {0.01, 0.0}};
-  const EnclosedResponse response = response_of(setting);
-  const auto doubles = modal_response<double>(setting.conductor, setting.sampling);
+  const StringLoop setting{string_with_absorber(3, 0.02), {0.01, 0.0}};
+  const EnclosedResponse response = setting.enclosed();
+  const auto doubles = setting.doubles();
   for (const Complex& increment : doubles.pole_increments()) {
     const Complex pole = 1.0 + increment;
     for (const double away : {0.0, 0.5e-3, 0.999e-3})
@@ -148,9 +139,9 @@ TEST(EnclosedResponse, KnowsNothingBesideARealPole) {
 }
 
 TEST(EnclosedResponse, CountsThePolesOutside) {
-  const Setting setting{string_with_absorber(5, 0.02), {0.01, 0.0}};
-  const EnclosedResponse response = response_of(setting);
-  const auto doubles = modal_response<double>(setting.conductor, setting.sampling);
+  const StringLoop setting{string_with_absorber(5, 0.02), {0.01, 0.0}};
+  const EnclosedResponse response = setting.enclosed();
+  const auto doubles = setting.doubles();
   EXPECT_EQ(response.poles_outside(1.0), 0);
   for (const double radius : {0.3, 0.9, 0.97, 0.99, 0.999}) {
     int count = 0;
@@ -162,8 +153,10 @@ TEST(EnclosedResponse, CountsThePolesOutside) {
   ConductorWithAbsorber undamped = string_with_absorber(5, 0.0);
   undamped.absorber.damping = 0.0;
   undamped.poles = plant_poles(undamped.modes, undamped.absorber);
-  EXPECT_EQ(response_of({undamped, {0.01, 0.0}}).poles_outside(1.0), std::nullopt);
-  EXPECT_EQ(response_of({string_with_absorber(5, 0.0), {0.01, 0.0}}).poles_outside(1.0), 0);
+  const StringLoop by_none{undamped, {0.01, 0.0}};
+  EXPECT_EQ(by_none.enclosed().poles_outside(1.0), std::nullopt);
+  const StringLoop by_absorber{string_with_absorber(5, 0.0), {0.01, 0.0}};
+  EXPECT_EQ(by_absorber.enclosed().poles_outside(1.0), 0);
 }
 
 /// A delay that is a whole number of samples but for round-off keeps as many commands.

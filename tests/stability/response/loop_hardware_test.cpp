@@ -6,12 +6,11 @@
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
-#include "holdfast/stability/response/loop_response.hpp"
 #include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_damping.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
 #include "support/message_of.hpp"
-#include "support/string_case.hpp"
+#include "support/string_loop.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::test {
@@ -29,18 +28,9 @@ const std::vector<LoopHardware> kinds = {{80.0, ideal, ideal}, {ideal, 60.0, ide
                                          {ideal, 60.0, 0.7},   {ideal, 60.0, 3.0},
                                          {80.0, 60.0, ideal},  {300.0, 40.0, 0.5}};
 
-/// How far sums over poles are from the elimination of the plant's map, of either's size.
 double difference(const ConductorWithAbsorber& of, const Sampling<double>& sampling) {
-  const ModalResponse<double> sums = modal_response(of, sampling);
-  const LoopResponse<double> elimination(loop_map(linear_plant(of), sampling));
-  double largest = 0.0;
-  for (int i = 1; i < 200; ++i) {
-    const double angle = 3.141592653589793 * i / 200.0;
-    const auto found = sums.at_angle(angle), expected = elimination.at_angle(angle);
-    largest = std::max({largest, std::abs(found.displacement / expected.displacement - 1.0),
-                        std::abs(found.velocity / expected.velocity - 1.0)});
-  }
-  return largest;
+  const StringLoop loop{of, sampling};
+  return off_elimination(loop.doubles(), loop.map());
 }
 
 TEST(LoopHardware, ItsPolesAreThoseOfThePlantBehindIt) {
@@ -65,18 +55,12 @@ TEST(LoopHardware, NoPolesWhereOneIsThePlants) {
 }
 
 TEST(LoopHardware, RefusesWhatIsNoHardware) {
-  EXPECT_NE(tests::message_of<InvalidParameter>([] {
-              validate(LoopHardware{0.0});
-            }).find("measurement filter"),
-            std::string::npos);
-  EXPECT_NE(tests::message_of<InvalidParameter>([] {
-              validate(LoopHardware{1.0, -1.0});
-            }).find("drive bandwidth"),
-            std::string::npos);
-  EXPECT_NE(tests::message_of<InvalidParameter>([] {
-              validate(LoopHardware{1.0, 1.0, 0.0});
-            }).find("drive damping"),
-            std::string::npos);
+  const auto message = [](const LoopHardware& hardware) {
+    return tests::message_of<InvalidParameter>([&] { validate(hardware); });
+  };
+  EXPECT_NE(message({0.0}).find("measurement filter"), std::string::npos);
+  EXPECT_NE(message({1.0, -1.0}).find("drive bandwidth"), std::string::npos);
+  EXPECT_NE(message({1.0, 1.0, 0.0}).find("drive damping"), std::string::npos);
 }
 
 /// Roots and stable gains by winding are those of the eigenvalues of the map.

@@ -82,9 +82,7 @@ TEST(ModalDamping, IsThatOfTheFirstOrderLawForALightDevice) {
 TEST(ModalDamping, OfOneModeIsThatOfTwoMasses) {
   const PlaceMode<double> mode{12.0, 0.03, 0.5, 0.4};
   const Absorber<double> absorber{0.05, 6.0, 0.02};
-  const double mass = mode.mass / (mode.shape * mode.shape);
-  const TwoMass<double> masses{mass, mass * 144.0, 2.0 * 0.03 * 12.0 * mass, 0.05, 6.0, 0.02};
-  const Eigen::VectorXcd expected = masses.state_matrix().eigenvalues();
+  const Eigen::VectorXcd expected = two_masses_of(mode, absorber).state_matrix().eigenvalues();
   std::vector<Complex> eigenvalues(expected.begin(), expected.end());
   const auto found = modal_damping({mode}, absorber, {0.001, 0.0}, {0.0, 0.0});
   EXPECT_LT(distance_taken(eigenvalues, found.front().root), 1e-10);

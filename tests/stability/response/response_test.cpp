@@ -4,6 +4,7 @@
 #include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "support/dense_routes.hpp"
+#include "support/lagging_plant.hpp"
 #include "support/random_loop.hpp"
 #include "support/testing.hpp"
 
@@ -55,18 +56,6 @@ TEST(SteadyResponse, IsTheAmplitudeOfTheSimulatedMotion) {
                     0.5 * response.uncontrolled_amplitude_per_force(), 1e-9 * expected);
       }
     }
-  }
-}
-
-TEST(SteadyResponse, WithoutControlAndWithExactForceIsThatOfTheContinuousPlant) {
-  const auto plant = kollar2022_plant();
-  const Matrix<Complex, 4> system =
-      Complex(0, omega) * Matrix<Complex, 4>::Identity() - plant.state_matrix().cast<Complex>();
-  const Eigen::VectorXcd z = test::solution_of(system, plant.excitation_input().cast<Complex>());
-  for (const double period : {0.001, 0.01, 0.03}) {
-    const auto loop = sampled_loop(plant, Sampling<double>{period});
-    const SteadyResponse<double> response(loop, exact_harmonic(plant, period, omega), omega);
-    EXPECT_NEAR(response.uncontrolled_amplitude_per_force() / std::abs(z[0]), 1.0, 1e-12);
   }
 }
 
@@ -149,12 +138,87 @@ TEST(SteadyResponse, WithoutAComputerIsThatOfThePlant) {
     const Eigen::Vector4cd x =
         system.fullPivLu().solve(plant.excitation_input().cast<std::complex<double>>());
     EXPECT_NEAR(true_amplitude_per_force(plant, radians) / std::abs(x[0]), 1.0, 1e-9) << hertz;
+    if (hertz != 10.0) continue;
+    for (const double period : {0.001, 0.01, 0.03})
+      EXPECT_NEAR(steady_response(plant, {period}, ForceHold::exact, radians)
+                          .uncontrolled_amplitude_per_force() /
+                      std::abs(x[0]),
+                  1.0, 1e-12)
+          << period;
     // A fast computer holds the force as it is; a slow one's ratios can be told by the true one.
     const auto slow = steady_response(plant, {0.03}, ForceHold::sampled, radians);
     const PdGains<double> gains{-10.0, 0.5};
     EXPECT_NEAR(slow.relative_to(std::abs(x[0])).ratio_to_uncontrolled(gains) * std::abs(x[0]),
                 slow.amplitude_per_force(gains), 1e-9 * slow.amplitude_per_force(gains));
   }
+}
+
+/// |z| per newton of a loop, by a dense solution of (λI − S) y = g.
+template <class Plant>
+double dense_amplitude(const Plant& plant, const Sampling<double>& sampling,
+                       const PdGains<double>& gains, ForceHold hold, double omega) {
+  const LoopMap<double> map = loop_map(plant, sampling);
+  const auto input = harmonic_input(plant, map, hold, omega);
+  Eigen::MatrixXcd matrix = -map.closed_map(gains).template cast<Complex>();
+  matrix.diagonal().array() += std::polar(1.0, omega * sampling.period);
+  const Eigen::VectorXcd source =
+      input.cosine.template cast<Complex>() - Complex(0, 1) * input.sine.template cast<Complex>();
+  const Eigen::VectorXcd solution = test::solution_of(matrix, source);
+  return std::abs((map.conductor.template cast<Complex>() * solution).value());
+}
+
+TEST(AnyOrderResponse, AmplitudeIsThatOfTheClosedMap) {
+  struct Case {
+    double filter, drive;
+    Sampling<double> sampling;
+    PdGains<double> gains;
+  };
+  for (const Case& c : {Case{200.0, 300.0, {0.001, 0.0}, {-100.0, -5.0}},
+                        {100.0, 150.0, {0.002, 0.001}, {-50.0, -3.0}},
+                        {200.0, 300.0, {0.001, 0.0025}, {-60.0, -4.0}},
+                        {200.0, 300.0, {0.0005, 0.0031}, {-60.0, -5.5}},
+                        {30.0, 60.0, {0.01, 0.0}, {-20.0, -1.0}}}) {
+    const LinearPlant<double> plant = test::lagging_plant(c.filter, c.drive);
+    for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
+      for (const double frequency : {0.5, 8.0, 30.0}) {
+        const double omega = 2.0 * pi<double> * frequency;
+        const auto response = steady_response(plant, c.sampling, hold, omega);
+        const double expected = dense_amplitude(plant, c.sampling, c.gains, hold, omega);
+        EXPECT_NEAR(response.amplitude_per_force(c.gains), expected, 1e-9 * expected);
+        const double free = dense_amplitude(plant, c.sampling, {0.0, 0.0}, hold, omega);
+        EXPECT_NEAR(response.uncontrolled_amplitude_per_force(), free, 1e-9 * free);
+        EXPECT_NEAR(response.squared_ratio(c.gains.proportional).at(c.gains.differential),
+                    expected * expected / (free * free),
+                    1e-8 * expected * expected / (free * free));
+      }
+    }
+  }
+}
+
+TEST(AnyOrderResponse, OfTwoMassesIsTheClosedForm) {
+  test::Random random(20265);
+  for (int draw = 0; draw < 100; ++draw) {
+    const TwoMass<double> plant = test::random_plant(random);
+    const Sampling<double> sampling = test::random_sampling(plant, random);
+    const PdGains<double> gains = test::random_gains(plant, sampling.period, random);
+    const double omega = random.uniform(0.05, 3.0) / sampling.period;
+    const auto closed = steady_response(plant, sampling, ForceHold::exact, omega);
+    const auto general =
+        steady_response(test::through_ports(plant), sampling, ForceHold::exact, omega);
+    EXPECT_NEAR(general.ratio_to_uncontrolled(gains), closed.ratio_to_uncontrolled(gains),
+                1e-8 * closed.ratio_to_uncontrolled(gains))
+        << draw;
+  }
+}
+
+TEST(AnyOrderResponse, ADelayOfTwoMassesBeyondASampleIsThatOfTheirMap) {
+  const TwoMass<double> plant = kollar2022_plant();
+  const Sampling<double> late{0.002, 0.0051};
+  const PdGains<double> gains{-50.0, -3.0};
+  const double omega = 2.0 * pi<double> * 10.0;
+  const double expected = dense_amplitude(plant, late, gains, ForceHold::exact, omega);
+  EXPECT_NEAR(steady_response(plant, late, ForceHold::exact, omega).amplitude_per_force(gains),
+              expected, 1e-10 * expected);
 }
 
 }  // namespace

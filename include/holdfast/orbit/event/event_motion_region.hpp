@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "holdfast/core/errors.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
@@ -210,9 +209,7 @@ template <class Family, int States>
 MotionRegion motion_region(const Family& family, const EventOrbitOf<States>& orbit,
                            const ParameterWindow& window, const PlanePoint& at,
                            const BorderSteps& steps = {0.02, 1e-6, 1e-9}) {
-  require_finite("window", window.x_from + window.x_to + window.y_from + window.y_to, "");
-  require_within("first parameter", at.x, "", window.x_from, window.x_to);
-  require_within("second parameter", at.y, "", window.y_from, window.y_to);
+  detail::validate(window, at);
   detail::EventContinuation<Family, EventOrbitOf<States>> look(family, at, orbit);
   look.set_unit({window.x_to - window.x_from, window.y_to - window.y_from});
   const auto seen = [&](double x, double y) { return look(x, y); };

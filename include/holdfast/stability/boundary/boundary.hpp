@@ -118,14 +118,15 @@ class CurveTracer {
 
 /// Where the curve is cut: where it enters or leaves the range, at its poles and where P or D is
 /// stationary, so that both gains are monotone between cuts and no branch is missed. At a pole the
-/// curve leaves the range at one end and comes back at the other.
-/// @param squares  the cuts lie within
+/// curve leaves the range at one end and comes back at the other. Y begins at 10⁻¹² of the square
+/// of the plant's mean root and ends at 10¹² of it, or for the sampled loop at θ = π − 2·10⁻⁶.
 template <class Scalar, int Degree>
 std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>& curves,
-                                           const Interval<double>& range,
-                                           const Interval<Scalar>& squares) {
+                                           const Interval<double>& range) {
   constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
   const RootPairCurve<Scalar>& curve = curves.pairs();
+  const Scalar largest = curves.sampled ? Scalar(1e6) / curve.unit() : Scalar(1e6);
+  const Interval<Scalar> squares{Scalar(1e-12), largest * largest};
   std::vector<CurvePlace<Scalar>> cuts;
   for (const Scalar& pole : curve.poles()) cuts.push_back({pole, {infinity, infinity}});
   for (const auto& turns : {std::vector<Scalar>{squares.lower, squares.upper},
@@ -145,14 +146,6 @@ std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>&
   std::sort(cuts.begin(), cuts.end(),
             [](const auto& a, const auto& b) { return a.parameter < b.parameter; });
   return cuts;
-}
-
-/// Y of the traced pairs: from 10⁻⁶ of the plant's mean root up to 10⁶ of it, or for the sampled
-/// loop to θ = π − 2·10⁻⁶.
-template <class Scalar, int Degree>
-Interval<Scalar> traced_squares(const BoundaryCurves<Scalar, Degree>& curves) {
-  const Scalar largest = curves.sampled ? Scalar(1e6) / curves.pairs().unit() : Scalar(1e6);
-  return {Scalar(1e-12), largest * largest};
 }
 
 }  // namespace detail
@@ -176,7 +169,7 @@ std::vector<BoundaryPoint<Scalar>> stability_boundary(
   std::vector<BoundaryPoint<Scalar>> points;
   for (const auto& line : curves.lines()) detail::append_line(points, line, range);
   detail::CurveTracer<Scalar, BoundaryCurves<Scalar, Degree>>(curves, range, 24)
-      .trace(detail::curve_cuts(curves, range, detail::traced_squares(curves)), points);
+      .trace(detail::curve_cuts(curves, range), points);
   return points;
 }
 

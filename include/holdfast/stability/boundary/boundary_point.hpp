@@ -21,6 +21,31 @@ enum class FreeGain {
   differential,  ///< D
 };
 
+namespace detail {
+
+/// The one of two gains that is free.
+template <class Scalar>
+const Scalar& gain_of(const PdGains<Scalar>& gains, FreeGain free) {
+  return free == FreeGain::differential ? gains.differential : gains.proportional;
+}
+
+/// The gains with another value of the free one.
+template <class Scalar>
+PdGains<Scalar> with_gain(PdGains<Scalar> gains, FreeGain free, const Scalar& value) {
+  (free == FreeGain::differential ? gains.differential : gains.proportional) = value;
+  return gains;
+}
+
+/// @throws InvalidParameter for a held gain that is not finite
+template <class Scalar>
+void require_held(const PdGains<Scalar>& gains, FreeGain free) {
+  const bool by_d = free == FreeGain::differential;
+  require_finite("fixed gain", static_cast<double>(by_d ? gains.proportional : gains.differential),
+                 by_d ? "N/m" : "N s/m");
+}
+
+}  // namespace detail
+
 /// One point of the boundary in the gain plane.
 template <class Scalar>
 struct BoundaryPoint {

@@ -127,8 +127,7 @@ std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain 
                                            const PdGains<Scalar>& gains) {
   const bool by_d = free == FreeGain::differential;
   const BalancedMatrix<Scalar, Eigen::Dynamic> similar(
-      map.closed_map(by_d ? PdGains<Scalar>{gains.proportional, Scalar(0)}
-                          : PdGains<Scalar>{Scalar(0), gains.differential}));
+      map.closed_map(detail::with_gain(gains, free, Scalar(0))));
   const auto pencil = detail::crossing_pencil<Scalar>(
       similar.balanced, similar.factors.cwiseInverse().cwiseProduct(map.command),
       (by_d ? map.velocity : map.displacement).cwiseProduct(similar.factors.transpose()));
@@ -161,13 +160,9 @@ std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain 
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_gains(const LoopMap<Scalar>& map, FreeGain free,
                                            const PdGains<Scalar>& gains) {
-  const bool by_d = free == FreeGain::differential;
-  require_finite("fixed gain", static_cast<double>(by_d ? gains.proportional : gains.differential),
-                 by_d ? "N/m" : "N s/m");
+  detail::require_held(gains, free);
   const auto stable_at = [&](Scalar x) {
-    const PdGains<Scalar> pair =
-        by_d ? PdGains<Scalar>{gains.proportional, x} : PdGains<Scalar>{x, gains.differential};
-    return spectral_radius(map.closed_map(pair)) < Scalar(1);
+    return spectral_radius(map.closed_map(detail::with_gain(gains, free, x))) < Scalar(1);
   };
   std::vector<Scalar> ends;
   for (const GainCrossing& crossing : circle_crossings(map, free, gains))

@@ -155,15 +155,11 @@ class ResolvedCircle {
   /// @param gains  the held one; the value of the free one does not matter
   /// @throws InvalidParameter for a held gain that is not finite
   std::vector<Interval<Scalar>> stable_gains(FreeGain free, const PdGains<Scalar>& gains) const {
-    const bool by_d = free == FreeGain::differential;
-    require_finite("fixed gain",
-                   static_cast<double>(by_d ? gains.proportional : gains.differential),
-                   by_d ? "N/m" : "N s/m");
+    detail::require_held(gains, free);
     const auto found = passages(free, gains);
     const auto outside = [&](const Interval<Scalar>& gap) {
       const Scalar x = gap.contains(Scalar(0)) ? Scalar(0) : gap.representative();
-      return roots_outside(by_d ? PdGains<Scalar>{gains.proportional, x}
-                                : PdGains<Scalar>{x, gains.differential});
+      return roots_outside(detail::with_gain(gains, free, x));
     };
     return without_roots_outside(found, gaps_between(found), outside);
   }

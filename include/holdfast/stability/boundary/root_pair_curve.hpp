@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
-#include "holdfast/core/interval.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -19,6 +17,20 @@
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 namespace holdfast {
+
+/// A connected part of a window of gains in which the loop has the same number of unstable roots
+/// and which no boundary crosses.
+template <class Scalar>
+struct GainRegion {
+  int unstable_roots;      ///< with |λ| > 1 (continuous loop: Re s > 0); 0: asymptotically stable
+  Scalar area;             ///< ∬ dP dD within the window, N²s/m²
+  PdGains<Scalar> inside;  ///< a point well inside
+  Interval<Scalar> proportional;  ///< extent in P (N/m)
+  Interval<Scalar> differential;  ///< extent in D (N s/m)
+  bool at_edge;                   ///< reaches the window's edge: it may go on beyond
+};
+
+namespace detail {
 
 /// A stretch of the boundary on which D is a function of P: an arc or a line that is not vertical.
 template <class Scalar>
@@ -49,26 +61,51 @@ struct GainSlab {
   std::vector<BoundaryBranch<Scalar>> branches;  ///< ascending in D
 };
 
-/// A window of the gain plane cut into slabs at every P where the boundary changes shape: its
+/// Cuts a window of the gain plane into slabs at every P where the boundary changes shape: its
 /// special points (`boundary_features`), vertical lines, and where it passes the window's edges.
+/// Joins the cells of neighbouring slabs to regions.
 ///
 /// A curve of root pairs that is itself the line P = const would not be seen. No loop of a plant
 /// has one; the undamped continuous loop has with its two gains exchanged.
 template <class Scalar, int Degree>
-class GainDecomposition {
+class RegionBuilder {
  public:
   /// @param curves  must outlive this object
   /// @param window  P (N/m) and D (N s/m), within its ranges (`validate`), not checked here
-  GainDecomposition(const BoundaryCurves<Scalar, Degree>& curves, const GainWindow& window)
+  RegionBuilder(const BoundaryCurves<Scalar, Degree>& curves, const GainWindow& window)
       : curves_(curves), window_(window) {
     for (const auto& arc : curves_.pairs().arcs()) branches_.push_back({&curves_.pairs(), arc, {}});
     for (const auto& line : curves_.lines())
       if (!line.is_vertical()) branches_.push_back({nullptr, {}, line});
     cut();
+    std::size_t previous = 0;
+    for (const GainSlab<Scalar>& slab : slabs_) {
+      const std::size_t first = cells_.size();
+      add_cells(slab);
+      if (!slab.wall_below) join(previous, first);
+      previous = first;
+    }
   }
 
   /// Ascending in P, without gaps.
   const std::vector<GainSlab<Scalar>>& slabs() const { return slabs_; }
+
+  /// Stable regions first, then by number of unstable roots; the larger first among equals.
+  std::vector<GainRegion<Scalar>> regions() {
+    std::vector<GainRegion<Scalar>> result;
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+      if (root_of(k) != k) absorb(cells_[root_of(k)], cells_[k]);
+    }
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+      const GainRegion<Scalar>& region = cells_[k].region;
+      const bool is_round_off = !(region.area > Scalar(negligible_ * window_.area()));
+      if (root_of(k) == k && region.unstable_roots >= 0 && !is_round_off) result.push_back(region);
+    }
+    std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
+      return std::pair(a.unstable_roots, -a.area) < std::pair(b.unstable_roots, -b.area);
+    });
+    return result;
+  }
 
  private:
   struct Event {
@@ -95,7 +132,7 @@ class GainDecomposition {
   void find_events() {
     events_ = {{Scalar(window_.proportional.lower), false},
                {Scalar(window_.proportional.upper), false}};
-    for (const auto& feature : detail::FeatureFinder<Scalar, Degree>(curves_).find()) {
+    for (const auto& feature : FeatureFinder<Scalar, Degree>(curves_).find()) {
       add_event(feature.gains);
     }
     add_edge(Scalar(window_.differential.lower));
@@ -143,61 +180,6 @@ class GainDecomposition {
     return result;
   }
 
-  const BoundaryCurves<Scalar, Degree>& curves_;
-  GainWindow window_;
-  std::vector<BoundaryBranch<Scalar>> branches_;
-  std::vector<Event> events_;
-  std::vector<GainSlab<Scalar>> slabs_;
-};
-
-/// A connected part of a window of gains in which the loop has the same number of unstable roots
-/// and which no boundary crosses.
-template <class Scalar>
-struct GainRegion {
-  int unstable_roots;      ///< with |λ| > 1 (continuous loop: Re s > 0); 0: asymptotically stable
-  Scalar area;             ///< ∬ dP dD within the window, N²s/m²
-  PdGains<Scalar> inside;  ///< a point well inside
-  Interval<Scalar> proportional;  ///< extent in P (N/m)
-  Interval<Scalar> differential;  ///< extent in D (N s/m)
-  bool at_edge;                   ///< reaches the window's edge: it may go on beyond
-};
-
-namespace detail {
-
-/// Joins the cells of neighbouring slabs to regions.
-template <class Scalar, int Degree>
-class RegionBuilder {
- public:
-  RegionBuilder(const BoundaryCurves<Scalar, Degree>& curves, const GainWindow& window)
-      : curves_(curves), window_(window) {
-    const GainDecomposition<Scalar, Degree> slabs(curves, window);
-    std::size_t previous = 0;
-    for (const GainSlab<Scalar>& slab : slabs.slabs()) {
-      const std::size_t first = cells_.size();
-      add_cells(slab);
-      if (!slab.wall_below) join(previous, first);
-      previous = first;
-    }
-  }
-
-  /// Stable regions first, then by number of unstable roots; the larger first among equals.
-  std::vector<GainRegion<Scalar>> regions() {
-    std::vector<GainRegion<Scalar>> result;
-    for (std::size_t k = 0; k < cells_.size(); ++k) {
-      if (root_of(k) != k) absorb(cells_[root_of(k)], cells_[k]);
-    }
-    for (std::size_t k = 0; k < cells_.size(); ++k) {
-      const GainRegion<Scalar>& region = cells_[k].region;
-      const bool is_round_off = !(region.area > Scalar(negligible_ * window_.area()));
-      if (root_of(k) == k && region.unstable_roots >= 0 && !is_round_off) result.push_back(region);
-    }
-    std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
-      return std::pair(a.unstable_roots, -a.area) < std::pair(b.unstable_roots, -b.area);
-    });
-    return result;
-  }
-
- private:
   using Levels = std::vector<Scalar>;
   static constexpr double negligible_ = 1e-12;  // of the window
 
@@ -295,6 +277,9 @@ class RegionBuilder {
 
   const BoundaryCurves<Scalar, Degree>& curves_;
   GainWindow window_;
+  std::vector<BoundaryBranch<Scalar>> branches_;
+  std::vector<Event> events_;
+  std::vector<GainSlab<Scalar>> slabs_;
   std::vector<Cell> cells_;
 };
 
@@ -302,10 +287,11 @@ class RegionBuilder {
 
 /// The regions into which the boundary divides a window of gains, with their exact areas.
 ///
-/// In each slab (`GainDecomposition`) the gap between two crossings D₁(P) < D₂(P) < … is a cell
-/// with one number of unstable roots, counted at its middle; its area is ∫ (D_{k+1} − D_k) dP.
-/// Cells of neighbouring slabs that touch with no boundary between them are one region. Areas are
-/// good to 1e−10 of the window's; a neck narrower than 1e−9 of its height does not connect.
+/// In each slab, a range of P over which the boundary keeps its shape, the gap between two
+/// crossings D₁(P) < D₂(P) < … is a cell with one number of unstable roots, counted at its middle;
+/// its area is ∫ (D_{k+1} − D_k) dP. Cells of neighbouring slabs that touch with no boundary
+/// between them are one region. Areas are good to 1e−10 of the window's; a neck narrower than 1e−9
+/// of its height does not connect.
 /// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
 /// @param window      P (N/m) and D (N s/m), its edges included
 /// @return stable regions first, the larger first

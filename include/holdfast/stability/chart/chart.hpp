@@ -15,72 +15,6 @@
 
 namespace holdfast {
 
-/// Where rows of fixed proportional gain cross the boundary of the gain plane.
-///
-/// On each arc of `RootPairCurve` that takes P a Newton iteration starts from the row before and so
-/// needs one or two steps where rows are close. The lines w = 0 and w = ∞ are linear in D. Exchange
-/// the roles of P and D in the polynomial for rows of fixed D.
-template <class Scalar, int Degree>
-class RowCrossings {
- public:
-  /// @param polynomial  in the half-plane
-  explicit RowCrossings(const HalfPlanePolynomial<Scalar, Degree>& polynomial)
-      : curve_(polynomial) {
-    constexpr Scalar unknown = std::numeric_limits<Scalar>::quiet_NaN();
-    for (const MonotoneArc<Scalar>& arc : curve_.arcs())
-      branches_.push_back({arc, {unknown, Scalar(0)}, Scalar(0)});
-  }
-
-  /// The crossings at the proportional gain P (N/m), finite; ascending in D, at most one for each
-  /// arc and each of the two lines.
-  const std::vector<RowCrossing<Scalar>>& at(const Scalar& proportional_gain) {
-    crossings_.clear();
-    add_line(proportional_gain, &ParityParts<Scalar>::even, 0);
-    constexpr auto leading =
-        Degree % 2 == 0 ? &ParityParts<Scalar>::even : &ParityParts<Scalar>::odd;
-    add_line(proportional_gain, leading, 2);
-    for (Branch& branch : branches_) {
-      if (!branch.arc.passes(proportional_gain)) continue;
-      const Scalar change = proportional_gain - branch.proportional_gain;
-      branch.place = curve_.place(branch.arc, proportional_gain,
-                                  branch.place.square + branch.place.square_per_gain * change);
-      branch.proportional_gain = proportional_gain;
-      add(curve_.crossing(proportional_gain, branch.place.square));
-    }
-    std::sort(crossings_.begin(), crossings_.end(),
-              [](const auto& a, const auto& b) { return a.differential < b.differential; });
-    return crossings_;
-  }
-
- private:
-  using Part = Vector<Scalar, 3> ParityParts<Scalar>::*;
-
-  struct Branch {
-    MonotoneArc<Scalar> arc;
-    typename RootPairCurve<Scalar>::Place place;  // in the row before
-    Scalar proportional_gain;                     // P of that row
-  };
-
-  /// A crossing at infinity is none.
-  void add(const RowCrossing<Scalar>& crossing) {
-    if (std::isfinite(crossing.differential)) crossings_.push_back(crossing);
-  }
-
-  /// The line on which one coefficient vanishes; none where D does not move it.
-  void add_line(const Scalar& proportional_gain, Part part, int k) {
-    const Scalar slope = (curve_.differential().*part)[k];
-    if (slope == Scalar(0)) return;
-    const Scalar base = (curve_.base().*part)[k];
-    const Scalar term = proportional_gain * (curve_.proportional().*part)[k];
-    add({-(base + term) / slope,
-         curve_.rounding * (std::abs(base) + std::abs(term)) / std::abs(slope)});
-  }
-
-  RootPairCurve<Scalar> curve_;
-  std::vector<Branch> branches_;
-  std::vector<RowCrossing<Scalar>> crossings_;
-};
-
 /// A rectangle of gains: P slowest, D fastest.
 struct GainGrid {
   Axis proportional;  ///< P (N/m)
@@ -112,8 +46,11 @@ inline void validate(const GainGrid& grid) {
 
 /// Rows of the chart of stable gains, each of a fixed P.
 ///
-/// Along a row stability changes only where it crosses the boundary (`RowCrossings`); one Hurwitz
-/// test decides each gap. A cell that round-off cannot tell from the boundary is not stable.
+/// Along a row stability changes only where it crosses the boundary; one Hurwitz test decides each
+/// gap. A cell that round-off cannot tell from the boundary is not stable. On each arc of
+/// `RootPairCurve` that takes P a Newton iteration starts from the row before and so needs one or
+/// two steps where rows are close. The lines w = 0 and w = ∞ are linear in D. Exchange the roles of
+/// P and D in the polynomial for rows of fixed D.
 ///
 /// Work per row: about 40 multiply-adds for each arc of the boundary and 60 for each gap, whatever
 /// the number of cells.
@@ -124,7 +61,11 @@ class StabilityRows {
   ///                      sampled loop after `in_half_plane`
   /// @param differential  the cells of a row
   StabilityRows(const HalfPlanePolynomial<double, Degree>& polynomial, const Axis& differential)
-      : polynomial_(polynomial), differential_(differential), crossings_(polynomial) {}
+      : polynomial_(polynomial), differential_(differential), curve_(polynomial) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    for (const MonotoneArc<double>& arc : curve_.arcs())
+      branches_.push_back({arc, {unknown, 0.0}, 0.0});
+  }
 
   /// Writes 1 (stable) or 0 for every cell of the row.
   /// @param proportional_gain  P (N/m), finite
@@ -132,8 +73,9 @@ class StabilityRows {
   void fill(double proportional_gain, std::uint8_t* stable) {
     const Polynomial<double, Degree> row =
         polynomial_.base + proportional_gain * polynomial_.proportional;
+    find_crossings(proportional_gain);
     std::int64_t first = 0;
-    for (const RowCrossing<double>& crossing : crossings_.at(proportional_gain)) {
+    for (const RowCrossing<double>& crossing : crossings_) {
       const auto [before, after] = cells_about(crossing, first);
       fill_gap(row, first, before, stable);
       std::fill(stable + before, stable + after, std::uint8_t{0});
@@ -143,6 +85,48 @@ class StabilityRows {
   }
 
  private:
+  using Part = Vector<double, 3> ParityParts<double>::*;
+
+  struct Branch {
+    MonotoneArc<double> arc;
+    RootPairCurve<double>::Place place;  // in the row before
+    double proportional_gain;            // P of that row
+  };
+
+  /// Ascending in D, at most one for each arc and each of the two lines.
+  void find_crossings(double proportional_gain) {
+    crossings_.clear();
+    add_line(proportional_gain, &ParityParts<double>::even, 0);
+    constexpr auto leading =
+        Degree % 2 == 0 ? &ParityParts<double>::even : &ParityParts<double>::odd;
+    add_line(proportional_gain, leading, 2);
+    for (Branch& branch : branches_) {
+      if (!branch.arc.passes(proportional_gain)) continue;
+      const double change = proportional_gain - branch.proportional_gain;
+      branch.place = curve_.place(branch.arc, proportional_gain,
+                                  branch.place.square + branch.place.square_per_gain * change);
+      branch.proportional_gain = proportional_gain;
+      add(curve_.crossing(proportional_gain, branch.place.square));
+    }
+    std::sort(crossings_.begin(), crossings_.end(),
+              [](const auto& a, const auto& b) { return a.differential < b.differential; });
+  }
+
+  /// A crossing at infinity is none.
+  void add(const RowCrossing<double>& crossing) {
+    if (std::isfinite(crossing.differential)) crossings_.push_back(crossing);
+  }
+
+  /// The line on which one coefficient vanishes; none where D does not move it.
+  void add_line(double proportional_gain, Part part, int k) {
+    const double slope = (curve_.differential().*part)[k];
+    if (slope == 0.0) return;
+    const double base = (curve_.base().*part)[k];
+    const double term = proportional_gain * (curve_.proportional().*part)[k];
+    add({-(base + term) / slope,
+         curve_.rounding * (std::abs(base) + std::abs(term)) / std::abs(slope)});
+  }
+
   /// Index of the first cell on the crossing and of the first one beyond it.
   std::pair<std::int64_t, std::int64_t> cells_about(const RowCrossing<double>& crossing,
                                                     std::int64_t first) const {
@@ -162,7 +146,9 @@ class StabilityRows {
 
   HalfPlanePolynomial<double, Degree> polynomial_;
   Axis differential_;
-  RowCrossings<double, Degree> crossings_;
+  RootPairCurve<double> curve_;
+  std::vector<Branch> branches_;
+  std::vector<RowCrossing<double>> crossings_;
 };
 
 /// Stable (1) or not (0) for every cell of the grid, P slowest.

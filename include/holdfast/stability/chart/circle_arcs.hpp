@@ -1,10 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -101,9 +99,6 @@ class CircleArcs {
     if (outside < 0) return std::nullopt;  // a premiss is wrong
     return outside;
   }
-
-  /// Arcs that have been made, halved ones included.
-  std::size_t size() const { return arcs_.size(); }
 
  private:
   using Complex = std::complex<double>;

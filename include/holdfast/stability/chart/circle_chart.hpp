@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "holdfast/core/interval.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/chart/chart.hpp"
 

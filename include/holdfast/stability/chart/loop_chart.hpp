@@ -33,9 +33,6 @@ enum class LoopParameter {
   differential_gain,    ///< D (N s/m)
 };
 
-/// Number of parameters of a loop.
-inline constexpr int loop_parameters = 10;
-
 /// True for P and D, in which the characteristic polynomial is affine; any other parameter needs a
 /// matrix exponential for each of its values.
 constexpr bool is_gain(LoopParameter parameter) {
@@ -45,11 +42,11 @@ constexpr bool is_gain(LoopParameter parameter) {
 /// The number of a loop that a parameter names.
 inline double& value_of(OperatingPoint& point, LoopParameter parameter) {
   auto& [plant, sampling, gains] = point;
-  double* const all[loop_parameters] = {&plant.conductor_mass,     &plant.conductor_stiffness,
-                                        &plant.conductor_damping,  &plant.absorber_mass,
-                                        &plant.absorber_stiffness, &plant.absorber_damping,
-                                        &sampling.period,          &sampling.processing_delay,
-                                        &gains.proportional,       &gains.differential};
+  double* const all[] = {&plant.conductor_mass,     &plant.conductor_stiffness,
+                         &plant.conductor_damping,  &plant.absorber_mass,
+                         &plant.absorber_stiffness, &plant.absorber_damping,
+                         &sampling.period,          &sampling.processing_delay,
+                         &gains.proportional,       &gains.differential};
   return *all[static_cast<int>(parameter)];
 }
 

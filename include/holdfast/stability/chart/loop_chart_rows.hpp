@@ -107,9 +107,7 @@ class RadiusChartRows {
   }
 
   /// @throws InvalidParameter where the chart is not admissible
-  explicit RadiusChartRows(const LoopChart& chart) : polynomials_(chart, polynomial_of) {
-    first_cells_.fill(Follower(1.0));
-  }
+  explicit RadiusChartRows(const LoopChart& chart) : polynomials_(chart, polynomial_of) {}
 
   /// Writes ρ of `count` ≥ 0 rows, one after the other.
   void fill(std::int64_t first, std::int64_t count, double* radius) {
@@ -129,7 +127,7 @@ class RadiusChartRows {
     if constexpr (Degree == 5) {
       return polynomial;
     } else {
-      return with_root_at_zero<double, 6>(polynomial, 1.0);
+      return with_root_at_zero<double, 6>(polynomial);
     }
   }
 
@@ -147,12 +145,7 @@ class RadiusChartRows {
     follow(
         count, values.count,
         [&](std::size_t pack, std::int64_t column) {
-          const Scalar x(values.at(column));
-          Pack polynomial;
-          for (int k = 0; k <= Degree; ++k) {
-            polynomial[k] = constant[pack][k] + x * slope[pack][k];
-          }
-          return polynomial;
+          return affine<Degree + 1>(constant[pack], Scalar(values.at(column)), slope[pack]);
         },
         radius);
   }

@@ -193,10 +193,4 @@ ProvedChart proved_chart(const EnclosedResponse& response, const GainGrid& grid,
   return chart.finished();
 }
 
-/// The same, watched by nobody.
-inline ProvedChart proved_chart(const EnclosedResponse& response, const GainGrid& grid,
-                                double undecided = 1e-3) {
-  return proved_chart(response, grid, undecided, [] {});
-}
-
 }  // namespace holdfast

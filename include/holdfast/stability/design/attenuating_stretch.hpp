@@ -4,13 +4,11 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/loop_map.hpp"
-#include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/math/linalg/moving_spectrum.hpp"

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/loop_input.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/core/interval_sets.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
@@ -15,13 +19,132 @@
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/attenuating_stretch.hpp"
-#include "holdfast/stability/design/delay_options.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
 #include "holdfast/stability/margins/slow_sampling.hpp"
 #include "holdfast/stability/response/response.hpp"
 
 namespace holdfast {
+
+/// What a sampling period must allow to count as feasible.
+enum class DelayCriterion {
+  stable,      ///< some differential gain stabilises the loop
+  attenuates,  ///< τ < 1/(2f), so that the samples show the vibration, and some stabilising
+               ///< differential gain brings the steady amplitude below that of no
+               ///< control
+};
+
+/// A question about the slowest computer that still serves, for one excitation frequency.
+struct MaxDelayOptions {
+  double frequency;          ///< f (Hz), > 0
+  double proportional_gain;  ///< P (N/m), finite; Eq. (6) tunes it to f
+  DelayCriterion criterion = DelayCriterion::attenuates;  ///< what counts as feasible
+  ForceHold hold = ForceHold::sampled;  ///< how the excitation enters; of `attenuates` only
+  double delay_fraction = 0.0;    ///< δ/τ, 0 … 1000, kept while τ varies; by matrices ≤ 1
+  double shortest_period = 1e-5;  ///< s; the search starts there, or at 1/(1000 f) if less
+  /// s; where it gives up, > `shortest_period`; 0: where every longer period is shown to be stable
+  /// if that is within 200 periods of the plant's slowest mode, else at 20 of them.
+  double longest_period = 0.0;
+  double search_ratio = 1.00001;  ///< > 1: infeasible windows narrower than this may be missed
+                                  ///< where no D is shown to serve all over a step of this ratio
+  int most_steps = 20000;  ///< ≥ 1; of the search, each some 40 µs or more for two masses,
+                           ///< after which it gives up
+  std::function<void()> watch = {};  ///< called at each step; may throw to end the search
+  /// What `attenuates` compares with: the plant without control under the true force, or under the
+  /// force held as with control, as `AmplitudeOptions` has it.
+  bool relative_to_true_force = false;
+
+  /// ω = 2π f (rad/s).
+  double angular_frequency() const { return 2.0 * pi<double> * frequency; }
+
+  /// τ and the δ that belongs to it.
+  Sampling<double> sampling(double period) const { return {period, delay_fraction * period}; }
+};
+
+/// @throws InvalidParameter outside the ranges that the members of `MaxDelayOptions` state
+inline void validate(const MaxDelayOptions& options) {
+  require_positive("frequency", options.frequency, "Hz");
+  require_finite("proportional gain", options.proportional_gain, "N/m");
+  require_within("delay fraction", options.delay_fraction, "", 0.0, 1000.0);
+  require_positive("shortest sampling period", options.shortest_period, "s");
+  require_finite("longest sampling period", options.longest_period, "s");
+  if (options.longest_period != 0.0)
+    require_positive("search span", options.longest_period - options.shortest_period, "s");
+  require_positive("search ratio minus one", options.search_ratio - 1.0, "");
+  require_positive("most steps", options.most_steps, "");
+}
+
+namespace detail {
+
+/// What one sampling period offers at the question's P.
+template <class Scalar>
+struct DelayOffer {
+  std::vector<Interval<Scalar>> stable;            ///< D that stabilise
+  std::optional<SteadyResponse<Scalar>> response;  ///< nothing for the criterion `stable`
+};
+
+template <class Plant>
+DelayOffer<double> delay_offer(const Plant& plant, const MaxDelayOptions& options,
+                               double sampling_period) {
+  const auto loop = loop_of(plant, options.sampling(sampling_period));
+  DelayOffer<double> offer{
+      stable_gains(loop, FreeGain::differential, {options.proportional_gain, 0.0}), {}};
+  if (options.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
+  offer.response = response_of_loop(plant, loop, options.hold, options.angular_frequency(),
+                                    options.relative_to_true_force);
+  return offer;
+}
+
+/// False where the criterion asks for samples that show the vibration and they do not.
+inline bool shows_vibration(const MaxDelayOptions& options, double sampling_period) {
+  return options.criterion == DelayCriterion::stable ||
+         2.0 * options.frequency * sampling_period < 1.0;
+}
+
+/// The longest period (s) of the search whose samples show the vibration, as `attenuates` asks.
+inline double longest_that_shows(const MaxDelayOptions& options) {
+  double nyquist = 0.5 / options.frequency;
+  while (!shows_vibration(options, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
+  return options.longest_period > 0.0 ? std::min(options.longest_period, nyquist) : nyquist;
+}
+
+/// The D of a period's offer that serves best: of minimum amplitude where that is asked, or inside
+/// the first stable interval; nothing where none serves.
+inline std::optional<double> serving_gain(const MaxDelayOptions& options, double period,
+                                          const DelayOffer<double>& offer) {
+  if (!shows_vibration(options, period) || offer.stable.empty()) return std::nullopt;
+  if (!offer.response) return offer.stable.front().representative();
+  const auto best = offer.response->best_differential_gain(options.proportional_gain, offer.stable);
+  if (!(best.ratio_to_uncontrolled < 1.0)) return std::nullopt;
+  return best.differential_gain;
+}
+
+/// What the best of the stabilising D leaves; NaN where that is not asked or there is none.
+inline double least_ratio(const MaxDelayOptions& options, const DelayOffer<double>& offer) {
+  if (!offer.response) return std::numeric_limits<double>::quiet_NaN();
+  return offer.response->best_differential_gain(options.proportional_gain, offer.stable)
+      .ratio_to_uncontrolled;
+}
+
+}  // namespace detail
+
+/// The open intervals of D (N s/m) that make one sampling period feasible, exact and ascending:
+/// those that stabilise and, to attenuate, those of them with an amplitude below that of no
+/// control.
+/// @tparam Plant           two masses, in closed form, or a plant of any order with ports
+/// @param plant            within its ranges, which are not checked here
+/// @param options          within its ranges (`validate`), which are not checked here
+/// @param sampling_period  τ (s), > 0
+template <class Plant>
+std::vector<Interval<double>> feasible_differential_gains(const Plant& plant,
+                                                          const MaxDelayOptions& options,
+                                                          double sampling_period) {
+  if (!detail::shows_vibration(options, sampling_period)) return {};
+  const auto offer = detail::delay_offer(plant, options, sampling_period);
+  if (!offer.response) return offer.stable;
+  return intersection(offer.stable,
+                      offer.response->differential_gains_below(options.proportional_gain));
+}
 
 /// How the search for the largest sampling period ended.
 enum class MaxDelayOutcome {
@@ -54,6 +177,17 @@ struct MaxDelay {
 
 namespace detail {
 
+/// The limit that a period is beyond. Where the amplitude jumps past that of no control, the
+/// interval of D that served has vanished.
+/// @param before  the least ratio just below the period, NaN where there is none
+inline MaxDelayLimit lacking(const MaxDelayOptions& options, double period,
+                             const DelayOffer<double>& offer, double before) {
+  if (!shows_vibration(options, period)) return MaxDelayLimit::nyquist;
+  if (offer.stable.empty() || !offer.response) return MaxDelayLimit::stability;
+  return least_ratio(options, offer) - before > 1e-3 ? MaxDelayLimit::stability
+                                                     : MaxDelayLimit::attenuation;
+}
+
 /// Joins feasible periods to one another and finds where that ends.
 template <class Plant>
 class DelaySearch {
@@ -71,7 +205,7 @@ class DelaySearch {
   MaxDelay answer() {
     feasible_ = std::min(options_.shortest_period, 1e-3 / options_.frequency);
     gains_ = gains_at(feasible_);
-    if (gains_.empty()) return {MaxDelayOutcome::never, 0.0, no_gain, what_is_lacking(feasible_)};
+    if (gains_.empty()) return {MaxDelayOutcome::never, 0.0, none, limit_at(feasible_, none)};
     const double certain = certain_from(), end = longest(certain);
     double goal = end, boundary = end;
     while (const std::optional<double> infeasible = advance(goal)) {
@@ -89,19 +223,24 @@ class DelaySearch {
     }
     if (boundary == end && shows_vibration(options_, end * (1.0 + 1e-9)))
       return {MaxDelayOutcome::beyond_search, end, gain_at(end), MaxDelayLimit::none};
-    return {MaxDelayOutcome::found, boundary, gain_at(boundary), limit_beyond(boundary)};
+    return {MaxDelayOutcome::found, boundary, gain_at(boundary),
+            limit_at(boundary * (1.0 + 1e-9), least_ratio(options_, offer_at(boundary)))};
   }
 
  private:
-  static constexpr double no_gain = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   static constexpr double longest_link_ = 8.0;  // as a ratio of its ends
   static constexpr int most_stretches_ = 2000;  // of a link; a shorter link is tried then
 
+  DelayOffer<double> offer_at(double period) const { return delay_offer(plant_, options_, period); }
+  MaxDelayLimit limit_at(double period, double before) const {
+    return lacking(options_, period, offer_at(period), before);
+  }
   Intervals gains_at(double period) const {
     return feasible_differential_gains(plant_, options_, period);
   }
   double gain_at(double period) const {
-    return feasible_differential_gain(plant_, options_, period).value_or(no_gain);
+    return serving_gain(options_, period, offer_at(period)).value_or(none);
   }
 
   /// From where on D = 0 stabilises however slow the sampling; infinite where that is not shown.
@@ -112,11 +251,8 @@ class DelaySearch {
 
   /// The search limit, or the longest period whose samples show the vibration.
   double longest(double certain) const {
+    if (options_.criterion == DelayCriterion::attenuates) return longest_that_shows(options_);
     double limit = options_.longest_period;
-    if (options_.criterion == DelayCriterion::attenuates) {
-      const double nyquist = longest_that_shows(options_);
-      return limit > 0.0 ? std::min(limit, nyquist) : nyquist;
-    }
     const double slowest = slowest_mode_period(plant_);
     if (limit == 0.0) limit = certain <= 200.0 * slowest ? certain : 20.0 * slowest;
     return std::max(limit, feasible_);
@@ -195,10 +331,8 @@ class DelaySearch {
   /// Positive where some stabilising D attenuates: 1 less the least ratio; −1 where none
   /// stabilises.
   double attenuation_reserve(double period) const {
-    const auto offer = delay_offer(plant_, options_, period);
-    if (!offer.response) return -1.0;
-    return 1.0 - offer.response->best_differential_gain(options_.proportional_gain, offer.stable)
-                     .ratio_to_uncontrolled;
+    const auto offer = offer_at(period);
+    return offer.response ? 1.0 - least_ratio(options_, offer) : -1.0;
   }
 
   /// The last feasible period of a bracket whose ends differ: halved while it is wide, since
@@ -220,7 +354,7 @@ class DelaySearch {
   }
 
   double narrowed_between(double feasible, double infeasible) {
-    if (delay_offer(plant_, options_, infeasible).stable.empty()) {
+    if (offer_at(infeasible).stable.empty()) {
       const auto reserve = [this](double period) { return stability_reserve(period); };
       infeasible = narrowed(reserve, feasible, infeasible).upper;
     }
@@ -243,21 +377,6 @@ class DelaySearch {
       if (!gains_at(infeasible - step).empty()) return infeasible - step;
     }
     return feasible;
-  }
-
-  MaxDelayLimit what_is_lacking(double period) const {
-    if (!shows_vibration(options_, period)) return MaxDelayLimit::nyquist;
-    return delay_offer(plant_, options_, period).stable.empty() ? MaxDelayLimit::stability
-                                                                : MaxDelayLimit::attenuation;
-  }
-
-  /// Where the amplitude jumps past that of no control, the interval that served has vanished.
-  MaxDelayLimit limit_beyond(double boundary) const {
-    const double beyond = boundary * (1.0 + 1e-9);
-    const MaxDelayLimit lacking = what_is_lacking(beyond);
-    if (lacking != MaxDelayLimit::attenuation) return lacking;
-    const double jump = attenuation_reserve(boundary) - attenuation_reserve(beyond);
-    return jump > 1e-3 ? MaxDelayLimit::stability : MaxDelayLimit::attenuation;
   }
 
   Plant plant_;

@@ -197,12 +197,17 @@ enum class MinimaxOutcome {
 
 /// One D, at a fixed P, for all frequencies of a band.
 struct MinimaxAmplitude {
-  MinimaxOutcome outcome;    ///< whether a D is admissible, and whether the two bounds agree
-  double differential_gain;  ///< D (N s/m); at the edge of the admissible ones a limit
-  double worst_ratio;        ///< the largest amplitude ratio to no control over the band at this D
-  double worst_frequency;    ///< Hz, where
-  double lower_bound;        ///< no admissible D has a smaller worst ratio than this
-  double attenuation;        ///< −20 log₁₀ of `worst_ratio` (dB)
+  MinimaxOutcome outcome;  ///< whether a D is admissible, and whether the two bounds agree
+  /// D (N s/m); at the edge of the admissible ones a limit.
+  double differential_gain = std::numeric_limits<double>::quiet_NaN();
+  double worst_ratio =
+      std::numeric_limits<double>::quiet_NaN();  ///< the largest amplitude ratio to no control over
+                                                 ///< the band at this D
+  double worst_frequency = std::numeric_limits<double>::quiet_NaN();  ///< Hz, where
+  double lower_bound = std::numeric_limits<double>::quiet_NaN();  ///< no admissible D has a smaller
+                                                                  ///< worst ratio than this
+  double attenuation =
+      std::numeric_limits<double>::quiet_NaN();  ///< −20 log₁₀ of `worst_ratio` (dB)
 };
 
 namespace detail {
@@ -264,23 +269,15 @@ class WorstOfFrequencies {
   std::vector<double> candidates_;
 };
 
-}  // namespace detail
-
-namespace detail {
-
 /// The exchange of frequencies over a band, among some D, of which there is one.
 template <class Model>
 MinimaxAmplitude exchanged(const AmplitudeBand<Model>& amplitudes, const FrequencyBand& band,
                            const std::vector<Interval<double>>& admissible) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   WorstOfFrequencies chosen(admissible);
   for (const double frequency : {band.lower, band.upper}) chosen.add(amplitudes.at(frequency));
-  MinimaxAmplitude result{MinimaxOutcome::not_converged,
-                          none,
-                          std::numeric_limits<double>::infinity(),
-                          none,
-                          0.0,
-                          none};
+  MinimaxAmplitude result{MinimaxOutcome::not_converged};
+  result.worst_ratio = std::numeric_limits<double>::infinity();
+  result.lower_bound = 0.0;
   for (int exchange = 0; exchange < 60; ++exchange) {
     const auto model = chosen.least();
     const WorstFrequency worst = amplitudes.worst(model.differential_gain);
@@ -318,14 +315,13 @@ MinimaxAmplitude exchanged(const AmplitudeBand<Model>& amplitudes, const Frequen
 template <class Plant>
 MinimaxAmplitude minimax_amplitude(const Plant& plant, const AmplitudeOptions& options,
                                    double proportional_gain, const FrequencyBand& band) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   validate(plant);
   validate(options);
   require_finite("proportional gain P", proportional_gain, "N/m");
   validate(band, options.sampling.period);
   const auto loop = sampled_loop(plant, options.sampling);
   const auto admissible = admissible_differential_gains(loop, proportional_gain, options);
-  if (admissible.empty()) return {MinimaxOutcome::none, none, none, none, none, none};
+  if (admissible.empty()) return {MinimaxOutcome::none};
   const PlantOverBand<Plant> model{plant, loop, options.hold, options.relative_to_true_force};
   return detail::exchanged(AmplitudeBand(model, proportional_gain, band), band, admissible);
 }

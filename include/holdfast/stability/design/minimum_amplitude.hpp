@@ -53,9 +53,11 @@ struct AmplitudeOptions {
 /// The D of least steady amplitude at one frequency and one P.
 struct MinimumAmplitude {
   MinimumAmplitudeOutcome outcome;  ///< where D lies, or why there is none
-  double differential_gain;         ///< D (N s/m)
-  double ratio_to_uncontrolled;     ///< the amplitude of z₁ it leaves over that without control
-  double attenuation;  ///< −20 log₁₀ of that ratio (dB), positive where control helps
+  double differential_gain = std::numeric_limits<double>::quiet_NaN();  ///< D (N s/m)
+  /// The amplitude of z₁ it leaves over that without control.
+  double ratio_to_uncontrolled = std::numeric_limits<double>::quiet_NaN();
+  double attenuation = std::numeric_limits<double>::quiet_NaN();  ///< −20 log₁₀ of that ratio (dB),
+                                                                  ///< positive where control helps
 };
 
 /// @throws InvalidParameter outside the ranges that the members of `AmplitudeOptions` state
@@ -68,14 +70,9 @@ inline void validate(const AmplitudeOptions& options) {
   require_within("margin", options.margin, "", 0.0, 1.0 - 1e-3);
 }
 
-/// The open intervals of D (N s/m) that the options admit at one P: with a margin m > 0 those with
-///
-///     ρ(D) < ρ_min^m  and  D = D* + (1 − m)(D_s − D*),  D_s stable
-///
-/// about the D* of minimum radius, which is always among them where any D stabilises.
-/// @param loop               of `sampled_loop` or `loop_map`, or a ModalResponse
-/// @param proportional_gain  P (N/m), finite
-/// @param options            within their ranges, which are not checked here
+namespace detail {
+
+/// The gains that `admissible_differential_gains` has, of a ModalResponse too.
 template <class Loop>
 std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proportional_gain,
                                                const AmplitudeOptions& options) {
@@ -94,16 +91,22 @@ std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proporti
   return intersection(away, within(std::min(radius, options.largest_radius)));
 }
 
-/// The same, which are those of `minimum_amplitude`; of a ModalResponse another overload has more
-/// to choose from.
+}  // namespace detail
+
+/// The open intervals of D (N s/m) that the options admit at one P: with a margin m > 0 those with
+///
+///     ρ(D) < ρ_min^m  and  D = D* + (1 − m)(D_s − D*),  D_s stable
+///
+/// about the D* of minimum radius, which is always among them where any D stabilises. They are
+/// those of `minimum_amplitude`; of a ModalResponse another overload has more to choose from.
 /// @param loop               of `sampled_loop` or `loop_map`
-/// @param proportional_gain  as above
-/// @param options            as above
+/// @param proportional_gain  P (N/m), finite
+/// @param options            within their ranges, which are not checked here
 template <class Loop>
 std::vector<Interval<double>> admissible_differential_gains(const Loop& loop,
                                                             double proportional_gain,
                                                             const AmplitudeOptions& options) {
-  return gains_that_decay(loop, proportional_gain, options);
+  return detail::gains_that_decay(loop, proportional_gain, options);
 }
 
 namespace detail {
@@ -113,10 +116,8 @@ namespace detail {
 template <class Scalar>
 MinimumAmplitude least_amplitude(const SteadyResponse<Scalar>& response, double proportional_gain,
                                  const std::vector<Interval<double>>& admissible) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const auto best = response.best_differential_gain(proportional_gain, admissible);
-  if (!std::isfinite(best.differential_gain))
-    return {MinimumAmplitudeOutcome::none, none, none, none};
+  if (!std::isfinite(best.differential_gain)) return {MinimumAmplitudeOutcome::none};
   const bool inside = contains_any(admissible, best.differential_gain);
   return {inside ? MinimumAmplitudeOutcome::stationary : MinimumAmplitudeOutcome::edge,
           best.differential_gain, best.ratio_to_uncontrolled,
@@ -129,11 +130,9 @@ template <class Loop, class ResponseAt>
 MinimumAmplitude minimum_amplitude_of(const Loop& loop, const AmplitudeOptions& options,
                                       double frequency, double proportional_gain,
                                       const ResponseAt& response_at) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (!(2.0 * frequency * options.sampling.period < 1.0))
-    return {MinimumAmplitudeOutcome::aliased, none, none, none};
+  if (!(2.0 * frequency * options.sampling.period < 1.0)) return {MinimumAmplitudeOutcome::aliased};
   const auto admissible = admissible_differential_gains(loop, proportional_gain, options);
-  if (admissible.empty()) return {MinimumAmplitudeOutcome::none, none, none, none};
+  if (admissible.empty()) return {MinimumAmplitudeOutcome::none};
   return least_amplitude(response_at(), proportional_gain, admissible);
 }
 

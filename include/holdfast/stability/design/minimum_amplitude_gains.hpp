@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
@@ -23,29 +21,18 @@ struct MinimumAmplitudeGains {
 
 namespace detail {
 
-/// The D of least amplitude at one P after another, among those of a modulus margin.
-/// @tparam Scalar  double
+/// The D of least amplitude at one P, among those of a modulus margin.
 template <class Scalar>
-class QuietestAtModulus {
- public:
-  QuietestAtModulus(const ModalResponse<Scalar>& loop, const AmplitudeOptions& options,
-                    const SteadyResponse<Scalar>& response)
-      : loop_(loop), circle_(loop), options_(options), response_(response) {}
-
-  MinimumAmplitude at(double p) const {
-    auto admissible = ModulusLevels<Scalar>(circle_, p).beyond(Scalar(options_.margin));
-    if (options_.largest_radius < 1.0)
-      admissible = intersection(
-          admissible, differential_gains_within_radius(loop_, p, Scalar(options_.largest_radius)));
-    return least_amplitude(response_, p, admissible);
-  }
-
- private:
-  const ModalResponse<Scalar>& loop_;
-  ResolvedCircle<Scalar> circle_;
-  const AmplitudeOptions& options_;
-  const SteadyResponse<Scalar>& response_;
-};
+MinimumAmplitude quietest_at_modulus(const ResolvedCircle<Scalar>& circle, double p,
+                                     const AmplitudeOptions& options,
+                                     const SteadyResponse<Scalar>& response) {
+  auto admissible = ModulusLevels<Scalar>(circle, p).beyond(Scalar(options.margin));
+  if (options.largest_radius < 1.0)
+    admissible = intersection(
+        admissible,
+        differential_gains_within_radius(circle.response(), p, Scalar(options.largest_radius)));
+  return least_amplitude(response, p, admissible);
+}
 
 /// Whether one pair leaves less than another.
 inline bool is_quieter(const MinimumAmplitude& one, const MinimumAmplitude& other) {
@@ -82,13 +69,12 @@ MinimumAmplitudeGains minimum_amplitude_gains(const ModalResponse<Scalar>& loop,
   validate(options);
   require_positive("frequency", frequency, "Hz");
   require_positive("width of the range of P", range.upper - range.lower, "N/m");
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (!(2.0 * frequency * options.sampling.period < 1.0))
-    return {none, {MinimumAmplitudeOutcome::aliased, none, none, none}};
-  const detail::QuietestAtModulus<Scalar> quietest(loop, options, response);
-  MinimumAmplitudeGains best{none, {MinimumAmplitudeOutcome::none, none, none, none}};
+    return {std::nan(""), {MinimumAmplitudeOutcome::aliased}};
+  const ResolvedCircle<Scalar> circle(loop);
+  MinimumAmplitudeGains best{std::nan(""), {MinimumAmplitudeOutcome::none}};
   const auto ask = [&](double p) {
-    const MinimumAmplitude there = quietest.at(p);
+    const MinimumAmplitude there = detail::quietest_at_modulus(circle, p, options, response);
     if (detail::is_quieter(there, best.quietest)) best = {p, there};
     return there;
   };

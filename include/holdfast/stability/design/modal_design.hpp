@@ -210,7 +210,7 @@ std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<
                                                             double proportional_gain,
                                                             const AmplitudeOptions& options) {
   if (options.by_decay || !(options.margin > 0.0))
-    return gains_that_decay(response, proportional_gain, options);
+    return detail::gains_that_decay(response, proportional_gain, options);
   const detail::ModulusLevels<Scalar> levels(ResolvedCircle<Scalar>(response), proportional_gain);
   const auto best = levels.largest();
   if (!(best.modulus > Scalar(0))) return {};
@@ -257,8 +257,7 @@ struct ConductorOverBand {
   /// The steady response at ω (rad/s).
   SteadyResponse<Scalar> response(double angular_frequency) const {
     return steady_response(conductor, sampling, hold, angular_frequency)
-        .relative_to(
-            true_amplitude_per_force(conductor.modes, conductor.absorber, angular_frequency));
+        .relative_to(true_amplitude_per_force(conductor, angular_frequency));
   }
   /// λ − 1 of the loop's roots.
   std::vector<std::complex<double>> loop_roots(const PdGains<double>& gains) const {
@@ -267,16 +266,29 @@ struct ConductorOverBand {
     for (std::complex<double>& root : found) root -= 1.0;
     return found;
   }
+  /// H/H′ at s of the receptance that is nought with the conductor's: its own, or with devices the
+  /// sum over the poles.
+  std::complex<double> receptance_step(const std::complex<double>& s) const {
+    if (!conductor.has_devices)
+      return receptance(conductor.modes, s) / detail::receptance_slope(conductor.modes, s);
+    std::complex<double> sum(0.0), slope(0.0);
+    for (const PlantPole& pole : conductor.poles) {
+      const std::complex<double> part = pole.residue / (s - pole.s);
+      sum += part;
+      slope -= part / (s - pole.s);
+    }
+    return sum / slope;
+  }
   /// λ − 1 of the zeros of the receptance, one between every two modes, by Newton's steps from the
   /// middle, and of the absorber's own motion on a conductor that stands still.
   std::vector<std::complex<double>> uncontrolled_zeros() const {
-    const auto& [modes, absorber, poles, hardware] = conductor;
+    const auto& modes = conductor.modes;
+    const auto& absorber = conductor.absorber;
     std::vector<std::complex<double>> found;
     for (std::size_t n = 0; n + 1 < modes.size(); ++n) {
       std::complex<double> s(0.0,
                              0.5 * (modes[n].angular_frequency + modes[n + 1].angular_frequency));
-      for (int step = 0; step < 30; ++step)
-        s -= receptance(modes, s) / detail::receptance_slope(modes, s);
+      for (int step = 0; step < 30; ++step) s -= receptance_step(s);
       if (std::isfinite(std::abs(s))) found.push_back(complex_expm1(s * sampling.period));
     }
     const double decay = absorber.damping / (2.0 * absorber.mass);
@@ -301,14 +313,13 @@ template <class Scalar = double>
 MinimaxAmplitude modal_minimax_amplitude(const ConductorWithAbsorber& conductor,
                                          const AmplitudeOptions& options, double proportional_gain,
                                          const FrequencyBand& band) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   validate(conductor.modes, conductor.absorber);
   validate(options);
   require_finite("proportional gain P", proportional_gain, "N/m");
   validate(band, options.sampling.period);
   const ConductorOverBand<Scalar> model{conductor, options.sampling, options.hold};
   const auto admissible = admissible_differential_gains(model.loop, proportional_gain, options);
-  if (admissible.empty()) return {MinimaxOutcome::none, none, none, none, none, none};
+  if (admissible.empty()) return {MinimaxOutcome::none};
   return detail::exchanged(AmplitudeBand(model, proportional_gain, band), band, admissible);
 }
 

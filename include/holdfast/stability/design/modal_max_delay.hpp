@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
-#include "holdfast/core/interval.hpp"
 #include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
-#include "holdfast/stability/design/delay_options.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
@@ -32,7 +30,9 @@ class ModalDelayWalk {
 
   MaxDelay answer() const {
     double feasible = std::min(options_.shortest_period, 1e-3 / options_.frequency);
-    if (!gain_at(feasible)) return {MaxDelayOutcome::never, 0.0, none, lacking(feasible, none)};
+    if (!gain_at(feasible))
+      return {MaxDelayOutcome::never, 0.0, none,
+              lacking(options_, feasible, offer_at(feasible), none)};
     const double end = longest();
     while (feasible < end) {
       if (options_.watch) options_.watch();
@@ -55,31 +55,22 @@ class ModalDelayWalk {
         modal_response<Scalar>(poles_, sampling).with_sensor(plant_.hardware.has_velocity_sensor));
     DelayOffer<double> offer{
         circle.stable_gains(FreeGain::differential, {options_.proportional_gain, 0.0}), {}};
-    if (options_.criterion == DelayCriterion::attenuates && !offer.stable.empty())
-      offer.response = response_at(sampling);
-    return offer;
-  }
-
-  SteadyResponse<double> response_at(const Sampling<double>& sampling) const {
+    if (options_.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
     const double omega = options_.angular_frequency();
-    const auto response = steady_response<Scalar>(plant_, sampling, options_.hold, omega);
-    return options_.relative_to_true_force ? response.relative_to(true_amplitude_per_force(
-                                                 plant_.modes, plant_.absorber, omega))
-                                           : response;
+    offer.response = steady_response<Scalar>(plant_, sampling, options_.hold, omega);
+    if (options_.relative_to_true_force)
+      offer.response = offer.response->relative_to(true_amplitude_per_force(plant_, omega));
+    return offer;
   }
 
   /// The D that serves best at a period, if one does.
   std::optional<double> gain_at(double period) const {
-    if (!shows_vibration(options_, period)) return std::nullopt;
-    return serving_gain(offer_at(period), options_.proportional_gain);
+    return serving_gain(options_, period, offer_at(period));
   }
 
   double longest() const {
+    if (options_.criterion == DelayCriterion::attenuates) return longest_that_shows(options_);
     double limit = options_.longest_period;
-    if (options_.criterion == DelayCriterion::attenuates) {
-      const double nyquist = longest_that_shows(options_);
-      return limit > 0.0 ? std::min(limit, nyquist) : nyquist;
-    }
     const auto slowest = std::min_element(plant_.modes.begin(), plant_.modes.end(),
                                           [](const auto& one, const auto& other) {
                                             return one.angular_frequency < other.angular_frequency;
@@ -95,24 +86,8 @@ class ModalDelayWalk {
       (gain_at(middle) ? feasible : infeasible) = middle;
     }
     return {MaxDelayOutcome::found, feasible, gain_at(feasible).value_or(none),
-            lacking(infeasible, least_ratio(offer_at(feasible)))};
-  }
-
-  /// What the best of the stabilising D leaves; NaN where that is not asked or there is none.
-  double least_ratio(const DelayOffer<double>& offer) const {
-    if (!offer.response) return none;
-    return offer.response->best_differential_gain(options_.proportional_gain, offer.stable)
-        .ratio_to_uncontrolled;
-  }
-
-  /// Where the amplitude jumps past that of no control, the interval of D that served has vanished.
-  /// @param before  the least ratio just below the period, NaN where there is none
-  MaxDelayLimit lacking(double period, double before) const {
-    if (!shows_vibration(options_, period)) return MaxDelayLimit::nyquist;
-    const auto offer = offer_at(period);
-    if (offer.stable.empty() || !offer.response) return MaxDelayLimit::stability;
-    return least_ratio(offer) - before > 1e-3 ? MaxDelayLimit::stability
-                                              : MaxDelayLimit::attenuation;
+            lacking(options_, infeasible, offer_at(infeasible),
+                    least_ratio(options_, offer_at(feasible)))};
   }
 
   const ConductorWithAbsorber& plant_;

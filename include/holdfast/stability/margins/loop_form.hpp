@@ -36,19 +36,6 @@ std::vector<Interval<Scalar>> stable_gains(const SampledLoop<Scalar>& loop, Free
                                         : stable_proportional_gains(polynomial, gains.differential);
 }
 
-/// The loop whose roots are those of another divided by r: stable where all of those have |λ| < r.
-/// @param map     the loop, of any order
-/// @param offset  r − 1, above −1
-template <class Scalar>
-LoopMap<Scalar> at_radius(LoopMap<Scalar> map, const detail::Undeduced<Scalar>& offset) {
-  const Scalar radius = Scalar(1) + offset;
-  map.open_map /= radius;
-  map.command /= radius;
-  map.increment.diagonal().array() -= offset;
-  map.increment /= radius;
-  return map;
-}
-
 /// The loop whose D multiplies the backward difference (z_j − z_{j−1})/τ of the readings: one state
 /// more, the reading before.
 /// @param map  with a measured velocity, of any order
@@ -77,17 +64,21 @@ LoopMap<Scalar> with_velocity_by_difference(const LoopMap<Scalar>& map) {
   return other;
 }
 
-/// The open intervals of D (N s/m) at which every root of a loop of any order has |λ| < radius;
-/// radius 1 gives `stable_gains`.
+/// The open intervals of D (N s/m) at which every root of a loop of any order has |λ| < radius:
+/// those that stabilise the loop whose roots are as much smaller; radius 1 gives `stable_gains`.
 /// @param map                of `loop_map`
 /// @param proportional_gain  P (N/m), finite
 /// @param radius             > 0
 template <class Scalar>
 std::vector<Interval<Scalar>> differential_gains_within_radius(
-    const LoopMap<Scalar>& map, const detail::Undeduced<Scalar>& proportional_gain,
+    LoopMap<Scalar> map, const detail::Undeduced<Scalar>& proportional_gain,
     const detail::Undeduced<Scalar>& radius) {
-  return stable_gains(at_radius(map, radius - Scalar(1)), FreeGain::differential,
-                      {proportional_gain, Scalar(0)});
+  const Scalar offset = radius - Scalar(1);
+  map.open_map /= Scalar(1) + offset;
+  map.command /= Scalar(1) + offset;
+  map.increment.diagonal().array() -= offset;
+  map.increment /= Scalar(1) + offset;
+  return stable_gains(map, FreeGain::differential, {proportional_gain, Scalar(0)});
 }
 
 namespace detail {

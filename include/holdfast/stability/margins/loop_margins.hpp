@@ -27,10 +27,12 @@ namespace holdfast {
 struct LoopMargins {
   MarginOutcome outcome;  ///< whether the loop is stable as it is; else all below but ρ is NaN
   double unit_circle;     ///< 1 − ρ, not positive where the loop is not stable
-  double largest_factor;  ///< x > 1 of both gains up to which the loop is stable; ∞ without an end
-  double least_factor;    ///< x < 1 down to which it is, −∞ without an end
-  double phase;  ///< rad; the least |φ| that makes e^{iφ}L(e^{iθ}) = 1; ∞ where |L| = 1 nowhere
-  MarginEnd delay;  ///< towards longer δ (s), τ kept
+  double largest_factor =
+      std::nan("");  ///< x > 1 of both gains up to which the loop is stable; ∞ without an end
+  double least_factor = std::nan("");  ///< x < 1 down to which it is, −∞ without an end
+  double phase =
+      std::nan("");  ///< rad; the least |φ| that makes e^{iφ}L(e^{iθ}) = 1; ∞ where |L| = 1 nowhere
+  MarginEnd delay = {};  ///< towards longer δ (s), τ kept
 };
 
 namespace detail {
@@ -66,7 +68,7 @@ Scalar phase_margin(const Polynomial<Scalar, 5>& constant_part,
 /// Gain: the stable interval of a common factor of both gains, from all crossings of the circle
 /// (`stable_intervals`). Phase: all crossovers |L| = 1, roots of one polynomial. Delay: as of
 /// `stability_margins` of a plant of any order, proved stretch by stretch, up to
-/// search.longest_delay_ratio samples, whole ones and more.
+/// ten samples, whole ones and more.
 /// @tparam Plant    two masses
 /// @param plant     within its ranges
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ
@@ -77,7 +79,6 @@ template <class Plant>
 LoopMargins loop_margins(const Plant& plant, const Sampling<double>& sampling,
                          const PdGains<double>& gains, const MarginSearch& search = {}) {
   static_assert(has_closed_forms<Plant>, "of the two masses");
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   validate(plant);
   validate(gains);
   validate(search);
@@ -86,7 +87,7 @@ LoopMargins loop_margins(const Plant& plant, const Sampling<double>& sampling,
   const auto polynomial = in_half_plane(characteristic_polynomial(loop));
   const Polynomial<double, 5> slope =
       gains.proportional * polynomial.proportional + gains.differential * polynomial.differential;
-  LoopMargins margins{MarginOutcome::not_stable, reserve, none, none, none, {}};
+  LoopMargins margins{MarginOutcome::not_stable, reserve};
   for (const Interval<double>& factors : stable_intervals(polynomial.base, slope)) {
     if (!(reserve > 0.0) || !factors.contains(1.0)) continue;
     margins = {MarginOutcome::stable,

@@ -63,17 +63,12 @@ struct StabilityMargins {
   TwoSidedMargin processing_delay;   ///< δ (s), τ kept; its range is [0, ∞)
 };
 
-/// How far and how finely margins are looked for.
+/// How far margins are looked for.
 struct MarginSearch {
   /// > 1; the walk towards longer sampling periods gives up at this multiple of τ or, if that is
   /// longer, at twenty periods of the plant's slowest mode, unless stability at all longer ones is
   /// certain before.
   double longest_period_ratio = 1000.0;
-  /// 1e−12 … 0.1; what may be left unproved before a boundary of τ or δ, as a share of the
-  /// position: an earlier boundary can lie within it, and nowhere else.
-  double smallest_step = 1e-6;
-  /// 1 … 1000; the walk towards longer delays gives up at so many samples beyond δ.
-  double longest_delay_ratio = 10.0;
   /// ≥ 1; steps of a walk along τ or δ, after which it gives up. Steps are about as long as the
   /// plant's fastest mode turns by a radian, and each takes some 40 µs for two masses.
   int most_steps = 20000;
@@ -81,7 +76,25 @@ struct MarginSearch {
 
 namespace detail {
 
-/// The end at which a root, the one nearest to the unit circle, crosses it.
+/// The share of a position that may be left unproved before a boundary of τ or δ: an earlier one
+/// can lie within it, and nowhere else.
+constexpr double smallest_step = 1e-6;
+/// Samples beyond δ, at which the walk towards longer delays gives up.
+constexpr double most_delays = 10.0;
+
+/// The end at which a root λ crosses the unit circle.
+/// @param from_one  |λ − 1|
+inline MarginEnd crossing_end(const std::complex<double>& root, double from_one, double position,
+                              double value, double period) {
+  const bool real = std::abs(root.imag()) <= 1e-6 * from_one;
+  const BoundaryCurve curve = !real               ? BoundaryCurve::complex_pair
+                              : root.real() < 0.0 ? BoundaryCurve::minus_one
+                                                  : BoundaryCurve::plus_one;
+  return {MarginEndOutcome::boundary, position, std::abs(position - value), curve,
+          std::abs(std::arg(root)) / (2.0 * pi<double> * period)};
+}
+
+/// The end at which that root crosses which is nearest to the unit circle.
 template <class Loop>
 MarginEnd boundary_end(const Loop& loop, const PdGains<double>& gains, double position,
                        double value) {
@@ -93,12 +106,7 @@ MarginEnd boundary_end(const Loop& loop, const PdGains<double>& gains, double po
     smallest = excess;
     nearest = mu;
   }
-  const bool real = std::abs(nearest.imag()) <= 1e-6 * std::abs(nearest);
-  const BoundaryCurve curve = !real                   ? BoundaryCurve::complex_pair
-                              : nearest.real() < -1.0 ? BoundaryCurve::minus_one
-                                                      : BoundaryCurve::plus_one;
-  return {MarginEndOutcome::boundary, position, std::abs(position - value), curve,
-          std::abs(std::arg(1.0 + nearest)) / (2.0 * pi<double> * loop.sampling.period)};
+  return crossing_end(1.0 + nearest, std::abs(nearest), position, value, loop.sampling.period);
 }
 
 /// An end without a boundary.
@@ -111,13 +119,12 @@ inline MarginEnd beyond_search(double position, double value) {
 }
 
 /// Both ends of the interval that holds the value; undefined where none does.
-/// @param gains_at  value of the gain that varies → PdGains
-template <class Loop, class GainsAt>
+/// @param boundary_at  position, finite → MarginEnd
+template <class BoundaryAt>
 TwoSidedMargin margin_in(const std::vector<Interval<double>>& intervals, double value,
-                         const Loop& loop, const GainsAt& gains_at) {
+                         const BoundaryAt& boundary_at) {
   const auto end = [&](double position) {
-    return std::isfinite(position) ? boundary_end(loop, gains_at(position), position, value)
-                                   : no_boundary(position);
+    return std::isfinite(position) ? boundary_at(position) : no_boundary(position);
   };
   for (const Interval<double>& interval : intervals) {
     if (interval.contains(value)) return {end(interval.lower), end(interval.upper)};
@@ -147,7 +154,7 @@ MarginEnd margin_along(const Family& family, const PdGains<double>& gains, doubl
     return limit < value ? crossing.upper : crossing.lower;
   };
   const FirstCrossing walk =
-      first_crossing(stable, edge, value, limit, first, {search.smallest_step, search.most_steps});
+      first_crossing(stable, edge, value, limit, first, {smallest_step, search.most_steps});
   if (walk.outcome == WalkOutcome::blocked) return {};
   if (walk.outcome == WalkOutcome::clear) return otherwise;
   if (walk.outcome == WalkOutcome::open) return beyond_search(walk.last_inside, value);
@@ -199,7 +206,7 @@ TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling
                             const PdGains<double>& gains, const MarginSearch& search) {
   const double period = sampling.period, delay = sampling.processing_delay;
   const int held = held_commands(sampling);
-  const double longest = delay + search.longest_delay_ratio * period;
+  const double longest = delay + most_delays * period;
   if (gains.proportional == 0.0 && gains.differential == 0.0)
     return {no_boundary(0.0), no_boundary(std::numeric_limits<double>::infinity())};
   const auto walk = [&](int direction) {
@@ -229,8 +236,6 @@ TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling
 /// @throws InvalidParameter outside the ranges that the members of `MarginSearch` state
 inline void validate(const MarginSearch& search) {
   require_positive("longest period ratio minus one", search.longest_period_ratio - 1.0, "");
-  require_within("smallest step", search.smallest_step, "", 1e-12, 0.1);
-  require_within("longest delay ratio", search.longest_delay_ratio, "", 1.0, 1000.0);
   require_positive("most steps", search.most_steps, "");
 }
 
@@ -259,14 +264,14 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
   const double reserve = -detail::loop_excess(loop, gains);
   const auto& general = detail::with_ports(plant);
   const auto map = loop_map(general, sampling);
-  const TwoSidedMargin by_d = detail::margin_in(stable_gains(map, FreeGain::differential, gains),
-                                                gains.differential, loop, [&](double d) {
-                                                  return PdGains<double>{gains.proportional, d};
-                                                });
-  const TwoSidedMargin by_p = detail::margin_in(stable_gains(map, FreeGain::proportional, gains),
-                                                gains.proportional, loop, [&](double p) {
-                                                  return PdGains<double>{p, gains.differential};
-                                                });
+  const auto of_gain = [&](FreeGain free) {
+    const double value = detail::gain_of(gains, free);
+    return detail::margin_in(stable_gains(map, free, gains), value, [&](double position) {
+      return detail::boundary_end(loop, detail::with_gain(gains, free, position), position, value);
+    });
+  };
+  const TwoSidedMargin by_d = of_gain(FreeGain::differential);
+  const TwoSidedMargin by_p = of_gain(FreeGain::proportional);
   const bool stable = reserve > 0.0 && by_d.below.outcome != MarginEndOutcome::undefined &&
                       by_p.below.outcome != MarginEndOutcome::undefined;
   if (!stable) return {MarginOutcome::not_stable, std::min(reserve, 0.0), {}, {}, {}, {}};

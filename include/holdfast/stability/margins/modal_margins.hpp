@@ -40,13 +40,13 @@ class ModalMargins {
   Scalar reserve() const { return reserve_; }
 
   TwoSidedMargin of_gain(FreeGain free) const {
-    const bool by_d = free == FreeGain::differential;
-    const ResolvedCircle<Scalar> circle(response_);
-    return two_sided(circle.stable_gains(free, gains_),
-                     by_d ? gains_.differential : gains_.proportional, [&](Scalar value) {
-                       return by_d ? PdGains<Scalar>{gains_.proportional, value}
-                                   : PdGains<Scalar>{value, gains_.differential};
-                     });
+    const Scalar value = gain_of(gains_, free);
+    const auto stable = ResolvedCircle<Scalar>(response_).stable_gains(free, gains_);
+    return margin_in(stable, value, [&](Scalar position) {
+      const Scalar outside = position + Scalar(1e-9) * (position - value);
+      return boundary_at(response_, with_gain(gains_, free, outside), position, value,
+                         sampling_.period);
+    });
   }
 
   /// Of a common factor of both gains, about 1.
@@ -126,7 +126,7 @@ class ModalMargins {
         walk(period, period * ratio, sampling_at, [](Scalar tau) { return tau * Scalar(1.05); })};
   }
 
-  TwoSidedMargin of_delay(Scalar samples) const {
+  TwoSidedMargin of_delay() const {
     const Scalar period = sampling_.period, delay = sampling_.processing_delay;
     const Scalar step = period / Scalar(8);
     const auto sampling_at = [&](Scalar late) { return Sampling<Scalar>{period, late}; };
@@ -136,7 +136,7 @@ class ModalMargins {
       if (below.outcome == MarginEndOutcome::beyond_search && below.position == 0.0)
         below = no_boundary(0.0);
     }
-    return {below, walk(delay, delay + samples * period, sampling_at,
+    return {below, walk(delay, delay + Scalar(most_delays) * period, sampling_at,
                         [&](Scalar late) { return late + step; })};
   }
 
@@ -169,19 +169,6 @@ class ModalMargins {
     return stable ? -std::numeric_limits<Scalar>::min() : std::numeric_limits<Scalar>::min();
   }
 
-  template <class GainsAt>
-  TwoSidedMargin two_sided(const std::vector<Interval<Scalar>>& intervals, Scalar value,
-                           const GainsAt& gains_at) const {
-    const auto end = [&](Scalar position) {
-      if (!std::isfinite(position)) return no_boundary(position);
-      const Scalar outside = position + Scalar(1e-9) * (position - value);
-      return boundary_at(response_, gains_at(outside), position, value, sampling_.period);
-    };
-    for (const Interval<Scalar>& interval : intervals)
-      if (interval.contains(value)) return {end(interval.lower), end(interval.upper)};
-    return {};
-  }
-
   /// The end at which a root crosses the unit circle.
   /// @param response  and gains just outside, where that root is the largest
   static MarginEnd boundary_at(const Response& response, const PdGains<Scalar>& gains,
@@ -189,12 +176,7 @@ class ModalMargins {
     std::complex<Scalar> root = largest_loop_root(response, gains);
     if (!std::isfinite(std::abs(root)))
       root = Scalar(1) + ResolvedCircle<Scalar>(response).roots_nearby(gains).front();
-    const bool real = std::abs(root.imag()) <= Scalar(1e-6) * std::abs(root - Scalar(1));
-    const BoundaryCurve curve = !real                     ? BoundaryCurve::complex_pair
-                                : root.real() < Scalar(0) ? BoundaryCurve::minus_one
-                                                          : BoundaryCurve::plus_one;
-    return {MarginEndOutcome::boundary, position, std::abs(position - value), curve,
-            std::abs(std::arg(root)) / (Scalar(2) * pi<Scalar> * period)};
+    return crossing_end(root, std::abs(root - Scalar(1)), position, value, period);
   }
 
   const std::vector<PlantPole>& poles_;
@@ -240,18 +222,12 @@ StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
           by_d,
           by_p,
           margins.of_period(search.longest_period_ratio),
-          margins.of_delay(search.longest_delay_ratio)};
+          margins.of_delay()};
 }
 
 /// The end of the margin of τ, δ/τ kept, or of δ, between a place up to which the loop is stable
 /// and one beyond where it is not, as `proved_margins` finds them.
-/// @tparam Scalar    double, as above
-/// @param poles      as above
-/// @param sampling   as above
-/// @param gains      as above
-/// @param inside     the former (s)
-/// @param outside    the latter (s)
-/// @param of_period  of τ; else of δ; the velocity is measured
+/// `of_period` tells which; the velocity is measured.
 template <class Scalar = double>
 MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                            const Sampling<detail::Undeduced<Scalar>>& sampling,
@@ -262,29 +238,20 @@ MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
       .between(inside, outside, of_period);
 }
 
-/// The margins of such a loop as a whole, δ walked as above.
-/// @tparam Scalar   double, as above
-/// @param poles     as above
-/// @param sampling  as above
-/// @param gains     as above
-/// @param search    as above
-/// @param has_velocity_sensor  as above
-/// @throws InvalidParameter as above
+/// The margins of such a loop as a whole, δ walked, all as above.
+/// @throws InvalidParameter outside the same ranges
 template <class Scalar = double>
 LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,
                                const Sampling<detail::Undeduced<Scalar>>& sampling,
                                const PdGains<detail::Undeduced<Scalar>>& gains,
                                const MarginSearch& search = {}, bool has_velocity_sensor = true) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   validate(gains);
   validate(search);
   const detail::ModalMargins<Scalar> margins(poles, sampling, gains, has_velocity_sensor);
-  if (!margins.is_stable())
-    return {MarginOutcome::not_stable, margins.reserve(), none, none, none, {}};
+  if (!margins.is_stable()) return {MarginOutcome::not_stable, margins.reserve()};
   const Interval<Scalar> factors = margins.factors();
-  return {MarginOutcome::stable, margins.reserve(),
-          factors.upper,         factors.lower,
-          margins.phase(),       margins.of_delay(search.longest_delay_ratio).above};
+  return {MarginOutcome::stable, margins.reserve(), factors.upper,
+          factors.lower,         margins.phase(),   margins.of_delay().above};
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
@@ -292,9 +259,6 @@ extern template StabilityMargins modal_stability_margins<double>(const std::vect
                                                                  const Sampling<double>&,
                                                                  const PdGains<double>&,
                                                                  const MarginSearch&, bool);
-extern template MarginEnd modal_margin_end<double>(const std::vector<PlantPole>&,
-                                                   const Sampling<double>&, const PdGains<double>&,
-                                                   double, double, bool);
 extern template LoopMargins modal_loop_margins<double>(const std::vector<PlantPole>&,
                                                        const Sampling<double>&,
                                                        const PdGains<double>&, const MarginSearch&,

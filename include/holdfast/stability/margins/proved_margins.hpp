@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
@@ -78,25 +77,19 @@ inline ProvedStability stability_of(CircleArcs& arcs, const GainBox& box) {
 }
 
 /// One of the gains varies.
-class GainPath {
- public:
-  GainPath(CircleArcs& arcs, FreeGain free, const PdGains<double>& gains)
-      : arcs_(arcs), free_(free), gains_(gains) {}
+struct GainPath {
+  CircleArcs& arcs;
+  FreeGain free;
+  PdGains<double> gains;
 
-  bool keeps_stability(double from, double to) const { return is_off_circle(arcs_, box(from, to)); }
-  ProvedStability at(double position) const { return stability_of(arcs_, box(position, position)); }
-
- private:
+  bool keeps_stability(double from, double to) const { return is_off_circle(arcs, box(from, to)); }
+  ProvedStability at(double position) const { return stability_of(arcs, box(position, position)); }
   GainBox box(double from, double to) const {
     const Enclosure moved = decimals_between(from, to);
-    if (free_ == FreeGain::differential)
-      return box_of(Enclosure::of_decimal(gains_.proportional), moved);
-    return box_of(moved, Enclosure::of_decimal(gains_.differential));
+    if (free == FreeGain::differential)
+      return box_of(Enclosure::of_decimal(gains.proportional), moved);
+    return box_of(moved, Enclosure::of_decimal(gains.differential));
   }
-
-  CircleArcs& arcs_;
-  FreeGain free_;
-  PdGains<double> gains_;
 };
 
 /// The sampling varies.
@@ -123,29 +116,24 @@ class SamplingPath {
   SamplingProof<double> proof_;
 };
 
-/// How far and how finely a path is walked.
-struct ProvedWalk {
-  double first;       // length of the first step, > 0
-  double least_step;  // shorter ones are not tried: what may be left undecided
-  int most_steps;
-};
-
 /// Walks along a path from a value of which the loop is proved to be stable, as long as no root
 /// meets the circle: roots move continuously, so none gets outside. Where it ends, looks for an
 /// unstable loop beyond.
 /// @param watch  called for each step; what it throws ends the work
 template <class Path, class Watch>
-ProvedMarginEnd walked_end(const Path& path, double value, double limit, const ProvedWalk& walk,
-                           const Watch& watch) {
-  const double direction = limit < value ? -1.0 : 1.0;
+ProvedMarginEnd walked_end(const Path& path, double value, double limit,
+                           const ProvedMarginsOptions& options, const Watch& watch) {
+  if (limit == value) return {value, std::nan(""), ProofStop::at_end};
+  const double direction = limit < value ? -1.0 : 1.0, way = std::abs(limit - value);
+  const double least_step = options.resolution * way;  // what may be left undecided
   const auto ahead = [&](double from, double step) {
     const double to = from + direction * step;
     return direction < 0.0 ? std::max(to, limit) : std::min(to, limit);
   };
   ProvedMarginEnd end{value};
-  double step = walk.first;
-  for (int steps = 0; end.stable_to != limit && step >= walk.least_step; ++steps) {
-    if (steps == walk.most_steps) {
+  double step = 0.01 * way;
+  for (int steps = 0; end.stable_to != limit && step >= least_step; ++steps) {
+    if (steps == options.most_steps) {
       end.stop = ProofStop::work;
       return end;
     }
@@ -156,11 +144,11 @@ ProvedMarginEnd walked_end(const Path& path, double value, double limit, const P
     if (free) end.stable_to = next;
     step *= free ? 1.5 : 0.5;
   }
-  for (double gap = walk.least_step; end.stable_to != limit; gap *= 4.0) {
+  for (double gap = least_step; end.stable_to != limit; gap *= 4.0) {
     watch();
     const double position = ahead(end.stable_to, gap);
     if (path.at(position) == ProvedStability::unstable) end.unstable_at = position;
-    if (std::isfinite(end.unstable_at) || position == limit || gap > 1e6 * walk.least_step) break;
+    if (std::isfinite(end.unstable_at) || position == limit || gap > 1e6 * least_step) break;
   }
   if (end.stable_to == limit || std::isfinite(end.unstable_at)) end.stop = ProofStop::at_end;
   return end;
@@ -196,11 +184,11 @@ class MarginProver {
 
   ProvedMargins prove() {
     ProvedMargins proved;
-    const GainPath along_d(arcs_, FreeGain::differential, gains_);
+    const GainPath along_d{arcs_, FreeGain::differential, gains_};
     proved.stability = along_d.at(gains_.differential);
     if (proved.stability != ProvedStability::stable) return proved;
     proved.differential_gain = both(along_d, gains_.differential, found_.differential_gain, 1e12);
-    proved.proportional_gain = both(GainPath(arcs_, FreeGain::proportional, gains_),
+    proved.proportional_gain = both(GainPath{arcs_, FreeGain::proportional, gains_},
                                     gains_.proportional, found_.proportional_gain, 1e12);
     of_sampling(proved);
     return proved;
@@ -221,10 +209,7 @@ class MarginProver {
   }
   template <class Path>
   ProvedMarginEnd towards(const Path& path, double value, double limit) {
-    if (limit == value) return {value, std::nan(""), ProofStop::at_end};
-    const double way = std::abs(limit - value);
-    const ProvedWalk walk{0.01 * way, options_.resolution * way, options_.most_steps};
-    return walked_end(path, value, limit, walk, watch_);
+    return walked_end(path, value, limit, options_, watch_);
   }
 
   ProvedMargin of_period() {
@@ -288,14 +273,8 @@ ProvedMargins proved_margins(const std::vector<EnclosedPole>& poles,
 }
 
 /// The margins of τ and δ alone, of a loop that is stable; of D, P and the loop as it is nothing is
-/// said.
-/// @param poles     as above
-/// @param sampling  as above
-/// @param gains     as above
-/// @param found     as above
-/// @param options   as above
-/// @param watch     as above
-/// @throws InvalidParameter as above
+/// said. All else is as above.
+/// @throws InvalidParameter where sampling or gains are not admissible
 template <class Watch>
 ProvedMargins proved_sampling_margins(const std::vector<EnclosedPole>& poles,
                                       const Sampling<double>& sampling,

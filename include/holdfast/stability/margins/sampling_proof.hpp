@@ -49,8 +49,8 @@ struct EnclosedSamplings {
 
   /// The samplings at some positions together.
   EnclosedSampling over(const Enclosure& positions) const {
-    return moves_period() ? EnclosedSampling::of_period(positions, last_share, commands)
-                          : EnclosedSampling::of_delay(fixed_period, positions, commands);
+    if (!moves_period()) return EnclosedSampling::of_delay(fixed_period, positions, commands);
+    return {positions, last_share * positions, (Enclosure(1.0) - last_share) * positions, commands};
   }
   /// The doubles next to τ and δ at a position.
   Sampling<double> next_to(double position) const {

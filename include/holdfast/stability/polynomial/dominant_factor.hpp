@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -15,43 +14,25 @@
 
 namespace holdfast {
 
-/// A real quadratic factor μ² + Uμ + V of a characteristic polynomial in powers of μ = λ − centre,
-/// centre 1 or 0 (see `LoopPolynomial`).
+/// A real quadratic factor μ² + Uμ + V of a characteristic polynomial in powers of μ = λ − 1.
 template <class Scalar>
 struct QuadraticFactor {
   Scalar linear;    ///< U
   Scalar constant;  ///< V
 
-  /// The larger |λ| of its two roots: √(c² − cU + V) of a pair, |c − U/2| + √(U²/4 − V) of real
-  /// roots, c being the centre.
-  Scalar radius(const Scalar& centre) const {
+  /// The larger |λ| of its two roots: √(1 − U + V) of a pair, |1 − U/2| + √(U²/4 − V) of real
+  /// roots.
+  Scalar radius() const {
     using std::abs;
     using std::sqrt;
     const Scalar half = linear * Scalar(0.5);
     const Scalar discriminant = half * half - constant;
     const Mask<Scalar> pair = discriminant < Scalar(0);
-    const Scalar squared_modulus = centre * (centre - linear) + constant;
+    const Scalar squared_modulus = (Scalar(1) - linear) + constant;
     const Scalar root = sqrt(select(pair, squared_modulus, discriminant));
-    return select(pair, root, Scalar(abs(centre - half) + root));
+    return select(pair, root, Scalar(abs(Scalar(1) - half) + root));
   }
 };
-
-/// The factor that holds the dominant root (largest |λ|), found from all roots.
-///
-/// A dominant pair gives its factor. A dominant real root is paired with the root λ = 0, which
-/// every polynomial handed to `DominantFactor` has.
-template <class Scalar, int Size>
-QuadraticFactor<Scalar> dominant_factor(const Vector<Scalar, Size>& in_powers_of_mu,
-                                        const Scalar& centre) {
-  std::complex<Scalar> dominant(-centre);
-  for (const std::complex<Scalar>& root : roots(in_powers_of_mu)) {
-    if (std::norm(centre + root) > std::norm(centre + dominant)) dominant = root;
-  }
-  const bool real = std::abs(dominant.imag()) <=
-                    Scalar(4) * std::numeric_limits<Scalar>::epsilon() * std::abs(dominant);
-  const std::complex<Scalar> partner = real ? std::complex<Scalar>(-centre) : std::conj(dominant);
-  return {-(dominant + partner).real(), (dominant * partner).real()};
-}
 
 /// Follows the dominant factor of a polynomial that changes little from one call to the next, as
 /// along a row of a chart, and gives the spectral radius; lane by lane for packs.
@@ -77,16 +58,13 @@ class DominantFactor {
   /// The number that one lane holds.
   using Value = typename Lanes<Scalar>::Value;
 
-  /// @param centre  μ = λ − centre: 1, or 0 where the roots crowd at λ = 0
-  explicit DominantFactor(const Value& centre = Value(1)) : centre_(centre) {}
-
   /// ρ = max |λ| for a monic polynomial in powers of μ.
   Scalar radius(const Polynomial<Scalar, Degree>& polynomial) {
     Factor factor = extrapolated();
     Quotient quotient{};
     Mask<Scalar> settled = converge(polynomial, factor, quotient, most_iterations_);
     if (!all(settled)) start_nearby(polynomial, factor, quotient, settled);
-    Scalar result = factor.radius(Scalar(centre_));
+    Scalar result = factor.radius();
     const Mask<Scalar> dominant = bounds(quotient, result);
     const Mask<Scalar> sound = settled & dominant;
     for (std::size_t k = history_.size() - 1; k > 0; --k) history_[k] = history_[k - 1];
@@ -96,6 +74,19 @@ class DominantFactor {
   }
 
  private:
+  /// The factor from all roots: of a dominant pair, or of a dominant real root and λ = 0.
+  static QuadraticFactor<Value> dominant_factor(const Polynomial<Value, Degree>& in_powers_of_mu) {
+    const Value one(1);
+    std::complex<Value> dominant(-one);
+    for (const std::complex<Value>& root : roots(in_powers_of_mu)) {
+      if (std::norm(one + root) > std::norm(one + dominant)) dominant = root;
+    }
+    const bool real = std::abs(dominant.imag()) <=
+                      Value(4) * std::numeric_limits<Value>::epsilon() * std::abs(dominant);
+    const std::complex<Value> partner = real ? std::complex<Value>(-one) : std::conj(dominant);
+    return {-(dominant + partner).real(), (dominant * partner).real()};
+  }
+
   using Factor = QuadraticFactor<Scalar>;
   using Quotient = Vector<Scalar, Degree - 1>;
   static constexpr std::size_t lanes_ = Lanes<Scalar>::count;
@@ -167,10 +158,10 @@ class DominantFactor {
   }
 
   /// True where no root of the quotient lies beyond the radius (and a slack for equal moduli).
-  Mask<Scalar> bounds(const Quotient& in_powers_of_mu, const Scalar& radius) const {
+  static Mask<Scalar> bounds(const Quotient& in_powers_of_mu, const Scalar& radius) {
     Quotient q = in_powers_of_mu;
     for (int start = 0; start < Degree - 2; ++start) {  // to powers of λ
-      for (int k = Degree - 3; k >= start; --k) q[k] = q[k] - Scalar(centre_) * q[k + 1];
+      for (int k = Degree - 3; k >= start; --k) q[k] = q[k] - q[k + 1];
     }
     const Scalar bound = radius * Scalar(1 + slack_);
     Scalar power = bound;
@@ -203,12 +194,12 @@ class DominantFactor {
 
       Polynomial<Value, Degree> one;
       for (int k = 0; k <= Degree; ++k) one[k] = get(polynomial[k], lane);
-      const QuadraticFactor<Value> factor = dominant_factor<Value, Degree + 1>(one, centre_);
+      const QuadraticFactor<Value> factor = dominant_factor(one);
       for (Factor& memory : history_) {
         set(memory.linear, lane, factor.linear);
         set(memory.constant, lane, factor.constant);
       }
-      set(result, lane, factor.radius(centre_));
+      set(result, lane, factor.radius());
     }
   }
 
@@ -227,15 +218,13 @@ class DominantFactor {
 
   static Factor nothing() { return {Scalar(std::numeric_limits<Value>::quiet_NaN()), Scalar(0)}; }
 
-  Value centre_;
   std::array<Factor, 4> history_ = {nothing(), nothing(), nothing(), nothing()};
 };
 
-/// The polynomial times λ = centre + μ: one further root λ = 0.
+/// The polynomial times λ = 1 + μ: one further root λ = 0.
 template <class Scalar, int Size>
-Vector<Scalar, Size + 1> with_root_at_zero(const Vector<Scalar, Size>& in_powers_of_mu,
-                                           const Scalar& centre) {
-  return multiply<Scalar, Size, 2>(in_powers_of_mu, {centre, Scalar(1)});
+Vector<Scalar, Size + 1> with_root_at_zero(const Vector<Scalar, Size>& in_powers_of_mu) {
+  return multiply<Scalar, Size, 2>(in_powers_of_mu, {Scalar(1), Scalar(1)});
 }
 
 }  // namespace holdfast

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <complex>
 #include <optional>
 #include <vector>
 
@@ -59,14 +57,6 @@ struct EnclosedSampling {
     const Enclosure past =
         within_sample(delay - Enclosure(static_cast<double>(commands - 1)) * period);
     return {period, past, within_sample(period - past), commands};
-  }
-  /// Of all τ of a range, with δ = φ τ.
-  /// @param period      τ (s), > 0
-  /// @param last_share  φ − (k − 1), within 0 … 1
-  /// @param commands    k ≥ 1, the commands under way
-  static EnclosedSampling of_period(const Enclosure& period, const Enclosure& last_share,
-                                    int commands) {
-    return {period, last_share * period, (Enclosure(1.0) - last_share) * period, commands};
   }
 };
 

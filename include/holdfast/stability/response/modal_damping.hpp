@@ -8,7 +8,6 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/plant/loop_hardware.hpp"
@@ -42,16 +41,6 @@ inline std::complex<double> matched_pole(const std::vector<std::complex<double>>
     if (std::abs(increment - mu) < std::abs(nearest)) nearest = increment - mu;
   if (!(std::abs(nearest) < 1e-6)) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
   return s + nearest / ((1.0 + mu) * period);
-}
-
-/// ζ_n + φ_n²/(2 M_n ω_n) Re Z(iω_n) of `absorber_impedance`.
-inline double first_order_damping(const PlaceMode<double>& mode, const Absorber<double>& absorber,
-                                  const Sampling<double>& sampling, const PdGains<double>& gains,
-                                  const LoopHardware& hardware) {
-  const double share = mode.shape * mode.shape / (2.0 * mode.mass * mode.angular_frequency);
-  const std::complex<double> s(0.0, mode.angular_frequency);
-  return mode.damping_ratio +
-         share * absorber_impedance(absorber, sampling, gains, hardware, s).real();
 }
 
 }  // namespace detail
@@ -98,8 +87,11 @@ std::vector<ModeDamping> modal_damping(
                                                         sampling.period)
                                  : poles[n].s;
     if (controlled) root = root_from_pole(of_gains, root);
-    found.push_back({modes[n].angular_frequency, modes[n].damping_ratio, root,
-                     detail::first_order_damping(modes[n], absorber, sampling, gains, hardware)});
+    // ζ_n + φ_n²/(2 M_n ω_n) Re Z(iω_n)
+    const auto& [omega, damping_ratio, shape, mass] = modes[n];
+    const auto z = absorber_impedance(absorber, sampling, gains, hardware, Complex(0.0, omega));
+    found.push_back({omega, damping_ratio, root,
+                     damping_ratio + shape * shape / (2.0 * mass * omega) * z.real()});
   }
   return found;
 }

@@ -357,12 +357,8 @@ ModalResponse<Scalar> modal_response(const ConductorWithAbsorber& conductor,
   return response.with_sensor(conductor.hardware.has_velocity_sensor);
 }
 
-/// The same, whose poles are found here.
-/// @tparam Scalar   double, as above
-/// @param modes     as the absorber's place sees them
-/// @param absorber  with its clamp
-/// @param sampling  as above
-/// @throws InvalidParameter as above
+/// The response of modes as the absorber's place sees them, whose poles are found here.
+/// @throws InvalidParameter where modes, absorber or sampling are not admissible
 template <class Scalar = double>
 ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
                                      const Absorber<detail::Undeduced<Scalar>>& absorber,

@@ -17,13 +17,11 @@ namespace holdfast {
 
 /// |z| / F_m (m/N) of a conductor by its modes with the absorber, without control, under the true
 /// force F_m cos ωt at the absorber's place: |H′/(1 + H′K_p)| at s = iω (unchecked).
-/// @param modes              as the absorber's place sees them
-/// @param absorber           with its clamp
+/// @param conductor          with its poles where devices are on the span
 /// @param angular_frequency  ω (rad/s), > 0
-inline double true_amplitude_per_force(const std::vector<PlaceMode<double>>& modes,
-                                       const Absorber<double>& absorber, double angular_frequency) {
-  const std::complex<double> s(0.0, angular_frequency);
-  return std::abs(place_response(receptance(modes, s), absorber, s).to_force);
+inline double true_amplitude_per_force(const ConductorWithAbsorber& conductor,
+                                       double angular_frequency) {
+  return std::abs(place_receptance(conductor, {0.0, angular_frequency}));
 }
 
 namespace detail {
@@ -47,8 +45,7 @@ SteadyResponse<Scalar> steady_response_by_poles(const ConductorWithAbsorber& con
   CommandResponse<double> force, read_force;
   if (hold == ForceHold::exact) {
     const Complex s(0.0, angular_frequency);
-    const Complex bare = receptance(conductor.modes, s);
-    const Complex there = place_response(bare, conductor.absorber, s).to_force;
+    const Complex there = place_receptance(conductor, s);
     const Complex filtered = there * detail::HardwarePoles::lag(lags.filter, s);
     force = {there, s * there};
     read_force = {filtered, s * filtered};
@@ -93,24 +90,6 @@ SteadyResponse<Scalar> steady_response(const ConductorWithAbsorber& conductor,
   if (with_hardware(conductor.poles, conductor.hardware).empty())
     return steady_response(linear_plant<Scalar>(conductor), sampling, hold, angular_frequency);
   return detail::steady_response_by_poles<Scalar>(conductor, sampling, hold, angular_frequency);
-}
-
-/// The same, whose poles are found here.
-/// @tparam Scalar            double, as above
-/// @param modes              as above
-/// @param absorber           as above
-/// @param sampling           as above
-/// @param hold               as above
-/// @param angular_frequency  as above
-/// @throws InvalidParameter as above
-template <class Scalar = double>
-SteadyResponse<Scalar> steady_response(
-    const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
-    const Absorber<detail::Undeduced<Scalar>>& absorber,
-    const Sampling<detail::Undeduced<Scalar>>& sampling, ForceHold hold, double angular_frequency) {
-  return steady_response<Scalar>(
-      ConductorWithAbsorber{modes, absorber, plant_poles(modes, absorber)}, sampling, hold,
-      angular_frequency);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

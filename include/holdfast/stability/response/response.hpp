@@ -3,22 +3,94 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/loop_input.hpp"
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/core/interval_sets.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/excitation/harmonic_input.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/math/linalg/elimination.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/response/loop_phasors.hpp"
 
 namespace holdfast {
+
+/// The steady response to unit forces at ω, as complex amplitudes of what P and D multiply and of
+/// the conductor's displacement z. What is measured need not be the conductor's own motion, but
+/// for instance a filter's; of the two masses it is z₁ and ż₁, and z is z₁.
+template <class Scalar>
+struct LoopPhasors {
+  std::complex<Scalar> control_displacement;  ///< t_z (m/N): what P multiplies, by the control
+  std::complex<Scalar> control_velocity;      ///< t_v (m/(N s)): what D multiplies, by the control
+  std::complex<Scalar> force_displacement;    ///< f_z (m/N): what P multiplies, by the excitation
+  std::complex<Scalar> force_velocity;        ///< f_v (m/(N s)): what D multiplies, likewise
+  std::complex<Scalar> control_conductor;     ///< t_c (m/N): z to the control force
+  std::complex<Scalar> force_conductor;       ///< f_c (m/N): z to the excitation
+
+  /// t_c f_z − f_c t_z, by which P enters the numerator of the controlled amplitude; 0 where z
+  /// itself is measured.
+  std::complex<Scalar> proportional_slope() const {
+    return control_conductor * force_displacement - force_conductor * control_displacement;
+  }
+  /// t_c f_v − f_c t_v, by which D enters it.
+  std::complex<Scalar> differential_slope() const {
+    return control_conductor * force_velocity - force_conductor * control_velocity;
+  }
+};
+
+/// The responses of a sampled loop to unit forces at ω, one a column of Y:
+///
+///     (λI − S₀) Y = [s, g],   λ = e^{iωτ}
+///
+/// s being how the command enters and g the phasor of the excitation, which moves no command. Of
+/// the two masses the stored command is eliminated: S₀ = A_d and s = Γ₀ + Γ₁/λ.
+/// @tparam Loop              `SampledLoop` of the two masses, or `LoopMap` of any order, whose
+/// gains
+///                           do not matter
+/// @param loop               the loop
+/// @param input              `harmonic_input` of the same loop and ω
+/// @param angular_frequency  ω (rad/s), > 0
+/// @throws InvalidParameter for an input of another size than the loop
+template <class Loop, class Scalar, int States>
+LoopPhasors<Scalar> loop_phasors(const Loop& loop, const HarmonicInput<Scalar, States>& input,
+                                 const detail::Undeduced<Scalar>& angular_frequency) {
+  using Complex = std::complex<Scalar>;
+  constexpr bool closed = std::is_same_v<Loop, SampledLoop<Scalar>>;
+  for (const auto* part : {&input.cosine, &input.sine})
+    require_size("size of the harmonic input", part->size(), loop.increment.rows());
+  const Scalar angle = angular_frequency * loop.sampling.period;
+  // (λ − 1) I − (S₀ − I): both parts small and accurate where sampling is fast.
+  Matrix<Complex, States> system = -loop.increment.template cast<Complex>();
+  system.diagonal().array() += circle_increment(angle);
+  Matrix<Complex, States, 2> sources(input.cosine.size(), 2);
+  if constexpr (closed) {
+    sources.col(0) = loop.present_force.template cast<Complex>() +
+                     loop.previous_force.template cast<Complex>() / std::polar(Scalar(1), angle);
+  } else {
+    sources.col(0) = loop.command.template cast<Complex>();
+  }
+  sources.col(1) =
+      input.cosine.template cast<Complex>() - Complex(0, 1) * input.sine.template cast<Complex>();
+  const Matrix<Complex, States, 2> y = eliminated(system, sources);
+  if constexpr (closed) {
+    return {y(0, 0), y(1, 0), y(0, 1), y(1, 1), y(0, 0), y(0, 1)};
+  } else {
+    const auto of = [&y](const RowVector<Scalar, Eigen::Dynamic>& row) {
+      return Matrix<Complex, 1, 2>(row.template cast<Complex>() * y);
+    };
+    const auto z = of(loop.displacement), v = of(loop.velocity), c = of(loop.conductor);
+    return {z[0], v[0], z[1], v[1], c[0], c[1]};
+  }
+}
 
 namespace detail {
 
@@ -136,14 +208,12 @@ class SteadyResponse {
                                      -phasors_.control_velocity)};
   }
 
-  /// The open intervals of D, stable or not, in which the amplitude stays below `ratio` times that
-  /// of no control: where N − ratio² M < 0.
+  /// The open intervals of D, stable or not, in which the amplitude stays below that of no control:
+  /// where N − M < 0.
   /// @param proportional_gain  P (N/m), finite
-  /// @param ratio              > 0
-  std::vector<Interval<Scalar>> differential_gains_below(const Scalar& proportional_gain,
-                                                         const Scalar& ratio = Scalar(1)) const {
+  std::vector<Interval<Scalar>> differential_gains_below(const Scalar& proportional_gain) const {
     const RatioOfQuadratics<Scalar> square = squared_ratio(proportional_gain);
-    return where_negative<Scalar>(square.numerator - ratio * ratio * square.denominator);
+    return where_negative<Scalar>(square.numerator - square.denominator);
   }
 
   /// A differential gain and the amplitude ratio that it gives.
@@ -192,18 +262,6 @@ class SteadyResponse {
   Complex numerator_slope_;     // t_c f_v − f_c t_v
 };
 
-namespace detail {
-
-/// The steady response of a plant's loop in the form that it has: of the two masses, or of any
-/// order.
-template <class Plant, class Loop>
-SteadyResponse<double> response_of_loop(const Plant& plant, const Loop& loop, ForceHold hold,
-                                        double angular_frequency) {
-  return {loop, harmonic_input(plant, loop, hold, angular_frequency), angular_frequency};
-}
-
-}  // namespace detail
-
 /// The steady response of a plant's loop: in closed form of the two masses with δ ≤ τ, of any other
 /// plant, and for longer delays, from the loop's map.
 /// @param plant              any order; its ports say what is measured and what the conductor is
@@ -215,14 +273,16 @@ template <class Plant>
 SteadyResponse<double> steady_response(const Plant& plant, const Sampling<double>& sampling,
                                        ForceHold hold, double angular_frequency) {
   require_positive("angular frequency", angular_frequency, "rad/s");
+  const auto of = [&](const auto& loop) -> SteadyResponse<double> {
+    return {loop, harmonic_input(plant, loop, hold, angular_frequency), angular_frequency};
+  };
   if constexpr (has_closed_forms<Plant>) {
     if (sampling.processing_delay <= sampling.period) {
       validate(sampling);
-      return detail::response_of_loop(plant, sampled_loop(plant, sampling), hold,
-                                      angular_frequency);
+      return of(sampled_loop(plant, sampling));
     }
   }
-  return detail::response_of_loop(plant, loop_map(plant, sampling), hold, angular_frequency);
+  return of(loop_map(plant, sampling));
 }
 
 /// |Z| / F_m (m/N) of the plant without control under the true force F_m cos ωt, |h (iωI − A)⁻¹ c|:
@@ -244,7 +304,8 @@ namespace detail {
 template <class Plant, class Loop>
 SteadyResponse<double> response_of_loop(const Plant& plant, const Loop& loop, ForceHold hold,
                                         double angular_frequency, bool relative_to_true_force) {
-  const auto response = response_of_loop(plant, loop, hold, angular_frequency);
+  const SteadyResponse<double> response(loop, harmonic_input(plant, loop, hold, angular_frequency),
+                                        angular_frequency);
   return relative_to_true_force
              ? response.relative_to(true_amplitude_per_force(plant, angular_frequency))
              : response;

@@ -78,6 +78,14 @@ double seen_frequency(const Case& the_case) {
                   2.0 * effective_excitation(the_case).frequency);
 }
 
+/// Of a judge of stability.
+constexpr int most_judged = 2000;
+
+/// rad/s.
+double twice_the_rate_of(const Case& the_case) {
+  return 4.0 * pi<double> / the_case.control.sampling_period;
+}
+
 /// The share of a wave of mode n that the nearer end sends back to the absorber.
 double echo(const Case& the_case, const TautString<double>& string, int n) {
   const double place = the_case.absorber.position;
@@ -192,15 +200,21 @@ ConductorModes finer_modes_of(const Case& the_case, const ConductorModes& conduc
 
 ConductorModes judged_modes_of(const Case& the_case) {
   const TautString<double> string = string_of(the_case);
-  constexpr int most = 2000;
-  const double twice_the_rate = 4.0 * pi<double> / the_case.control.sampling_period;
+  const double twice_the_rate = twice_the_rate_of(the_case);
   const auto comes_back = [&](int n) {
     const double damping = bare_damping_of(the_case, string.angular_frequency(n));
     return std::exp(-2.0 * pi<double> * n * damping) > 0.05;
   };
   int n = chosen_modes(the_case);
-  while (n < most && string.angular_frequency(n) < twice_the_rate && comes_back(n)) ++n;
+  while (n < most_judged && string.angular_frequency(n) < twice_the_rate && comes_back(n)) ++n;
   return all_modes_of_string(the_case, n);
+}
+
+ConductorModes cut_modes_of(const Case& the_case) {
+  const TautString<double> string = undamped_string_of(the_case);
+  int n = 1;
+  while (n < most_judged && string.angular_frequency(n + 1) < twice_the_rate_of(the_case)) ++n;
+  return damped(the_case, string_modes(string, the_case.absorber.position, n), n, 0);
 }
 
 ConductorModes conductor_modes_of(const Case& the_case) {

@@ -45,6 +45,9 @@ ConductorModes coarser_modes_of(const Case& the_case, const ConductorModes& cond
 /// never fewer than it is computed with.
 ConductorModes judged_modes_of(const Case& the_case);
 
+/// The modes of the string up to twice the sampling rate, 2000 at most, and none beyond.
+ConductorModes cut_modes_of(const Case& the_case);
+
 /// Whether a cable would need more bars than it has for the waves that sampling shows.
 bool lacks_bars(const Case& the_case);
 

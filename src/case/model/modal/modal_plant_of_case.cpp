@@ -13,10 +13,10 @@
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "process/memo.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 
@@ -73,7 +73,8 @@ ConductorWithAbsorber conductor_by(const Case& the_case, const ConductorModes& c
   const Absorber<double> absorber = absorber_of(the_case);
   auto poles = the_case.devices.empty() ? remembered_poles(conductor.modes, absorber)
                                         : poles_with_devices(the_case, conductor, absorber);
-  return {conductor.modes, absorber, std::move(poles), hardware_of(the_case)};
+  return {conductor.modes, absorber, std::move(poles), hardware_of(the_case),
+          !the_case.devices.empty()};
 }
 
 /// Without the drift of a string without ends, which the drive neither moves nor sees.
@@ -135,6 +136,8 @@ std::vector<PlantPole> loop_poles_of(const Case& the_case) {
 
 LinearPlant<double> modal_plant_of(const Case& the_case) {
   if (has_own_plant(the_case)) return with_hardware(*the_case.own->plant, hardware_of(the_case));
+  if (!the_case.devices.empty())
+    throw NoAnswer("the loop of conductor, absorber and devices was not found by its poles alone");
   return linear_plant(ConductorWithAbsorber{
       place_modes_of(the_case), absorber_of(the_case), {}, hardware_of(the_case)});
 }
@@ -177,14 +180,23 @@ OtherModes other_modes_of(const Case& the_case) {
                                 (fewer_bars.empty() ? "" : " and " + std::to_string(kept.bars))};
 }
 
-JudgedLoop judged_loop_of(const Case& the_case) {
-  Case on_string = the_case;
-  on_string.plant.model = "string";
-  on_string.plant.modes = std::nan("");
-  const ConductorModes modes = judged_modes_of(on_string);
-  return {ResolvedCircle<double>(response_of(on_string, modes)), modes.apart,
+namespace {
+
+JudgedLoop loop_on_string(Case the_case, ConductorModes (*modes_of)(const Case&)) {
+  the_case.plant.model = "string";
+  the_case.plant.modes = std::nan("");
+  const ConductorModes modes = modes_of(the_case);
+  return {ResolvedCircle<double>(response_of(the_case, modes)), modes.apart,
           modes.highest_frequency()};
 }
+
+}  // namespace
+
+JudgedLoop judged_loop_of(const Case& the_case) {
+  return loop_on_string(the_case, judged_modes_of);
+}
+
+JudgedLoop cut_loop_of(const Case& the_case) { return loop_on_string(the_case, cut_modes_of); }
 
 bool has_chosen_modes(const Case& the_case) {
   return the_case.plant.model == "string" && !std::isfinite(the_case.plant.modes) &&
@@ -200,27 +212,37 @@ std::string judged_otherwise(const Case& the_case) {
          std::to_string(conductor_modes_of(the_case).apart) + " that it is computed with it is not";
 }
 
+namespace {
+
+/// With its poles where they are found; with devices there is no other way.
+ConductorWithAbsorber placed_conductor_of(const Case& the_case) {
+  return the_case.devices.empty() ? conductor_by(the_case, conductor_modes_of(the_case))
+                                  : conductor_with_absorber_of(the_case);
+}
+
+}  // namespace
+
 SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<double>& sampling,
                                           ForceHold hold, double angular_frequency) {
-  const auto of_plant = [&](const auto& plant) {
-    const auto response = steady_response(plant, sampling, hold, angular_frequency);
+  if (has_closed_forms(the_case))
+    return steady_response(plant_of(the_case), sampling, hold, angular_frequency);
+  if (has_own_plant(the_case)) {
+    const auto response =
+        steady_response(modal_plant_of(the_case), sampling, hold, angular_frequency);
     return hardware_of(the_case).has_velocity_sensor
                ? response
                : response.with_velocity_by_difference(angular_frequency * sampling.period,
                                                       sampling.period);
-  };
-  if (!is_modal(the_case)) return of_plant(plant_of(the_case));
-  if (has_own_plant(the_case)) return of_plant(modal_plant_of(the_case));
-  return steady_response(conductor_by(the_case, conductor_modes_of(the_case)), sampling, hold,
-                         angular_frequency);
+  }
+  return steady_response(placed_conductor_of(the_case), sampling, hold, angular_frequency);
 }
 
 double true_amplitude_of(const Case& the_case, double angular_frequency) {
-  if (!is_modal(the_case)) return true_amplitude_per_force(plant_of(the_case), angular_frequency);
+  if (is_two_masses(the_case))
+    return true_amplitude_per_force(plant_of(the_case), angular_frequency);
   if (has_own_plant(the_case))
     return true_amplitude_per_force(modal_plant_of(the_case), angular_frequency);
-  return true_amplitude_per_force(place_modes_of(the_case), absorber_of(the_case),
-                                  angular_frequency);
+  return true_amplitude_per_force(placed_conductor_of(the_case), angular_frequency);
 }
 
 ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,

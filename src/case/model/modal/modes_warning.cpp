@@ -6,7 +6,7 @@
 
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/conductor_modes.hpp"
-#include "io/text/text.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -123,7 +123,7 @@ std::string drift_warning(const Case& the_case) {
 }
 
 std::string dense_work_warning(const Case& the_case, Switching switching) {
-  if (!is_modal(the_case) || has_own_plant(the_case) || is_of_the_paper(the_case, switching))
+  if (motion_kind_of(the_case, switching) != MotionKind::built_plant || has_own_plant(the_case))
     return "";
   const std::size_t modes = conductor_modes_of(the_case).modes.size();
   constexpr std::size_t soon = 50;

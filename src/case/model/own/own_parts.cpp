@@ -24,12 +24,7 @@ void require_consistent_plant(const Case& the_case) {
     throw WrongInput(
         "control.proportional_gain = \"tuned\": Eq. 6 is of an absorber's mass and spring, and the "
         "plant is one of your own; give a number");
-  for (const char* key : {"initial.z1", "initial.v1", "initial.z2", "initial.v2"})
-    refuse_key(the_case, key, "a plant of your own starts from its own state");
-  for (const auto& [key, place] : the_case.places)
-    for (const char* table : {"plant.", "conductor.", "absorber.", "reduction.", "device."})
-      if (key.rfind(table, 0) == 0)
-        throw WrongInput(place + ": " + key + " does not count: the plant is one of your own");
+  for (const auto& [key, place] : the_case.places) require_counts(the_case, key, place + ": ");
 }
 
 void require_consistent_controller(const Case& the_case) {
@@ -44,6 +39,15 @@ void require_consistent_controller(const Case& the_case) {
 }
 
 }  // namespace
+
+void require_counts(const Case& the_case, std::string_view key, const std::string& place) {
+  if (!has_own_plant(the_case)) return;
+  for (const char* table :
+       {"plant.", "conductor.", "absorber.", "reduction.", "device.", "initial."})
+    if (key.rfind(table, 0) == 0)
+      throw WrongInput(place + std::string(key) +
+                       " does not count: the plant is one of your own, with its own state");
+}
 
 void require_consistent(const Case& the_case) {
   if (the_case.own == nullptr) return;

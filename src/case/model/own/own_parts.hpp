@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "case/case.hpp"
@@ -28,6 +30,10 @@ struct OwnParts {
 /// Throws WrongInput where the case says something that its own plant or controller takes no notice
 /// of, or would contradict.
 void require_consistent(const Case& the_case);
+
+/// Throws WrongInput where a key is of a plant that one of the user's own stands in place of.
+/// @param place  where it is given, with a colon behind; or empty
+void require_counts(const Case& the_case, std::string_view key, const std::string& place = "");
 
 /// OwnForce as a controller of the library (control/controlled_plant.hpp); its memory are the
 /// number and the instant of the sample.

@@ -11,8 +11,8 @@
 #include "case/model/plant_of_case.hpp"
 #include "case/needed.hpp"
 #include "holdfast/span/wind/self_damping_law.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -7,10 +7,10 @@
 #include "case/model/plant_of_case.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "holdfast/core/types.hpp"
-#include "io/text/text.hpp"
 #include "jobs/span/placement/stable_gains.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "text/text.hpp"
 
 #ifdef HOLDFAST_HAS_CERES
 #include "holdfast/ceres/device_placement.hpp"

@@ -18,7 +18,13 @@ void widen(Interval<double>& interval, const std::vector<Interval<double>>& othe
 }  // namespace
 
 StableGains::StableGains(const Case& the_case, double margin)
-    : judge_(judged_loop_of(the_case)), responses_(judge_.circle.responses()), margin_(margin) {}
+    : judge_(judged_loop_of(the_case)),
+      cut_(cut_loop_of(the_case)),
+      responses_(judge_.circle.responses()),
+      margin_(margin) {
+  const auto others = cut_.circle.responses();
+  responses_.insert(responses_.end(), others.begin(), others.end());
+}
 
 bool StableGains::admits(const PdGains<double>& gains) const {
   for (const CommandResponse<double>& g : responses_) {

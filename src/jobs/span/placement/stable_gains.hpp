@@ -18,15 +18,18 @@ struct GainRectangle {
 };
 
 /// The gains with which the computer's loop of a case is stable on the taut string with all its
-/// devices, by the judge of loops (`judged_loop_of`), at a modulus margin: min |1 − P G_z − D G_v|
-/// over the unit circle.
+/// devices at a modulus margin: min |1 − P G_z − D G_v| over the unit circle. They are so by the
+/// judge of loops (`judged_loop_of`), and by the same string without the modes above twice the
+/// sampling rate: gains that hang on how many modes are kept are not recommended.
 class StableGains {
  public:
   /// @param margin  0 … 1; 0: stability alone
   /// Throws what `judged_loop_of` throws.
   StableGains(const Case& the_case, double margin);
 
-  bool is_stable(const PdGains<double>& gains) const { return judge_.is_stable(gains); }
+  bool is_stable(const PdGains<double>& gains) const {
+    return judge_.is_stable(gains) && cut_.is_stable(gains);
+  }
 
   int judged_modes() const { return judge_.modes; }            ///< one by one
   double highest_frequency() const { return judge_.highest; }  ///< Hz, of the last of them
@@ -44,8 +47,8 @@ class StableGains {
   GainRectangle around(const PdGains<double>& most) const;
 
  private:
-  JudgedLoop judge_;
-  std::vector<CommandResponse<double>> responses_;  // at its angles
+  JudgedLoop judge_, cut_;
+  std::vector<CommandResponse<double>> responses_;  // at the angles of both
   double margin_;
 };
 

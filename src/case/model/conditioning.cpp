@@ -1,0 +1,72 @@
+#include "case/model/conditioning.hpp"
+
+#include <algorithm>
+
+#include "case/model/cable_of_case.hpp"
+#include "case/model/reduction_of_case.hpp"
+#include "holdfast/orbit/loop_orbit.hpp"
+#include "text/text.hpp"
+
+namespace holdfast::program {
+
+std::string sensitive_reduction_warning(const Case& the_case) {
+  const ReductionResult result = reduction_of(the_case);
+  const ReducedMasses& taken = result.solutions[0];
+  if (result.outcome != ReductionOutcome::double_solution && !taken.is_ill_conditioned()) return "";
+  return "the reduction is near its double solution (discriminant " +
+         format_rounded(result.discriminant) +
+         "): an error of 1 % of k1, m2 and the two frequencies may be one of " +
+         format_rounded(taken.stiffness_condition) + " % of k2 and " +
+         format_rounded(taken.mass_condition) + " % of m1";
+}
+
+std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& features) {
+  const auto near = std::find_if(features.begin(), features.end(),
+                                 [](const auto& feature) { return feature.nearly_cusp; });
+  if (near == features.end()) return "";
+  return "the boundary nearly has a cusp at P = " +
+         format_rounded(static_cast<double>(near->gains.proportional)) +
+         " N/m, D = " + format_rounded(static_cast<double>(near->gains.differential)) +
+         " N s/m: there a small change of the loop makes stable intervals appear or vanish";
+}
+
+std::string near_border_warning(double border_share) {
+  if (!(border_share < near_border)) return "";
+  return "the orbit passes a switching surface at " + format_rounded(border_share) +
+         " of its own size: a change of the loop in its fourth digit may end it";
+}
+
+std::string shifted_copies_warning(std::int64_t period, std::int64_t coincidence) {
+  const std::int64_t copies = period / coincidence;
+  if (copies < 2) return "";
+  return "the orbit has " + std::to_string(copies) + " copies, each " +
+         std::to_string(coincidence) +
+         " samples later: neighbours that come to different ones stay apart for good, though each "
+         "is stable; deviation tells of two";
+}
+
+std::string open_sign_warning(const LyapunovResult& result) {
+  if (result.sign_is_known()) return "";
+  return "the largest exponent, " + format_rounded(result.exponents[0]) + " per sample with the " +
+         "standard error " + format_rounded(result.standard_errors[0]) +
+         ", is not told from zero: a longer --duration may tell its sign";
+}
+
+std::string stepped_reading_warning(const Case& the_case) {
+  const auto& control = the_case.control;
+  if (control.displacement_quantum == 0.0 && control.velocity_quantum == 0.0) return "";
+  return "the reading has steps (control.displacement_quantum, control.velocity_quantum), between "
+         "which its derivative is zero: the exponents are those of neighbours within one step; "
+         "deviation follows neighbours that are farther apart";
+}
+
+std::string short_average_warning(const Case& the_case, double averaged) {
+  constexpr double least_periods = 20.0;
+  const double periods = averaged * effective_excitation(the_case).frequency;
+  if (!(periods < least_periods)) return "";
+  return "the exponents are averaged over " + format_rounded(periods) +
+         " forcing periods: of fewer than 20 they tell the beginning, not the motion; "
+         "take a longer --duration";
+}
+
+}  // namespace holdfast::program
