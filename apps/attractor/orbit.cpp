@@ -1,5 +1,4 @@
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "case/case_keys.hpp"

@@ -1,6 +1,5 @@
 #include "explorer/live_charts.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include "case/model/linear_loop.hpp"

@@ -1,6 +1,5 @@
 #include "case/device/device_values.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "case/toml_values.hpp"

@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "case/model/linear_loop.hpp"

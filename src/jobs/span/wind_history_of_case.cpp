@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/modal/conductor_modes.hpp"

@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cstdint>
 #include <string>
-#include <utility>
 
 #include "io/text/csv.hpp"
 #include "output/grid/cell_writer.hpp"

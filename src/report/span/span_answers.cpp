@@ -1,8 +1,6 @@
 #include "report/page/answers.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_loop.hpp"

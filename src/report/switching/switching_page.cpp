@@ -317,6 +317,7 @@ std::vector<ContactStrip> strips_of_laws(const std::vector<StudiedLaw>& studied)
        {3, "dead zone, exact", true},
        {4, "no backlash", false}}};
   std::vector<ContactStrip> strips;
+  strips.reserve(shown.size());
   for (const auto& [law, how, exact] : shown)
     strips.push_back(strip_with_amplitude(how, exact ? studied[law].exact : studied[law].sampled));
   return strips;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"

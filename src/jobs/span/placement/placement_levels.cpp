@@ -1,7 +1,5 @@
 #include "jobs/span/placement/placement_levels.hpp"
 
-#include <cmath>
-
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "holdfast/core/types.hpp"
