@@ -208,7 +208,7 @@ bool has_absorber(const Case& the_case);
 /// Whether anything is said of the site.
 bool has_site(const Case& the_case);
 
-/// What of a case makes its loop more than two masses with a computer, for a message.
+/// The parts of a case that make its loop more than two masses and a computer, for a message.
 std::string modal_words(const Case& the_case);
 
 /// Whether the conductor is a string without ends.

@@ -17,9 +17,9 @@
 namespace holdfast::program {
 namespace {
 
-CellOutcome outcome_of(holdfast::MotionEnd end) {
-  if (end == holdfast::MotionEnd::accumulates) return CellOutcome::accumulates;
-  return end == holdfast::MotionEnd::diverged ? CellOutcome::diverges : CellOutcome::computed;
+CellOutcome outcome_of(MotionEnd end) {
+  if (end == MotionEnd::accumulates) return CellOutcome::accumulates;
+  return end == MotionEnd::diverged ? CellOutcome::diverges : CellOutcome::computed;
 }
 
 CellOutcome outcome_of(MinimumAmplitudeOutcome outcome) {

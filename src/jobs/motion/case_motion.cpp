@@ -93,7 +93,7 @@ void require_resolved(const SwitchCounts& counts, double time, bool quiet) {
 
 }  // namespace
 
-void tell_of_end(const JobContext& context, const MotionEnd& end, bool controlled, double kick) {
+void tell_of_end(const JobContext& context, const ReachedState& end, bool controlled, double kick) {
   require_resolved(end.counts, end.time, context.quiet);
   report_warning(divergence_warning(context.case_data, controlled, kick, end.time, end.size),
                  context.quiet);

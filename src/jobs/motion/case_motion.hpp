@@ -44,7 +44,7 @@ class CaseMotion {
 };
 
 /// Where a motion has come to.
-struct MotionEnd {
+struct ReachedState {
   double time;          ///< s
   double size;          ///< the largest number of its state, m and m/s
   SwitchCounts counts;  ///< what it has met with
@@ -52,7 +52,7 @@ struct MotionEnd {
 
 /// @tparam Motion  CaseMotion or an EventMotion
 template <class Motion>
-MotionEnd end_of(const Motion& motion) {
+ReachedState end_of(const Motion& motion) {
   return {motion.time(), motion.state().cwiseAbs().maxCoeff(), motion.counts()};
 }
 
@@ -60,7 +60,7 @@ MotionEnd end_of(const Motion& motion) {
 /// not to be trusted; warns where rounding decided some of them, and where the motion diverges, as
 /// one within the range of numbers may too.
 /// @param kick  displacement on its way, m
-void tell_of_end(const JobContext& context, const MotionEnd& end, bool controlled = true,
+void tell_of_end(const JobContext& context, const ReachedState& end, bool controlled = true,
                  double kick = 0.0);
 
 }  // namespace holdfast::program

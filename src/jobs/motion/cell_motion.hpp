@@ -32,7 +32,7 @@ MotionMetrics diverging(const MotionMetrics& metrics);
 /// The exponents of a motion and where it ended: of one from sample to sample the time alone.
 struct ExponentsOfMotion {
   LyapunovResult result;
-  MotionEnd end;
+  ReachedState end;
 };
 
 /// The exponents of any moving loop; throws Interrupted.

@@ -26,7 +26,7 @@
 
 namespace holdfast {
 
-/// What a sampling period must allow to count as feasible.
+/// The criterion by which a sampling period counts as feasible.
 enum class DelayCriterion {
   stable,      ///< some differential gain stabilises the loop
   attenuates,  ///< τ < 1/(2f), so that the samples show the vibration, and some stabilising
@@ -50,8 +50,8 @@ struct MaxDelayOptions {
   int most_steps = 20000;  ///< ≥ 1; of the search, each some 40 µs or more for two masses,
                            ///< after which it gives up
   std::function<void()> watch = {};  ///< called at each step; may throw to end the search
-  /// What `attenuates` compares with: the plant without control under the true force, or under the
-  /// force held as with control, as `AmplitudeOptions` has it.
+  /// Whether `attenuates` compares with the plant without control under the true force; else under
+  /// the force held as with control, as `AmplitudeOptions` has it.
   bool relative_to_true_force = false;
 
   /// ω = 2π f (rad/s).
@@ -76,7 +76,7 @@ inline void validate(const MaxDelayOptions& options) {
 
 namespace detail {
 
-/// What one sampling period offers at the question's P.
+/// The stable D of one sampling period and its response, at the question's P.
 template <class Scalar>
 struct DelayOffer {
   std::vector<Interval<Scalar>> stable;            ///< D that stabilise
@@ -119,7 +119,7 @@ inline std::optional<double> serving_gain(const MaxDelayOptions& options, double
   return best.differential_gain;
 }
 
-/// What the best of the stabilising D leaves; NaN where that is not asked or there is none.
+/// The ratio that the best of the stabilising D leaves; NaN where none is asked for or there.
 inline double least_ratio(const MaxDelayOptions& options, const DelayOffer<double>& offer) {
   if (!offer.response) return std::numeric_limits<double>::quiet_NaN();
   return offer.response->best_differential_gain(options.proportional_gain, offer.stable)
@@ -157,7 +157,7 @@ enum class MaxDelayOutcome {
   never,  ///< not even the shortest period of the search is feasible; `sampling_period` is 0
 };
 
-/// What a longer period lacks.
+/// The lack of a longer period.
 enum class MaxDelayLimit {
   none,         ///< nothing that is known: the outcome is `unlimited` or `beyond_search`
   stability,    ///< the gains that serve below no longer stabilise

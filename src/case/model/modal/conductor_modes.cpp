@@ -77,7 +77,7 @@ double seen_frequency(const Case& the_case) {
                   2.0 * effective_excitation(the_case).frequency);
 }
 
-/// Of a judge of stability.
+/// The most modes of a judge of stability.
 constexpr int most_judged = 2000;
 
 /// rad/s.

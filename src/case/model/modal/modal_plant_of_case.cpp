@@ -137,7 +137,7 @@ std::vector<PlantPole> loop_poles_of(const Case& the_case) {
 LinearPlant<double> modal_plant_of(const Case& the_case) {
   if (has_own_plant(the_case)) return with_hardware(*the_case.own->plant, hardware_of(the_case));
   if (!the_case.devices.empty())
-    throw NoAnswer("the loop of conductor, absorber and devices was not found by its poles alone");
+    throw NoAnswer("conductor and absorber as matrices know no devices: take the devices away");
   return linear_plant(ConductorWithAbsorber{
       place_modes_of(the_case), absorber_of(the_case), {}, hardware_of(the_case)});
 }

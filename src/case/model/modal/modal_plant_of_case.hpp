@@ -77,7 +77,7 @@ struct JudgedLoop {
 /// Throws what `conductor_with_absorber_of` does, and WrongInput for a measured device.
 JudgedLoop judged_loop_of(const Case& the_case);
 
-/// The same loop without the modes above twice the sampling rate, which is not how a string is.
+/// Its loop without the modes above twice the sampling rate, which is not how a string is.
 JudgedLoop cut_loop_of(const Case& the_case);
 
 /// Whether a case is of a string whose modes the program chooses, of which the judge has more.
