@@ -1,8 +1,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>

@@ -19,7 +19,7 @@ endfunction()
 function(holdfast_add_warnings)
   add_library(holdfast_warnings INTERFACE)
   target_compile_options(holdfast_warnings INTERFACE
-    $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wconversion;-Wshadow>)
+    $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wconversion;-Wsign-conversion;-Wshadow>)
   if(HOLDFAST_WARNINGS_AS_ERRORS)
     target_compile_options(holdfast_warnings INTERFACE
       $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Werror>)

@@ -144,7 +144,7 @@ void write_fractions(const JobContext& context, const BasinsOf<Orbit>& map) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   for (const double kind : {0.0, -1.0}) {
     std::size_t states = 0;
-    for (const BasinLabel& label : map.labels) states += number_of(label) == kind ? 1 : 0;
+    for (const BasinLabel& label : map.labels) states += number_of(label) == kind ? 1U : 0U;
     if (states == 0) continue;
     const double fraction = static_cast<double>(states) / all;
     table.row(static_cast<int>(kind), 0, none, none, none, states, fraction,

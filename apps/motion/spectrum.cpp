@@ -1,7 +1,6 @@
 #include "holdfast/math/signal/spectrum.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/motion/instant.hpp"

@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 #endif
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>

@@ -1,7 +1,5 @@
 #include "store/work_store.hpp"
 
-#include <string>
-
 #include "process/errors.hpp"
 
 namespace holdfast::program {

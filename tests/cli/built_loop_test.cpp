@@ -282,7 +282,7 @@ TEST(BuiltLoop, SensitivityKnowsTheEdgeOfWhatIsAdmissible) {
   std::size_t known = 0;
   for (std::size_t row = 0; row < found.rows(); ++row)
     if (found.text(row, "parameter") == "control.processing_delay")
-      known += std::isfinite(found.number(row, "derivative")) ? 1 : 0;
+      known += std::isfinite(found.number(row, "derivative")) ? 1U : 0U;
   EXPECT_GE(known, 4U);
 }
 

@@ -83,7 +83,7 @@ TEST(String, ChartAndIntervalsAreThoseOfTheEigenvalues) {
   for (std::size_t row = 0; row < chart.rows(); ++row) {
     EXPECT_EQ(chart.number(row, "stable") == 1.0, chart.number(row, "spectral_radius") < 1.0)
         << row;
-    stable += chart.number(row, "stable") == 1.0 ? 1 : 0;
+    stable += chart.number(row, "stable") == 1.0 ? 1U : 0U;
   }
   EXPECT_GT(stable, 10U);
   EXPECT_LT(stable, chart.rows() - 10U);
@@ -106,7 +106,7 @@ TEST(String, BoundaryHasARootOnTheCircle) {
     if (!std::isfinite(d)) continue;
     const CsvTable cell = cell_of("stability --radius", p, d, string);
     EXPECT_GT(cell.number(0, "spectral_radius"), 1.0 - 1e-8) << p << ' ' << d;
-    on_edge += cell.number(0, "spectral_radius") < 1.0 + 1e-8 ? 1 : 0;
+    on_edge += cell.number(0, "spectral_radius") < 1.0 + 1e-8 ? 1U : 0U;
   }
   EXPECT_GT(on_edge, 0U);
 }

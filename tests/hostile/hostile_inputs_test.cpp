@@ -447,7 +447,7 @@ bool may_leave_something(const HostileInput& input, const LimitedEnding& ending)
   std::size_t job = 0;
   const std::vector<std::string>& words = input.words;
   while (job < words.size() && words[job].rfind("--", 0) == 0)
-    job += words[job] == "--quiet" || words[job] == "--progress" ? 1 : 2;
+    job += words[job] == "--quiet" || words[job] == "--progress" ? 1U : 2U;
   const bool makes_many = job < words.size() && (words[job] == "sweep" || words[job] == "report");
   return ending.exit_code == 0 || (makes_many && ending.exit_code != 2);
 }

@@ -222,5 +222,12 @@ TEST(EnclosedPoles, RefuseWhatIsNotAdmissible) {
   EXPECT_THROW(enclosed_poles(conductor), InvalidParameter);
 }
 
+TEST(EnclosedPoles, AConductorWithDevicesHasNoPlantOfItsBareModes) {
+  ConductorWithAbsorber conductor = span(8, 0.01, paper);
+  EXPECT_EQ(linear_plant(conductor).force_input.size(), 18);
+  conductor.has_devices = true;
+  EXPECT_THROW(linear_plant(conductor), InvalidParameter);
+}
+
 }  // namespace
 }  // namespace holdfast::test

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <complex>
-
 #include "holdfast/cable/taut_string.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/span/device/lumped_device.hpp"

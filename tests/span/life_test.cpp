@@ -1,6 +1,5 @@
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "holdfast/span/life/clamp_bending.hpp"
 #include "holdfast/span/life/miner_damage.hpp"

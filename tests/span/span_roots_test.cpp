@@ -3,7 +3,6 @@
 #include <cmath>
 #include <complex>
 #include <random>
-#include <vector>
 
 #include "span/drake_span.hpp"
 #include "support/testing.hpp"

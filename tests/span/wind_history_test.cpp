@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <string>
 #include <vector>
 
 #include "holdfast/span/span_roots.hpp"

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <string>
 
 #include "holdfast/span/wind/energy_balance.hpp"
 #include "holdfast/span/wind/self_damping_law.hpp"

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <vector>
 
 #include "holdfast/span/end_response.hpp"
 #include "holdfast/span/life/clamp_bending.hpp"

@@ -10,8 +10,6 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "holdfast/ceres/decay_fit_options.hpp"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 #include "holdfast/ceres/decay_fit_options.hpp"
 #include "holdfast/math/signal/decay_measures.hpp"

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 
 #include "holdfast/chaos/lyapunov_run.hpp"

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/roots/series.hpp"

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "holdfast/core/rational.hpp"

@@ -32,9 +32,11 @@ inline std::complex<double> place_receptance(const ConductorWithAbsorber& conduc
 /// It as a plant of order 2N + 2 and what states the hardware has.
 /// @tparam Scalar    double; a parameter so that nothing is compiled where this is not called
 /// @param conductor  whose poles do not count
-/// @throws InvalidParameter where modes, absorber or hardware are not admissible
+/// @throws InvalidParameter where modes, absorber or hardware are not admissible, and with devices
 template <class Scalar = double>
 LinearPlant<Scalar> linear_plant(const ConductorWithAbsorber& conductor) {
+  if (conductor.has_devices)
+    throw InvalidParameter("has_devices", 1.0, "", "0, since a plant is made of the bare modes");
   return with_hardware(modal_plant<Scalar>(conductor.modes, conductor.absorber),
                        conductor.hardware);
 }

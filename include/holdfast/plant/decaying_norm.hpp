@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <cmath>
 #include <limits>
 
 #include "holdfast/core/types.hpp"

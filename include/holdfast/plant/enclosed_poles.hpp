@@ -4,7 +4,6 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "holdfast/math/enclosure/complex_enclosure.hpp"

@@ -1,6 +1,5 @@
 #include "case/axes/grid.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "case/case_keys.hpp"

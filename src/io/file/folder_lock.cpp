@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include <cerrno>
-#include <string>
 
 #include "process/errors.hpp"
 

@@ -1,7 +1,6 @@
 #include "output/grid/grid_output.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 

@@ -1,7 +1,6 @@
 #include "report/page/motions.hpp"
 
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <type_traits>

@@ -31,7 +31,7 @@ TEST(ShareError, IsHowFarTheShareIs) {
       const double angle = 0.5 * pi<double> * random.unit();  // shares by Jeffreys's prior
       const double share = std::sin(angle) * std::sin(angle);
       std::size_t count = 0;
-      for (std::size_t k = 0; k < all; ++k) count += random.unit() < share ? 1 : 0;
+      for (std::size_t k = 0; k < all; ++k) count += random.unit() < share ? 1U : 0U;
       const double middle = (static_cast<double>(count) + 0.5) / (static_cast<double>(all) + 1.0);
       square += (share - middle) * (share - middle);
       claimed += share_error(count, all) * share_error(count, all);

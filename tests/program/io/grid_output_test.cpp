@@ -368,7 +368,7 @@ TEST(GridNetcdf, HoldsTheCellsOverAnyNumberOfAxes) {
   for (std::size_t axes = 1; axes <= 4; ++axes) {
     const TemporaryFolder folder;
     const GridCells cells = cells_over(axes);
-    for (const std::size_t portion : {1, 10}) {
+    for (const std::size_t portion : {1U, 10U}) {
       write_cells(folder / "out.nc", cells, portion);
       expect_in_netcdf(folder / "out.nc", cells);
       EXPECT_EQ(folder.names(), std::vector<std::string>{"out.nc"});

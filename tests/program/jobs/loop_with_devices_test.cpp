@@ -35,8 +35,8 @@ Complex receptance_by_modes(const Case& the_case, const Complex& s) {
     const auto shape = [&](double x) { return std::sin(n * pi<double> * x / string.span); };
     const Complex divisor =
         s * s + 2.0 * bare_damping_of(the_case, omega) * omega * s + omega * omega;
-    for (const int i : {0, 1})
-      for (const int k : {0, 1})
+    for (const std::size_t i : {0U, 1U})
+      for (const std::size_t k : {0U, 1U})
         h[i][k] += shape(places[i]) * shape(places[k]) /
                    (0.5 * string.mass_per_length * string.span * divisor);
   }

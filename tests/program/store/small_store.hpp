@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "case/case_file.hpp"
 #include "store/store_folder.hpp"
 #include "store/stored_grid.hpp"

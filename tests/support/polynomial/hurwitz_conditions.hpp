@@ -14,8 +14,8 @@ template <class Scalar, int Degree>
 struct HurwitzConditions {
   static_assert(Degree == 4 || Degree == 5, "the loop has 4 (continuous) or 5 (sampled) roots");
 
-  Polynomial<Scalar, Degree> coefficients;      ///< a₀ … a_n
-  std::array<Scalar, Degree - 2> determinants;  ///< H₂ … H_{n−1}
+  Polynomial<Scalar, Degree> coefficients;                                ///< a₀ … a_n
+  std::array<Scalar, static_cast<std::size_t>(Degree) - 2> determinants;  ///< H₂ … H_{n−1}
 
   /// True (lane by lane) when every condition holds. A NaN anywhere is "not stable".
   Mask<Scalar> satisfied() const {

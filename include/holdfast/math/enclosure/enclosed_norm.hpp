@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/enclosure/enclosure.hpp"
 #include "holdfast/math/enclosure/positive_definite.hpp"

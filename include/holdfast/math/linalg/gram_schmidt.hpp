@@ -30,15 +30,15 @@ namespace detail {
 
 /// ‖(D N)⁻¹‖_F² of N unit upper triangular and D diagonal.
 /// @param inverse_squares  1 / D_i²
-template <class Number, int Columns>
+template <class Number, std::size_t Columns>
 Number inverse_square_norm(const Number (&unit_upper)[Columns][Columns],
                            const Number (&inverse_squares)[Columns]) {
   Number sum(0);
-  for (int j = 0; j < Columns; ++j) {
+  for (std::size_t j = 0; j < Columns; ++j) {
     Number column[Columns], size(1);  // column j of N⁻¹ from its diagonal upwards
-    for (int i = j - 1; i >= 0; --i) {
+    for (std::size_t i = j; i-- > 0;) {
       column[i] = -unit_upper[i][j];
-      for (int k = i + 1; k < j; ++k) column[i] -= unit_upper[i][k] * column[k];
+      for (std::size_t k = i + 1; k < j; ++k) column[i] -= unit_upper[i][k] * column[k];
       size += column[i] * column[i];
     }
     sum += size * inverse_squares[j];
@@ -62,7 +62,8 @@ Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis,
   using std::sqrt;
   const Number zero(0), one(1);
   Stretches<Number, Columns> result;
-  Number inverse_squares[Columns], unit_upper[Columns][Columns];
+  constexpr auto count = static_cast<std::size_t>(Columns);
+  Number inverse_squares[count], unit_upper[count][count];
   for (int i = 0; i < Columns; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Number square = basis.col(i).squaredNorm();
@@ -76,7 +77,7 @@ Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis,
     }
   }
   for (int i = 0; i < Columns; ++i) basis.col(i) *= sqrt(inverse_squares[i]);
-  result.inverse = detail::inverse_square_norm<Number, Columns>(unit_upper, inverse_squares);
+  result.inverse = detail::inverse_square_norm(unit_upper, inverse_squares);
   return result;
 }
 

@@ -13,8 +13,8 @@ namespace holdfast {
 ///     adjugate(x)    = adj(xI − M) = A₀ + A₁ x + … + A_{N−1} x^{N−1}
 template <class Scalar, int Size>
 struct Resolvent {
-  Polynomial<Scalar, Size> determinant;             ///< d₀ … d_N, d_N = 1
-  std::array<Matrix<Scalar, Size>, Size> adjugate;  ///< A₀ … A_{N−1}, each N × N
+  Polynomial<Scalar, Size> determinant;  ///< d₀ … d_N, d_N = 1
+  std::array<Matrix<Scalar, Size>, static_cast<std::size_t>(Size)> adjugate;  ///< A₀ … A_{N−1}
 
   /// The polynomial row · adj(xI − M) · column, of degree N − 1.
   Polynomial<Scalar, Size - 1> between(const RowVector<Scalar, Size>& row,

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <vector>
 
 #include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/core/types.hpp"

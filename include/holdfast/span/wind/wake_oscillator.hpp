@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"

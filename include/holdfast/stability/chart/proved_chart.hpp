@@ -81,9 +81,9 @@ template <class Number, int Degree>
 struct HurwitzConditions {
   static constexpr std::size_t sufficing = Degree == 4 ? 4 : 5;
   static constexpr std::size_t count = Degree == 4 ? 6 : 8;
+  static constexpr std::size_t n = Degree;
 
-  static std::array<Number, count> of(const std::array<Number, Degree + 1>& a) {
-    constexpr std::size_t n = Degree;
+  static std::array<Number, count> of(const std::array<Number, n + 1>& a) {
     const Number second = a[n - 1] * a[n - 2] - a[n] * a[n - 3];
     if constexpr (Degree == 4) {
       const Number third = a[1] * second - a[3] * (a[3] * a[0]);
@@ -115,7 +115,6 @@ class GainBoxProof {
 
   /// What is proved of a box.
   ProvedStability operator()(const GainBox& box) const {
-    using Conditions = detail::HurwitzConditions<Enclosure, Degree>;
     const Enclosure p(box.proportional_from, box.proportional_to);
     const Enclosure d(box.differential_from, box.differential_to);
     const auto at_centre = Conditions::of(coefficients(p.middle(), d.middle()));
@@ -133,19 +132,20 @@ class GainBoxProof {
   }
 
  private:
+  using Conditions = detail::HurwitzConditions<Enclosure, Degree>;
   using Moving = Eigen::AutoDiffScalar<Vector<Enclosure, 2>>;
 
-  std::array<Enclosure, Degree + 1> coefficients(const Enclosure& p, const Enclosure& d) const {
-    std::array<Enclosure, Degree + 1> a;
+  auto coefficients(const Enclosure& p, const Enclosure& d) const {
+    std::array<Enclosure, Conditions::n + 1> a;
     for (int k = 0; k <= Degree; ++k)
       a[static_cast<std::size_t>(k)] =
           polynomial_.base[k] + p * polynomial_.proportional[k] + d * polynomial_.differential[k];
     return a;
   }
 
-  std::array<Moving, Degree + 1> moving_coefficients(const Enclosure& p, const Enclosure& d) const {
+  auto moving_coefficients(const Enclosure& p, const Enclosure& d) const {
     const auto values = coefficients(p, d);
-    std::array<Moving, Degree + 1> a;
+    std::array<Moving, Conditions::n + 1> a;
     for (int k = 0; k <= Degree; ++k)
       a[static_cast<std::size_t>(k)] =
           Moving(values[static_cast<std::size_t>(k)],
