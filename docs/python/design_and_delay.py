@@ -83,13 +83,13 @@ axes.set(xlabel="frequency (Hz)", ylabel="largest sampling period (ms)", ylim=(0
 figure.savefig("largest_delay.png", dpi=100, bbox_inches="tight")
 
 # %% [markdown]
-# A little faster than that some D helps, a little slower none does. Over such long samples the force itself counts as
-# held, with control and without: the program says so.
+# A little faster than that some D helps, a little slower none does. Over such long samples the force counts as held
+# under control, and as the true one without, which is what control is compared with: the program says so.
 
 # %%
 for period, helps in ((0.99 * periods[at_10], True), (1.01 * periods[at_10], False)):
     slow = case.with_({"control.sampling_period": period})
     over_d = slow.response(delay["proportional_gain"][at_10], (-8, 4, 2001))
-    best = over_d["amplitude_m"][over_d["stable"]].min() / slow.response(0.0, 0.0)["amplitude_m"].item()
+    best = over_d["ratio_to_uncontrolled"][over_d["stable"]].min()
     print(f"{1000 * period:.2f} ms: the best D leaves {best:.4f}")
     assert (best < 1.0) == helps

@@ -120,7 +120,8 @@ class Store:
         """All cells in memory, as the :class:`Table` that the job gives without a store: words are texts, and
         ``plot()`` and ``to_pandas()`` are at hand. ``progress`` as of a job.
 
-        :raises holdfast.NoAnswer: chunks are missing or damaged; the message names the first one
+        :raises FileNotFoundError: nothing lies at ``store``
+    :raises holdfast.NoAnswer: chunks are missing or damaged; the message names the first one
         """
         from ._case import Case
 
@@ -169,11 +170,13 @@ def convert(
     :param zarr_format: of a ``.zarr``: 2 or 3
     :param yes: a text of more than ten million cells is meant
     :return: a new store; nothing for a table
+    :raises FileNotFoundError: nothing lies at ``store``
     :raises holdfast.NoAnswer: chunks are missing or damaged; the message names the first one
     """
     from ._case import Case
 
-    words = [os.fspath(store), os.fspath(file), *_options.arguments({"zarr_format": zarr_format})]
+    source = store if isinstance(store, Store) else open_store(store)
+    words = [os.fspath(source), os.fspath(file), *_options.arguments({"zarr_format": zarr_format})]
     Case()._run("convert", words, {"yes": yes, "progress": progress})
     return Store(file) if is_store_name(file) else None
 
