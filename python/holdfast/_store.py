@@ -120,8 +120,7 @@ class Store:
         """All cells in memory, as the :class:`Table` that the job gives without a store: words are texts, and
         ``plot()`` and ``to_pandas()`` are at hand. ``progress`` as of a job.
 
-        :raises FileNotFoundError: nothing lies at ``store``
-    :raises holdfast.NoAnswer: chunks are missing or damaged; the message names the first one
+        :raises holdfast.NoAnswer: chunks are missing or damaged; the message names the first one
         """
         from ._case import Case
 
