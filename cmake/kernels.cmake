@@ -25,7 +25,6 @@ function(holdfast_add_kernels target level architecture)
   add_library(${kernels} STATIC ${PROJECT_SOURCE_DIR}/src/kernels/wide/${level}.cpp)
   target_include_directories(${kernels} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${kernels} PRIVATE holdfast::simd holdfast_warnings)
-  set_target_properties(${kernels} PROPERTIES CXX_CLANG_TIDY "")  # read as baseline.cpp
   holdfast_compile_kernels_for(${kernels} ${architecture})
   string(TOUPPER ${level} name)
   target_compile_definitions(${target} PRIVATE HOLDFAST_HAS_${name})
