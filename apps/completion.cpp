@@ -1,10 +1,7 @@
 #include "texts.hpp"
 
-#include <vector>
-
 #include "case/case_keys.hpp"
 #include "case/device/device_keys.hpp"
-#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

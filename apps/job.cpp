@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "case/device/impedance_table.hpp"
-#include "case/library/named_conductor.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"

@@ -7,7 +7,6 @@
 #include "case/device/device_keys.hpp"
 #include "holdfast/core/version.hpp"
 #include "job.hpp"
-#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -100,12 +100,12 @@ struct Sides {
 
   Vector<double, 5> by_blocks_on_contacts() const {
     BlockSpectrum<double> spectrum(blocks);
-    LaneBlocks<double> block = empty_blocks<double>();
+    ItineraryBlock block = empty_block;
     for (const std::uint8_t contact : itinerary) {
-      block[0] = followed_by(block[0], contact != 0);
-      if (!is_whole(block[0])) continue;
+      block = followed_by(block, contact != 0);
+      if (!is_whole(block)) continue;
       spectrum.push(block);
-      block = empty_blocks<double>();
+      block = empty_block;
     }
     return spectrum.spectrum(block).exponents();
   }

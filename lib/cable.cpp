@@ -10,8 +10,6 @@ template class StaticsFromRest<CatenaryPointLoad<double>>;
 template StaticsFromRest<CatenaryPointLoad<double>> exact_statics(const Conductor<double>&, double,
                                                                   double);
 template class BasicBarChain<double>;
-template Eigen::SparseMatrix<double> tangent_stiffness(const BarChain&, const BarChain::Nodes&);
-template BarChain::Nodes unbalanced_forces(const BarChain&, const BarChain::Nodes&, double);
 template ChainEquilibrium chain_equilibrium(const BarChain&, double);
 template ElementsModes elements_modes(const Conductor<double>&, int, int);
 template class BasicCableElements<double>;

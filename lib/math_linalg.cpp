@@ -1,6 +1,5 @@
 // Explicit instantiations of math/linalg for double.
 #include "holdfast/math/linalg/eigenbasis.hpp"
-#include "holdfast/math/linalg/eigenvalue_derivative.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"
 #include "holdfast/math/linalg/exponential.hpp"
 #include "holdfast/math/linalg/moving_spectrum.hpp"
@@ -14,9 +13,6 @@ template Vector<std::complex<double>, 4> eigenvalues(const Matrix<double, 4>&);
 template Vector<std::complex<double>, 5> eigenvalues(const Matrix<double, 5>&);
 template Vector<std::complex<double>, Eigen::Dynamic> eigenvalues(
     const Matrix<double, Eigen::Dynamic>&);
-template std::complex<double> eigenvalue_derivative(const Matrix<double, Eigen::Dynamic>&,
-                                                    const Matrix<double, Eigen::Dynamic>&,
-                                                    const std::complex<double>&);
 
 template Matrix<double, 5> exponential(const Matrix<double, 5>&);
 template Matrix<double, 6> exponential(const Matrix<double, 6>&);

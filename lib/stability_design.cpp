@@ -7,7 +7,6 @@
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
 #include "holdfast/stability/design/modal_design.hpp"
-#include "holdfast/stability/design/modal_max_delay.hpp"
 
 namespace holdfast {
 

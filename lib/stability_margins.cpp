@@ -1,6 +1,5 @@
 // Explicit instantiations of stability/margins for double.
 
-#include "holdfast/stability/margins/loop_margins.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "holdfast/stability/margins/modal_margins.hpp"
 #include "holdfast/stability/margins/sampling_family.hpp"
@@ -22,7 +21,7 @@ template StabilityMargins modal_stability_margins<double>(const std::vector<Plan
                                                           const MarginSearch&, bool);
 template LoopMargins modal_loop_margins<double>(const std::vector<PlantPole>&,
                                                 const Sampling<double>&, const PdGains<double>&,
-                                                const MarginSearch&, bool);
+                                                bool);
 
 }  // namespace holdfast
 

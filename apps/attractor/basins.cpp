@@ -1,17 +1,13 @@
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "case/axes/axis.hpp"
-#include "case/axes/grid.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
 #include "case/model/moving_loop.hpp"
-#include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/math/stats/share_error.hpp"
-#include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/attractor_continuation.hpp"
 #include "holdfast/phase_space/basins.hpp"
 #include "holdfast/phase_space/event_basins.hpp"
@@ -166,18 +162,14 @@ void require_attractors(const std::optional<Rational>& ratio, std::int64_t large
   }
 }
 
-/// Moves states on in packs.
-auto travel_of(const JobContext& context) {
-  return [&context](const auto& motion) {
-    return TravelOnPacks(pack_kernels(context.instructions).travel(motion));
-  };
-}
-
 using States = std::vector<Vector<double, 4>>;
 
 auto basins_of(const SampledMasses& moving, const JobContext& context, const States& states,
                const OrbitLimits& limits) {
-  return find_basins_by(travel_of(context), moving.loop, states, limits, tiles_on(context));
+  const auto travel = [&](const auto& motion) {  // in packs
+    return TravelOnPacks(pack_kernels(context.instructions).travel(motion));
+  };
+  return find_basins_by(travel, moving.loop, states, limits, tiles_on(context));
 }
 auto basins_of(const SampledModes& moving, const JobContext& context, const States& states,
                const OrbitLimits& limits) {

@@ -1,5 +1,4 @@
 #include "case/model/conditioning.hpp"
-#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
 #include "case/model/moving_loop.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
@@ -81,12 +80,12 @@ void write_history(const SampledMasses& moving, const JobContext& context,
 
 void write_history(const SampledModes& moving, const JobContext&, const LyapunovQuestion&,
                    std::int64_t steps, Table& table) {
-  ModalLyapunov lyapunov(moving.loop, motion_of(moving));
-  for (std::int64_t step = 0; step < steps; ++step) {
-    look_for_interrupt(step);
-    run_to_completion(lyapunov, 1, {});
-    write_history_row(table, lyapunov.time(), lyapunov.spectrum().exponents());
-  }
+  auto motion = motion_of(moving);
+  ModalSpectrum spectrum(moving.loop);
+  run_to_completion(motion, steps, {}, spectrum, [&](const MotionSample<double>& sample) {
+    const double time = static_cast<double>(sample.index + 1) * moving.loop.sampling.period;
+    write_history_row(table, time, spectrum.spectrum().exponents());
+  });
 }
 
 template <class Moving>

@@ -1,5 +1,4 @@
 #include <limits>
-#include <vector>
 
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
@@ -7,14 +6,11 @@
 #include "case/model/moving_loop.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/orbit/orbit_continuation.hpp"
-#include "holdfast/orbit/orbit_search.hpp"
 #include "job.hpp"
 #include "jobs/motion/motion_columns.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
-#include "jobs/orbit/followed_key.hpp"
 #include "jobs/orbit/motion_borders.hpp"
 #include "jobs/orbit/proved_orbit.hpp"
-#include "jobs/orbit/surface_names.hpp"
 #include "text/names.hpp"
 
 namespace holdfast::program {
@@ -39,7 +35,6 @@ struct OrbitQuestion {
     job.add("--switching", switching);
   }
   void run(const JobContext& context) const;
-  void prove_switching_exactly(const JobContext& context) const;
 };
 
 /// Margins of switching between the samples say nothing of a law that decides at the samples alone:
@@ -171,12 +166,15 @@ void write_certificate(const JobContext& context, const OrbitQuestion& options) 
 }
 
 /// Sample j of the orbit, without its time.
-MotionRow sample_of(const PeriodicOrbit& orbit, std::size_t j) {
-  const ContactMode mode = orbit.itinerary[j] != 0 ? ContactMode::engaged : ContactMode::gap;
-  return {0.0, orbit.states[j].head<4>(), orbit.states[(j + 1) % orbit.states.size()][4], mode};
+EventSample sample_of(const PeriodicOrbit& orbit, std::size_t j) {
+  const bool engaged = orbit.itinerary[j] != 0;
+  const double force = orbit.states[(j + 1) % orbit.states.size()][4];
+  return {{0, 0.0, orbit.states[j].head<4>(), force, engaged},
+          engaged ? ContactMode::engaged : ContactMode::gap};
 }
-MotionRow sample_of(const EventOrbit& orbit, std::size_t j) {
-  return {0.0, orbit.states[j], orbit.forces[j], orbit.modes[j]};
+EventSample sample_of(const EventOrbit& orbit, std::size_t j) {
+  const ContactMode mode = orbit.modes[j];
+  return {{0, 0.0, orbit.states[j], orbit.forces[j], mode == ContactMode::engaged}, mode};
 }
 
 /// The orbit's samples, with the columns of `simulate`: one period and the sample that closes it.
@@ -184,7 +182,7 @@ void write_orbit_trace(const JobContext& context, const OrbitQuestion& options) 
   Table table(context, motion_columns(options.switching));
   with_orbit(context, options, [&](const auto&, const auto& orbit) {
     for (std::size_t k = 0; k <= orbit.states.size(); ++k) {
-      MotionRow row = sample_of(orbit, k % orbit.states.size());
+      EventSample row = sample_of(orbit, k % orbit.states.size());
       row.time = static_cast<double>(k) * orbit.sampling_period;
       write_motion_row(table, options.switching, row);
     }
@@ -201,8 +199,7 @@ constexpr Named<BranchEndOutcome> branch_end_names[] = {
 /// @param axis  KEY=MIN:MAX
 void write_branch_ends(const JobContext& context, std::int64_t largest_period,
                        const std::string& axis) {
-  const auto [key, range] = parse_key_range("--follow", axis);
-  const double value = followed_value(context.case_data, "--follow", axis, key, range, false);
+  const auto [key, range, value] = followed_key(context.case_data, "--follow", axis);
   Table table(context, columns_of("branch ends"));
   const PeriodicOrbit orbit =
       certified_orbit(context, sampled_masses_of(context.case_data), largest_period);
@@ -220,6 +217,16 @@ void write_branch_ends(const JobContext& context, std::int64_t largest_period,
   table.commit();
 }
 
+/// The proved orbit of either model, and how near it is to what was found.
+template <class Orbit, class Proof>
+void write_proved_errors(Table& table, const Orbit& orbit, const Proof& proof) {
+  table.row("period_samples", static_cast<double>(orbit.period_samples()), "");
+  table.row("period", orbit.period(), "s");
+  table.row("multiplier_bound", proof.multiplier_bound, "");
+  table.row("displacement_error", proof.displacement_error, "m");
+  table.row("velocity_error", proof.velocity_error, "m/s");
+}
+
 /// The theorem on the orbit, one quantity a row.
 void write_proof(const JobContext& context, std::int64_t largest_period) {
   Table table(context, columns_of("certificate"));
@@ -227,11 +234,7 @@ void write_proof(const JobContext& context, std::int64_t largest_period) {
       certified_orbit(context, sampled_masses_of(context.case_data), largest_period);
   const OrbitProof proof = proved_orbit_of(context.case_data, orbit);
   const bool reverses = proof.nearest.surface == SwitchingSurface::reversal;
-  table.row("period_samples", static_cast<double>(orbit.period_samples()), "");
-  table.row("period", orbit.period(), "s");
-  table.row("multiplier_bound", proof.multiplier_bound, "");
-  table.row("displacement_error", proof.displacement_error, "m");
-  table.row("velocity_error", proof.velocity_error, "m/s");
+  write_proved_errors(table, orbit, proof);
   table.row("attraction_radius", proof.radius, "m");
   table.row("backlash_width_from", proof.widths.from, "m");
   table.row("backlash_width_to", proof.widths.to, "m");
@@ -242,20 +245,16 @@ void write_proof(const JobContext& context, std::int64_t largest_period) {
 }
 
 /// The same of a drive that switches between the samples.
-void write_event_proof(const JobContext& context, const IdealLoop<double>& loop,
-                       std::int64_t largest_period) {
+void write_event_proof(const JobContext& context, std::int64_t largest_period) {
   Table table(context, columns_of("certificate"));
   const auto found = certified_event_orbit(
       context, std::get<BuiltMasses>(built_loop_of(context.case_data, {Switching::exact})),
       largest_period);
-  const EventOrbitProof proof = proved_orbit_of(loop, found);
+  const EventOrbitProof proof =
+      proved_orbit_of(exactly_switched_loop_of(context.case_data).value(), found);
   const ContactTest& nearest = proof.nearest;
   const bool there = nearest.sample >= 0;
-  table.row("period_samples", static_cast<double>(found.orbit->period_samples()), "");
-  table.row("period", found.orbit->period(), "s");
-  table.row("multiplier_bound", proof.multiplier_bound, "");
-  table.row("displacement_error", proof.displacement_error, "m");
-  table.row("velocity_error", proof.velocity_error, "m/s");
+  write_proved_errors(table, *found.orbit, proof);
   table.row("instant_error", proof.instant_error, "s");
   table.row("attraction_radius", proof.radius, "m");
   table.row("nearest_decision", nearest.distance, unit_of(nearest));
@@ -272,12 +271,12 @@ void write_event_proof(const JobContext& context, const IdealLoop<double>& loop,
 /// @param axis  KEY=MIN:MAX
 void write_proved_ranges(const JobContext& context, std::int64_t largest_period,
                          const std::string& axis) {
-  const auto [key, range] = parse_key_range("--follow", axis);
-  followed_value(context.case_data, "--follow", axis, key, range, false);
+  const FollowedKey key = followed_key(context.case_data, "--follow", axis);
   Table table(context, columns_of("proved ranges"));
   const PeriodicOrbit orbit =
       certified_orbit(context, sampled_masses_of(context.case_data), largest_period);
-  for (const auto& [from, to, proof] : proved_orbit_along(context.case_data, orbit, key, range)) {
+  for (const auto& [from, to, proof] :
+       proved_orbit_along(context.case_data, orbit, key.name, key.range)) {
     const bool decides = proof.nearest.sample >= 0;
     const bool proved = proof.outcome == OrbitProofOutcome::proved;
     table.row(from, to, proved ? "proved" : "not_shown",
@@ -288,13 +287,10 @@ void write_proved_ranges(const JobContext& context, std::int64_t largest_period,
   table.commit();
 }
 
-void OrbitQuestion::prove_switching_exactly(const JobContext& context) const {
-  write_event_proof(context, exactly_switched_loop_of(context.case_data).value(), largest_period);
-}
-
 void OrbitQuestion::run(const JobContext& context) const {
   if (!map.empty()) return write_motion_borders(context, map, largest_period, switching);
-  if (prove && !follow && switching == Switching::exact) return prove_switching_exactly(context);
+  if (prove && !follow && switching == Switching::exact)
+    return write_event_proof(context, largest_period);
   if (prove) {
     follow ? write_proved_ranges(context, largest_period, *follow)
            : write_proof(context, largest_period);

@@ -5,7 +5,6 @@
 #include "case/model/moving_loop.hpp"
 #include "holdfast/chaos/modal_classification.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
-#include "holdfast/orbit/orbit_search.hpp"
 #include "job.hpp"
 
 namespace holdfast::program {

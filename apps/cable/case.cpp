@@ -5,18 +5,14 @@
 
 #include "case/case_file.hpp"
 #include "case/case_keys.hpp"
-#include "case/device/device_values.hpp"
-#include "case/library/named_conductor.hpp"
+#include "case/device/device_keys.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/needed.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/plant/natural_modes.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/boundary/stable_intervals.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "io/file/output.hpp"
 #include "job.hpp"
 #include "jobs/job_texts.hpp"
@@ -116,7 +112,7 @@ std::string other_absorber_mass(const std::string& key, const Case& the_case) {
                             : key == "plant.absorber_mass" ? "absorber.mass"
                                                            : "";
   const bool stands = the_case.stands_alone || !is_two_masses(the_case);
-  return stands && the_case.places.count(other) > 0 ? other : "";
+  return stands && the_case.is_given(other) ? other : "";
 }
 
 bool is_computed(const CaseKey& key, const Case& the_case) {

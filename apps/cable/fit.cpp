@@ -6,7 +6,7 @@
 #include "case/model/cable_of_case.hpp"
 #include "case/model/decay/damping_fit.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "case/model/reduction_of_case.hpp"
+#include "case/model/resolved_plant.hpp"
 #include "case/plausibility/quantities.hpp"
 #include "holdfast/ceres/decay_fit_options.hpp"
 #include "io/file/whole_file.hpp"

@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "case/model/cable_of_case.hpp"
 #include "holdfast/cable/chain_modes.hpp"

@@ -3,7 +3,7 @@
 #include "case/model/cable_of_case.hpp"
 #include "case/model/conditioning.hpp"
 #include "case/model/decay/damping_fit.hpp"
-#include "case/model/reduction_of_case.hpp"
+#include "case/model/resolved_plant.hpp"
 #include "job.hpp"
 #include "jobs/motion/motion_digits.hpp"
 

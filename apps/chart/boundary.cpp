@@ -14,7 +14,6 @@
 #include "job.hpp"
 #include "jobs/charts/names.hpp"
 #include "report/figures/figure.hpp"
-#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {

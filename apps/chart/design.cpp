@@ -1,5 +1,5 @@
 #include "case/axes/axis.hpp"
-#include "case/model/held_force.hpp"
+#include "case/model/conditioning.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/control/gains.hpp"
@@ -24,11 +24,6 @@ constexpr Named<MinimumAmplitudeOutcome> amplitude_names[] = {
     {MinimumAmplitudeOutcome::aliased, "aliased"}};
 
 constexpr const char* ratios_shown = "ratios are to the true force's";
-
-/// What was asked of a D.
-struct Admissible {
-  std::optional<double> largest_radius, margin;
-};
 
 std::string no_gain_text(double proportional_gain, double largest_radius) {
   return "at P = " + format_rounded(proportional_gain) +
@@ -97,10 +92,8 @@ std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions
 /// The best D at each frequency, P tuned to each by Eq. 6; without frequencies at the case's own
 /// frequency and P. With `both` the best P and D.
 void write_best_gains(const JobContext& context, const std::optional<Axis>& frequencies,
-                      const Admissible& admissible, bool both) {
+                      const AmplitudeOptions& options, bool both) {
   const Case& the_case = context.case_data;
-  const AmplitudeOptions options =
-      amplitude_options_of(the_case, admissible.largest_radius, admissible.margin);
   const double own = excitation_of(the_case).frequency;
   const Axis axis = frequencies.value_or(Axis{own, own, 1});
   Table table(context, columns_of("best gains"));
@@ -128,11 +121,10 @@ void write_best_gains(const JobContext& context, const std::optional<Axis>& freq
 }
 
 /// The one D whose largest amplitude over a band of frequencies (Hz) is least, at the case's P.
-void write_band_gain(const JobContext& context, const Range& band, const Admissible& admissible) {
+void write_band_gain(const JobContext& context, const Range& band,
+                     const AmplitudeOptions& options) {
   const Case& the_case = context.case_data;
   const double p = gains_of(the_case).proportional;
-  const AmplitudeOptions options =
-      amplitude_options_of(the_case, admissible.largest_radius, admissible.margin);
   const FrequencyBand frequencies{band.min, band.max};
   const LinearLoop loop(the_case);
   const auto answer = loop.quietest_over(options, p, frequencies);
@@ -170,24 +162,26 @@ void write_fastest_pair(const JobContext& context) {
 struct DesignQuestion {
   std::string frequency;
   std::string band;
-  Admissible admissible;
+  std::optional<double> largest_radius, margin;
   bool both_gains = false, least_radius = false;
 
   void add_to(const Job& job) {
     job.add("--frequency", frequency);
     job.add("--band", band);
-    job.add("--largest-radius", admissible.largest_radius);
-    job.add("--margin", admissible.margin);
+    job.add("--largest-radius", largest_radius);
+    job.add("--margin", margin);
     job.add("--both-gains", both_gains);
     job.add("--least-radius", least_radius);
   }
 
   void run(const JobContext& context) const {
     if (least_radius) return write_fastest_pair(context);
-    if (!band.empty()) return write_band_gain(context, parse_range("--band", band), admissible);
+    const AmplitudeOptions options =
+        amplitude_options_of(context.case_data, largest_radius, margin);
+    if (!band.empty()) return write_band_gain(context, parse_range("--band", band), options);
     std::optional<Axis> frequencies;
     if (!frequency.empty()) frequencies = parse_axis("--frequency", frequency);
-    write_best_gains(context, frequencies, admissible, both_gains);
+    write_best_gains(context, frequencies, options, both_gains);
   }
 };
 

@@ -1,6 +1,4 @@
 #include <cmath>
-#include <optional>
-#include <string>
 
 #include "case/model/linear_loop.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"

@@ -1,16 +1,14 @@
 #include <cmath>
 
 #include "case/axes/axis.hpp"
-#include "case/model/held_force.hpp"
+#include "case/model/conditioning.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/design/proved_max_delay.hpp"
 #include "job.hpp"
 #include "jobs/charts/proved_poles.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "output/row_blocks.hpp"
-#include "process/interrupt.hpp"
 
 namespace holdfast::program {
 namespace {

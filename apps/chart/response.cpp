@@ -1,5 +1,5 @@
 #include "case/axes/axis.hpp"
-#include "case/model/held_force.hpp"
+#include "case/model/conditioning.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "job.hpp"

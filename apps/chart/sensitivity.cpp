@@ -1,12 +1,168 @@
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "case/case_keys.hpp"
+#include "case/model/linear_loop.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "job.hpp"
-#include "jobs/design/case_sensitivity.hpp"
+#include "jobs/design/best_gains.hpp"
 
 namespace holdfast::program {
 namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// An answer as the table has it.
+struct Answered {
+  const char* name;
+  const char* unit;
+};
+constexpr std::array<Answered, 9> answered = {{{"spectral_radius", ""},
+                                               {"stable_differential_gain_min", "N.s/m"},
+                                               {"stable_differential_gain_max", "N.s/m"},
+                                               {"least_radius", ""},
+                                               {"least_radius_gain", "N.s/m"},
+                                               {"least_amplitude_ratio", ""},
+                                               {"least_amplitude_gain", "N.s/m"},
+                                               {"max_stable_period", "s"},
+                                               {"max_attenuating_period", "s"}}};
+using AnswerValues = std::array<double, answered.size()>;
+
+/// At the case's P; its δ/τ is kept.
+double longest_period(const Case& the_case, const LinearLoop& loop, DelayCriterion criterion) {
+  MaxDelayOptions question = tuned_delay_question(the_case, excitation_of(the_case).frequency);
+  question.proportional_gain = gains_of(the_case).proportional;
+  question.criterion = criterion;
+  const MaxDelay longest = loop.longest_period(question);
+  return longest.outcome == MaxDelayOutcome::found ? longest.sampling_period : unknown;
+}
+
+AnswerValues answers_of(const Case& the_case) {
+  throw_if_interrupted();
+  const PdGains<double> gains = gains_of(the_case);
+  const LinearLoop loop(the_case);
+  AnswerValues values;
+  values.fill(unknown);
+  values[0] = loop.radius(gains);
+  for (const auto& interval : loop.stable_gains(FreeGain::differential, gains))
+    if (interval.contains(gains.differential)) {
+      values[1] = interval.lower;
+      values[2] = interval.upper;
+    }
+  const MinimumRadius fastest = loop.fastest(gains.proportional);
+  values[3] = fastest.radius;
+  values[4] = fastest.differential_gain;
+  const MinimumAmplitude quietest = loop.quietest(
+      amplitude_options_of(the_case), excitation_of(the_case).frequency, gains.proportional);
+  values[5] = quietest.ratio_to_uncontrolled;
+  values[6] = quietest.differential_gain;
+  if (loop.walks()) return values;
+  values[7] = longest_period(the_case, loop, DelayCriterion::stable);
+  values[8] = longest_period(the_case, loop, DelayCriterion::attenuates);
+  return values;
+}
+
+/// The keys that the plant and the loop of a case depend on.
+std::vector<std::string> keys_of(const Case& the_case) {
+  const bool own = has_own_plant(the_case), masses = is_two_masses(the_case);
+  const bool conductor = !own && !masses, endless = is_infinite(the_case);
+  const bool tight = std::isfinite(the_case.conductor.tension);
+  std::vector<std::string> keys;
+  const auto add = [&](bool counts, const char* key) {
+    if (counts) keys.emplace_back(key);
+  };
+  add(masses, "plant.conductor_mass");
+  add(masses, "plant.conductor_stiffness");
+  add(masses, "plant.conductor_damping");
+  add(!own, "plant.absorber_mass");
+  add(!own, "plant.absorber_stiffness");
+  add(!own, "plant.absorber_damping");
+  add(conductor, "absorber.clamp_mass");
+  add(conductor && !endless, "absorber.position");
+  add(conductor, "conductor.mass_per_length");
+  add(conductor, tight ? "conductor.tension" : "conductor.sag");
+  add(conductor && !endless, "conductor.damping_ratio");
+  add(true, "control.sampling_period");
+  add(true, "control.processing_delay");
+  add(true, "control.proportional_gain");
+  add(true, "control.differential_gain");
+  add(std::isfinite(the_case.control.measurement_filter), "control.measurement_filter");
+  add(std::isfinite(the_case.control.drive_bandwidth), "control.drive_bandwidth");
+  add(std::isfinite(the_case.control.drive_bandwidth) &&
+          std::isfinite(the_case.control.drive_damping),
+      "control.drive_damping");
+  return keys;
+}
+
+/// The case with a key moved, P being held or following Eq. 6.
+Case moved(const Case& the_case, const std::string& key, double value, bool follows) {
+  Case other = the_case;
+  const double held = gains_of(the_case).proportional;
+  const auto tuned = [](Case of) {
+    of.control.proportional_gain_tuned = true;
+    return gains_of(of).proportional;
+  };
+  set_case_value(other, key, value);
+  settle_sag(other);
+  check_case(other);
+  if (key == "control.proportional_gain") return other;
+  other.control.proportional_gain_tuned = false;
+  other.control.proportional_gain = held + (follows ? tuned(other) - tuned(the_case) : 0.0);
+  return other;
+}
+
+/// What a key that is 0 is moved by: a part of what would be felt.
+double unit_of(const Case& the_case, const std::string& key) {
+  if (key == "control.processing_delay") return the_case.control.sampling_period;
+  if (key == "absorber.clamp_mass") return 0.01;
+  return 1.0;
+}
+
+/// ∂answers/∂key by differences of two steps, a part in 10⁴ and half of it, extrapolated
+/// (Richardson): of five digits and more, and NaN where the two disagree by more than a hundredth,
+/// at a corner of the answer. Where a neighbour is not admissible, or of another kind of loop, the
+/// step is to one side.
+AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerValues& here,
+                    bool follows) {
+  constexpr double step = 1e-4, agreement = 0.01;
+  AnswerValues result;
+  if (follows && key == "control.proportional_gain") {
+    result.fill(0.0);
+    return result;
+  }
+  const double value = case_value(the_case, key);
+  double by = step * (value != 0.0 ? std::abs(value) : unit_of(the_case, key));
+  const auto is_there = [&](double share) {
+    try {
+      const Case there = moved(the_case, key, value + share * by, follows);
+      return has_closed_forms(there) == has_closed_forms(the_case);
+    } catch (const WrongInput&) {
+      return false;
+    }
+  };
+  const bool above = is_there(1.0), below = is_there(-1.0), one_sided = !(above && below);
+  result.fill(unknown);
+  if (!above && !below) return result;
+  if (!above) by = -by;
+  const auto at = [&](double share) {
+    return answers_of(moved(the_case, key, value + share * by, follows));
+  };
+  const AnswerValues far = at(1.0), near = at(0.5);
+  const AnswerValues far_below = one_sided ? here : at(-1.0),
+                     near_below = one_sided ? here : at(-0.5);
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const double width = one_sided ? by : 2.0 * by;
+    const double coarse = (far[k] - far_below[k]) / width;
+    const double fine = (near[k] - near_below[k]) / (0.5 * width);
+    result[k] = one_sided ? 2.0 * fine - coarse : (4.0 * fine - coarse) / 3.0;
+    // A derivative that is nothing beside the answer's own size is round-off.
+    const double nothing = 1e-6 * std::abs(here[k] / by) * step;
+    if (!(std::abs(fine - coarse) <= agreement * std::abs(fine) + nothing)) result[k] = unknown;
+  }
+  return result;
+}
 
 /// One row for every answer and parameter, ∂answer/∂parameter and ∂ ln|answer|/∂ ln|parameter|.
 /// Answers that the case does not have (no stable gain, no largest period) have no rows.
@@ -19,11 +175,16 @@ struct SensitivityQuestion {
     const Case& the_case = context.case_data;
     const bool follows = tuned || the_case.control.proportional_gain_tuned;
     Table table(context, columns_of("sensitivity"));
-    for (const CaseSensitivity& answer : case_sensitivities(the_case, follows)) {
-      if (!std::isfinite(answer.value)) continue;
-      for (const auto& [key, derivative] : answer.keys)
-        table.row(answer.name, answer.value, answer.unit, key, find_case_key(key)->unit, derivative,
-                  derivative * case_value(the_case, key) / answer.value);
+    const AnswerValues here = answers_of(the_case);
+    const std::vector<std::string> keys = keys_of(the_case);
+    std::vector<AnswerValues> by_key;
+    for (const std::string& key : keys) by_key.push_back(slopes(the_case, key, here, follows));
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      if (!std::isfinite(here[k])) continue;
+      for (std::size_t i = 0; i < keys.size(); ++i)
+        table.row(answered[k].name, here[k], answered[k].unit, keys[i],
+                  find_case_key(keys[i])->unit, by_key[i][k],
+                  by_key[i][k] * case_value(the_case, keys[i]) / here[k]);
     }
     table.require_numbers();
     table.commit();

@@ -1,20 +1,16 @@
-#include <optional>
-
 #include "case/axes/axis.hpp"
-#include "case/axes/grid.hpp"
 #include "case/case_keys.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
+#include "holdfast/stability/chart/proved_chart.hpp"
+#include "holdfast/stability/chart/proved_modal_chart.hpp"
+#include "holdfast/stability/response/enclosed_response.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"
 #include "jobs/charts/names.hpp"
-#include "jobs/charts/proved_stability.hpp"
-#include "jobs/columns.hpp"
-#include "output/table.hpp"
-#include "process/exit.hpp"
+#include "jobs/charts/proved_poles.hpp"
 #include "report/figures/figure.hpp"
-#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -39,6 +35,37 @@ KeyAxis admissible_axis(const std::string& text) {
     }
   }
   return axis;
+}
+
+/// What is proved, in tables.
+constexpr Named<ProvedStability> proved_names[] = {{ProvedStability::stable, "stable"},
+                                                   {ProvedStability::unstable, "unstable"},
+                                                   {ProvedStability::undecided, "undecided"}};
+
+/// The chart by a proof of one box.
+template <class Proof>
+ProvedChart chart_by(const Proof& proof, const GainGrid& grid, double undecided) {
+  const auto decide = [&](const GainBox& box) {
+    throw_if_interrupted();
+    return proof(box);
+  };
+  return proved_chart(decide, grid, undecided);
+}
+
+ProvedChart modal_chart_of(const Case& the_case, const GainGrid& grid, double undecided) {
+  const EnclosedResponse response(proved_poles_of(the_case), sampling_of(the_case));
+  return proved_chart(response, grid, undecided, [] { throw_if_interrupted(); });
+}
+
+/// The proved chart of a case. Throws Interrupted, InvalidParameter for a grid without cells,
+/// WrongInput for a plant whose poles cannot be proved, and NoAnswer where they are not apart or
+/// one may lie on the boundary.
+ProvedChart proved_stability_of(const Case& the_case, const GainGrid& grid, bool continuous,
+                                double undecided) {
+  if (!has_closed_forms(the_case)) return modal_chart_of(the_case, grid, undecided);
+  const TwoMass<double> plant = plant_of(the_case);
+  if (continuous) return chart_by(gain_box_proof(plant), grid, undecided);
+  return chart_by(gain_box_proof(plant, sampling_of(the_case)), grid, undecided);
 }
 
 struct StabilityQuestion {

@@ -2,7 +2,6 @@
 
 #include "case/axes/axis.hpp"
 #include "holdfast/motion/observers.hpp"
-#include "holdfast/motion/trajectory.hpp"
 #include "holdfast/phase_space/coverage.hpp"
 #include "job.hpp"
 #include "jobs/motion/case_motion.hpp"

@@ -56,8 +56,7 @@ struct SimulateQuestion {
     run_to_completion(motion, samples, kicked, [&](const EventSample& sample) {
       if (digits) (*digits)(sample);
       if (!not_before(sample.time, from)) return;
-      write_motion_row(table, switching,
-                       {sample.time, sample.state, sample.control_force, sample.mode});
+      write_motion_row(table, switching, sample);
     });
     tell_of_end(context, end_of(motion), !no_control, kicked ? kicked->displacement : 0.0);
     if (digits)
@@ -85,9 +84,8 @@ struct SimulateQuestion {
     run_elements(context.case_data, question, [&](const auto& sample) {
       progress.advance();
       if (!not_before(sample.time, from)) return;
-      write_motion_row(table, switching,
-                       {sample.time, sample.state, sample.control_force,
-                        sample.engaged ? ContactMode::engaged : ContactMode::gap});
+      const ContactMode mode = sample.engaged ? ContactMode::engaged : ContactMode::gap;
+      write_motion_row(table, switching, {sample, mode});
     });
   }
 

@@ -2,14 +2,12 @@
 
 #include <cmath>
 
-#include "case/model/loop_of_case.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "job.hpp"
 #include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/motion_digits.hpp"
 #include "jobs/motion/motion_run.hpp"
-#include "process/exit.hpp"
 
 namespace holdfast::program {
 namespace {

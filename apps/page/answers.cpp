@@ -1,9 +1,7 @@
 #include "report/page/answers.hpp"
 
-#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
 #include "job.hpp"
-#include "process/exit.hpp"
 #include "report/figures/figure.hpp"
 
 namespace holdfast::program {

@@ -1,5 +1,3 @@
-#include <memory>
-
 #include "host/job_host.hpp"
 #include "io/file/output.hpp"
 #include "job.hpp"

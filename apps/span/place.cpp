@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "case/axes/axis.hpp"
-#include "case/model/plant_of_case.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "job.hpp"
 #include "jobs/span/placement/absorber_demands.hpp"

@@ -6,6 +6,7 @@
 
 #include "case/model/own/own_parts.hpp"
 #include "case/needed.hpp"
+#include "holdfast/core/types.hpp"
 #include "text/text.hpp"
 
 namespace holdfast::program {
@@ -87,7 +88,7 @@ case_tables::Excitation effective_excitation(const Case& the_case) {
 }
 
 case_tables::Wind wind_for(const Case& the_case) {
-  constexpr double pi = 3.14159265358979323846, filled = 0.75;
+  constexpr double filled = 0.75;
   const auto to_three_digits = [](double value) {
     const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(value)));
     return std::round(value * scale) / scale;
@@ -100,7 +101,7 @@ case_tables::Wind wind_for(const Case& the_case) {
   case_tables::Wind wind;
   wind.diameter = std::isfinite(cable.diameter)
                       ? cable.diameter
-                      : to_three_digits(std::sqrt(4.0 * cable.area / (filled * pi)));
+                      : to_three_digits(std::sqrt(4.0 * cable.area / (filled * pi<double>)));
   wind.speed = to_three_digits(frequency * wind.diameter / wind.strouhal);
   wind.effective_length = to_three_digits(std::min(wave_speed / (2.0 * frequency), cable.span));
   return wind;
@@ -124,8 +125,7 @@ std::string wind_warning(const Case& the_case) {
 
 double resolved_proportional_gain(const Case& the_case) {
   if (!the_case.control.proportional_gain_tuned) return the_case.control.proportional_gain;
-  constexpr double pi = 3.14159265358979323846;
-  const double omega = 2.0 * pi * effective_excitation(the_case).frequency;
+  const double omega = 2.0 * pi<double> * effective_excitation(the_case).frequency;
   return the_case.plant.absorber_stiffness - the_case.plant.absorber_mass * omega * omega;
 }
 

@@ -179,6 +179,8 @@ struct Case {
 
   // Where the user gave a key: "plant.absorber_mass" -> "my.toml:12" or "--set plant....=0.2".
   std::map<std::string, std::string> places;
+  bool is_given(const std::string& key) const { return places.count(key) > 0; }
+
   // The case file describes its own cable or plant: nothing of the built-in case is in it.
   bool stands_alone = false;
   bool plant_given = false;      // the user gave a key of [plant] that the two masses depend on

@@ -18,49 +18,48 @@ using case_tables::Backlash;
 using case_tables::Excitation;
 using case_tables::Reduction;
 
-std::string quantity(const char* key, double value, const char* unit) {
-  return std::string(key) + " = " + format_number(value) + " " + unit;
+/// "conductor.span = 6.4 m".
+std::string said(const Case& c, const char* key) {
+  return std::string(key) + " = " + format_number(case_value(c, key)) + " " +
+         find_case_key(key)->unit;
 }
 
 CaseFault control_fault(const Case& c) {
   constexpr double most = 100.0;
   if (!(c.control.processing_delay > most * c.control.sampling_period)) return {};
   return {{"control.processing_delay", "control.sampling_period"},
-          quantity("control.processing_delay", c.control.processing_delay, "s") +
-              " must not exceed 100 times " +
-              quantity("control.sampling_period", c.control.sampling_period, "s")};
+          said(c, "control.processing_delay") + " must not exceed 100 times " +
+              said(c, "control.sampling_period")};
 }
 
 CaseFault jitter_fault(const Case& c) {
   const double period = c.control.sampling_period, jitter = c.control.jitter;
   if (!(jitter > 0.0) || std::isnan(period)) return {};
-  const std::string half_width = quantity("control.jitter", jitter, "s");
   if (!(jitter < period / 2.0)) {
     return {{"control.jitter", "control.sampling_period"},
-            half_width + " must be less than half of " +
-                quantity("control.sampling_period", period, "s")};
+            said(c, "control.jitter") + " must be less than half of " +
+                said(c, "control.sampling_period")};
   }
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon();
   const double late = within_sample({period, c.control.processing_delay}).processing_delay;
   if (2.0 * jitter + late <= period * (1.0 + rounding)) return {};
   return {{"control.jitter", "control.processing_delay", "control.sampling_period"},
-          "twice " + half_width + " and " +
+          "twice " + said(c, "control.jitter") + " and " +
               (late < c.control.processing_delay ? "what is no whole sample of " : "") +
-              quantity("control.processing_delay", c.control.processing_delay, "s") +
-              " together must not exceed " + quantity("control.sampling_period", period, "s")};
+              said(c, "control.processing_delay") + " together must not exceed " +
+              said(c, "control.sampling_period")};
 }
 
 CaseFault contact_fault(const Case& c) {
   const Backlash& b = c.backlash;
   if (b.law == "dead_zone") return {};
-  const auto fault = [&](const char* key, double value, const char* unit) -> CaseFault {
+  const auto fault = [&](const char* key) -> CaseFault {
     return {{key, "backlash.law"},
-            quantity(key, value, unit) + " is of the stops of a dead zone: it must be 0 unless " +
+            said(c, key) + " is of the stops of a dead zone: it must be 0 unless " +
                 "backlash.law = \"dead_zone\", here it is \"" + b.law + "\""};
   };
-  if (b.contact_stiffness > 0.0)
-    return fault("backlash.contact_stiffness", b.contact_stiffness, "N/m");
-  if (b.contact_damping > 0.0) return fault("backlash.contact_damping", b.contact_damping, "N s/m");
+  if (b.contact_stiffness > 0.0) return fault("backlash.contact_stiffness");
+  if (b.contact_damping > 0.0) return fault("backlash.contact_damping");
   return {};
 }
 
@@ -69,9 +68,9 @@ CaseFault tension_fault(const Case& c) {
   constexpr double tolerance = 0.01;
   if (!(std::abs(left - tension) > tolerance * tension) || std::isinf(tension)) return {};
   return {{"conductor.tension", "conductor.sag"},
-          quantity("conductor.tension", tension, "N") + " and " +
-              quantity("conductor.sag", c.conductor.sag, "m") + ", which leaves a tension of " +
-              format_rounded(left) + " N, contradict each other: give one of them"};
+          said(c, "conductor.tension") + " and " + said(c, "conductor.sag") +
+              ", which leaves a tension of " + format_rounded(left) +
+              " N, contradict each other: give one of them"};
 }
 
 CaseFault modes_fault(const Case& c) {
@@ -125,16 +124,16 @@ CaseFault noise_fault(const Case& c) {
   const Excitation& force = c.excitation;
   if (!(force.noise_rms > 0.0) || force.noise_lowest < force.noise_highest) return {};
   return {{"excitation.noise_lowest", "excitation.noise_highest", "excitation.noise_rms"},
-          quantity("excitation.noise_lowest", force.noise_lowest, "Hz") + " must be less than " +
-              quantity("excitation.noise_highest", force.noise_highest, "Hz")};
+          said(c, "excitation.noise_lowest") + " must be less than " +
+              said(c, "excitation.noise_highest")};
 }
 
 CaseFault reduction_fault(const Case& c) {
   const Reduction& r = c.reduction;
   if (r.first_frequency >= r.second_frequency) {
     return {{"reduction.first_frequency", "reduction.second_frequency"},
-            quantity("reduction.first_frequency", r.first_frequency, "Hz") + " must be less than " +
-                quantity("reduction.second_frequency", r.second_frequency, "Hz")};
+            said(c, "reduction.first_frequency") + " must be less than " +
+                said(c, "reduction.second_frequency")};
   }
   const bool needs_extent = r.stiffness_reading != "tangent";
   if (needs_extent && !(r.reading_below + r.reading_above > 0.0)) {
@@ -168,19 +167,16 @@ CaseFault conductor_fault(const Case& the_case) {
   const double span = c.span;
   if (the_case.absorber.position >= span) {
     return {{"absorber.position", "conductor.span"},
-            quantity("absorber.position", the_case.absorber.position, "m") + " must be less than " +
-                quantity("conductor.span", span, "m")};
+            said(the_case, "absorber.position") + " must be less than " +
+                said(the_case, "conductor.span")};
   }
-  if (c.sag >= span / 2.0 && std::isfinite(c.tension) &&
-      the_case.places.count("conductor.sag") == 0)
-    return {{"conductor.tension", "conductor.span"},
-            quantity("conductor.tension", c.tension, "N") + " leaves a sag of " +
-                format_rounded(c.sag) + " m, which must be less than half of " +
-                quantity("conductor.span", span, "m")};
   if (c.sag >= span / 2.0) {
-    return {{"conductor.sag", "conductor.span"},
-            quantity("conductor.sag", c.sag, "m") + " must be less than half of " +
-                quantity("conductor.span", span, "m")};
+    const bool is_left = std::isfinite(c.tension) && !the_case.is_given("conductor.sag");
+    return {{is_left ? "conductor.tension" : "conductor.sag", "conductor.span"},
+            (is_left ? said(the_case, "conductor.tension") + " leaves a sag of " +
+                           format_rounded(c.sag) + " m, which"
+                     : said(the_case, "conductor.sag")) +
+                " must be less than half of " + said(the_case, "conductor.span")};
   }
   const double strain = parabolic_tension_of(the_case) / (c.youngs_modulus * c.area);
   // Below, the stretch of a bar of the continuous cable drowns in the round-off of its length.
@@ -214,7 +210,7 @@ void settle_sag(Case& the_case) {
 
 void settle_wind(Case& the_case) {
   const bool is_known = std::isfinite(the_case.conductor.diameter);
-  if (the_case.wind && is_known && the_case.places.count("wind.diameter") == 0)
+  if (the_case.wind && is_known && !the_case.is_given("wind.diameter"))
     the_case.wind->diameter = the_case.conductor.diameter;
 }
 
@@ -227,7 +223,7 @@ void require_within_span(const std::string& option, double displacement, const C
   const double span = the_case.conductor.span;
   if (!(std::abs(displacement) >= span)) return;
   throw WrongInput(option + ": a displacement of " + format_number(displacement) +
-                   " m is beyond the span, " + quantity("conductor.span", span, "m"));
+                   " m is beyond the span, " + said(the_case, "conductor.span"));
 }
 
 }  // namespace holdfast::program

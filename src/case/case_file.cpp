@@ -1,13 +1,11 @@
 #include "case/case_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
 
-#include "case/builtin_case.hpp"
-#include "case/device/device_values.hpp"
+#include "case/device/device_keys.hpp"
 #include "case/library/conductor_library.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
@@ -44,11 +42,6 @@ bool is_case_table(std::string_view name) {
                      [&](const CaseKey& key) { return key.table() == name; });
 }
 
-std::string unknown_key(std::string_view name) {
-  const CaseKey& nearest = nearest_case_key(name);
-  return "unknown key: did you mean " + nearest.name + " (" + nearest.admissible() + ")?";
-}
-
 constexpr std::string_view device_table = "device";
 
 std::string in_brackets(const std::string& table, bool is_list) {
@@ -81,11 +74,7 @@ class CaseReader {
   std::vector<Entry> entries(const toml::table& root, const std::string& name) const;
   void set(const std::string& name, const toml::node& node, const std::string& place, Layer layer);
   void set_value(const CaseKey& key, const toml::node& node, const std::string& place);
-  void set_number(const CaseKey& key, const toml::node& node, const std::string& place);
-  void set_file(const CaseKey& key, const toml::node& node, const std::string& place);
-  void set_device(const DeviceKeyName& name, const toml::node& node, const std::string& place,
-                  Layer layer);
-  void set_conductor(const CaseKey& key, const toml::node& node, const std::string& place);
+  void set_device(const DeviceKeyName& name, const toml::node& node, const std::string& place);
   void begin_wind(const std::string& place, Layer layer);
   void begin_devices(const toml::node& list, const std::string& name, Layer layer);
   void begin_device(const std::string& place, Layer layer);
@@ -105,53 +94,6 @@ class CaseReader {
   std::string wind_place_;
   Layer wind_layer_ = Layer::builtin;
 };
-
-bool is_word_of(const CaseKey& key, const std::string& word) {
-  return std::find(key.words.begin(), key.words.end(), word) != key.words.end();
-}
-
-/// [amplitude, frequency, phase], of which the last may be left out; nothing where it is not that.
-std::optional<std::array<double, 3>> harmonic_of(const toml::node& node, const std::string& place) {
-  const toml::array* numbers = node.as_array();
-  const auto& parts = harmonic_parts();
-  if (numbers == nullptr || (numbers->size() != 2 && numbers->size() != parts.size())) return {};
-  std::array<double, 3> harmonic{};
-  for (std::size_t k = 0; k < numbers->size(); ++k) {
-    harmonic[k] = number_in((*numbers)[k], parts[k].unit, place).value_or(std::nan(""));
-    if (!parts[k].range.contains(harmonic[k])) return {};
-  }
-  return harmonic;
-}
-
-std::vector<std::array<double, 3>> harmonics_of(const CaseKey& key, const toml::node& node,
-                                                const std::string& place) {
-  const toml::array* list = node.as_array();
-  if (list == nullptr) throw WrongInput(place + ": must be " + key.admissible());
-  std::vector<std::array<double, 3>> harmonics;
-  for (const toml::node& one : *list) {
-    const auto harmonic = harmonic_of(one, place);
-    if (!harmonic) {
-      throw WrongInput(place + ": the harmonic " + value_text(one) + " must be as in " +
-                       key.admissible());
-    }
-    harmonics.push_back(*harmonic);
-  }
-  return harmonics;
-}
-
-/// [lower, higher].
-std::array<double, 2> interval_of(const CaseKey& key, const toml::node& node,
-                                  const std::string& place) {
-  const toml::array* list = node.as_array();
-  std::array<double, 2> ends{};
-  bool fine = list != nullptr && list->size() == ends.size();
-  for (std::size_t k = 0; fine && k < ends.size(); ++k) {
-    ends[k] = number_in((*list)[k], key.unit, place).value_or(std::nan(""));
-    fine = key.range.contains(ends[k]);
-  }
-  if (!fine || !(ends[0] < ends[1])) throw WrongInput(place + ": must be " + key.admissible());
-  return ends;
-}
 
 std::string short_place(const std::string& place) {
   return place.rfind("--set", 0) == 0 ? place : place.substr(0, place.find(": "));
@@ -179,7 +121,7 @@ toml::table case_override(const std::string& name, std::string_view value,
   const CaseKey* key = find_case_key(name);
   if (key == nullptr) throw WrongInput(place + ": " + unknown_key(name));
   require_value(value, place);
-  return parse_override_value(form_of(*key), key->admissible(), value, place);
+  return parse_override_value(*key, value, place);
 }
 
 /// A key of a device that is there, or the kind of one more.
@@ -193,10 +135,7 @@ toml::table device_override(const std::string& text, std::string_view value,
   const bool adds = name->number == devices + 1 && name->key == "kind";
   if (name->number > devices && !adds) throw WrongInput(place + ": " + no_device(*name, devices));
   require_value(value, place);
-  const ValueForm form = key->number != nullptr ? ValueForm::number
-                         : key->file != nullptr ? ValueForm::name
-                                                : ValueForm::other;
-  return parse_override_value(form, key->admissible(), value, place);
+  return parse_override_value(*key, value, place);
 }
 
 /// Whether a table gives a key, and not the word that says that there is none.
@@ -292,78 +231,39 @@ void CaseReader::read_override(const std::string& text) {
 
 void CaseReader::set(const std::string& name, const toml::node& node, const std::string& place,
                      Layer layer) {
-  if (const auto of_device = device_key_name(name))
-    return set_device(*of_device, node, place, layer);
-  const CaseKey* key = find_case_key(name);
-  if (key == nullptr && is_case_table(name)) {
-    throw WrongInput(place + ": must be a table, [" + name + "]");
-  }
-  if (key == nullptr) throw WrongInput(place + ": " + unknown_key(name));
-  set_value(*key, node, place);
+  const auto of_device = device_key_name(name);
+  const CaseKey* key = of_device ? nullptr : find_case_key(name);
+  if (of_device)
+    set_device(*of_device, node, place);
+  else if (key != nullptr)
+    set_value(*key, node, place);
+  else
+    throw WrongInput(place + ": " +
+                     (is_case_table(name) ? "must be a table, [" + name + "]" : unknown_key(name)));
   given_.push_back({name, place, layer});
   if (layer == Layer::builtin) return;
   case_.places[name] = short_place(place);
+  if (key == nullptr || key->beyond_two_masses) return;
   const std::string table = key->table();
-  if (key->beyond_two_masses) return;
   case_.plant_given |= table == "plant";
   case_.conductor_given |= table == "conductor" || table == "absorber" || table == "reduction";
 }
 
 void CaseReader::set_value(const CaseKey& key, const toml::node& node, const std::string& place) {
-  if (key.word != nullptr) {
-    *key.word(case_) = read_word(node, {key.admissible(), key.words, ""}, place);
-  } else if (key.file != nullptr) {
-    set_file(key, node, place);
-  } else if (key.conductor != nullptr) {
-    set_conductor(key, node, place);
-  } else if (key.interval != nullptr) {
-    *key.interval(case_) = interval_of(key, node, place);
-  } else if (key.numbers != nullptr) {
-    *key.numbers(case_) =
-        read_numbers(node, key.range, {key.admissible(), key.words, key.unit}, place);
-  } else if (key.harmonics != nullptr) {
-    *key.harmonics(case_) = harmonics_of(key, node, place);
-  } else {
-    set_number(key, node, place);
-  }
+  const auto word = node.value_exact<std::string>();
+  if (key.is_number() && word && !key.words.empty() && *word == key.words.front())
+    return key.give_word(case_);
+  read_value(key, key.place(case_), node, place, folder_);
+  if (key.tuned != nullptr) *key.tuned(case_) = false;
 }
 
 void CaseReader::set_device(const DeviceKeyName& name, const toml::node& node,
-                            const std::string& place, Layer layer) {
+                            const std::string& place) {
   if (name.number > case_.devices.size())
     throw WrongInput(place + ": " + no_device(name, case_.devices.size()));
   const DeviceKey* key = find_device_key(name.key);
   if (key == nullptr) throw WrongInput(place + ": " + unknown_device_key(name));
-  set_device_value(case_.devices[name.number - 1], *key, node, place, folder_);
-  const std::string full_name = device_key_text(name.number, name.key);
-  given_.push_back({full_name, place, layer});
-  case_.places[full_name] = short_place(place);
-}
-
-void CaseReader::set_number(const CaseKey& key, const toml::node& node, const std::string& place) {
-  const auto word = node.value_exact<std::string>();
-  if (word && is_word_of(key, *word)) {
-    key.give_word(case_);
-    return;
-  }
-  *key.number(case_) = read_number(node, key.range, {key.admissible(), key.words, key.unit}, place);
-  if (key.tuned != nullptr) *key.tuned(case_) = false;
-}
-
-void CaseReader::set_file(const CaseKey& key, const toml::node& node, const std::string& place) {
-  const std::string name = read_file_name(node, key.admissible(), place);
-  *key.file(case_) = name.empty() ? "" : (folder_ / name).string();
-}
-
-void CaseReader::set_conductor(const CaseKey& key, const toml::node& node,
-                               const std::string& place) {
-  const auto name = node.value_exact<std::string>();
-  if (!name) throw WrongInput(place + ": must be " + key.admissible());
-  const LibraryConductor* found = find_conductor(*name);
-  if (found == nullptr && !name->empty())
-    throw WrongInput(place + ": must be " + key.admissible() + "; did you mean " +
-                     nearest_conductors(*name) + "?");
-  *key.conductor(case_) = found == nullptr ? "" : found->name;
+  read_value(*key, key->place(case_.devices[name.number - 1]), node, place, folder_);
 }
 
 void CaseReader::begin_wind(const std::string& place, Layer layer) {

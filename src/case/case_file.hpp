@@ -4,12 +4,18 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "case/case.hpp"
 #include "case/case_keys.hpp"
+#include "case/device/device_keys.hpp"
 
 namespace holdfast::program {
+
+/// Text of data/kollar2022.toml, the case that stands where no file is given. Its definition is
+/// generated from that file when the program is built.
+extern const std::string_view builtin_case_text;
 
 /// The built-in case, then the file, then each override `key=value` in its order (the value is
 /// TOML; a bare word counts as a string: `control.proportional_gain=tuned`).
@@ -36,6 +42,9 @@ Case load_case_text(const std::string& text, const std::string& name,
 /// The value that a key has in a case, as TOML; empty for [wind] without wind, and for what wind
 /// replaces.
 std::string case_value_text(const CaseKey& key, const Case& the_case);
+
+/// The value that a key has of a device, as TOML.
+std::string device_value_text(const DeviceKey& key, case_tables::Device device);
 
 /// The value that a key has when nobody gives it, as TOML; empty when it must be given.
 std::string case_default(const CaseKey& key);

@@ -32,7 +32,7 @@ struct KeysOf<std::optional<Table>> : Table {};
 
 /// Where the member of a table lies in a case; null for [wind] where the case has none.
 template <auto Table, auto Member>
-auto* where(Case& the_case) {
+ValuePlace where(Case& the_case) {
   auto& table = the_case.*Table;
   if constexpr (std::is_same_v<decltype(table), std::optional<case_tables::Wind>&>)
     return table ? &((*table).*Member) : nullptr;
@@ -44,50 +44,20 @@ auto* where(Case& the_case) {
 #define KEY(table, member) \
 #table "." #member, where < &Case::table, &KeysOf < decltype(Case::table)> ::member>
 
-CaseKey number(const char* name, double* (*place)(Case&), const char* unit,
-               const AdmissibleRange& range, const char* description) {
-  CaseKey key{name, unit, description, range, {}};
-  key.number = place;
-  return key;
+using Place = ValuePlace (*)(Case&);
+
+CaseKey key(ValueKind kind, const char* name, Place place, const char* unit,
+            const AdmissibleRange& range, const char* description) {
+  return {{name, unit, description, range, {}, kind}, place};
 }
 
-CaseKey word(const char* name, std::string* (*place)(Case&), Words words, const char* description) {
-  CaseKey key{name, "", description, {}, std::move(words)};
-  key.word = place;
-  return key;
+CaseKey number(const char* name, Place place, const char* unit, const AdmissibleRange& range,
+               const char* description) {
+  return key(ValueKind::number, name, place, unit, range, description);
 }
 
-CaseKey file(const char* name, std::string* (*place)(Case&), const char* description) {
-  CaseKey key{name, "", description, {}, {}};
-  key.file = place;
-  return key;
-}
-
-CaseKey conductor_name(const char* name, std::string* (*place)(Case&), const char* description) {
-  CaseKey key{name, "", description, {}, {}};
-  key.conductor = place;
-  return key;
-}
-
-CaseKey harmonics(const char* name, std::vector<std::array<double, 3>>* (*place)(Case&),
-                  const char* description) {
-  CaseKey key{name, "", description, {}, {}};
-  key.harmonics = place;
-  return key;
-}
-
-CaseKey numbers(const char* name, std::vector<double>* (*place)(Case&), const char* unit,
-                const AdmissibleRange& range, const char* description) {
-  CaseKey key{name, unit, description, range, {}};
-  key.numbers = place;
-  return key;
-}
-
-CaseKey interval(const char* name, std::array<double, 2>* (*place)(Case&), const char* unit,
-                 const AdmissibleRange& range, const char* description) {
-  CaseKey key{name, unit, description, range, {}};
-  key.interval = place;
-  return key;
+CaseKey word(const char* name, Place place, Words words, const char* description) {
+  return {{name, "", description, {}, std::move(words), ValueKind::word}, place};
 }
 
 /// A number that a word may stand for.
@@ -113,9 +83,8 @@ CaseKey replaced_by_wind(CaseKey key) {
 }
 
 const std::vector<CaseKey> listed_keys = {
-    beyond_two_masses(
-        conductor_name(KEY(conductor, name),
-                       "of a conductor whose data in the library stand where none are given")),
+    beyond_two_masses(key(ValueKind::conductor, KEY(conductor, name), "", {},
+                          "of a conductor whose data in the library stand where none are given")),
     number(KEY(conductor, mass_per_length), "kg/m", positive,
            "mass of the conductor per unit length"),
     number(KEY(conductor, span), "m", positive, "distance between the supports, which are level"),
@@ -144,8 +113,8 @@ const std::vector<CaseKey> listed_keys = {
     beyond_two_masses(word(KEY(conductor, damping), {"chosen", "ratio", "rayleigh"},
                            "of the modes: damping_ratio of each, or Rayleigh's; \"chosen\": ratio "
                            "of the string, Rayleigh's of the cable")),
-    beyond_two_masses(interval(KEY(conductor, rayleigh_frequencies), "Hz", positive,
-                               "the two at which Rayleigh's damping is damping_ratio")),
+    beyond_two_masses(key(ValueKind::interval, KEY(conductor, rayleigh_frequencies), "Hz", positive,
+                          "the two at which Rayleigh's damping is damping_ratio")),
 
     number(KEY(absorber, mass), "kg", positive, "mass of the absorber"),
     number(KEY(absorber, position), "m", positive,
@@ -184,7 +153,7 @@ const std::vector<CaseKey> listed_keys = {
     or_word("tuned",
             number(KEY(control, proportional_gain), "N/m", any_number,
                    "P; \"tuned\" takes k2 - m2 (2 pi frequency)^2, Eq. 6"),
-            where<&Case::control, &case_tables::Control::proportional_gain_tuned>),
+            [](Case& c) { return &c.control.proportional_gain_tuned; }),
     number(KEY(control, differential_gain), "N s/m", any_number, "D"),
     number(KEY(control, sampling_period), "s", positive, "time between samples"),
     number(KEY(control, processing_delay), "s", not_negative,
@@ -219,9 +188,10 @@ const std::vector<CaseKey> listed_keys = {
     replaced_by_wind(number(KEY(excitation, frequency), "Hz", positive,
                             "of the harmonic force on the conductor")),
     word(KEY(excitation, hold), {"sampled", "exact"}, "whether the force is held over each sample"),
-    harmonics(KEY(excitation, harmonics),
-              "[amplitude (N), frequency (Hz), phase (rad)] of each further harmonic"),
-    file(KEY(excitation, record), "CSV file of a further force, columns time_s and force_N"),
+    key(ValueKind::harmonics, KEY(excitation, harmonics), "", {},
+        "[amplitude (N), frequency (Hz), phase (rad)] of each further harmonic"),
+    key(ValueKind::file, KEY(excitation, record), "", {},
+        "CSV file of a further force, columns time_s and force_N"),
     word(KEY(excitation, record_interpolation), {"linear", "held"},
          "between the rows of the record"),
     number(KEY(excitation, noise_rms), "N", not_negative,
@@ -243,10 +213,10 @@ const std::vector<CaseKey> listed_keys = {
     number(KEY(wind, lift_coefficient), "", not_negative, "lift coefficient"),
     number(KEY(wind, air_density), "kg/m3", positive, "density of the air"),
 
-    beyond_two_masses(
-        numbers(KEY(site, speeds), "m/s", wind_speeds, "of the wind across the line, ascending")),
-    beyond_two_masses(
-        numbers(KEY(site, hours), "h", hours_of_year, "how long a year the wind has each speed")),
+    beyond_two_masses(key(ValueKind::numbers, KEY(site, speeds), "m/s", wind_speeds,
+                          "of the wind across the line, ascending")),
+    beyond_two_masses(key(ValueKind::numbers, KEY(site, hours), "h", hours_of_year,
+                          "how long a year the wind has each speed")),
     beyond_two_masses(or_word("none", number(KEY(site, weibull_scale), "m/s", wind_speeds,
                                              "of Weibull's law, in place of speeds and hours"))),
     beyond_two_masses(

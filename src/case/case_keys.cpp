@@ -4,9 +4,11 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 #include "case/model/own/own_parts.hpp"
 #include "process/errors.hpp"
+#include "text/names.hpp"
 #include "text/text.hpp"
 
 namespace holdfast::program {
@@ -83,14 +85,10 @@ std::size_t distance_to(std::string_view name, const CaseKey& key) {
 
 const CaseKey& number_key_named(std::string_view name) {
   const CaseKey* key = find_case_key(name);
-  if (key == nullptr) {
-    const CaseKey& nearest = nearest_case_key(name);
-    throw WrongInput(std::string(name) + ": unknown key: did you mean " + nearest.name + " (" +
-                     nearest.admissible() + ")?");
-  }
-  if (key->number == nullptr) {
+  if (key == nullptr) throw WrongInput(std::string(name) + ": " + unknown_key(name));
+  if (!key->is_number()) {
     throw WrongInput(key->name + " is not a number but " +
-                     (key->word != nullptr ? "a word: " : "") + key->admissible());
+                     (key->kind == ValueKind::word ? "a word: " : "") + key->admissible());
   }
   return *key;
 }
@@ -118,28 +116,32 @@ std::string AdmissibleRange::in_words(const std::string& unit) const {
   return whole ? "a whole number, " + words : words;
 }
 
-std::string list_in_words(const AdmissibleRange& range, const std::string& unit) {
-  return "[number, ...], each " + range.in_words(unit);
+std::string KeyForm::admissible() const {
+  const auto or_none = [&](std::string text, const char* none) {
+    return may_be_none ? std::move(text) + ", or " + none + " for none" : text;
+  };
+  if (kind == ValueKind::file) return or_none("the name of a file in quotes", "\"\"");
+  if (kind == ValueKind::conductor)
+    return or_none("the name of a conductor (holdfast conductors lists them)", "\"\"");
+  if (kind == ValueKind::harmonics) return harmonics_in_words();
+  if (kind == ValueKind::numbers)
+    return or_none("[number, ...], each " + range.in_words(unit), "[]");
+  if (kind == ValueKind::interval) return "[lower, higher], each " + range.in_words(unit);
+  std::string text = is_number() ? range.in_words(unit) : "";
+  for (const std::string& one : words) text += (text.empty() ? "\"" : " or \"") + one + "\"";
+  return text;
 }
 
 std::string CaseKey::table() const { return name.substr(0, name.find('.')); }
 
 std::string CaseKey::short_name() const { return name.substr(name.find('.') + 1); }
 
-std::string CaseKey::admissible() const {
-  if (file != nullptr) return "the name of a file in quotes, or \"\" for none";
-  if (conductor != nullptr)
-    return "the name of a conductor (holdfast conductors lists them), or \"\" for none";
-  if (harmonics != nullptr) return harmonics_in_words();
-  if (numbers != nullptr) return list_in_words(range, unit) + ", or [] for none";
-  if (interval != nullptr) return "[lower, higher], each " + range.in_words(unit);
-  std::string text = number != nullptr ? range.in_words(unit) : "";
-  for (const std::string& one : words) text += (text.empty() ? "\"" : " or \"") + one + "\"";
-  return text;
+double* CaseKey::number(Case& the_case) const {
+  return is_number() ? std::get<double*>(place(the_case)) : nullptr;
 }
 
 bool CaseKey::bears_word(Case& the_case) const {
-  if (number == nullptr || words.empty()) return false;
+  if (!is_number() || words.empty()) return false;
   return tuned != nullptr ? *tuned(the_case) : std::isinf(*number(the_case));
 }
 
@@ -159,12 +161,7 @@ const std::array<HarmonicPart, 3>& harmonic_parts() {
   return parts;
 }
 
-const CaseKey* find_case_key(std::string_view name) {
-  const Keys& keys = case_keys();
-  const auto found =
-      std::find_if(keys.begin(), keys.end(), [&](const CaseKey& key) { return key.name == name; });
-  return found == keys.end() ? nullptr : &*found;
-}
+const CaseKey* find_case_key(std::string_view name) { return find_named(case_keys(), name); }
 
 const CaseKey& nearest_case_key(std::string_view name) {
   if (const CaseKey* key = key_by_other_name(name)) return *key;
@@ -178,6 +175,11 @@ std::string nearest_case_table(std::string_view name) {
   std::vector<std::string> tables;
   for (const CaseKey& key : case_keys()) tables.push_back(key.table());
   return nearest_name(tables, name);
+}
+
+std::string unknown_key(std::string_view name) {
+  const CaseKey& nearest = nearest_case_key(name);
+  return "unknown key: did you mean " + nearest.name + " (" + nearest.admissible() + ")?";
 }
 
 void require_in_force(const Case& the_case, const CaseKey& key) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "case/case.hpp"
@@ -23,9 +24,6 @@ struct AdmissibleRange {
   std::string in_words(const std::string& unit) const;
 };
 
-/// `[number, ...], each greater than 0 m/s`.
-std::string list_in_words(const AdmissibleRange& range, const std::string& unit);
-
 /// One of the three numbers of a further harmonic of the excitation.
 struct HarmonicPart {
   const char* name;
@@ -36,32 +34,49 @@ struct HarmonicPart {
 /// Amplitude, frequency and phase, of which the last may be left out.
 const std::array<HarmonicPart, 3>& harmonic_parts();
 
-/// One key of the case file but for those of its devices. Exactly one of `number`, `word`, `file`,
-/// `conductor`, `interval`, `numbers` and `harmonics` says where its value lies in a case; a key of
-/// [wind] gives a null pointer for a case without wind.
-struct CaseKey {
-  std::string name;  // with its table: "control.sampling_period"
+/// What the value of a key is.
+enum class ValueKind {
+  number,
+  word,
+  file,       ///< the name of a file
+  conductor,  ///< a name of the library
+  interval,   ///< two numbers, ascending
+  numbers,    ///< a list
+  harmonics
+};
+
+/// Where the value of a key lies: its type follows from its kind.
+using ValuePlace = std::variant<double*, std::string*, std::array<double, 2>*, std::vector<double>*,
+                                std::vector<std::array<double, 3>>*>;
+
+/// What a key of a case is, or one of its devices.
+struct KeyForm {
+  std::string name;  // of a case with its table: "control.sampling_period"
   std::string unit;  // "" without dimension
   std::string description;
   AdmissibleRange range;           // of numbers; of both ends of an interval; of each of a list
   std::vector<std::string> words;  // admissible words; a number may have one, "tuned" or "none"
-  bool required = false;           // of [wind]: has no default
-  bool replaced_by_wind = false;   // of [excitation]: [wind] stands in its place
-  bool beyond_two_masses = false;  // nothing of the two masses depends on it
-  double* (*number)(Case&) = nullptr;
-  std::string* (*word)(Case&) = nullptr;
-  std::string* (*file)(Case&) = nullptr;                // the name of a file, empty for none
-  std::string* (*conductor)(Case&) = nullptr;           // a name of the library, empty for none
-  std::array<double, 2>* (*interval)(Case&) = nullptr;  // two numbers, ascending
-  std::vector<double>* (*numbers)(Case&) = nullptr;     // a list
-  std::vector<std::array<double, 3>>* (*harmonics)(Case&) = nullptr;
+  ValueKind kind = ValueKind::number;
+  bool may_be_none = true;  // a name or a list may be empty
+
+  bool is_number() const { return kind == ValueKind::number; }
+  /// In words: `greater than 0 s`, `a whole number, at least 1 and at most 10000`,
+  /// `"sampled" or "exact"`.
+  std::string admissible() const;
+};
+
+/// One key of the case file but for those of its devices.
+struct CaseKey : KeyForm {
+  ValuePlace (*place)(Case&) = nullptr;  // a null pointer of [wind] for a case without wind
+  bool required = false;                 // of [wind]: has no default
+  bool replaced_by_wind = false;         // of [excitation]: [wind] stands in its place
+  bool beyond_two_masses = false;        // nothing of the two masses depends on it
   bool* (*tuned)(Case&) = nullptr;  // set when a key that is a number is given the word "tuned"
 
   std::string table() const;       // "control"
   std::string short_name() const;  // "sampling_period"
-  /// In words: `greater than 0 s`, `a whole number, at least 1 and at most 10000`,
-  /// `"sampled" or "exact"`.
-  std::string admissible() const;
+  /// Where the number of a case lies; null of any other key.
+  double* number(Case& the_case) const;
 
   /// Whether the word of a number stands in place of one: "tuned", or "none", which is infinity.
   bool bears_word(Case& the_case) const;
@@ -77,6 +92,9 @@ const CaseKey* find_case_key(std::string_view name);
 /// The known key, or the known table, closest to a name that is not known (fewest edits).
 const CaseKey& nearest_case_key(std::string_view name);
 std::string nearest_case_table(std::string_view name);
+
+/// "unknown key: did you mean control.velocity (...)?"
+std::string unknown_key(std::string_view name);
 
 /// Throws WrongInput for a key of [wind] and a case without it, and for one that [wind] stands in
 /// place of.

@@ -1,55 +1,23 @@
-#include <array>
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
-#include "case/builtin_case.hpp"
 #include "case/case_file.hpp"
-#include "case/device/device_values.hpp"
 #include "case/needed.hpp"
 #include "case/toml_values.hpp"
 
 namespace holdfast::program {
 namespace {
 
-std::string toml_harmonics(const std::vector<std::array<double, 3>>& harmonics) {
-  std::string list;
-  for (const auto& [amplitude, frequency, phase] : harmonics) {
-    list += (list.empty() ? "[" : ", [") + toml_number(amplitude) + ", " + toml_number(frequency) +
-            ", " + toml_number(phase) + "]";
-  }
-  return "[" + list + "]";
+/// As TOML, a word in place of a number too.
+std::string text_of_key(const CaseKey& key, Case& the_case) {
+  return key.bears_word(the_case) ? toml_string(key.words.front())
+                                  : toml_value(key, key.place(the_case));
 }
 
-std::string toml_interval(const std::array<double, 2>& interval) {
-  return "[" + toml_number(interval[0]) + ", " + toml_number(interval[1]) + "]";
-}
-
-std::int64_t whole(double value) { return static_cast<std::int64_t>(value); }
-
-std::string toml_value(const CaseKey& key, Case& the_case) {
-  if (key.word != nullptr) return toml_string(*key.word(the_case));
-  if (key.file != nullptr) return toml_string(*key.file(the_case));
-  if (key.conductor != nullptr) return toml_string(*key.conductor(the_case));
-  if (key.numbers != nullptr) return toml_numbers(*key.numbers(the_case));
-  if (key.interval != nullptr) return toml_interval(*key.interval(the_case));
-  if (key.harmonics != nullptr) return toml_harmonics(*key.harmonics(the_case));
-  if (key.bears_word(the_case)) return toml_string(key.words.front());
-  const double number = *key.number(the_case);
-  return key.range.whole ? std::to_string(whole(number)) : toml_number(number);
-}
-
-nlohmann::ordered_json json_value(const CaseKey& key, Case& the_case) {
-  if (key.word != nullptr) return *key.word(the_case);
-  if (key.file != nullptr) return *key.file(the_case);
-  if (key.conductor != nullptr) return *key.conductor(the_case);
-  if (key.numbers != nullptr) return *key.numbers(the_case);
-  if (key.interval != nullptr) return *key.interval(the_case);
-  if (key.harmonics != nullptr) return *key.harmonics(the_case);
+nlohmann::ordered_json json_of_key(const CaseKey& key, Case& the_case) {
   if (key.bears_word(the_case)) return key.words.front();
-  const double number = *key.number(the_case);
-  if (key.range.whole) return whole(number);
-  return number;
+  return json_value(key, key.place(the_case));
 }
 
 /// What stands for a case's key: nothing for [wind] without wind, for what wind replaces, and for
@@ -69,11 +37,9 @@ bool is_in_force(const CaseKey& key, const Case& the_case) {
 std::string table_comment(const std::string& table) {
   if (table == "conductor")
     return "# name, from the library (holdfast conductors), or the conductor's data; sag or "
-           "tension, "
-           "of which\n"
+           "tension, of which\n"
            "# the other one is what it leaves. This table, [absorber] and [reduction] make the "
-           "plant "
-           "where\n"
+           "plant where\n"
            "# [plant] does not give it.\n";
   if (table == "plant")
     return "# What stands here is used as it is. Without it the plant is reduced from "
@@ -105,7 +71,7 @@ Standing standing_of(const CaseKey& key, const Case& the_case, CaseForm form) {
   if (!is_in_force(key, the_case)) return Standing::left_out;
   const std::string table = key.table();
   const bool of_cable = table == "conductor" || table == "absorber" || table == "reduction";
-  const bool is_given = the_case.places.count(key.name) > 0;
+  const bool is_given = the_case.is_given(key.name);
   if (of_cable && form == CaseForm::plant && !the_case.conductor_given) return Standing::left_out;
   if (table == "plant" && form == CaseForm::conductor && !is_given && !key.beyond_two_masses)
     return Standing::left_out;
@@ -113,11 +79,27 @@ Standing standing_of(const CaseKey& key, const Case& the_case, CaseForm form) {
   return is_given || of_new_wind ? Standing::value : Standing::comment;
 }
 
-std::string toml_line(const CaseKey& key, Case& the_case) {
-  std::string line = key.short_name() + " = " + toml_value(key, the_case);
-  std::string comment = (key.unit.empty() ? "" : key.unit + ", ") + key.description;
-  if (key.word != nullptr) comment += ": " + key.admissible();
-  return commented(std::move(line), comment);
+/// A commented table [[device]] for each; empty for none.
+std::string devices_to_toml(const std::vector<case_tables::Device>& devices) {
+  std::string text;
+  for (const case_tables::Device& device : devices) {
+    text += "\n[[device]]\n";
+    for (const DeviceKey* key : standing_keys(device))
+      text += toml_line(*key, key->name, device_value_text(*key, device));
+  }
+  return text;
+}
+
+/// A JSON object for each.
+nlohmann::ordered_json devices_to_json(const std::vector<case_tables::Device>& devices) {
+  auto list = nlohmann::ordered_json::array();
+  for (case_tables::Device device : devices) {
+    nlohmann::ordered_json json;
+    for (const DeviceKey* key : standing_keys(device))
+      json[key->name] = json_value(*key, key->place(device));
+    list.push_back(json);
+  }
+  return list;
 }
 
 /// The case, its keys standing as `standing` tells.
@@ -132,7 +114,8 @@ std::string written_case(Case the_case, const char* head, const StandingOf& stan
       table = key.table();
       text += "\n[" + table + "]\n" + table_comment(table);
     }
-    text += (stands == Standing::comment ? "# " : "") + toml_line(key, the_case);
+    text += (stands == Standing::comment ? "# " : "") +
+            toml_line(key, key.short_name(), text_of_key(key, the_case));
   }
   return text + devices_to_toml(the_case.devices);
 }
@@ -141,14 +124,18 @@ std::string written_case(Case the_case, const char* head, const StandingOf& stan
 
 std::string case_value_text(const CaseKey& key, const Case& the_case) {
   Case copy = the_case;
-  return is_in_force(key, the_case) ? toml_value(key, copy) : "";
+  return is_in_force(key, the_case) ? text_of_key(key, copy) : "";
+}
+
+std::string device_value_text(const DeviceKey& key, case_tables::Device device) {
+  return toml_value(key, key.place(device));
 }
 
 std::string case_default(const CaseKey& key) {
   if (key.required) return "";
   Case builtin = load_case(std::nullopt, {});
   if (!builtin.wind) builtin.wind.emplace();
-  return toml_value(key, builtin);
+  return text_of_key(key, builtin);
 }
 
 std::string case_to_toml(const Case& the_case) {
@@ -167,7 +154,7 @@ nlohmann::ordered_json case_to_json(const Case& the_case) {
   nlohmann::ordered_json json;
   for (const CaseKey& key : case_keys()) {
     if (!is_in_force(key, the_case)) continue;
-    json[key.table()][key.short_name()] = json_value(key, copy);
+    json[key.table()][key.short_name()] = json_of_key(key, copy);
   }
   if (!the_case.devices.empty()) json["device"] = devices_to_json(the_case.devices);
   return json;

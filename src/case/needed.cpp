@@ -33,16 +33,10 @@ std::string key_text(const std::string& name) {
          (other == others.end() ? "" : std::string(" or ") + other->other);
 }
 
-bool is_in_library(const std::string& name) {
-  const auto& keys = library_keys();
-  return std::any_of(keys.begin(), keys.end(),
-                     [&](const LibraryKey& key) { return key.name == name; });
-}
-
 }  // namespace
 
 bool is_absent(const Case& the_case, const CaseKey& key) {
-  if (key.number == nullptr) return false;
+  if (!key.is_number()) return false;
   // A copy of the case would cost more than all else; nothing is written.
   const double* value = key.number(const_cast<Case&>(the_case));
   return value != nullptr && std::isnan(*value);
@@ -67,7 +61,7 @@ void require_keys(const Case& the_case, const std::vector<std::string>& keys) {
   if (missing.empty()) return;
   std::string listed;
   for (const std::string& name : missing) listed += (listed.empty() ? "" : ", ") + key_text(name);
-  const bool is_named = std::any_of(missing.begin(), missing.end(), is_in_library);
+  const bool is_named = std::any_of(missing.begin(), missing.end(), is_library_key);
   throw MissingKeys("the case does not give what this needs: " + listed +
                     (is_named ? "; a conductor of the library has its own by conductor.name" : ""));
 }

@@ -1,4 +1,4 @@
-#include "case/toml_depth.hpp"
+#include "case/toml_values.hpp"
 
 #include <algorithm>
 

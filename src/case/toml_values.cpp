@@ -1,12 +1,16 @@
 #include "case/toml_values.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <locale>
+#include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
-#include "case/toml_depth.hpp"
+#include "case/library/conductor_library.hpp"
 #include "case/units.hpp"
 #include "process/errors.hpp"
 #include "text/text.hpp"
@@ -61,8 +65,7 @@ std::string guess_of_value(std::string_view value) {
   const bool number_first = parse_number(value.substr(0, blank)).has_value();
   if (number_first && blank != std::string_view::npos)
     return "; a number stands alone, in the unit that `holdfast case --check` gives for its key, "
-           "or "
-           "with another one in quotes: \"28.2 kN\"";
+           "or with another one in quotes: \"28.2 kN\"";
   return "";
 }
 
@@ -71,6 +74,120 @@ std::string suggested_word(const std::vector<std::string>& words, const toml::no
   const auto word = node.value_exact<std::string>();
   if (!word || words.empty()) return "";
   return "; did you mean \"" + nearest_name(words, *word) + "\"?";
+}
+
+double read_number(const KeyForm& key, const toml::node& node, const std::string& place) {
+  const auto number = number_in(node, key.unit, place);
+  if (!number)
+    throw WrongInput(place + ": must be a number; admissible is " + key.admissible() +
+                     suggested_word(key.words, node));
+  if (!std::isfinite(*number))
+    throw WrongInput(place + ": must be finite; admissible is " + key.admissible());
+  if (!key.range.contains(*number)) throw WrongInput(place + ": admissible is " + key.admissible());
+  return *number + 0.0;  // a negative zero is zero
+}
+
+std::string read_word(const KeyForm& key, const toml::node& node, const std::string& place) {
+  const auto word = node.value_exact<std::string>();
+  if (!word || std::find(key.words.begin(), key.words.end(), *word) == key.words.end())
+    throw WrongInput(place + ": must be " + key.admissible() + suggested_word(key.words, node));
+  return *word;
+}
+
+std::string read_file_name(const KeyForm& key, const toml::node& node, const std::string& place,
+                           const std::filesystem::path& folder) {
+  const auto name = node.value_exact<std::string>();
+  // The system's names of files end at a zero, and a case file is UTF-8.
+  const bool is_name = name && name->find('\0') == std::string::npos && is_utf8(*name);
+  if (!is_name || (name->empty() && !key.may_be_none))
+    throw WrongInput(place + ": must be " + key.admissible());
+  return name->empty() ? "" : (folder / *name).string();
+}
+
+std::string read_conductor(const KeyForm& key, const toml::node& node, const std::string& place) {
+  const auto name = node.value_exact<std::string>();
+  const LibraryConductor* found = name ? find_conductor(*name) : nullptr;
+  if (found != nullptr) return found->name;
+  if (name && name->empty()) return "";
+  throw WrongInput(place + ": must be " + key.admissible() +
+                   (name ? "; did you mean " + nearest_conductors(*name) + "?" : ""));
+}
+
+std::array<double, 2> read_interval(const KeyForm& key, const toml::node& node,
+                                    const std::string& place) {
+  const toml::array* list = node.as_array();
+  std::array<double, 2> ends{};
+  bool fine = list != nullptr && list->size() == ends.size();
+  for (std::size_t k = 0; fine && k < ends.size(); ++k) {
+    ends[k] = number_in((*list)[k], key.unit, place).value_or(std::nan(""));
+    fine = key.range.contains(ends[k]);
+  }
+  if (!fine || !(ends[0] < ends[1])) throw WrongInput(place + ": must be " + key.admissible());
+  return ends;
+}
+
+std::vector<double> read_numbers(const KeyForm& key, const toml::node& node,
+                                 const std::string& place) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr || (list->empty() && !key.may_be_none))
+    throw WrongInput(place + ": must be " + key.admissible());
+  std::vector<double> values;
+  for (const toml::node& one : *list) {
+    const auto value = number_in(one, key.unit, place);
+    if (!value || !key.range.contains(*value))
+      throw WrongInput(place + ": " + value_text(one) + " must be as in " + key.admissible());
+    values.push_back(*value + 0.0);
+  }
+  return values;
+}
+
+/// [amplitude, frequency, phase], of which the last may be left out; nothing where it is not that.
+std::optional<std::array<double, 3>> harmonic_of(const toml::node& node, const std::string& place) {
+  const toml::array* numbers = node.as_array();
+  const auto& parts = harmonic_parts();
+  if (numbers == nullptr || (numbers->size() != 2 && numbers->size() != parts.size())) return {};
+  std::array<double, 3> harmonic{};
+  for (std::size_t k = 0; k < numbers->size(); ++k) {
+    harmonic[k] = number_in((*numbers)[k], parts[k].unit, place).value_or(std::nan(""));
+    if (!parts[k].range.contains(harmonic[k])) return {};
+  }
+  return harmonic;
+}
+
+std::vector<std::array<double, 3>> read_harmonics(const KeyForm& key, const toml::node& node,
+                                                  const std::string& place) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr) throw WrongInput(place + ": must be " + key.admissible());
+  std::vector<std::array<double, 3>> harmonics;
+  for (const toml::node& one : *list) {
+    const auto harmonic = harmonic_of(one, place);
+    if (!harmonic) {
+      throw WrongInput(place + ": the harmonic " + value_text(one) + " must be as in " +
+                       key.admissible());
+    }
+    harmonics.push_back(*harmonic);
+  }
+  return harmonics;
+}
+
+std::string in_toml(const std::string& text) { return toml_string(text); }
+
+/// A float: digits alone would be an integer, of which TOML has only 64 bits.
+std::string in_toml(double value) {
+  std::string text = format_number(value);
+  const bool whole = text.find_first_of(".e") == std::string::npos;
+  return whole ? text + ".0" : text;
+}
+
+template <class List>
+std::string in_toml(const List& list) {
+  std::string text;
+  for (const auto& one : list) text += (text.empty() ? "" : ", ") + in_toml(one);
+  return "[" + text + "]";
+}
+
+std::int64_t whole_number(const ValuePlace& value) {
+  return static_cast<std::int64_t>(*std::get<double*>(value));
 }
 
 }  // namespace
@@ -87,25 +204,21 @@ toml::table parse_case_text(std::string_view text, const std::string& name) {
   }
 }
 
-ValueForm form_of(const CaseKey& key) {
-  if (key.number != nullptr) return ValueForm::number;
-  return key.file != nullptr || key.conductor != nullptr ? ValueForm::name : ValueForm::other;
-}
-
-toml::table parse_override_value(ValueForm form, const std::string& admissible,
-                                 std::string_view value, const std::string& place) {
+toml::table parse_override_value(const KeyForm& key, std::string_view value,
+                                 const std::string& place) {
   if (const auto excess = toml_excess(value)) throw WrongInput(place + ": " + excess->message);
   try {
     toml::table parsed = toml::parse("value = " + std::string(value));
     if (parsed.size() == 1) return parsed;
   } catch (const toml::parse_error&) {
-    const bool has_unit = form == ValueForm::number && written_quantity(value).has_value();
-    if (form == ValueForm::name || is_bare_word(value) || has_unit)
+    const bool is_name = key.kind == ValueKind::file || key.kind == ValueKind::conductor;
+    const bool has_unit = key.is_number() && written_quantity(value).has_value();
+    if (is_name || is_bare_word(value) || has_unit)
       return toml::table{{"value", std::string(value)}};
   }
   const std::string guess = guess_of_value(value);
-  const std::string plain = form == ValueForm::number ? ", a plain number such as 0.01" : "";
-  throw WrongInput(place + ": admissible is " + admissible + (guess.empty() ? plain : guess));
+  const std::string plain = key.is_number() ? ", a plain number such as 0.01" : "";
+  throw WrongInput(place + ": admissible is " + key.admissible() + (guess.empty() ? plain : guess));
 }
 
 std::optional<double> number_in(const toml::node& node, const std::string& unit,
@@ -120,66 +233,40 @@ std::optional<double> number_in(const toml::node& node, const std::string& unit,
                    (known.empty() ? "it is a number without unit" : "it may be in " + known));
 }
 
-double read_number(const toml::node& node, const AdmissibleRange& range,
-                   const Admissible& admissible, const std::string& place) {
-  const auto number = number_in(node, admissible.unit, place);
-  if (!number)
-    throw WrongInput(place + ": must be a number; admissible is " + admissible.text +
-                     suggested_word(admissible.words, node));
-  const double value = *number;
-  if (!std::isfinite(value))
-    throw WrongInput(place + ": must be finite; admissible is " + admissible.text);
-  if (!range.contains(value)) throw WrongInput(place + ": admissible is " + admissible.text);
-  return value + 0.0;  // a negative zero is zero
-}
-
-std::vector<double> read_numbers(const toml::node& node, const AdmissibleRange& range,
-                                 const Admissible& admissible, const std::string& place) {
-  const toml::array* list = node.as_array();
-  if (list == nullptr) throw WrongInput(place + ": must be " + admissible.text);
-  std::vector<double> values;
-  for (const toml::node& one : *list) {
-    const auto value = number_in(one, admissible.unit, place);
-    if (!value || !range.contains(*value))
-      throw WrongInput(place + ": " + value_text(one) + " must be as in " + admissible.text);
-    values.push_back(*value + 0.0);
+void read_value(const KeyForm& key, const ValuePlace& value, const toml::node& node,
+                const std::string& place, const std::filesystem::path& folder) {
+  const auto give = [&](auto read) { *std::get<decltype(read)*>(value) = std::move(read); };
+  switch (key.kind) {
+    case ValueKind::number:
+      return give(read_number(key, node, place));
+    case ValueKind::word:
+      return give(read_word(key, node, place));
+    case ValueKind::file:
+      return give(read_file_name(key, node, place, folder));
+    case ValueKind::conductor:
+      return give(read_conductor(key, node, place));
+    case ValueKind::interval:
+      return give(read_interval(key, node, place));
+    case ValueKind::numbers:
+      return give(read_numbers(key, node, place));
+    case ValueKind::harmonics:
+      return give(read_harmonics(key, node, place));
   }
-  return values;
 }
 
-std::string read_word(const toml::node& node, const Admissible& admissible,
-                      const std::string& place) {
-  const auto word = node.value_exact<std::string>();
-  const auto& words = admissible.words;
-  if (!word || std::find(words.begin(), words.end(), *word) == words.end())
-    throw WrongInput(place + ": must be " + admissible.text + suggested_word(words, node));
-  return *word;
+std::string toml_value(const KeyForm& key, const ValuePlace& value) {
+  if (key.range.whole) return std::to_string(whole_number(value));
+  return std::visit([](const auto* of) { return in_toml(*of); }, value);
 }
 
-std::string read_file_name(const toml::node& node, const std::string& admissible,
-                           const std::string& place) {
-  const auto name = node.value_exact<std::string>();
-  // The system's names of files end at a zero, and a case file is UTF-8.
-  const bool is_name = name && name->find('\0') == std::string::npos && is_utf8(*name);
-  if (!is_name) throw WrongInput(place + ": must be " + admissible);
-  return *name;
+nlohmann::ordered_json json_value(const KeyForm& key, const ValuePlace& value) {
+  if (key.range.whole) return whole_number(value);
+  return std::visit([](const auto* of) -> nlohmann::ordered_json { return *of; }, value);
 }
 
 std::string value_text(const toml::node& node) {
   constexpr std::size_t longest = 60;
   return shortened(toml_text(node), longest);
-}
-
-std::string toml_number(double value) {
-  std::string text = format_number(value);
-  const bool whole = text.find_first_of(".e") == std::string::npos;
-  return whole ? text + ".0" : text;
-}
-
-std::string toml_numbers(const std::vector<double>& values) {
-  std::string list;
-  for (const double value : values) list += (list.empty() ? "" : ", ") + toml_number(value);
-  return "[" + list + "]";
 }
 
 std::string toml_string(std::string_view text) {
@@ -197,10 +284,12 @@ std::string toml_string(std::string_view text) {
   return quoted + "\"";
 }
 
-std::string commented(std::string assignment, const std::string& comment) {
+std::string toml_line(const KeyForm& key, const std::string& name, const std::string& value) {
   constexpr std::size_t comment_column = 32;
-  assignment.resize(std::max(assignment.size() + 1, comment_column), ' ');
-  return assignment + "# " + comment + "\n";
+  std::string line = name + " = " + value;
+  line.resize(std::max(line.size() + 1, comment_column), ' ');
+  return line + "# " + (key.unit.empty() ? "" : key.unit + ", ") + key.description +
+         (key.kind == ValueKind::word ? ": " + key.admissible() : "") + "\n";
 }
 
 }  // namespace holdfast::program

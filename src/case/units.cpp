@@ -87,7 +87,7 @@ const std::vector<Unit> listed_units = {
 };
 
 /// Signs of a unit in the table's writing.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 9> writings = {{
+constexpr std::array<std::pair<const char*, const char*>, 9> writings = {{
     {"\u00b2", "2"},
     {"\u00b3", "3"},
     {"\u00b5", "u"},
@@ -101,9 +101,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 9> writings 
 
 std::string in_table_writing(std::string_view text) {
   std::string unit(trimmed(text));
-  for (const auto& [from, to] : writings)
-    for (std::size_t at = unit.find(from); at != std::string::npos; at = unit.find(from, at))
-      unit.replace(at, from.size(), to), at += to.size();
+  for (const auto& [from, to] : writings) unit = replaced(std::move(unit), from, to);
   return unit;
 }
 

@@ -23,23 +23,25 @@ struct CaseSource;
 ///     host.tables.front().columns …
 struct JobHost {
   /// That of this thread; null where jobs run by themselves.
-  static JobHost* current();
+  static JobHost* current() { return innermost; }
 
   std::shared_ptr<CaseSource> source;  // in place of --case and --set
   std::vector<ReceivedTable> tables;   // of those that go to no file
   std::vector<std::string> warnings;
   std::atomic<std::uint64_t> steps_done{0}, steps{0};  // of the job that counts them; 0: none yet
+
+ private:
+  friend class HostedHere;
+  static inline thread_local JobHost* innermost = nullptr;
 };
 
 /// Makes a host that of the thread while it lives; hosts may be nested.
 class HostedHere {
  public:
-  explicit HostedHere(JobHost& host);
-  ~HostedHere();
+  explicit HostedHere(JobHost& host) : outer_(JobHost::innermost) { JobHost::innermost = &host; }
+  ~HostedHere() { JobHost::innermost = outer_; }
   HostedHere(const HostedHere&) = delete;
   HostedHere& operator=(const HostedHere&) = delete;
-  HostedHere(HostedHere&&) = delete;
-  HostedHere& operator=(HostedHere&&) = delete;
 
  private:
   JobHost* outer_;

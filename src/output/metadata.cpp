@@ -1,7 +1,6 @@
 #include "output/metadata.hpp"
 
 #include <cctype>
-#include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
 #include "case/model/own/own_parts.hpp"

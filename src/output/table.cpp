@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "host/job_host.hpp"
-#include "output/memory_cells.hpp"
+#include "output/grid/cell_writer.hpp"
 #include "output/metadata.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <holdfast/core/errors.hpp>
 #include <new>
 #include <string_view>

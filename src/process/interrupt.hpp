@@ -46,8 +46,6 @@ class SignalsHeld {
   ~SignalsHeld();
   SignalsHeld(const SignalsHeld&) = delete;
   SignalsHeld& operator=(const SignalsHeld&) = delete;
-  SignalsHeld(SignalsHeld&&) = delete;
-  SignalsHeld& operator=(SignalsHeld&&) = delete;
 
  private:
   sigset_t before_ = {};
@@ -61,8 +59,6 @@ class RemovedBySignal {
   ~RemovedBySignal();
   RemovedBySignal(const RemovedBySignal&) = delete;
   RemovedBySignal& operator=(const RemovedBySignal&) = delete;
-  RemovedBySignal(RemovedBySignal&&) = delete;
-  RemovedBySignal& operator=(RemovedBySignal&&) = delete;
 
  private:
   int slot_ = -1;

@@ -146,10 +146,6 @@ void Progress::advance(std::uint64_t steps, std::uint64_t samples) {
   show_status(status());
 }
 
-double Progress::seconds_since_start() const {
-  return std::chrono::duration<double>(Clock::now() - start_).count();
-}
-
 std::string Progress::status() const {
   const std::uint64_t skipped = skipped_, here = done_, elsewhere = elsewhere_;
   ProgressCount count{std::min(skipped + here + elsewhere, total_), total_, skipped};
@@ -157,7 +153,7 @@ std::string Progress::status() const {
   if (here > 0)
     count.samples = static_cast<double>(samples_.load()) *
                     (static_cast<double>(count.done - skipped) / static_cast<double>(here));
-  return progress_text(label_, count, seconds_since_start());
+  return progress_text(label_, count, std::chrono::duration<double>(Clock::now() - start_).count());
 }
 
 }  // namespace holdfast::program

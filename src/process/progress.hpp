@@ -36,8 +36,6 @@ class Ticking {
   ~Ticking();
   Ticking(const Ticking&) = delete;
   Ticking& operator=(const Ticking&) = delete;
-  Ticking(Ticking&&) = delete;
-  Ticking& operator=(Ticking&&) = delete;
 
  private:
   void run(std::chrono::milliseconds first);
@@ -64,8 +62,6 @@ class Progress {
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  Progress(Progress&&) = delete;
-  Progress& operator=(Progress&&) = delete;
 
   /// Counts steps done. May be called from many threads.
   void advance(std::uint64_t steps = 1, std::uint64_t samples = 0);
@@ -78,7 +74,6 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   friend class Ticking;
 
-  double seconds_since_start() const;
   std::string status() const;
 
   std::uint64_t total_;

@@ -86,40 +86,39 @@ Json root_attributes(const StoreDescription& store) {
   return attributes;
 }
 
-/// One array of a store, of either format.
-struct ArrayDescription {
-  std::string name;
-  ElementType type;
-  std::vector<std::size_t> shape, chunk;
+ElementType element_type_of(const CellColumn& column) {
+  if (!column.words.empty()) return ElementType::byte;
+  return column.column.datatype == "integer" ? ElementType::integer : ElementType::real;
+}
+
+Json attributes_of(const CellColumn& column) {
+  Json attributes = json_of(column_attributes(column));
+  if (column.words.empty()) return attributes;
+  std::vector<int> numbers(column.words.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  attributes["flag_values"] = numbers;
+  return attributes;
+}
+
+/// An array with what is said of it, in either format.
+struct ArrayDescription : StoreArray {
   std::vector<std::string> dimensions;
   Json attributes;
 };
 
-std::vector<ArrayDescription> arrays_of(const StoreDescription& store) {
-  std::vector<ArrayDescription> arrays;
+std::vector<ArrayDescription> described_arrays(const StoreDescription& store) {
+  const std::vector<StoreArray> arrays = arrays_of(store);
+  std::vector<ArrayDescription> described;
   std::vector<std::string> dimensions;
-  for (const GridAxis& axis : store.axes) {
-    const std::string name = cf_name(axis.column.name);
-    const std::size_t count = axis.count();
-    arrays.push_back({name,
-                      ElementType::real,
-                      {count},
-                      {coordinates_in_chunk(count)},
-                      {name},
-                      json_of(axis_attributes(axis.column))});
-    dimensions.push_back(name);
+  for (std::size_t k = 0; k < store.axes.size(); ++k) {
+    dimensions.push_back(arrays[k].name);
+    described.push_back(
+        {arrays[k], {arrays[k].name}, json_of(axis_attributes(store.axes[k].column))});
   }
-  for (const CellColumn& column : store.columns) {
-    Json attributes = json_of(column_attributes(column));
-    if (!column.words.empty()) {
-      std::vector<int> numbers(column.words.size());
-      std::iota(numbers.begin(), numbers.end(), 0);
-      attributes["flag_values"] = numbers;
-    }
-    arrays.push_back({cf_name(column.column.name), element_type_of(column), store.grid.shape,
-                      store.grid.chunk, dimensions, attributes});
-  }
-  return arrays;
+  for (std::size_t k = 0; k < store.columns.size(); ++k)
+    described.push_back(
+        {arrays[store.axes.size() + k], dimensions, attributes_of(store.columns[k])});
+  return described;
 }
 
 Json fill_value(ElementType type) {
@@ -140,9 +139,10 @@ Json codecs_of(ElementType type, ChunkPacking packing) {
 Json array_of_format_3(const ArrayDescription& array, ChunkPacking packing) {
   constexpr std::array<const char*, 3> names = {"float64", "int64", "int8"};
   Json json = {{"zarr_format", 3}, {"node_type", "array"}};
-  json["shape"] = array.shape;
+  json["shape"] = array.grid.shape;
   json["data_type"] = names.at(static_cast<std::size_t>(array.type));
-  json["chunk_grid"] = {{"name", "regular"}, {"configuration", {{"chunk_shape", array.chunk}}}};
+  json["chunk_grid"] = {{"name", "regular"},
+                        {"configuration", {{"chunk_shape", array.grid.chunk}}}};
   json["chunk_key_encoding"] = {{"name", "default"}, {"configuration", {{"separator", "."}}}};
   json["fill_value"] = fill_value(array.type);
   json["codecs"] = codecs_of(array.type, packing);
@@ -155,8 +155,8 @@ Json array_of_format_3(const ArrayDescription& array, ChunkPacking packing) {
 Json array_of_format_2(const ArrayDescription& array) {
   constexpr std::array<const char*, 3> names = {"<f8", "<i8", "|i1"};
   Json json = {{"zarr_format", 2}};
-  json["shape"] = array.shape;
-  json["chunks"] = array.chunk;
+  json["shape"] = array.grid.shape;
+  json["chunks"] = array.grid.chunk;
   json["dtype"] = names.at(static_cast<std::size_t>(array.type));
   json["compressor"] = {{"id", "zstd"}, {"level", zstd_level}};
   json["fill_value"] = fill_value(array.type);
@@ -186,7 +186,7 @@ Json sealed(Json root, int format) {
 Documents documents_of_format_3(const StoreDescription& store) {
   Documents documents;
   Json consolidated = Json::object();
-  for (const ArrayDescription& array : arrays_of(store)) {
+  for (const ArrayDescription& array : described_arrays(store)) {
     const Json json = array_of_format_3(array, store.packing);
     documents.emplace_back(fs::path(array.name) / root_of_format_3, text_of(json));
     consolidated[array.name] = json;
@@ -210,7 +210,7 @@ Documents documents_of_format_2(const StoreDescription& store) {
     documents.emplace_back(path, text_of(json));
     consolidated[path] = json;
   };
-  for (const ArrayDescription& array : arrays_of(store)) {
+  for (const ArrayDescription& array : described_arrays(store)) {
     Json attributes = array.attributes;
     attributes["_ARRAY_DIMENSIONS"] = array.dimensions;
     add(array.name + "/.zarray", array_of_format_2(array));
@@ -307,7 +307,7 @@ StoreDescription description_of(const Json& attributes, int format) {
   require(is_sound(store.grid) && store.axes.size() == store.grid.shape.size());
   require(store.table_columns > 0 && store.table_columns <= store.columns.size());
   std::set<std::string> names;
-  for (const std::string& name : array_names(store)) require(is_array_name(name, names));
+  for (const StoreArray& array : arrays_of(store)) require(is_array_name(array.name, names));
   return store;
 }
 
@@ -317,11 +317,17 @@ std::string plan_identity(const StorePlan& plan) {
   return std::to_string(checksum(Json(plan).dump(-1, ' ', false, Json::error_handler_t::replace)));
 }
 
-std::vector<std::string> array_names(const StoreDescription& store) {
-  std::vector<std::string> names;
-  for (const GridAxis& axis : store.axes) names.push_back(cf_name(axis.column.name));
-  for (const CellColumn& cells : store.columns) names.push_back(cf_name(cells.column.name));
-  return names;
+std::vector<StoreArray> arrays_of(const StoreDescription& store) {
+  std::vector<StoreArray> arrays;
+  for (std::size_t k = 0; k < store.axes.size(); ++k) {
+    const std::size_t count = store.grid.shape[k];
+    arrays.push_back({cf_name(store.axes[k].column.name),
+                      ElementType::real,
+                      {{count}, chunk_shape({count}, values_in_chunk)}});
+  }
+  for (const CellColumn& cells : store.columns)
+    arrays.push_back({cf_name(cells.column.name), element_type_of(cells), store.grid});
+  return arrays;
 }
 
 std::string plan_differences(const StorePlan& before, const StorePlan& now) {
@@ -349,11 +355,6 @@ void append_case(StorePlan& plan, const Case& the_case) {
     for (const auto& [key, value] : keys.items()) plan.emplace(table + "." + key, value.dump());
 }
 
-ElementType element_type_of(const CellColumn& column) {
-  if (!column.words.empty()) return ElementType::byte;
-  return column.column.datatype == "integer" ? ElementType::integer : ElementType::real;
-}
-
 std::size_t size_of(ElementType type) { return type == ElementType::byte ? 1 : 8; }
 
 Documents store_documents(const StoreDescription& store) {
@@ -370,13 +371,5 @@ StoreDescription read_description(std::string_view root, int format) {
     throw std::invalid_argument(fault.what());
   }
 }
-
-fs::path chunk_file(const std::string& array, const std::vector<std::int64_t>& place, int format) {
-  std::string file = format == 3 ? "c" : "";
-  for (const std::int64_t index : place) file += (file.empty() ? "" : ".") + std::to_string(index);
-  return fs::path(array) / file;
-}
-
-std::size_t coordinates_in_chunk(std::size_t count) { return std::min(count, values_in_chunk); }
 
 }  // namespace holdfast::program

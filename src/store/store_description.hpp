@@ -36,7 +36,6 @@ enum class ElementType {
   byte,     ///< 8 bits, the numbers of words, −1 there
 };
 
-ElementType element_type_of(const CellColumn& column);
 std::size_t size_of(ElementType type);
 
 /// What a store of cells holds.
@@ -51,8 +50,15 @@ struct StoreDescription {
   ChunkPacking packing = usual_packing();
 };
 
-/// The names of its arrays, which are those of their folders: of the axes, then of the columns.
-std::vector<std::string> array_names(const StoreDescription& store);
+/// One array of a store.
+struct StoreArray {
+  std::string name;  ///< and that of its folder
+  ElementType type;
+  ChunkGrid grid;
+};
+
+/// The arrays of a store: the coordinates of each axis, then the columns.
+std::vector<StoreArray> arrays_of(const StoreDescription& store);
 
 /// Files and their texts.
 using Documents = std::vector<std::pair<std::filesystem::path, std::string>>;
@@ -70,13 +76,5 @@ inline constexpr const char* root_of_format_2 = ".zattrs";
 /// std::invalid_argument, and nothing else, where it is none of holdfast's: damaged, or with names
 /// of arrays that are none of its own, such as paths.
 StoreDescription read_description(std::string_view root, int format);
-
-/// The file of a chunk of an array, relative to the store. All of an array lie in one folder: each
-/// costs a file system as little as can be.
-std::filesystem::path chunk_file(const std::string& array, const std::vector<std::int64_t>& place,
-                                 int format);
-
-/// The shape of the chunks of an axis' coordinates.
-std::size_t coordinates_in_chunk(std::size_t count);
 
 }  // namespace holdfast::program

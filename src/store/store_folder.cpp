@@ -98,15 +98,17 @@ bool holds_nothing_but(const fs::path& folder, const std::vector<std::string>& k
 /// Whether nothing is there, or leftovers of a store whose root was not written any more; without
 /// chunks, of which nobody could tell what they belong to.
 bool may_begin_store(const fs::path& folder, const StoreDescription& description) {
-  std::vector<std::string> known = array_names(description);
-  for (std::size_t column = description.axes.size(); column < known.size(); ++column)
-    if (!holds_nothing_but(folder / known[column], {root_of_format_3, root_of_format_2, ".zarray"}))
+  const std::vector<StoreArray> arrays = arrays_of(description);
+  std::vector<std::string> known = {".zgroup", ".zmetadata", FolderLock::file_name};
+  for (std::size_t k = 0; k < arrays.size(); ++k) {
+    known.push_back(arrays[k].name);
+    if (k >= description.axes.size() &&
+        !holds_nothing_but(folder / arrays[k].name,
+                           {root_of_format_3, root_of_format_2, ".zarray"}))
       return false;
-  known.insert(known.end(), {".zgroup", ".zmetadata", FolderLock::file_name});
+  }
   return holds_nothing_but(folder, known);
 }
-
-std::size_t pieces(std::size_t count, std::size_t of) { return (count + of - 1) / of; }
 
 /// The root, from which they were made, has a checksum of its own.
 auto documents_but_root(const StoreDescription& store) {
@@ -145,13 +147,16 @@ bool is_index_below(std::string_view text, std::size_t end) {
 }
 
 /// Whether a file is that of a chunk: `c.4.0`, or without the letter in format 2.
-bool is_chunk_name(std::string_view name, int format, const std::vector<std::size_t>& chunks) {
+bool is_chunk_name(std::string_view name, int format, const ChunkGrid& grid) {
   std::vector<std::string_view> parts = split(name, '.');
   if (format == 3) {
     if (parts.front() != "c") return false;
     parts.erase(parts.begin());
   }
-  return std::equal(parts.begin(), parts.end(), chunks.begin(), chunks.end(), is_index_below);
+  if (parts.size() != grid.shape.size()) return false;
+  for (std::size_t axis = 0; axis < parts.size(); ++axis)
+    if (!is_index_below(parts[axis], static_cast<std::size_t>(grid.along(axis)))) return false;
+  return true;
 }
 
 [[noreturn]] void refuse_link(const fs::path& path) {
@@ -212,14 +217,18 @@ StoreFolder StoreFolder::open(const fs::path& folder) {
 /// No array may lie behind a link: what is written there would be written elsewhere.
 void StoreFolder::refuse_links() const {
   std::error_code error;
-  for (const std::string& name : array_names(description_))
-    if (fs::is_symlink(folder_ / name, error)) refuse_link(folder_ / name);
+  for (const StoreArray& array : arrays_)
+    if (fs::is_symlink(folder_ / array.name, error)) refuse_link(folder_ / array.name);
 }
 
 /// Leaves nothing where it cannot come to its end, but what another process has begun meanwhile.
 void StoreFolder::begin() const {
   try {
-    write_documents();
+    each_axis_file([&](std::size_t axis, std::int64_t chunk) {
+      throw_if_interrupted();
+      write_axis(axis, chunk);
+    });
+    for (const auto& [path, text] : store_documents(description_)) write_file(folder_ / path, text);
   } catch (...) {
     if (!store_in(folder_)) remove();
     throw;
@@ -231,69 +240,47 @@ std::string StoreFolder::seal_of(const fs::path& file) const {
   return file.lexically_relative(folder_).generic_string() + " of " + identity_;
 }
 
-std::string StoreFolder::packed(const fs::path& file, const std::vector<double>& values,
-                                std::size_t count, ElementType type) const {
-  return packed_chunk(bytes_of(values, count, type), description_.packing, seal_of(file));
+/// The bytes of a file of an array; cells beyond the values are filled.
+std::string StoreFolder::packed(const StoreArray& array, std::int64_t chunk,
+                                const std::vector<double>& values) const {
+  const auto count = static_cast<std::size_t>(array.grid.cells_of_file());
+  return packed_chunk(bytes_of(values, count, array.type), description_.packing,
+                      seal_of(file_of(array, chunk)));
 }
 
-/// The first values of a file of `count`; nothing where it is missing or damaged, or cannot be
-/// read.
-std::optional<std::vector<double>> StoreFolder::values_in(const fs::path& file, std::size_t values,
-                                                          std::size_t count,
-                                                          ElementType type) const {
+/// The values of a file; nothing where it is missing or damaged, or cannot be read.
+std::optional<std::vector<double>> StoreFolder::values_in(const StoreArray& array,
+                                                          std::int64_t chunk) const {
+  const fs::path file = file_of(array, chunk);
   int ignored = 0;
   const std::optional<std::string> packed = read_whole_file(file, ignored);
   if (!packed) return std::nullopt;
+  const auto count = static_cast<std::size_t>(array.grid.cells_of_file());
   const std::optional<std::string> bytes =
-      unpacked_chunk(*packed, count * size_of(type), description_.packing, seal_of(file));
+      unpacked_chunk(*packed, count * size_of(array.type), description_.packing, seal_of(file));
   if (!bytes) return std::nullopt;
-  return values_of(*bytes, values, type);
+  return values_of(*bytes, static_cast<std::size_t>(array.grid.cells_of(chunk)), array.type);
 }
 
-/// Calls for each file of an axis, by the number of its first value.
+/// Calls for each file of an axis, with its number.
 template <class Call>
 void StoreFolder::each_axis_file(const Call& call) const {
   for (std::size_t axis = 0; axis < description_.axes.size(); ++axis)
-    for (std::size_t first = 0, count = grid().shape[axis]; first < count;
-         first += coordinates_in_chunk(count))
-      call(axis, first);
+    for (std::int64_t chunk = 0; chunk < arrays_[axis].grid.chunks(); ++chunk) call(axis, chunk);
 }
 
-void StoreFolder::write_axis(std::size_t axis, std::size_t first) const {
-  const GridAxis& of = description_.axes[axis];
-  const std::size_t length = coordinates_in_chunk(of.count());
-  std::vector<double> values(std::min(length, of.count() - first));
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = of.at(first + i);
-  const fs::path file = axis_file(axis, first);
-  write_file(file, packed(file, values, length, ElementType::real));
-}
-
-fs::path StoreFolder::axis_file(std::size_t axis, std::size_t first) const {
-  const std::size_t length = coordinates_in_chunk(grid().shape[axis]);
-  return folder_ / chunk_file(cf_name(description_.axes[axis].column.name),
-                              {static_cast<std::int64_t>(first / length)}, description_.format);
-}
-
-/// Some of an axis from one of its values on; nothing where its file is missing or damaged.
-std::optional<std::vector<double>> StoreFolder::axis_values(std::size_t axis,
-                                                            std::size_t first) const {
-  const std::size_t count = grid().shape[axis], length = coordinates_in_chunk(count);
-  return values_in(axis_file(axis, first), std::min(length, count - first), length,
-                   ElementType::real);
-}
-
-void StoreFolder::write_documents() const {
-  each_axis_file([&](std::size_t axis, std::size_t first) {
-    throw_if_interrupted();
-    write_axis(axis, first);
-  });
-  for (const auto& [path, text] : store_documents(description_)) write_file(folder_ / path, text);
+void StoreFolder::write_axis(std::size_t axis, std::int64_t chunk) const {
+  const StoreArray& array = arrays_[axis];
+  const auto first = static_cast<std::size_t>(array.grid.first_cell(chunk));
+  std::vector<double> values(static_cast<std::size_t>(array.grid.cells_of(chunk)));
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = description_.axes[axis].at(first + i);
+  write_file(file_of(array, chunk), packed(array, chunk, values));
 }
 
 /// Whoever comes later finds what the store's plan says, whatever has become of it.
 void StoreFolder::mend(const Documents& documents) const {
-  each_axis_file([&](std::size_t axis, std::size_t first) {
-    if (!axis_values(axis, first)) write_axis(axis, first);
+  each_axis_file([&](std::size_t axis, std::int64_t chunk) {
+    if (!values_in(arrays_[axis], chunk)) write_axis(axis, chunk);
   });
   int ignored = 0;
   for (const auto& [path, text] : documents)
@@ -311,32 +298,34 @@ void StoreFolder::require(const Documents& documents) const {
 
 void StoreFolder::read_axes() {
   std::vector<std::vector<double>> values(description_.axes.size());
-  each_axis_file([&](std::size_t axis, std::size_t first) {
-    const auto part = axis_values(axis, first);
-    if (!part) refuse_to_read(axis_file(axis, first), "it is missing or damaged");
+  each_axis_file([&](std::size_t axis, std::int64_t chunk) {
+    const auto part = values_in(arrays_[axis], chunk);
+    if (!part) refuse_to_read(file_of(arrays_[axis], chunk), "it is missing or damaged");
     values[axis].insert(values[axis].end(), part->begin(), part->end());
   });
   for (std::size_t axis = 0; axis < values.size(); ++axis)
     description_.axes[axis].values = std::move(values[axis]);
 }
 
-fs::path StoreFolder::file_of(std::size_t column, std::int64_t chunk) const {
-  if (chunk < 0 || chunk >= grid().chunks()) throw std::out_of_range("no such chunk in the store");
-  return folder_ / chunk_file(cf_name(description_.columns[column].column.name),
-                              grid().place(chunk), description_.format);
+/// All files of an array lie in one folder: each costs a file system as little as can be.
+fs::path StoreFolder::file_of(const StoreArray& array, std::int64_t chunk) const {
+  if (chunk < 0 || chunk >= array.grid.chunks())
+    throw std::out_of_range("no such chunk in the store");
+  std::string file = description_.format == 3 ? "c" : "";
+  for (const std::int64_t index : array.grid.place(chunk))
+    file += (file.empty() ? "" : ".") + std::to_string(index);
+  return folder_ / array.name / file;
 }
 
 bool StoreFolder::has(std::int64_t chunk) const {
   std::error_code error;
-  return fs::is_regular_file(file_of(0, chunk), error);
+  return fs::is_regular_file(file_of(chunk), error);
 }
 
 std::optional<std::vector<double>> StoreFolder::read_column(std::size_t column,
                                                             std::int64_t chunk) const {
-  const CellColumn& cells = description_.columns[column];
-  auto values = values_in(file_of(column, chunk), static_cast<std::size_t>(grid().cells_of(chunk)),
-                          static_cast<std::size_t>(grid().cells_of_file()), element_type_of(cells));
-  return values && fit(cells, *values) ? std::move(values) : std::nullopt;
+  auto values = values_in(array_of(column), chunk);
+  return values && fit(description_.columns[column], *values) ? std::move(values) : std::nullopt;
 }
 
 std::optional<ChunkValues> StoreFolder::read(std::int64_t chunk) const {
@@ -351,19 +340,17 @@ std::optional<ChunkValues> StoreFolder::read(std::int64_t chunk) const {
 
 void StoreFolder::put(std::int64_t chunk, const ChunkValues& values) const {
   for (std::size_t column = values.size(); column-- > 0;) {
-    const fs::path file = file_of(column, chunk);
-    const ElementType type = element_type_of(description_.columns[column]);
-    const auto of_file = static_cast<std::size_t>(grid().cells_of_file());
+    const fs::path file = file_of(array_of(column), chunk);
     std::error_code ignored;
     if (fs::is_symlink(file, ignored)) refuse_link(file);
-    const int error = write_whole_file(file, packed(file, values[column], of_file, type));
+    const int error = write_whole_file(file, packed(array_of(column), chunk, values[column]));
     if (error != 0) throw OutputError("cannot write " + file.string() + ": " + system_words(error));
   }
 }
 
 void StoreFolder::remove_leftovers(std::int64_t chunk) const {
   for (std::size_t column = 0; column < description_.columns.size(); ++column) {
-    const fs::path file = file_of(column, chunk);
+    const fs::path file = file_of(array_of(column), chunk);
     const OwnFolder array(file.parent_path());
     if (!array.is_open()) continue;
     for (const std::string& name : array.names())
@@ -380,11 +367,9 @@ std::optional<std::int64_t> StoreFolder::chunks_done_in(const fs::path& folder) 
 std::int64_t StoreFolder::chunks_done() const {
   // What lies there is counted: of how many chunks a root speaks is anybody's word.
   std::error_code error;
-  const std::vector<std::size_t> chunks = chunks_along_axes();
-  const fs::path array = folder_ / cf_name(description_.columns.front().column.name);
   std::int64_t done = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator(array, error))
-    if (is_chunk_name(entry.path().filename().string(), description_.format, chunks) &&
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / array_of(0).name, error))
+    if (is_chunk_name(entry.path().filename().string(), description_.format, grid()) &&
         entry.is_regular_file(error))
       ++done;
   return done;
@@ -392,7 +377,7 @@ std::int64_t StoreFolder::chunks_done() const {
 
 /// Whether holdfast gives a file of an array the name: of a chunk, its claim, a document, or before
 /// it is whole.
-bool StoreFolder::gives(const std::string& name, const std::vector<std::size_t>& chunks) const {
+bool StoreFolder::gives(const std::string& name, const ChunkGrid& grid) const {
   constexpr std::string_view claim = ".claim";
   const std::string whole = name_behind_temporary(name).value_or(name);
   for (const char* document : {root_of_format_3, root_of_format_2, ".zarray"})
@@ -400,38 +385,23 @@ bool StoreFolder::gives(const std::string& name, const std::vector<std::size_t>&
   std::string_view chunk = whole;
   if (chunk.size() > claim.size() && chunk.substr(chunk.size() - claim.size()) == claim)
     chunk = chunk.substr(1, chunk.size() - 1 - claim.size());
-  return is_chunk_name(chunk, description_.format, chunks);
+  return is_chunk_name(chunk, description_.format, grid);
 }
 
-void StoreFolder::remove_array(const OwnFolder& folder, const std::string& name,
-                               const std::vector<std::size_t>& chunks) const {
-  const OwnFolder array(folder, name);
-  if (!array.is_open()) return;
-  for (const std::string& file : array.names())
-    if (gives(file, chunks)) array.remove_file(file);
-  folder.remove_empty_folder(name);
-}
-
-std::vector<std::size_t> StoreFolder::chunks_along_axes() const {
-  std::vector<std::size_t> chunks(grid().shape.size());
-  std::transform(grid().shape.begin(), grid().shape.end(), grid().chunk.begin(), chunks.begin(),
-                 pieces);
-  return chunks;
+void StoreFolder::remove_array(const OwnFolder& folder, const StoreArray& array) const {
+  const OwnFolder own(folder, array.name);
+  if (!own.is_open()) return;
+  for (const std::string& file : own.names())
+    if (gives(file, array.grid)) own.remove_file(file);
+  folder.remove_empty_folder(array.name);
 }
 
 void StoreFolder::remove() const {
   const OwnFolder folder(folder_);
   if (!folder.is_open()) return;
-  const std::vector<std::size_t> chunks = chunks_along_axes();
-  const std::vector<std::size_t>& shape = grid().shape;
   const char* root = description_.format == 2 ? root_of_format_2 : root_of_format_3;
   folder.rename(root, removed_root);
-  const std::vector<std::string> names = array_names(description_);
-  for (std::size_t k = 0; k < names.size(); ++k)
-    remove_array(folder, names[k],
-                 k < shape.size()
-                     ? std::vector<std::size_t>{pieces(shape[k], coordinates_in_chunk(shape[k]))}
-                     : chunks);
+  for (const StoreArray& array : arrays_) remove_array(folder, array);
   for (const char* name : {".zmetadata", ".zgroup", removed_root}) folder.remove_file(name);
   for (const std::string& name : folder.names())
     if (name_behind_temporary(name) == root) folder.remove_file(name);

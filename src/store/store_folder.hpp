@@ -57,7 +57,7 @@ class StoreFolder {
   void remove_leftovers(std::int64_t chunk) const;
 
   /// The file that makes the chunk done.
-  std::filesystem::path file_of(std::int64_t chunk) const { return file_of(0, chunk); }
+  std::filesystem::path file_of(std::int64_t chunk) const { return file_of(array_of(0), chunk); }
 
   /// How many chunks are done.
   std::int64_t chunks_done() const;
@@ -73,32 +73,29 @@ class StoreFolder {
  private:
   StoreFolder(std::filesystem::path folder, StoreDescription description)
       : folder_(std::move(folder)), description_(std::move(description)) {}
-  std::filesystem::path file_of(std::size_t column, std::int64_t chunk) const;
+  const StoreArray& array_of(std::size_t column) const {
+    return arrays_[description_.axes.size() + column];
+  }
+  std::filesystem::path file_of(const StoreArray& array, std::int64_t chunk) const;
   std::string seal_of(const std::filesystem::path& file) const;
-  std::string packed(const std::filesystem::path& file, const std::vector<double>& values,
-                     std::size_t count, ElementType type) const;
-  std::optional<std::vector<double>> values_in(const std::filesystem::path& file,
-                                               std::size_t values, std::size_t count,
-                                               ElementType type) const;
+  std::string packed(const StoreArray& array, std::int64_t chunk,
+                     const std::vector<double>& values) const;
+  std::optional<std::vector<double>> values_in(const StoreArray& array, std::int64_t chunk) const;
   template <class Call>
   void each_axis_file(const Call& call) const;
   void read_axes();
   void begin() const;
-  std::filesystem::path axis_file(std::size_t axis, std::size_t first) const;
-  void write_axis(std::size_t axis, std::size_t first) const;
-  std::optional<std::vector<double>> axis_values(std::size_t axis, std::size_t first) const;
-  void write_documents() const;
+  void write_axis(std::size_t axis, std::int64_t chunk) const;
   void mend(const Documents& documents) const;
   void require(const Documents& documents) const;
   void refuse_links() const;
-  std::vector<std::size_t> chunks_along_axes() const;
-  bool gives(const std::string& name, const std::vector<std::size_t>& chunks) const;
-  void remove_array(const OwnFolder& folder, const std::string& name,
-                    const std::vector<std::size_t>& chunks) const;
+  bool gives(const std::string& name, const ChunkGrid& grid) const;
+  void remove_array(const OwnFolder& folder, const StoreArray& array) const;
   friend void remove_store(const std::filesystem::path& folder);
 
   std::filesystem::path folder_;
   StoreDescription description_;
+  std::vector<StoreArray> arrays_ = arrays_of(description_);
   std::string identity_ = plan_identity(description_.plan);
 };
 
@@ -126,8 +123,6 @@ class ChunkClaim {
   ~ChunkClaim();
   ChunkClaim(const ChunkClaim&) = delete;
   ChunkClaim& operator=(const ChunkClaim&) = delete;
-  ChunkClaim(ChunkClaim&&) = delete;
-  ChunkClaim& operator=(ChunkClaim&&) = delete;
 
   Answer answer() const { return answer_; }
 

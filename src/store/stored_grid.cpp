@@ -7,6 +7,7 @@
 
 #include "case/model/own/own_parts.hpp"
 #include "io/file/output.hpp"
+#include "output/grid/cell_writer.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
@@ -51,23 +52,36 @@ void refuse_chunk(const StoreFolder& store, std::int64_t chunk) {
                  ": the command that made the store computes it, with --resume where it has that");
 }
 
+namespace {
+
+/// The values of a chunk.
 ChunkValues whole_chunk(const StoreFolder& store, std::int64_t chunk) {
   auto values = store.read(chunk);
   if (!values) refuse_chunk(store, chunk);
   return std::move(*values);
 }
 
-void append_stored(const StoreFolder& store, GridOutput& output) {
-  std::vector<const double*> columns(store.description().table_columns);
-  for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk) {
-    throw_if_interrupted();
-    const ChunkValues values = whole_chunk(store, chunk);
-    for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = values[k].data();
-    output.append(store.grid().cells_of(chunk), columns);
-  }
-}
+/// Cells that become chunks of a store.
+class ZarrCells final : public CellWriter {
+ public:
+  ZarrCells(const JobContext& context, const GridLayout& layout)
+      : store_(StoreFolder::enter(*context.output, store_description(context, layout))),
+        waiting_(store_.grid(), layout.columns.size()) {}
 
-namespace {
+  void append(std::size_t cells, const std::vector<const double*>& columns) override {
+    waiting_.append(cells, columns, [&](std::int64_t chunk, const ChunkValues& values) {
+      throw_if_interrupted();
+      store_.put(chunk, values);
+    });
+  }
+
+  /// Every chunk has appeared by itself.
+  void commit() override {}
+
+ private:
+  StoreFolder store_;
+  WaitingCells waiting_;
+};
 
 /// Another format or packing of the same store, which can be gone on with as well.
 void copy_store(const StoreFolder& store, const JobContext& context) {
@@ -89,6 +103,16 @@ void copy_store(const StoreFolder& store, const JobContext& context) {
 
 }  // namespace
 
+void append_stored(const StoreFolder& store, GridOutput& output) {
+  std::vector<const double*> columns(store.description().table_columns);
+  for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk) {
+    throw_if_interrupted();
+    const ChunkValues values = whole_chunk(store, chunk);
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = values[k].data();
+    output.append(store.grid().cells_of(chunk), columns);
+  }
+}
+
 void convert_store(const JobContext& context, const std::filesystem::path& folder) {
   const StoreFolder store = StoreFolder::open(folder);
   std::error_code error;
@@ -105,6 +129,10 @@ void convert_store(const JobContext& context, const std::filesystem::path& folde
   GridOutput output(of_job, layout);
   append_stored(store, output);
   output.commit();
+}
+
+std::unique_ptr<CellWriter> zarr_cells(const JobContext& context, const GridLayout& layout) {
+  return std::make_unique<ZarrCells>(context, layout);
 }
 
 }  // namespace holdfast::program

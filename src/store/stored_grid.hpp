@@ -20,9 +20,6 @@ StoreDescription store_description(const JobContext& context, const GridLayout& 
 /// Throws NoAnswer, which names the chunk's file and says that it is missing or damaged.
 [[noreturn]] void refuse_chunk(const StoreFolder& store, std::int64_t chunk);
 
-/// The values of a chunk. Throws NoAnswer, which names its file, where it is missing or damaged.
-ChunkValues whole_chunk(const StoreFolder& store, std::int64_t chunk);
-
 /// Hands the cells of a store, those of the job's table, to an output, in order.
 /// Throws NoAnswer where chunks are missing or damaged, naming the first, and what GridOutput
 /// throws.

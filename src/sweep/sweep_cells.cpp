@@ -2,7 +2,6 @@
 #include <map>
 #include <utility>
 
-#include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/moving_loop.hpp"
 #include "case/model/plant_of_case.hpp"

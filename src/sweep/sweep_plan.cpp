@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "case/axes/axis.hpp"
-#include "case/axes/grid.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
@@ -29,7 +28,7 @@ constexpr const char* sampling_key = "control.sampling_period";
 GridAxis sweep_axis(const std::string& text) {
   const std::string name(trimmed(std::string_view(text).substr(0, text.find('='))));
   const CaseKey* key = find_case_key(name);
-  if (key != nullptr && key->number == nullptr)
+  if (key != nullptr && !key->is_number())
     throw WrongInput("--axis " + text + ": " + name +
                      " is not a number; run a sweep for each with --set");
   const KeyValues axis = parse_key_values("--axis", text);

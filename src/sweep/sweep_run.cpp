@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-#include "case/model/held_force.hpp"
+#include "case/model/conditioning.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/errors.hpp"
 #include "io/file/own_folder.hpp"
@@ -20,7 +20,6 @@
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "process/group/process_group.hpp"
-#include "process/interrupt.hpp"
 #include "process/worker_threads.hpp"
 #include "store/stored_grid.hpp"
 #include "store/work_store.hpp"

@@ -2,7 +2,6 @@
 #include "holdfast/stability/chart/proved_modal_chart.hpp"
 #include "holdfast/stability/response/enclosed_response.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {

@@ -2,8 +2,6 @@
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/proof/orbit_proof.hpp"
 #include "support/property.hpp"
-#include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

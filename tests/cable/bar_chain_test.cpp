@@ -1,7 +1,6 @@
 #include "holdfast/cable/bar_chain.hpp"
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

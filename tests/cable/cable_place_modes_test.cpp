@@ -9,7 +9,6 @@
 #include "holdfast/cable/elements.hpp"
 #include "holdfast/plant/plant_poles.hpp"
 #include "support/string_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {

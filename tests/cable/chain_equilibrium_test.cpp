@@ -2,7 +2,6 @@
 
 #include "holdfast/cable/statics.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

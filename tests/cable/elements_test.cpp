@@ -7,7 +7,6 @@
 #include "support/dense_routes.hpp"
 #include "support/random.hpp"
 #include "support/reference/cable_energy.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

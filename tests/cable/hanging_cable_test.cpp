@@ -1,7 +1,6 @@
 #include "holdfast/cable/hanging_cable.hpp"
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -3,7 +3,6 @@
 #include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -22,13 +21,13 @@ struct TangentSequence {
   }
 
   /// Pushes the contacts of [first, last). @return the incomplete block at the end
-  LaneBlocks<double> push(BlockSpectrum<double>& into, std::size_t first, std::size_t last) const {
-    LaneBlocks<double> open = empty_blocks<double>();
+  ItineraryBlock push(BlockSpectrum<double>& into, std::size_t first, std::size_t last) const {
+    ItineraryBlock open = empty_block;
     for (std::size_t k = first; k < last; ++k) {
-      open[0] = followed_by(open[0], itinerary[k]);
-      if (!is_whole(open[0])) continue;
+      open = followed_by(open, itinerary[k]);
+      if (!is_whole(open)) continue;
       into.push(open);
-      open = empty_blocks<double>();
+      open = empty_block;
     }
     return open;
   }

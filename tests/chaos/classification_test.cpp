@@ -2,7 +2,6 @@
 
 #include "holdfast/chaos/motion_classification.hpp"
 #include "support/kollar_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -212,7 +211,7 @@ ChaosIndicators chaotic_indicators() {
   ChaosIndicators indicators;
   indicators.largest_exponent = exponent_estimate(0.5, 0.01);
   indicators.zero_one = 0.99;
-  indicators.repeat = RepetitionIndicators{0, 3000, 1e-9};
+  indicators.repeat = RepeatSearch{0, 3000, 1e-9};
   indicators.lines = SpectralIndicators{0, 0.999, 5000, 0.9};
   indicators.extent_growth = 1.0;
   return indicators;

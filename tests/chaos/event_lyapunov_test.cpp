@@ -1,10 +1,9 @@
 #include "holdfast/chaos/event_lyapunov.hpp"
 
 #include "orbit/event/event_setting.hpp"
-#include "support/contacts.hpp"
 #include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
-#include "support/testing.hpp"
+#include "support/move_samples.hpp"
 
 namespace holdfast {
 namespace {
@@ -24,9 +23,7 @@ EventMotion<> backlash_motion(const test::KollarCase& which) {
 }
 
 test::KollarCase kollar_case_of(double period, double width, double delay = 0.0) {
-  test::KollarCase which;
-  which.sampling_period = period;
-  which.width = width;
+  test::KollarCase which = test::kollar_case(period, width);
   which.processing_delay = delay;
   return which;
 }
@@ -53,10 +50,7 @@ TEST(EventLyapunov, AtSamplesItIsTheSpectrumOfTheSampledMotion) {
     for (const std::int64_t samples : {run.discard, run.most_samples}) {
       lyapunov.restart();
       observer.restart();
-      for (std::int64_t j = 0; j < samples; ++j) {
-        lyapunov.sense();
-        lyapunov.advance();
-      }
+      test::move_samples(lyapunov, samples);
       run_trajectory(sampled, samples, std::nullopt, observer);
     }
     const auto found = lyapunov.spectrum().exponents();
@@ -78,12 +72,12 @@ class GrowthByDifferences {
   /// @return false where no neighbour near enough goes the same way
   bool advance() {
     EventMotion<> next = motion_;
-    test::SwitchRecorder recorder;
-    recorder.advance(next);
+    test::SwitchNotes notes(next);
+    notes.move(1);
     double step = 3e-6 / direction_.cwiseQuotient(sizes_).cwiseAbs().maxCoeff();
     std::optional<test::Difference> difference;
     for (int attempt = 0; attempt < 4 && !difference; ++attempt, step *= 0.2)
-      difference = test::derivative_along(motion_, direction_, step, 1, recorder.seen());
+      difference = test::derivative_along(motion_, direction_, step, 1, notes.switches);
     if (!difference) return false;
     logarithm_ += std::log(difference->value.norm());
     direction_ = difference->value.normalized();

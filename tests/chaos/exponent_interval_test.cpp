@@ -1,6 +1,5 @@
 #include "holdfast/chaos/chaos_indicators.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -4,9 +4,7 @@
 #include "support/contacts.hpp"
 #include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
-#include "support/random.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

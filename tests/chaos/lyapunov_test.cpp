@@ -3,7 +3,6 @@
 #include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -5,20 +5,15 @@
 #include "holdfast/cable/taut_string.hpp"
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
 #include "holdfast/chaos/modal_classification.hpp"
-#include "support/random.hpp"
 #include "support/string_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {
 
 ModalLoop loop_of(int modes, double late = 0.001) {
-  return {string_modes(taut_string(kollar2022_conductor()), 0.64, modes),
-          papers_absorber(modes == 1 ? 0.0 : 0.01),
-          {0.005, late},
-          {-557.0, -4.0},
-          {0.6, 10.0},
-          5e-4,
+  return {papers_modes(modes), papers_absorber(modes == 1 ? 0.0 : 0.01),
+          {0.005, late},       {-557.0, -4.0},
+          {0.6, 10.0},         5e-4,
           ForceHold::sampled};
 }
 
@@ -69,8 +64,8 @@ TEST(ModalLyapunov, OfAnOrbitIsItsLargestMultiplier) {
   const ModalLoop loop = loop_of(6);
   const OrbitResult found = find_periodic_orbit(loop, at_rest(loop));
   ASSERT_EQ(found.outcome, OrbitOutcome::certified);
-  ModalLyapunov lyapunov(loop, *modal_motion(loop, at_rest(loop)));
-  const LyapunovResult result = run_lyapunov(lyapunov, {200000, 20000});
+  ModalMotion motion = *modal_motion(loop, at_rest(loop));
+  const LyapunovResult result = run_lyapunov(motion, loop, {200000, 20000});
   EXPECT_EQ(result.outcome, LyapunovOutcome::sample_limit);
   const double expected = found.orbit->multipliers.front().log_modulus /
                           static_cast<double>(found.orbit->period_samples());
@@ -79,8 +74,8 @@ TEST(ModalLyapunov, OfAnOrbitIsItsLargestMultiplier) {
 
 TEST(ModalLyapunov, OfASingleModeHasNoMoreExponentsThanItsMap) {
   const ModalLoop loop = loop_of(1, 0.0);
-  ModalLyapunov lyapunov(loop, *modal_motion(loop, at_rest(loop)));
-  const LyapunovResult result = run_lyapunov(lyapunov, {2000, 100});
+  ModalMotion motion = *modal_motion(loop, at_rest(loop));
+  const LyapunovResult result = run_lyapunov(motion, loop, {2000, 100});
   EXPECT_TRUE(std::isfinite(result.exponents[3]));
   EXPECT_EQ(result.exponents[4], -std::numeric_limits<double>::infinity());
 }
@@ -91,8 +86,8 @@ TEST(ModalLyapunov, ABacklashLosesADirectionAtOnce) {
     ModalLoop loop = loop_of(1, late);
     for (const double width : {5e-4, 0.0}) {
       loop.backlash_width = width;
-      ModalLyapunov lyapunov(loop, *modal_motion(loop, at_rest(loop)));
-      const LyapunovResult result = run_lyapunov(lyapunov, {60, 0});
+      ModalMotion motion = *modal_motion(loop, at_rest(loop));
+      const LyapunovResult result = run_lyapunov(motion, loop, {60, 0});
       EXPECT_EQ(std::isfinite(result.exponents[4]), width == 0.0) << late;
       EXPECT_GT(result.exponents[3], -1.0);
     }
@@ -103,8 +98,8 @@ TEST(ModalLyapunov, StopsWhereTheMotionDiverges) {
   ModalLoop loop = loop_of(2);
   loop.gains = {-557.0, 400.0};
   loop.backlash_width = 0.0;
-  ModalLyapunov lyapunov(loop, *modal_motion(loop, at_rest(loop)));
-  EXPECT_EQ(run_lyapunov(lyapunov, {1000000, 0}).outcome, LyapunovOutcome::diverged);
+  ModalMotion motion = *modal_motion(loop, at_rest(loop));
+  EXPECT_EQ(run_lyapunov(motion, loop, {1000000, 0}).outcome, LyapunovOutcome::diverged);
 }
 
 /// Periodic, chaotic and diverging motions of one mode are those of its two masses.

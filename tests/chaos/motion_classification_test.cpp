@@ -4,7 +4,6 @@
 #include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -203,7 +202,7 @@ TEST(MotionClassification, AMotionUnderARandomRecordFollowsIt) {
       // A sixth of the samples is the largest lag; as many samples again are left out before.
       ASSERT_TRUE(found.indicators.repeat.has_value());
       EXPECT_LE(2 * 6 * found.indicators.repeat->largest_lag,
-                static_cast<std::int64_t>(duration / period));
+                static_cast<std::size_t>(duration / period));
     }
   }
 }
@@ -231,7 +230,7 @@ TEST(MotionClassification, NoiseWithoutACommonPeriodIsNeverCalledPeriodic) {
 
 TEST(MotionClassification, IrregularForcingClaimsNoSecondFrequency) {
   ChaosIndicators indicators;
-  indicators.repeat = RepetitionIndicators{0, 1000, 1e-9};
+  indicators.repeat = RepeatSearch{0, 1000, 1e-9};
   indicators.zero_one = 0.0;
   indicators.lines = SpectralIndicators{0, 0.999, 5, 0.0};
   indicators.extent_growth = 1.0;

@@ -3,7 +3,6 @@
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/phase_space/deviation.hpp"
 #include "support/kollar_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

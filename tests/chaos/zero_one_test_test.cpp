@@ -1,7 +1,6 @@
 #include "holdfast/chaos/zero_one_test.hpp"
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

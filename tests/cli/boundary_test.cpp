@@ -1,7 +1,4 @@
 #include "cli/program.hpp"
-#include "io/text/csv.hpp"
-#include "support/testing.hpp"
-#include "text/text.hpp"
 
 namespace holdfast::tests {
 namespace {

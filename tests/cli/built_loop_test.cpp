@@ -11,9 +11,7 @@
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/loop_hardware.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
-#include "io/text/csv.hpp"
 #include "support/lagging_plant.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -1,7 +1,5 @@
 #include "cli/program.hpp"
 #include "holdfast/core/types.hpp"
-#include "io/text/csv.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

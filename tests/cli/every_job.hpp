@@ -1,7 +1,6 @@
 #pragma once
 
 #include "cli/program.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 

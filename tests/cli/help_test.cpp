@@ -1,6 +1,5 @@
 #include "case/case_keys.hpp"
 #include "cli/program.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

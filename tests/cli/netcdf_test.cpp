@@ -1,6 +1,5 @@
 #include "cli/program.hpp"
 #include "cli/running_program.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -1,9 +1,6 @@
 #include "cli/program.hpp"
 #include "holdfast/core/types.hpp"
-#include "io/text/csv.hpp"
 #include "support/drake_case.hpp"
-#include "support/testing.hpp"
-#include "text/text.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "io/text/csv.hpp"
 #include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 #include "text/text.hpp"
 
 namespace holdfast::tests {

@@ -1,7 +1,5 @@
 #include "case/model/decay/cable_decay.hpp"
 #include "cli/program.hpp"
-#include "io/text/csv.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 
@@ -111,7 +110,7 @@ class RunningProgram {
   std::size_t peak_memory_so_far_kib() const { return status("VmHWM:", 10); }
 
   /// Until it has ended, or so long; then it is killed.
-  Ending wait_at_most(std::chrono::seconds patience) {
+  Ending wait_at_most(std::chrono::seconds patience = std::chrono::seconds(120)) {
     const auto end = std::chrono::steady_clock::now() + patience;
     while (runs() && std::chrono::steady_clock::now() < end)
       std::this_thread::sleep_for(std::chrono::milliseconds(2));

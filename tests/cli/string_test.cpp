@@ -3,8 +3,6 @@
 
 #include "cli/program.hpp"
 #include "holdfast/cable/taut_string.hpp"
-#include "io/text/csv.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "cli/program.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,9 +1,7 @@
 #include "holdfast/contact/contact.hpp"
 
 #include "support/contacts.hpp"
-#include "support/random.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -3,10 +3,7 @@
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "motion/event/kollar_event.hpp"
-#include "support/contacts.hpp"
-#include "support/random.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -98,7 +95,7 @@ TEST(ExactDeadZone, SwingsBetweenItsStopsWithTheKnownPeriod) {
     notes.move(static_cast<int>(20.0 * period / loop.sampling.period) + 1);
     std::vector<double> times;
     for (const test::MotionSwitch& change : notes.switches)
-      if (change.to == 2) times.push_back(change.time);
+      if (change.to == 2) times.push_back(change.time());
     ASSERT_GE(times.size(), 15U);
     const double first = std::asin(inner * half / speed) / inner;
     for (std::size_t k = 0; k < times.size(); ++k) {
@@ -187,10 +184,7 @@ TEST(ExactDeadZone, WithoutControlItDoesNotDependOnTheSamples) {
   for (int j = 0; j < 50; ++j) {
     coarse.sense();
     coarse.advance();
-    for (int k = 0; k < 160; ++k) {
-      fine.sense();
-      fine.advance();
-    }
+    test::move_samples(fine, 160);
     ASSERT_LE((coarse.state() - fine.state()).norm(), 1e-12) << j;
     ASSERT_EQ(coarse.counts().entered, fine.counts().entered) << j;
   }
@@ -211,10 +205,7 @@ TEST(ExactDeadZone, TheFirstOfTwoEndsIsMetFirst) {
   DeadZoneMotion coarse = thrown_motion(0.0004), fine = thrown_motion(0.00001);
   coarse.sense();
   coarse.advance();
-  for (int k = 0; k < 40; ++k) {
-    fine.sense();
-    fine.advance();
-  }
+  test::move_samples(fine, 40);
   EXPECT_EQ(coarse.contact().mode(), 0) << "on the lower stop";
   EXPECT_EQ(coarse.counts().entered, fine.counts().entered);
   EXPECT_EQ(coarse.counts().entered[0], 2) << "first the upper one, then the lower one";
@@ -244,10 +235,7 @@ TEST(ExactDeadZone, ADisplacedDriveTouchesTheStopWhereItIs) {
     for (int later = 0; later < 200; later += 7) {
       DeadZoneMotion motion = rattling_motion(1e-6, 0.0);
       DeadZoneMotion before = rattling_motion(0.005, 0.0);
-      for (int j = 0; j < later; ++j) {
-        before.sense();
-        before.advance();
-      }
+      test::move_samples(before, later);
       motion.restore(0, before.state(), 0.0, before.contact());
       motion.displace_conductor(kick);
       const Vector<double, 4> put = motion.state();

@@ -4,7 +4,6 @@
 #include "holdfast/motion/sampled_motion.hpp"
 #include "support/message_of.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

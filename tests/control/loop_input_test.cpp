@@ -1,8 +1,8 @@
 #include "holdfast/control/loop_input.hpp"
 
 #include "holdfast/motion/sampled_motion.hpp"
+#include "support/move_samples.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -34,10 +34,7 @@ Vector<double, 4> state_at(double duration, const SampledLoop<double>& loop,
   SampledMotion<double> motion(loop, {0, 0}, input, {0.5, 10.0}, Backlash<double>(0.0),
                                Vector<double, 4>::Zero());
   const auto steps = static_cast<int>(std::lround(duration / loop.sampling.period));
-  for (int step = 0; step < steps; ++step) {
-    motion.sense();
-    motion.advance();
-  }
+  test::move_samples(motion, steps);
   return motion.state();
 }
 

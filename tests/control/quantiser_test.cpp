@@ -1,7 +1,6 @@
 #include "holdfast/control/quantiser.hpp"
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

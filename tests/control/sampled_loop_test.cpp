@@ -1,7 +1,8 @@
 #include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/control/enclosed_loop.hpp"
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
+#include "support/random_loop.hpp"
 
 namespace holdfast {
 namespace {
@@ -22,7 +23,7 @@ struct FreeMasses {
   }
 };
 
-TwoMass<double> random_plant(test::Random& random) {
+TwoMass<double> moderate_plant(test::Random& random) {
   return {random.log_uniform(0.03, 3), random.log_uniform(5, 500), random.log_uniform(0.01, 1),
           random.log_uniform(0.03, 3), random.log_uniform(5, 500), random.log_uniform(0.1, 10)};
 }
@@ -49,7 +50,7 @@ Vector<double, 4> integrate(const TwoMass<double>& plant, Vector<double, 4> z, d
 TEST(SampledLoop, PeriodsCompose) {
   test::Random random(71);
   for (int draw = 0; draw < 200; ++draw) {
-    const auto plant = random_plant(random);
+    const auto plant = moderate_plant(random);
     const double first = random.log_uniform(1e-4, 0.1), second = random.log_uniform(1e-4, 0.1);
     const auto one = sampled_loop(plant, Sampling<double>{first});
     const auto two = sampled_loop(plant, Sampling<double>{second});
@@ -67,7 +68,7 @@ TEST(SampledLoop, TheIncrementIsTheTransitionMinusTheIdentity) {
   test::Random random(72);
   for (int draw = 0; draw < 200; ++draw) {
     const auto loop =
-        sampled_loop(random_plant(random), Sampling<double>{random.log_uniform(1e-5, 0.2)});
+        sampled_loop(moderate_plant(random), Sampling<double>{random.log_uniform(1e-5, 0.2)});
     const Matrix<double, 4> difference = loop.transition - Matrix<double, 4>::Identity();
     EXPECT_LE(largest(loop.increment - difference),
               1e-15 * std::max(1.0, largest(loop.transition)));
@@ -100,7 +101,7 @@ TEST(SampledLoop, UnitsOfDisplacementAndVelocityDoNotCostDigits) {
   // digits here.
   test::Random random(76);
   for (int draw = 0; draw < 200; ++draw) {
-    const auto p = random_plant(random);
+    const auto p = moderate_plant(random);
     const TwoMass<long double> precise{p.conductor_mass, p.conductor_stiffness, p.conductor_damping,
                                        p.absorber_mass,  p.absorber_stiffness,  p.absorber_damping};
     const double period = random.log_uniform(1e-4, 0.2), delay = period * random.unit();
@@ -114,7 +115,7 @@ TEST(SampledLoop, UnitsOfDisplacementAndVelocityDoNotCostDigits) {
 TEST(SampledLoop, NoDelayLeavesNothingToThePreviousForce) {
   test::Random random(74);
   for (int draw = 0; draw < 100; ++draw) {
-    const auto plant = random_plant(random);
+    const auto plant = moderate_plant(random);
     const double period = random.log_uniform(1e-4, 0.2);
     const auto loop = sampled_loop(plant, Sampling<double>{period, 0.0});
     EXPECT_TRUE(loop.previous_force.isZero(0.0));
@@ -128,7 +129,7 @@ TEST(SampledLoop, NoDelayLeavesNothingToThePreviousForce) {
 TEST(SampledLoop, AFullPeriodOfDelayLeavesNothingToThePresentForce) {
   test::Random random(75);
   for (int draw = 0; draw < 100; ++draw) {
-    const auto plant = random_plant(random);
+    const auto plant = moderate_plant(random);
     const double period = random.log_uniform(1e-4, 0.2);
     const auto loop = sampled_loop(plant, Sampling<double>{period, period});
     const auto undelayed = sampled_loop(plant, Sampling<double>{period, 0.0});
@@ -141,7 +142,7 @@ TEST(SampledLoop, AFullPeriodOfDelayLeavesNothingToThePresentForce) {
 TEST(SampledLoop, TheTwoPartsOfTheForceAddUpToTheWholePeriod) {
   test::Random random(76);
   for (int draw = 0; draw < 200; ++draw) {
-    const auto plant = random_plant(random);
+    const auto plant = moderate_plant(random);
     const double period = random.log_uniform(1e-4, 0.2);
     const auto loop = sampled_loop(plant, Sampling<double>{period, period * random.unit()});
     const auto whole = sampled_loop(plant, Sampling<double>{period, 0.0});
@@ -233,6 +234,39 @@ TEST(Sampling, WhatIsOutOfRangeIsRefused) {
 TEST(SampledLoop, OfNoTimeChangesNothing) {
   EXPECT_EQ(sampled_loop(kollar2022_plant(), Sampling<double>{0.0}).transition,
             (Matrix<double, 4>::Identity()));
+}
+
+/// A loop of extended precision, of the given doubles, lies within that of all decimals that they
+/// are nearest to.
+TEST(EnclosedLoop, HoldsTheLoopOfExtendedPrecision) {
+  test::Random random(31);
+  int narrow = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const TwoMass<double> plant = test::random_plant(random);
+    const Sampling<double> sampling = test::random_sampling(plant, random);
+    const auto ours = sampled_loop(enclosed(plant), enclosed(sampling)).transition;
+    const Matrix<long double, 4> wide =
+        sampled_loop(converted<long double>(plant),
+                     Sampling<long double>{sampling.period, sampling.processing_delay})
+            .transition;
+    double widest = 0.0;
+    for (Eigen::Index k = 0; k < 16; ++k) {
+      EXPECT_LE(static_cast<long double>(ours(k).lower()), wide(k)) << trial;
+      EXPECT_GE(static_cast<long double>(ours(k).upper()), wide(k)) << trial;
+      widest = std::max(widest, ours(k).radius());
+    }
+    narrow += widest < 1e-11 * static_cast<double>(wide.cwiseAbs().maxCoeff()) ? 1 : 0;
+  }
+  // Samples of many of the plant's periods lose more.
+  EXPECT_GT(narrow, 150);
+}
+
+TEST(EnclosedLoop, RefusesWhatIsNotAdmissible) {
+  TwoMass<double> plant = kollar2022_plant();
+  plant.conductor_mass = 0.0;
+  EXPECT_THROW(enclosed(plant), InvalidParameter);
+  EXPECT_THROW(enclosed(Sampling<double>{0.0, 0.0}), InvalidParameter);
+  EXPECT_THROW(enclosed(Sampling<double>{0.001, 0.002}), InvalidParameter);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include "support/message_of.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

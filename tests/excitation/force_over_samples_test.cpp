@@ -1,7 +1,6 @@
 #include "holdfast/excitation/force_over_samples.hpp"
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -3,7 +3,6 @@
 #include "holdfast/excitation/band_limited_noise.hpp"
 #include "support/random.hpp"
 #include "support/reference/sample_excitation.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -2,7 +2,6 @@
 // are something else. foolish_inputs.txt says what comes of each, and what must be said of it.
 
 #include "hostile/hostile_scene.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -5,8 +5,6 @@
 #include <unistd.h>
 
 #include "hostile/limited_program.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 

@@ -2,7 +2,6 @@
 
 #include "cli/running_program.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 

@@ -4,7 +4,6 @@
 #include "cli/sweep/stopped_sweep.hpp"
 #include "kernels/instruction_set.hpp"
 #include "process/errors.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -5,9 +5,8 @@
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/variational_flow.hpp"
 #include "support/lagging_plant.hpp"
-#include "support/random.hpp"
+#include "support/move_samples.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -304,10 +303,7 @@ TEST(PlantOrder, OfSevenHasTheDerivativeOfItsMotion) {
       State7 state = before.state();
       state[k] += step;
       other.restore(before.index(), state, before.previous_command(), before.contact());
-      for (int i = 0; i < samples; ++i) {
-        other.sense();
-        other.advance();
-      }
+      test::move_samples(other, samples);
       return other.state();
     };
     for (const int k : {0, 1, 2, 3, 4, 5, 6}) {

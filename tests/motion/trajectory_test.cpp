@@ -2,7 +2,6 @@
 
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace {
 std::size_t allocations = 0;

@@ -198,21 +198,18 @@ void interrupt_one(ProcessGroup& group, const std::string&) {
 
 using Scenario = std::function<void(ProcessGroup&, const std::string&)>;
 
-const std::map<std::string, Scenario>& scenarios() {
-  static const std::map<std::string, Scenario> all = {
-      {"cooperate", cooperate},
-      {"rest", draw_while_the_first_rests},
-      {"give_up", give_up},
-      {"fail_alone", fail_alone},
-      {"fail_together", fail_together},
-      {"interrupt_one", interrupt_one},
-  };
-  return all;
-}
+const std::map<std::string, Scenario> scenarios = {
+    {"cooperate", cooperate},
+    {"rest", draw_while_the_first_rests},
+    {"give_up", give_up},
+    {"fail_alone", fail_alone},
+    {"fail_together", fail_together},
+    {"interrupt_one", interrupt_one},
+};
 
 int run(const std::vector<std::string>& arguments) {
-  const auto scenario = scenarios().find(arguments.at(0));
-  if (scenario == scenarios().end()) throw WrongInput("unknown scenario " + arguments.at(0));
+  const auto scenario = scenarios.find(arguments.at(0));
+  if (scenario == scenarios.end()) throw WrongInput("unknown scenario " + arguments.at(0));
   const auto group = join_process_group();
   struct sigaction action {};
   sigaction(SIGTERM, nullptr, &action);

@@ -6,14 +6,9 @@
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 #include "support/region_places.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
-
-IdealLoop<double> mapped_loop(double period, double width) {
-  return {kollar2022_plant(), {period, 0.0}, {-557.0, -13.0}, {0.5, 10.0}, width};
-}
 
 PeriodicOrbit mapped_orbit(const IdealLoop<double>& loop) {
   const auto found = find_periodic_orbit(loop, Vector<double, 4>::Zero());
@@ -40,7 +35,7 @@ bool lasts(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
 }
 
 TEST(MotionRegion, TheMotionLastsJustInsideAndNowhereJustOutside) {
-  const IdealLoop<double> loop = mapped_loop(0.001, 0.0005);
+  const IdealLoop<double> loop = test::kollar_loop(0.001, 0.0005);
   const PeriodicOrbit orbit = mapped_orbit(loop);
   const auto family = over_width_and_gain(loop);
   const ParameterWindow window{0.0004, 0.0006, -15.0, -11.0};
@@ -65,7 +60,7 @@ TEST(MotionRegion, TheMotionLastsJustInsideAndNowhereJustOutside) {
 }
 
 TEST(MotionRegion, RandomPointsOfTheWindowAreInsideWhereTheMotionLasts) {
-  const IdealLoop<double> loop = mapped_loop(0.01, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.002);
   const PeriodicOrbit orbit = mapped_orbit(loop);
   const auto family = over_width_and_gain(loop);
   const ParameterWindow window{0.0015, 0.0025, -16.0, -8.0};
@@ -86,7 +81,7 @@ TEST(MotionRegion, RandomPointsOfTheWindowAreInsideWhereTheMotionLasts) {
 }
 
 TEST(MotionRegion, OfBacklashAndForceIsBoundedByRays) {
-  const IdealLoop<double> loop = mapped_loop(0.001, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.001, 0.002);
   const PeriodicOrbit orbit = mapped_orbit(loop);
   const auto family = [&](double width, double force) {
     IdealLoop<double> other = loop;
@@ -110,7 +105,7 @@ TEST(MotionRegion, OfBacklashAndForceIsBoundedByRays) {
 }
 
 TEST(MotionRegion, WithoutBacklashIsThatOfStableGains) {
-  const IdealLoop<double> loop = mapped_loop(0.01, 0.0);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.0);
   const PeriodicOrbit orbit = mapped_orbit(loop);
   const auto family = [&](double p, double d) {
     IdealLoop<double> other = loop;
@@ -153,7 +148,7 @@ TEST(MotionRegion, WithoutBacklashIsThatOfStableGains) {
 }
 
 TEST(MotionRegion, RefusesAWindowThatDoesNotHoldTheMotion) {
-  const IdealLoop<double> loop = mapped_loop(0.001, 0.0005);
+  const IdealLoop<double> loop = test::kollar_loop(0.001, 0.0005);
   const PeriodicOrbit orbit = mapped_orbit(loop);
   EXPECT_THROW(motion_region(over_width_and_gain(loop), orbit, {0.0001, 0.0004, -15.0, -11.0},
                              {0.0005, -13.0}),

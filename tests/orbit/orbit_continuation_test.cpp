@@ -4,14 +4,9 @@
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/kollar_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
-
-IdealLoop<double> followed_loop(double period, double width) {
-  return {kollar2022_plant(), {period, 0.0}, {-557.0, -13.0}, {0.5, 10.0}, width};
-}
 
 PeriodicOrbit orbit_of(const IdealLoop<double>& loop) {
   const auto found = find_periodic_orbit(loop, Vector<double, 4>::Zero());
@@ -34,7 +29,7 @@ constexpr auto differential_gain = [](auto& loop) -> double& { return loop.gains
 constexpr auto force = [](auto& loop) -> double& { return loop.excitation.amplitude; };
 
 TEST(OrbitContinuation, WithoutBacklashTheOrbitEndsOnTheStabilityBoundary) {
-  const IdealLoop<double> loop = followed_loop(0.01, 0.0);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.0);
   const auto path = along(loop, differential_gain);
   const auto stable = stable_differential_gains(
       characteristic_polynomial(sampled_loop(loop.plant, loop.sampling)), -557.0);
@@ -48,7 +43,7 @@ TEST(OrbitContinuation, WithoutBacklashTheOrbitEndsOnTheStabilityBoundary) {
 }
 
 TEST(OrbitContinuation, ACollisionIsWhereTheOrbitIsNoLongerFound) {
-  const IdealLoop<double> loop = followed_loop(0.01, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.002);
   const PeriodicOrbit orbit = orbit_of(loop);
   EXPECT_GT(orbit.border_share(), near_border);
   const auto path = along(loop, backlash_width);
@@ -73,7 +68,7 @@ TEST(OrbitContinuation, ACollisionIsWhereTheOrbitIsNoLongerFound) {
 }
 
 TEST(OrbitContinuation, MotionAndForceScaleTogether) {
-  const IdealLoop<double> loop = followed_loop(0.001, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.001, 0.002);
   const PeriodicOrbit orbit = orbit_of(loop);
   const BranchEnd wider = continue_orbit(along(loop, backlash_width), orbit, 0.002, 0.003);
   const BranchEnd weaker = continue_orbit(along(loop, force), orbit, 0.5, 0.3);
@@ -84,7 +79,7 @@ TEST(OrbitContinuation, MotionAndForceScaleTogether) {
 }
 
 TEST(OrbitContinuation, AnOrbitThatStaysInTheGapEndsWhereNoGapHoldsIt) {
-  const IdealLoop<double> loop = followed_loop(0.001, 0.003);
+  const IdealLoop<double> loop = test::kollar_loop(0.001, 0.003);
   const PeriodicOrbit orbit = orbit_of(loop);
   ASSERT_EQ(orbit.engaged_fraction(), 0.0);
   double lowest = 1.0, highest = -1.0;
@@ -100,7 +95,7 @@ TEST(OrbitContinuation, AnOrbitThatStaysInTheGapEndsWhereNoGapHoldsIt) {
 }
 
 TEST(OrbitContinuation, ReachesTheEndOfARangeWithoutAnEnd) {
-  const IdealLoop<double> loop = followed_loop(0.01, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.002);
   const auto path = along(loop, differential_gain);
   const BranchEnd end = continue_orbit(path, orbit_of(loop), -13.0, -13.5);
   EXPECT_EQ(end.outcome, BranchEndOutcome::range_end);
@@ -108,13 +103,13 @@ TEST(OrbitContinuation, ReachesTheEndOfARangeWithoutAnEnd) {
 }
 
 TEST(OrbitContinuation, RefusesAFamilyThatChangesTheCommonPeriod) {
-  const IdealLoop<double> loop = followed_loop(0.01, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.002);
   const auto path = along(loop, [](auto& of) -> double& { return of.sampling.period; });
   EXPECT_THROW(continue_orbit(path, orbit_of(loop), 0.01, 0.011), InvalidParameter);
 }
 
 TEST(OrbitContinuation, RefusesAFamilyThatTakesTheBacklashAway) {
-  const IdealLoop<double> loop = followed_loop(0.01, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.002);
   const auto path = [&](double width) {
     IdealLoop<double> other = loop;
     other.backlash_width = width == 0.002 ? width : 0.0;

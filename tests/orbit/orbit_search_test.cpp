@@ -3,7 +3,6 @@
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

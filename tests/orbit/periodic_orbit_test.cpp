@@ -5,7 +5,6 @@
 #include "holdfast/stability/response/response.hpp"
 #include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,7 +1,6 @@
 #include "holdfast/orbit/switching_borders.hpp"
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -5,7 +5,6 @@
 #include "holdfast/phase_space/modal_basins.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random_states.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -7,14 +7,9 @@
 #include "support/message_of.hpp"
 #include "support/reference/state_between_samples.hpp"
 #include "support/string_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
-
-IdealLoop<double> diagram_loop(double period, double width) {
-  return {kollar2022_plant(), {period, 0.0}, {-557.0, -13.0}, {0.5, 10.0}, width};
-}
 
 /// z₁ of the strobes of one value and way, rounded to a nanometre.
 std::set<long> levels(const std::vector<StrobePoint>& points, std::size_t index, bool upward) {
@@ -31,7 +26,7 @@ std::vector<StrobePoint> diagram_of(double period, const std::vector<double>& wi
                                     const DiagramOptions& options, const Change& change) {
   std::vector<StrobePoint> points;
   const auto path = [&](double width) {
-    ImplementedLoop loop = implemented_loop(diagram_loop(period, width));
+    ImplementedLoop loop = implemented_loop(test::kollar_loop(period, width));
     change(loop);
     return loop;
   };
@@ -91,7 +86,7 @@ TEST(OrbitDiagram, StrobesAreThoseOfMatrixExponentials) {
     Vector<double, 4> state = Vector<double, 4>::Zero();
     for (std::size_t k = 0; k < points.size();) {
       const auto expected =
-          strobes_of(diagram_loop(period, widths[points[k].index]), options, state);
+          strobes_of(test::kollar_loop(period, widths[points[k].index]), options, state);
       state = points[k + expected.size() - 1].state;
       for (const auto& strobe : expected) {
         EXPECT_LE((points[k].state - strobe).cwiseAbs().maxCoeff(), 1e-11) << k;
@@ -107,7 +102,7 @@ TEST(OrbitDiagram, OfTheTwoMassesAsALinearPlantIsTheSame) {
   const auto expected = diagram_of(0.001, widths, options);
   std::vector<StrobePoint> points;
   const auto path = [](double width) {
-    const ImplementedLoop loop = implemented_loop(diagram_loop(0.001, width));
+    const ImplementedLoop loop = implemented_loop(test::kollar_loop(0.001, width));
     return ImplementedLoopOf<LinearPlant<double>>{test::through_ports(loop.plant), loop.digital,
                                                   loop.backlash, loop.switching};
   };
@@ -150,7 +145,7 @@ TEST(OrbitDiagram, AMotionThatDivergesShowsNothingAndTheNextBeginsAnew) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     std::vector<StrobePoint> points;
     const auto path = [&](double delay) {
-      ImplementedLoop loop = implemented_loop(diagram_loop(0.011, 0.0));
+      ImplementedLoop loop = implemented_loop(test::kollar_loop(0.011, 0.0));
       loop.digital.sampling.processing_delay = delay;
       loop.switching = switching;
       return loop;
@@ -187,7 +182,7 @@ TEST(OrbitDiagram, RefusesWhatIsNotAdmissible) {
 /// What begins where another loop ended begins anew where the order of the plant is another.
 TEST(OrbitDiagram, OfAnotherOrderBeginsAtTheInitialState) {
   const auto path = [](double order) {
-    const IdealLoop<double> of = diagram_loop(0.001, 0.0005);
+    const IdealLoop<double> of = test::kollar_loop(0.001, 0.0005);
     const LinearPlant<double> plant =
         order == 4.0 ? test::through_ports(of.plant) : test::lagging_plant(1e6, 1e6);
     return implemented_loop(IdealLoop<double, LinearPlant<double>>{

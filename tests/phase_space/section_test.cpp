@@ -3,10 +3,8 @@
 #include "holdfast/motion/implemented_loop.hpp"
 #include "support/kollar_case.hpp"
 #include "support/lagging_plant.hpp"
-#include "support/random.hpp"
 #include "support/random_loop.hpp"
 #include "support/reference/state_between_samples.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -4,9 +4,7 @@
 
 #include "holdfast/plant/enclosed_poles.hpp"
 
-#include "support/random.hpp"
 #include "support/string_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {

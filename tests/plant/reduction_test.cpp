@@ -1,7 +1,6 @@
 #include "holdfast/plant/reduction.hpp"
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -45,7 +45,17 @@ void expect_refused(const std::vector<Entry>& entries) {
 
 const TwoMass<double> masses = kollar2022_plant();
 const Sampling<double> sampling{0.01};
+const PdGains<double> gains{-557.0, -13.0};
 const GainGrid grid{{-600.0, 0.0, 3}, {-20.0, 0.0, 3}};
+const GainWindow window{{-600.0, 0.0}, {-20.0, 0.0}};
+const std::vector<double> times{0.0, 1.0};
+
+Sampling<double> delayed(double delay) { return {0.01, delay}; }
+
+/// The grid from another least P on, and with another number of D.
+GainGrid grid_of(double from, double count) {
+  return {{from, 0.0, 3}, {-20.0, 0.0, static_cast<std::int64_t>(count)}};
+}
 
 TwoMass<double> of_mass(double mass) {
   TwoMass<double> plant = masses;
@@ -59,17 +69,11 @@ AffinePolynomial<double, 5> with_coefficient(double value) {
   return polynomial;
 }
 
-const auto& loop() {
-  static const auto made = sampled_loop(masses, sampling);
-  return made;
-}
+const SampledLoop<double> loop = sampled_loop(masses, sampling);
 
 TEST(Entries, OfPlantRefuseByName) {
   expect_refused({
-      {"free_decay", "mass", not_positive,
-       [](double x) {
-         free_decay(of_mass(x), 1.0, {0, 1});
-       }},
+      {"free_decay", "mass", not_positive, [](double x) { free_decay(of_mass(x), 1.0, times); }},
       {"free_decay", "time", no_instant,
        [](double x) {
          free_decay(masses, 1.0, {0, x});
@@ -109,17 +113,17 @@ TEST(Entries, OfPlantRefuseByName) {
 }
 
 TEST(Entries, OfForcingRefuseByName) {
-  expect_refused(
-      {{"PeriodicForcing", "denominator", no_count, [](double x) {
-          const IdealLoop<double> ideal{masses, sampling, {-557.0, -13.0}, {0.5, 10.0}, 0.0005};
-          periodically_forced_motion(ideal, Rational{1, static_cast<std::int64_t>(x)},
-                                     Vector<double, 4>(Vector<double, 4>::Zero()));
-        }}});
+  expect_refused({{"PeriodicForcing", "denominator", no_count, [](double x) {
+                     const IdealLoop<double> ideal{masses, sampling, gains, {0.5, 10.0}, 0.0005};
+                     periodically_forced_motion(ideal, Rational{1, static_cast<std::int64_t>(x)},
+                                                Vector<double, 4>(Vector<double, 4>::Zero()));
+                   }}});
 }
 
 TEST(Entries, OfAnAxisRefuseByName) {
-  const auto chart = [](const Axis& axis) {
-    validate(LoopChart{{masses, sampling, {-557.0, -13.0}},
+  const auto chart = [](double from, double to, double count) {
+    const Axis axis{from, to, static_cast<std::int64_t>(count)};
+    validate(LoopChart{{masses, sampling, gains},
                        {LoopParameter::sampling_period, axis},
                        {LoopParameter::differential_gain, {-20.0, 0.0, 3}}});
   };
@@ -127,26 +131,16 @@ TEST(Entries, OfAnAxisRefuseByName) {
       {"LoopChart",
        "axis",
        {nan, infinity, -infinity, 0.001},
-       [&](double x) {
-         chart({0.002, x, 3});
-       }},
-      {"LoopChart", "axis", not_finite,
-       [&](double x) {
-         chart({x, 0.002, 3});
-       }},
-      {"LoopChart", "axis", no_count,
-       [&](double x) {
-         chart({0.001, 0.002, static_cast<std::int64_t>(x)});
-       }},
+       [&](double x) { chart(0.002, x, 3); }},
+      {"LoopChart", "axis", not_finite, [&](double x) { chart(x, 0.002, 3); }},
+      {"LoopChart", "axis", no_count, [&](double x) { chart(0.001, 0.002, x); }},
   });
 }
 
 TEST(Entries, OfSignalRefuseByName) {
   expect_refused({
       {"amplitude_spectrum", "sampling period", not_positive,
-       [](double x) {
-         amplitude_spectrum(std::vector<double>{1, 2}, x, SpectralWindow::hann);
-       }},
+       [](double x) { amplitude_spectrum(times, x, SpectralWindow::hann); }},
       {"samples_per_common_period", "sampling period", not_positive,
        [](double x) { samples_per_common_period(10.0, x); }},
       {"samples_per_common_period", "frequency", negative_too,
@@ -169,10 +163,7 @@ TEST(Entries, OfControlRefuseByName) {
       {"sampled_loop", "mass", not_positive, [](double x) { sampled_loop(of_mass(x), sampling); }},
       {"sampled_loop", "sampling period", negative_too,
        [](double x) { sampled_loop(masses, Sampling<double>{x}); }},
-      {"sampled_loop", "delay", no_share,
-       [](double x) {
-         sampled_loop(masses, Sampling<double>{0.01, x});
-       }},
+      {"sampled_loop", "delay", no_share, [](double x) { sampled_loop(masses, delayed(x)); }},
       {"loop_map", "mass", not_positive, [](double x) { loop_map(of_mass(x), sampling); }},
       {"loop_map", "plant", not_finite,
        [](double x) {
@@ -180,18 +171,10 @@ TEST(Entries, OfControlRefuseByName) {
          plant.force_input[1] = x;
          loop_map(plant, sampling);
        }},
-      {"loop_map", "delay", negative_too,
-       [](double x) {
-         loop_map(masses, Sampling<double>{0.01, x});
-       }},
+      {"loop_map", "delay", negative_too, [](double x) { loop_map(masses, delayed(x)); }},
       {"held_commands", "sampling period", not_positive,
-       [](double x) {
-         held_commands({x, 0.0});
-       }},
-      {"held_commands", "delay", negative_too,
-       [](double x) {
-         held_commands({0.01, x});
-       }},
+       [](double x) { held_commands(Sampling<double>{x}); }},
+      {"held_commands", "delay", negative_too, [](double x) { held_commands(delayed(x)); }},
       {"tuned_proportional_gain", "mass", not_positive,
        [](double x) { tuned_proportional_gain(74.4, x, 10.0); }},
       {"tuned_proportional_gain", "frequency", not_positive,
@@ -209,24 +192,20 @@ TEST(Entries, OfControlRefuseByName) {
 }
 
 TEST(Entries, OfStabilityRefuseByName) {
-  const auto polynomial = [] { return characteristic_polynomial(loop()); };
+  const auto polynomial = [] { return characteristic_polynomial(loop); };
   expect_refused({
       {"characteristic_polynomial", "mass", not_positive,
        [](double x) { characteristic_polynomial(of_mass(x)); }},
       {"stability_chart", "polynomial", not_finite,
        [](double x) { stability_chart(with_coefficient(x), grid); }},
       {"stability_chart", "gain", not_finite,
-       [&](double x) {
-         stability_chart(polynomial(), {{x, 0, 3}, {-20, 0, 3}});
-       }},
+       [&](double x) { stability_chart(polynomial(), grid_of(x, 3)); }},
       {"stability_chart", "number of", no_count,
-       [&](double x) {
-         stability_chart(polynomial(), {{-600, 0, 3}, {-20, 0, static_cast<std::int64_t>(x)}});
-       }},
+       [&](double x) { stability_chart(polynomial(), grid_of(-600, x)); }},
       {"stability_chart", "number of", no_count,
        [&](double x) {
          stability_chart(ResolvedCircle<double>({linear_plant(masses), sampling}),
-                         {{-600, 0, 3}, {-20, 0, static_cast<std::int64_t>(x)}});
+                         grid_of(-600, x));
        }},
       {"stable_differential_gains", "gain", not_finite,
        [&](double x) { stable_differential_gains(polynomial(), x); }},
@@ -239,30 +218,22 @@ TEST(Entries, OfStabilityRefuseByName) {
          stable_gains(loop_map(masses, sampling), FreeGain::differential, {x, 0.0});
        }},
       {"differential_gains_within_radius", "radius", not_positive,
-       [](double x) { differential_gains_within_radius(loop(), -557.0, x); }},
+       [](double x) { differential_gains_within_radius(loop, -557.0, x); }},
       {"differential_gains_within_radius", "gain", not_finite,
-       [](double x) { differential_gains_within_radius(loop(), x, 0.9); }},
+       [](double x) { differential_gains_within_radius(loop, x, 0.9); }},
       {"stability_boundary", "polynomial", not_finite,
-       [](double x) {
-         stability_boundary(with_coefficient(x), {0.1, 3.0});
-       }},
+       [](double x) { stability_boundary(with_coefficient(x), window.proportional); }},
       {"gain_regions", "polynomial", not_finite,
-       [](double x) {
-         gain_regions(with_coefficient(x), {{-600, 0}, {-20, 0}});
-       }},
+       [](double x) { gain_regions(with_coefficient(x), window); }},
       {"boundary_features", "polynomial", not_finite,
-       [](double x) {
-         boundary_features(with_coefficient(x), {{-600, 0}, {-20, 0}});
-       }},
+       [](double x) { boundary_features(with_coefficient(x), window); }},
       {"SteadyResponse", "angular frequency", not_positive,
-       [](double x) { SteadyResponse<double>(loop(), held_harmonic(loop()), x); }},
-      {"minimum_radius", "gain", not_finite, [](double x) { minimum_radius(loop(), x); }},
+       [](double x) { SteadyResponse<double>(loop, held_harmonic(loop), x); }},
+      {"minimum_radius", "gain", not_finite, [](double x) { minimum_radius(loop, x); }},
       {"max_sampling_period", "mass", not_positive,
        [](double x) { max_sampling_period(of_mass(x), {}); }},
       {"stability_margins", "mass", not_positive,
-       [](double x) {
-         stability_margins(of_mass(x), sampling, {-557.0, -13.0});
-       }},
+       [](double x) { stability_margins(of_mass(x), sampling, gains); }},
   });
 }
 

@@ -2,7 +2,6 @@
 
 #include "holdfast/contact/contact_law.hpp"
 #include "property/loop_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "holdfast/contact/contact_law.hpp"
 #include "property/loop_case.hpp"
-#include "support/testing.hpp"
+#include "support/move_samples.hpp"
 
 namespace holdfast {
 namespace {
@@ -185,10 +185,7 @@ test::PropertyOutcome repeats_with_the_force(const ShiftCase& shift) {
   const LoopCase drawn = shift.commensurate();
   const auto late_by = static_cast<std::int64_t>(shift.denominator) * shift.common_periods;
   auto late = harmonically_forced_motion(drawn.loop(), drawn.state);
-  for (std::int64_t j = 0; j < late_by; ++j) {
-    late.sense();
-    late.advance();
-  }
+  test::move_samples(late, late_by);
   // The same state in both, and of moderate size whatever the loop has made of it.
   auto early = harmonically_forced_motion(drawn.loop(), drawn.state);
   late.restore(early.memory());
@@ -238,10 +235,7 @@ test::PropertyOutcome repeats_to_the_last_bit(const ShiftCase& shift) {
   const LoopCase drawn = binary.commensurate();
   auto early = harmonically_forced_motion(drawn.loop(), drawn.state);
   auto late = early;
-  for (int j = 0; j < binary.denominator * binary.common_periods; ++j) {
-    late.sense();
-    late.advance();
-  }
+  test::move_samples(late, binary.denominator * binary.common_periods);
   // Fresh phases every 16 samples: only a shift by whole blocks of them turns by the same table.
   const bool same_table = binary.denominator * binary.common_periods % 16 == 0;
   if (!same_table) return test::does_not_apply();

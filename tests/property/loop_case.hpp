@@ -5,9 +5,7 @@
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "support/property.hpp"
-#include "support/random.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 

@@ -3,7 +3,6 @@
 #include "holdfast/excitation/recorded_force.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "property/loop_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

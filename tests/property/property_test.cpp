@@ -2,8 +2,6 @@
 // case.
 #include "support/property.hpp"
 
-#include "support/testing.hpp"
-
 #include <gtest/gtest-spi.h>
 
 namespace holdfast::test {

@@ -18,6 +18,8 @@ using Column = Eigen::VectorXd;
 const Sampling<double> sampling{0.01};
 const PdGains<double> gains{-557.0, -13.0};
 const HarmonicExcitation<double> excitation{0.5, 10.0};
+const LoopHardware hardware{80.0, 60.0, 0.7};
+const Rational ratio{1, 10};
 
 /// An entry that is to refuse what it is called with.
 template <class Argument>
@@ -80,6 +82,10 @@ IdealLoop<double, Plant> ideal(const Plant& plant) {
 
 ImplementedLoopOf<Plant> implemented(const Plant& plant) { return implemented_loop(ideal(plant)); }
 
+DriveContact<Plant> contact_of(const Plant& plant, const Column& state) {
+  return {plant, {}, Switching::exact, state};
+}
+
 TEST(Sizes, OfAPlantsPartsAreCheckedByEveryEntry) {
   const Column rest = Column::Zero(test::lagging_plant().order());
   const std::vector<Entry<Plant>> entries{
@@ -93,10 +99,7 @@ TEST(Sizes, OfAPlantsPartsAreCheckedByEveryEntry) {
       {"with_measurement_filter", [](const Plant& p) { with_measurement_filter(p, 80.0); }},
       {"with_drive_lag", [](const Plant& p) { with_drive_lag(p, 60.0); }},
       {"with_drive_lag of second order", [](const Plant& p) { with_drive_lag(p, 60.0, 0.7); }},
-      {"with_hardware",
-       [](const Plant& p) {
-         with_hardware(p, LoopHardware{80.0, 60.0, 0.7});
-       }},
+      {"with_hardware", [](const Plant& p) { with_hardware(p, hardware); }},
       {"with_controller", [](const Plant& p) { with_controller(p, gains); }},
       {"natural_modes", [](const Plant& p) { natural_modes(p); }},
       {"engaged_dynamics", [](const Plant& p) { engaged_dynamics(p); }},
@@ -111,19 +114,14 @@ TEST(Sizes, OfAPlantsPartsAreCheckedByEveryEntry) {
       {"true_amplitude_per_force", [](const Plant& p) { true_amplitude_per_force(p, 60.0); }},
       {"stability_margins", [](const Plant& p) { stability_margins(p, sampling, gains); }},
       {"max_sampling_period", [](const Plant& p) { max_sampling_period(p, {}); }},
-      {"DriveContact",
-       [&](const Plant& p) {
-         DriveContact<Plant>{p, {}, Switching::exact, rest};
-       }},
+      {"DriveContact", [&](const Plant& p) { contact_of(p, rest); }},
       {"event_motion", [&](const Plant& p) { event_motion(implemented(p), rest); }},
       {"event_metrics", [&](const Plant& p) { event_metrics(implemented(p), rest, 1.0); }},
       {"classify_motion", [&](const Plant& p) { classify_motion(implemented(p), rest); }},
       {"harmonically_forced_motion",
        [&](const Plant& p) { harmonically_forced_motion(ideal(p), rest); }},
       {"periodically_forced_motion",
-       [&](const Plant& p) {
-         periodically_forced_motion(ideal(p), Rational{1, 10}, rest);
-       }},
+       [&](const Plant& p) { periodically_forced_motion(ideal(p), ratio, rest); }},
   };
   for (const Entry<Plant>& entry : entries)
     for (const BrokenPlant& one : broken_plants()) expect_refused(entry, one.plant, one.part);
@@ -133,19 +131,16 @@ TEST(Sizes, OfAStateAreCheckedByEveryEntry) {
   const Plant plant = test::lagging_plant();
   const Column rest = Column::Zero(plant.order());
   const auto loop = implemented(plant);
-  const DriveContact<Plant> contact(plant, {}, Switching::exact, rest);
+  const DriveContact<Plant> contact = contact_of(plant, rest);
   const auto sampled = sampled_loop(plant, sampling);
   const auto input = exact_harmonic(plant, 0.01, excitation.angular_frequency());
   using Motion = HarmonicallyForcedMotion<double, Plant>;
+  const Backlash<double> law(0.0);
+  const PortReadings<Plant> readings(plant);
   const std::vector<Entry<Column>> entries{
-      {"DriveContact",
-       [&](const Column& x) {
-         DriveContact<Plant>{plant, {}, Switching::exact, x};
-       }},
+      {"DriveContact", [&](const Column& x) { contact_of(plant, x); }},
       {"EventMotion",
-       [&](const Column& x) {
-         EventMotion<DriveContact<Plant>>{loop.digital, contact, x};
-       }},
+       [&](const Column& x) { EventMotion<DriveContact<Plant>>(loop.digital, contact, x); }},
       {"event_motion", [&](const Column& x) { event_motion(loop, x); }},
       {"EventMotion::restore",
        [&](const Column& x) { event_motion(loop, rest).restore(0, x, 0.0, contact); }},
@@ -154,19 +149,9 @@ TEST(Sizes, OfAStateAreCheckedByEveryEntry) {
       {"harmonically_forced_motion",
        [&](const Column& x) { harmonically_forced_motion(ideal(plant), x); }},
       {"periodically_forced_motion",
-       [&](const Column& x) {
-         periodically_forced_motion(ideal(plant), Rational{1, 10}, x);
-       }},
+       [&](const Column& x) { periodically_forced_motion(ideal(plant), ratio, x); }},
       {"SampledMotion",
-       [&](const Column& x) {
-         Motion{sampled,
-                gains,
-                input,
-                excitation,
-                Backlash<double>(0.0),
-                x,
-                PortReadings<Plant>(plant)};
-       }},
+       [&](const Column& x) { Motion(sampled, gains, input, excitation, law, x, readings); }},
       {"SampledMotion::restore",
        [&](const Column& x) {
          auto motion = harmonically_forced_motion(ideal(plant), rest);
@@ -188,9 +173,7 @@ TEST(Sizes, OfAStateOfTheTwoMassesAreCheckedWhereTheyAreKnownAtRunTime) {
       {"find_periodic_orbit", [&](const Column& x) { find_periodic_orbit(loop, x); }},
       {"harmonically_forced_motion", [&](const Column& x) { harmonically_forced_motion(loop, x); }},
       {"periodically_forced_motion",
-       [&](const Column& x) {
-         periodically_forced_motion(loop, Rational{1, 10}, x);
-       }},
+       [&](const Column& x) { periodically_forced_motion(loop, ratio, x); }},
   };
   expect_sizes_refused(entries, {0, 3, 5});
   EXPECT_EQ(event_motion(built, Column::Unit(4, 2)).state(), (Vector<double, 4>::Unit(2)));

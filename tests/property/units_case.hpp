@@ -2,7 +2,6 @@
 
 #include "holdfast/control/sampled_loop.hpp"
 #include "property/loop_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 

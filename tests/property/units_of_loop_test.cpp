@@ -9,7 +9,6 @@
 #include "holdfast/stability/response/response.hpp"
 #include "property/units_case.hpp"
 #include "support/dense_routes.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,7 +1,6 @@
 #include "holdfast/simd/charts.hpp"
 
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

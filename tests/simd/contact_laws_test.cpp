@@ -3,7 +3,6 @@
 #include "holdfast/contact/contact_law.hpp"
 #include "holdfast/simd/pack.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

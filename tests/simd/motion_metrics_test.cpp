@@ -1,6 +1,5 @@
 #include "holdfast/simd/motion_metrics.hpp"
 
-#include "support/testing.hpp"
 #include "sweep/sweep_setting.hpp"
 
 namespace holdfast {

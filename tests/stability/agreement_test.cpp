@@ -8,7 +8,6 @@
 #include "support/polynomial/hurwitz_conditions.hpp"
 #include "support/polynomial/pair_gains.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

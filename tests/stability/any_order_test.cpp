@@ -4,17 +4,14 @@
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
-#include "holdfast/stability/boundary/circle_boundary.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/chart/circle_chart.hpp"
 #include "support/dense_routes.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/polynomial/pair_gains.hpp"
-#include "support/random.hpp"
 #include "support/random_loop.hpp"
 #include "support/same_intervals.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {

@@ -6,7 +6,6 @@
 #include "holdfast/cable/cable_place_modes.hpp"
 #include "holdfast/motion/modal/modal_motion.hpp"
 #include "support/string_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 

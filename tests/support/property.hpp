@@ -1,7 +1,6 @@
 #pragma once
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 

@@ -6,7 +6,6 @@
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 

@@ -18,6 +18,11 @@ inline Absorber<double> papers_absorber(double clamp_mass) {
   return {masses.absorber_mass, masses.absorber_stiffness, masses.absorber_damping, clamp_mass};
 }
 
+/// The paper's string by its modes at the absorber's place.
+inline std::vector<PlaceMode<double>> papers_modes(int count) {
+  return string_modes(taut_string(kollar2022_conductor()), 0.64, count);
+}
+
 /// The paper's string by its modes, with the absorber and the poles of both.
 /// @param damping  ratio of all modes
 /// @param place    of the absorber (m)

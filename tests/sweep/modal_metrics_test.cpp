@@ -4,7 +4,6 @@
 
 #include "holdfast/cable/taut_string.hpp"
 #include "support/string_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {

@@ -1,6 +1,5 @@
 #include "holdfast/sweep/motion_metrics.hpp"
 
-#include "support/testing.hpp"
 #include "sweep/sweep_setting.hpp"
 
 namespace holdfast {

@@ -8,7 +8,6 @@
 #include "holdfast/sweep/sweep_motion.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 

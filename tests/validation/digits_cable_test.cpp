@@ -9,7 +9,6 @@
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/reduction.hpp"
 #include "support/digits.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::cable_digits {
 namespace {

@@ -6,7 +6,6 @@
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "support/digits.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::loop_digits {
 namespace {

@@ -8,7 +8,6 @@
 #include "holdfast/sweep/metric_observer.hpp"
 #include "support/digits.hpp"
 #include "support/kollar_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::motion_digits {
 namespace {

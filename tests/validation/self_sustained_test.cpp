@@ -5,7 +5,6 @@
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
 #include "support/kollar_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -222,9 +222,6 @@ ChainEquilibrium chain_equilibrium(const BasicBarChain<Real>& chain, double load
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template class BasicBarChain<double>;
-extern template Eigen::SparseMatrix<double> tangent_stiffness(const BarChain&,
-                                                              const BarChain::Nodes&);
-extern template BarChain::Nodes unbalanced_forces(const BarChain&, const BarChain::Nodes&, double);
 extern template ChainEquilibrium chain_equilibrium(const BarChain&, double);
 #endif
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "holdfast/cable/bar_chain.hpp"
-#include "holdfast/cable/chain_modes.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "holdfast/cable/bar_chain.hpp"
+#include "holdfast/cable/cable_place_modes.hpp"
 #include "holdfast/cable/modes.hpp"
 
 namespace holdfast {
@@ -26,15 +27,6 @@ struct ElementsModes {
 };
 
 namespace detail {
-
-/// Lumped masses (kg), half of each bar to each of its nodes, of x and y of each free node.
-template <class Real>
-Vector<Real, Eigen::Dynamic> lumped_masses(const BasicBarChain<Real>& chain) {
-  Vector<Real, Eigen::Dynamic> masses(2 * chain.free_nodes());
-  for (int node = 0; node < chain.free_nodes(); ++node)
-    masses.template segment<2>(2 * node).setConstant(chain.mass(node));
-  return masses;
-}
 
 /// Positive where a shape is its own mirror image, negative where it is the opposite of it.
 inline ModeFamily family_of(const Eigen::VectorXd& shape) {
@@ -62,7 +54,8 @@ ElementsModes elements_modes(const Conductor<Real>& conductor, int elements, int
   const ChainEquilibrium rest = chain_equilibrium(chain, 0.0);
   ElementsModes result{rest.outcome, {}};
   if (rest.outcome != EquilibriumOutcome::converged) return result;
-  const Vector<Real, Eigen::Dynamic> masses = detail::lumped_masses(chain);
+  const Vector<Real, Eigen::Dynamic> masses =
+      detail::mass_matrix(chain, BarMass::lumped).diagonal();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Square> solver(
       Square(tangent_stiffness(chain, rest.nodes)), Square(masses.asDiagonal()));
   for (int k = 0; k < count; ++k) {

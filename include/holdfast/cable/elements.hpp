@@ -100,11 +100,11 @@ class BasicCableElements {
   /// The cable's bars and nodes, without absorber and damping.
   const BasicBarChain<Real>& chain() const { return chain_; }
   /// Whether the absorber is a mass on a spring.
-  bool is_sprung() const { return sprung(); }
+  bool is_sprung() const { return absorber_.reading == AbsorberReading::spring_mass; }
   /// Number of states.
-  int states() const { return 4 * chain_.free_nodes() + (sprung() ? 2 : 0); }
+  int states() const { return 4 * chain_.free_nodes() + (is_sprung() ? 2 : 0); }
   /// 7; 9 with the two further states of the spring–mass.
-  int half_bandwidth() const { return sprung() ? 9 : 7; }
+  int half_bandwidth() const { return is_sprung() ? 9 : 7; }
 
   /// Equilibrium with the absorber's weight.
   const ChainEquilibrium& rest() const { return rest_; }
@@ -122,7 +122,7 @@ class BasicCableElements {
     Start start{States::Zero(states()), found ? held.outcome : rest_.outcome};
     for (int node = 0; node < chain_.free_nodes(); ++node)
       start.state.template segment<2>(first_state(node)) = held.nodes.col(node);
-    if (sprung()) {
+    if (is_sprung()) {
       const int own = first_state(chain_.loaded_node()) + 4;
       start.state[own] = displacement(start.state);
     }
@@ -151,7 +151,7 @@ class BasicCableElements {
   void push(Real* rate_of_state, Real on_node, Real on_absorber) const {
     const int own = first_state(chain_.loaded_node());
     rate_of_state[own + 3] += on_node / inertia(chain_.loaded_node())[1];
-    if (sprung()) rate_of_state[own + 5] += on_absorber / absorber_.mass;
+    if (is_sprung()) rate_of_state[own + 5] += on_absorber / absorber_.mass;
   }
 
   /// Drop (m) of the absorber's node from the equilibrium.
@@ -173,7 +173,7 @@ class BasicCableElements {
       force[1] += Scalar(chain_.mass(node) * chain_.conductor().gravity);
       if (node == chain_.loaded_node()) {
         force[1] += Scalar(resting_load());
-        if (sprung()) force[1] += spring_rate(state, rate_of_state);
+        if (is_sprung()) force[1] += spring_rate(state, rate_of_state);
       }
       Scalar* own = rate_of_state + first_state(node);
       for (int i = 0; i < 2; ++i) {
@@ -211,7 +211,7 @@ class BasicCableElements {
       Matrix<Real, 2> place = -inverse * (before + behind);
       Matrix<Real, 2> velocity = -inverse * (damper(node) + damper(node + 1)) -
                                  Matrix<Real, 2>(mass_drag(node).asDiagonal());
-      if (sprung() && node == chain_.loaded_node()) {
+      if (is_sprung() && node == chain_.loaded_node()) {
         place(1, 1) -= inverse(1, 1) * absorber_.stiffness;
         velocity(1, 1) -= inverse(1, 1) * absorber_.damping;
         spring_jacobian(set);
@@ -238,23 +238,23 @@ class BasicCableElements {
   }
 
  private:
-  bool sprung() const { return absorber_.reading == AbsorberReading::spring_mass; }
   int first_state(int node) const {
-    return 4 * node + (sprung() && node > chain_.loaded_node() ? 2 : 0);
+    return 4 * node + (is_sprung() && node > chain_.loaded_node() ? 2 : 0);
   }
   /// kg, along the span and downward.
   Vector<Real, 2> inertia(int node) const {
     Vector<Real, 2> masses = Vector<Real, 2>::Constant(chain_.mass(node));
     if (node != chain_.loaded_node()) return masses;
     if (absorber_.reading == AbsorberReading::rigid_mass) masses.array() += absorber_.mass;
-    if (sprung()) masses.array() += absorber_.clamp_mass;
-    if (sprung() && absorber_.sideways) masses[0] += absorber_.mass;
+    if (is_sprung()) masses.array() += absorber_.clamp_mass;
+    if (is_sprung() && absorber_.sideways) masses[0] += absorber_.mass;
     return masses;
   }
   /// 1/s, α as it slows a node: going up and down, the clamp is not damped by it.
   Vector<Real, 2> mass_drag(int node) const {
     Vector<Real, 2> drag = Vector<Real, 2>::Constant(damping_.mass_factor);
-    if (sprung() && node == chain_.loaded_node()) drag[1] *= chain_.mass(node) / inertia(node)[1];
+    if (is_sprung() && node == chain_.loaded_node())
+      drag[1] *= chain_.mass(node) / inertia(node)[1];
     return drag;
   }
   /// Place (m) and velocity (m/s) of a node.

@@ -115,10 +115,7 @@ template <int Size>
 void weigh_returns(const std::vector<Vector<double, Size>>& states,
                    const Vector<double, Size>& sizes, ChaosIndicators& indicators) {
   constexpr double repeat_tolerance = 1e-9, recurrence_radius = 0.05;
-  const RepeatSearch repeat = repeats_after<Size>(states, repeat_tolerance, 3, sizes);
-  indicators.repeat =
-      RepetitionIndicators{static_cast<std::int64_t>(repeat.lag),
-                           static_cast<std::int64_t>(repeat.largest_lag), repeat_tolerance};
+  indicators.repeat = repeats_after<Size>(states, repeat_tolerance, 3, sizes);
   const std::vector<Vector<double, Size>> last(states.end() - 1000, states.end());
   indicators.closest_return = closest_return<Size>(last);
   indicators.determinism = recurrence_determinism<Size>(last, recurrence_radius);

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "holdfast/chaos/recurrence.hpp"
 #include "holdfast/chaos/switching_complexity.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/math/stats/student_quantile.hpp"
@@ -52,13 +53,6 @@ inline ExponentEstimate exponent_estimate(double value, double standard_error) {
   return {value, quantile * standard_error + rounding};
 }
 
-/// A search for a repetition of the states, of three periods and more.
-struct RepetitionIndicators {
-  std::int64_t lag;          ///< smallest lag that repeats (samples), 0 for none
-  std::int64_t largest_lag;  ///< how far was looked (samples)
-  double tolerance;          ///< of a repeat, relative to the extent
-};
-
 /// The lines of the spectrum of an observable.
 struct SpectralIndicators {
   int division;  ///< the smallest m for which the multiples of f/m hold the power, or 0
@@ -71,7 +65,7 @@ struct SpectralIndicators {
 struct ChaosIndicators {
   std::optional<std::int64_t> diverged_at;       ///< sample at which the motion had left all bounds
   std::optional<std::int64_t> certified_period;  ///< of an orbit that was proved (samples)
-  std::optional<RepetitionIndicators> repeat;    ///< of the states
+  std::optional<RepeatSearch> repeat;            ///< of the states, of three periods and more
   std::optional<ExponentEstimate> largest_exponent;  ///< natural logarithm per step
   std::optional<double> zero_one;                    ///< median K of the 0–1 test
   std::optional<SpectralIndicators> lines;           ///< of the observable
@@ -191,7 +185,7 @@ class Classifier {
   Classification repeating() const {
     if (indicators_.largest_exponent && indicators_.largest_exponent->positive())
       return undecided("The motion repeats although its neighbours leave it");
-    return {AttractorType::periodic, indicators_.repeat->lag,
+    return {AttractorType::periodic, static_cast<std::int64_t>(indicators_.repeat->lag),
             "Recurrence, no certificate: the second half of the series " + repeat_text() +
                 ", three times and more, to " + number_text(indicators_.repeat->tolerance) +
                 " of its extent."};
@@ -269,7 +263,7 @@ class Classifier {
   }
   std::string repeat_text() const {
     if (!indicators_.repeat) return "no repetition was looked for";
-    const RepetitionIndicators& found = *indicators_.repeat;
+    const RepeatSearch& found = *indicators_.repeat;
     if (found.lag > 0) return "repeats after " + std::to_string(found.lag) + " samples";
     return "no repetition to " + number_text(found.tolerance) + " of the extent within " +
            std::to_string(found.largest_lag) + " samples";

@@ -93,8 +93,7 @@ LyapunovResult run_event_lyapunov(EventMotion<Contact>& motion, const LyapunovRu
                                   const std::function<void()>& pause = {}) {
   validate(run);
   EventLyapunov<Contact> lyapunov(motion);
-  detail::SingleLane lane(lyapunov, pause);
-  return detail::run_average(lane, run)[0];
+  return detail::run_average(lyapunov, run, pause);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -8,15 +8,17 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/core/lanes.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
 
 namespace holdfast {
 
 /// The contacts of 0 … `ItineraryBlocks::length` consecutive samples: a 1, then one binary digit a
-/// sample, the first sample's highest, 1 where the force is transmitted. 1 is the empty block.
+/// sample, the first sample's highest, 1 where the force is transmitted.
 using ItineraryBlock = std::uint8_t;
+
+/// The block of no sample.
+inline constexpr ItineraryBlock empty_block = 1;
 
 /// Number of samples of a block.
 constexpr int samples_of(ItineraryBlock block) {
@@ -32,7 +34,7 @@ constexpr ItineraryBlock followed_by(ItineraryBlock block, bool engaged) {
 
 /// One sample of a block alone, 0 ≤ sample < samples_of(block).
 constexpr ItineraryBlock sample_of(ItineraryBlock block, int sample) {
-  return followed_by(1, ((block >> (samples_of(block) - 1 - sample)) & 1) != 0);
+  return followed_by(empty_block, ((block >> (samples_of(block) - 1 - sample)) & 1) != 0);
 }
 
 /// The tangent maps of every block: products of two constant 5 × 5 matrices, S where the force is
@@ -105,45 +107,6 @@ ItineraryBlocks::ItineraryBlocks(const Matrix<Scalar, 5>& engaged,
 
 /// Whether a block is one of the longest.
 constexpr bool is_whole(ItineraryBlock block) { return block >> ItineraryBlocks::length != 0; }
-
-/// The blocks of all lanes; they have the same number of samples.
-template <class Number>
-using LaneBlocks = std::array<ItineraryBlock, Lanes<Number>::count>;
-
-/// The empty block in every lane.
-template <class Number>
-constexpr LaneBlocks<Number> empty_blocks() {
-  LaneBlocks<Number> blocks{};
-  for (auto& block : blocks) block = 1;
-  return blocks;
-}
-
-/// The maps of as many blocks as a number type has lanes, entry by entry side by side.
-template <class Number>
-class LaneMaps {
-  using LaneNumbers = std::make_index_sequence<Lanes<Number>::count>;
-
- public:
-  /// Refers to maps of `blocks`, which must outlive this; one block a lane.
-  LaneMaps(const ItineraryBlocks& blocks, const LaneBlocks<Number>& lanes) {
-    for (std::size_t lane = 0; lane < lanes.size(); ++lane)
-      maps_[lane] = blocks.map(lanes[lane]).data();
-  }
-
-  /// The entry of every lane's T⁻¹ M T, 0 ≤ row, column < 5.
-  Number operator()(int row, int column) const {
-    return entry(5 * static_cast<std::size_t>(row) + static_cast<std::size_t>(column),
-                 LaneNumbers());
-  }
-
- private:
-  template <std::size_t... Lane>
-  Number entry(std::size_t index, std::index_sequence<Lane...> /*lanes*/) const {
-    return Number{maps_[Lane][index]...};
-  }
-
-  const double* maps_[Lanes<Number>::count];
-};
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template ItineraryBlocks::ItineraryBlocks(const Matrix<double, 5>&,

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "holdfast/chaos/block_spectrum.hpp"
@@ -87,88 +87,43 @@ LyapunovResult lyapunov_result(LyapunovOutcome outcome,
   return result;
 }
 
-/// Averages the exponents of one motion or of several side by side, its lanes: leaves out the first
-/// samples, then goes on until each mean is accurate enough, the samples are at an end or the
-/// motion diverges.
-/// @param motions  advance(samples, go_on) goes through so many samples or fewer, where go_on()
-/// says
-///                 no or all lanes have diverged(lane); restart(), spectra() of all lanes and
-///                 complete_batches() are those of the exponents
-template <class Motions>
-auto run_average(Motions& motions, const LyapunovRun& run) {
-  constexpr std::size_t lanes = Motions::lanes;
-  std::array<LyapunovResult, lanes> results{};
-  std::array<bool, lanes> settled{};
-  const auto go_on = [&] {
-    std::size_t lane = 0;
-    while (lane < lanes && (settled[lane] || motions.diverged(lane))) ++lane;
-    return lane < lanes;
-  };
-  // The results of the lanes that are accurate enough by now, or at the end of all that are left.
-  const auto settle = [&](bool at_end) {
-    const auto spectra = motions.spectra();
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      if (settled[lane]) continue;
-      const bool diverged = motions.diverged(lane);
-      const auto ending = diverged ? LyapunovOutcome::diverged : LyapunovOutcome::sample_limit;
-      LyapunovResult now = lyapunov_result(ending, spectra[lane], run);
-      if (!at_end && (diverged || !(now.standard_errors[0] <= run.standard_error))) continue;
-      if (!at_end) now.outcome = LyapunovOutcome::accurate;
-      settled[lane] = true;
-      results[lane] = now;
-    }
-  };
-  motions.advance(run.discard, go_on);
-  motions.restart();
-  std::size_t judged = 0;
-  motions.advance(run.most_samples, [&] {
-    const std::size_t batches = motions.complete_batches();
-    const bool is_new = batches != judged && batches >= fewest_batches;
-    if (is_new && run.standard_error > 0.0) {
-      judged = batches;
-      settle(false);
-    }
-    return go_on();
-  });
-  settle(true);
-  return results;
-}
-
-/// A motion with its exponents, sample by sample, as run_average() takes it.
+/// Averages the exponents of one motion: leaves out the first samples, then goes on until their
+/// mean is accurate enough, the samples are at an end or the motion diverges.
+/// @param pause  called every 2¹² samples
 /// @tparam Lyapunov  sense(), advance() and state() are those of the motion, restart(), spectrum()
 ///                   and complete_batches() those of the exponents
 template <class Lyapunov>
-class SingleLane {
- public:
-  static constexpr std::size_t lanes = 1;
-
-  /// @param pause  called every 2¹² samples
-  SingleLane(Lyapunov& motion, const std::function<void()>& pause)
-      : motion_(motion), pause_(pause) {}
-
-  template <class GoOn>
-  void advance(std::int64_t samples, const GoOn& go_on) {
-    constexpr std::int64_t samples_between_pauses = 1 << 12;
-    for (std::int64_t taken = 0; taken < samples && !diverged_; ++taken) {
-      if (pause_ && taken % samples_between_pauses == 0) pause_();
-      motion_.sense();
-      diverged_ = !std::isfinite(motion_.state().sum());
-      if (diverged_) return;
-      motion_.advance();
-      if (!go_on()) return;
+LyapunovResult run_average(Lyapunov& motion, const LyapunovRun& run,
+                           const std::function<void()>& pause) {
+  constexpr std::int64_t samples_between_pauses = 1 << 12;
+  bool diverged = false;
+  const auto advance = [&](std::int64_t samples, const auto& is_enough) {
+    for (std::int64_t taken = 0; taken < samples && !diverged; ++taken) {
+      if (pause && taken % samples_between_pauses == 0) pause();
+      motion.sense();
+      diverged = !std::isfinite(motion.state().sum());
+      if (diverged) return;
+      motion.advance();
+      if (is_enough()) return;
     }
-  }
-
-  bool diverged(std::size_t /*lane*/) const { return diverged_; }
-  void restart() { motion_.restart(); }
-  auto spectra() const { return std::array{motion_.spectrum()}; }
-  std::size_t complete_batches() const { return motion_.complete_batches(); }
-
- private:
-  Lyapunov& motion_;
-  const std::function<void()>& pause_;
-  bool diverged_ = false;
-};
+  };
+  advance(run.discard, [] { return false; });
+  motion.restart();
+  std::optional<LyapunovResult> accurate;
+  std::size_t judged = 0;
+  advance(run.most_samples, [&] {
+    const std::size_t batches = motion.complete_batches();
+    const bool is_new = batches != judged && batches >= fewest_batches;
+    if (!is_new || !(run.standard_error > 0.0)) return false;
+    judged = batches;
+    const auto now = lyapunov_result(LyapunovOutcome::accurate, motion.spectrum(), run);
+    if (now.standard_errors[0] <= run.standard_error) accurate = now;
+    return accurate.has_value();
+  });
+  if (accurate) return *accurate;
+  const auto ending = diverged ? LyapunovOutcome::diverged : LyapunovOutcome::sample_limit;
+  return lyapunov_result(ending, motion.spectrum(), run);
+}
 
 }  // namespace detail
 
@@ -194,13 +149,13 @@ class LyapunovObserver {
       : engine_(std::move(blocks), scope) {}
 
   /// Takes the contact of the next sample, and nothing else of it.
-  void operator()(const MotionSample<Scalar>& sample) { take(sample.engaged); }
+  void operator()(const MotionSample<Scalar>& sample) { push(sample.engaged); }
   /// The same.
-  void take(bool engaged) {
-    open_[0] = followed_by(open_[0], engaged);
-    if (!is_whole(open_[0])) return;
+  void push(bool engaged) {
+    open_ = followed_by(open_, engaged);
+    if (!is_whole(open_)) return;
     engine_.push(open_);
-    open_ = empty_blocks<Scalar>();
+    open_ = empty_block;
   }
 
   /// The spectrum over the samples seen so far, as of QR at every one of them. Reading it, however
@@ -211,27 +166,27 @@ class LyapunovObserver {
   /// Forgets all but the directions of the tangent vectors.
   void restart() {
     engine_.restart(open_);
-    open_ = empty_blocks<Scalar>();
+    open_ = empty_block;
   }
 
  private:
   BlockSpectrum<Scalar> engine_;
-  LaneBlocks<Scalar> open_ = empty_blocks<Scalar>();
+  ItineraryBlock open_ = empty_block;
 };
 
 namespace detail {
 
-/// A motion of the sampled loop with its exponents.
-template <class Motion>
-class SampledLyapunov : public LyapunovObserver<double> {
+/// A motion of the sampled loop with its exponents, as run_average() takes it.
+/// @tparam Exponents  LyapunovObserver or ModalSpectrum
+template <class Motion, class Exponents>
+class SampledLyapunov : public Exponents {
  public:
-  SampledLyapunov(Motion& motion, const std::shared_ptr<const ItineraryBlocks>& blocks,
-                  LyapunovScope scope)
-      : LyapunovObserver(blocks, scope), motion_(motion) {}
+  SampledLyapunov(Motion& motion, const Exponents& exponents)
+      : Exponents(exponents), motion_(motion) {}
 
   void sense() { engaged_ = motion_.sense().engaged; }
   void advance() {
-    take(engaged_);
+    Exponents::push(engaged_);
     motion_.advance();
   }
   const auto& state() const { return motion_.state(); }
@@ -240,6 +195,14 @@ class SampledLyapunov : public LyapunovObserver<double> {
   Motion& motion_;
   bool engaged_ = false;
 };
+
+/// The exponents of a motion from where it stands, over a run.
+template <class Motion, class Exponents>
+LyapunovResult run_sampled(Motion& motion, const Exponents& exponents, const LyapunovRun& run,
+                           const std::function<void()>& pause) {
+  SampledLyapunov<Motion, Exponents> lyapunov(motion, exponents);
+  return run_average(lyapunov, run, pause);
+}
 
 }  // namespace detail
 
@@ -258,9 +221,7 @@ LyapunovResult run_lyapunov(Motion& motion, const std::shared_ptr<const Itinerar
                             const LyapunovRun& run, const std::function<void()>& pause = {}) {
   validate(run);
   require_within("number of itinerary blocks", blocks ? 1.0 : 0.0, "", 1, 1);
-  detail::SampledLyapunov<Motion> lyapunov(motion, blocks, run.scope);
-  detail::SingleLane lane(lyapunov, pause);
-  return detail::run_average(lane, run)[0];
+  return detail::run_sampled(motion, LyapunovObserver<double>(blocks, run.scope), run, pause);
 }
 
 }  // namespace holdfast

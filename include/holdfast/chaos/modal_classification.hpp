@@ -11,7 +11,6 @@
 #include "holdfast/motion/modal/modal_motion.hpp"
 #include "holdfast/motion/modal/natural_motions.hpp"
 #include "holdfast/orbit/modal/modal_orbit_search.hpp"
-#include "holdfast/plant/plant_poles.hpp"
 
 namespace holdfast {
 
@@ -25,10 +24,7 @@ struct ModalTangents : ModalSpectrum<Scalar> {
 
   template <class Loop>
   ModalTangents(const Loop& loop, const bool& transmits)
-      : ModalSpectrum<Scalar>(NaturalMotions(loop, plant_poles(loop.modes, loop.absorber)),
-                              loop.gains, loop.sampling.processing_delay > 0.0),
-        engaged(transmits) {}
-
+      : ModalSpectrum<Scalar>(loop), engaged(transmits) {}
   void push(const Vector<Scalar, 5>&) { ModalSpectrum<Scalar>::push(engaged); }
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 
 #include "holdfast/chaos/lyapunov_run.hpp"
@@ -28,6 +27,11 @@ namespace holdfast {
 template <class Scalar = double>
 class ModalSpectrum {
  public:
+  /// @param loop  whose natural motions are all found
+  explicit ModalSpectrum(const ModalLoop& loop)
+      : ModalSpectrum(NaturalMotions(loop, plant_poles(loop.modes, loop.absorber)), loop.gains,
+                      loop.sampling.processing_delay > 0.0) {}
+
   /// @param motions  of the loop
   /// @param gains    P and D while the drive transmits
   /// @param late     whether a force acts beyond the sample that decides it, δ > 0
@@ -57,6 +61,9 @@ class ModalSpectrum {
     sums_.add(logarithms, 1);
   }
 
+  /// The same, so that it may look on in run_trajectory.
+  void operator()(const MotionSample<double>& sample) { push(sample.engaged); }
+
   /// Forgets all but the directions of the deviations.
   void restart() { sums_ = BatchSums<Scalar, leading>(1); }
 
@@ -66,8 +73,6 @@ class ModalSpectrum {
                                         Vector<Scalar, leading>::Zero(),
                                         static_cast<int>(finite_)});
   }
-  /// Samples since then.
-  std::int64_t steps() const { return sums_.steps(); }
   /// Number of batches complete, for the standard errors.
   std::size_t complete_batches() const { return sums_.complete_batches(); }
 
@@ -79,63 +84,18 @@ class ModalSpectrum {
   BatchSums<Scalar, leading> sums_{1};
 };
 
-/// A motion of a conductor by its modes and the leading Lyapunov exponents that it has had so far.
-/// It stands in for the motion in run_trajectory.
-/// @tparam Scalar  double
-template <class Scalar = double>
-class ModalLyapunov {
- public:
-  /// @param loop    that of the motion
-  /// @param motion  goes on from where it stands
-  ModalLyapunov(const ModalLoop& loop, const ModalMotion& motion)
-      : motion_(motion),
-        spectrum_(NaturalMotions(loop, plant_poles(loop.modes, loop.absorber)), loop.gains,
-                  loop.sampling.processing_delay > 0.0) {}
-
-  /// Takes the sample; once before each `advance()`.
-  MotionSample<double> sense() {
-    const MotionSample<double> sample = motion_.sense();
-    engaged_ = sample.engaged;
-    return sample;
-  }
-  /// Moves on to the next sample, and the deviations with it.
-  void advance() {
-    motion_.advance();
-    spectrum_.push(engaged_);
-  }
-
-  /// Adds a displacement (m) to the conductor, which leaves the deviations as they are; call before
-  /// `sense()`.
-  void displace_conductor(double by) { motion_.displace_conductor(by); }
-  /// t_j (s) of the present sample.
-  double time() const { return motion_.time(); }
-  /// [z, ż, z₂, ż₂] at t_j.
-  const ModalMotion::State& state() const { return motion_.state(); }
-  /// Natural logarithm per sample, over the samples since the last restart.
-  LyapunovSpectrum<double, 5> spectrum() const { return spectrum_.spectrum(); }
-  /// Number of batches complete, for the standard errors.
-  std::size_t complete_batches() const { return spectrum_.complete_batches(); }
-  /// Forgets all but the directions of the deviations.
-  void restart() { spectrum_.restart(); }
-
- private:
-  ModalMotion motion_;
-  ModalSpectrum<Scalar> spectrum_;
-  bool engaged_ = true;
-};
-
-/// The five leading Lyapunov exponents of a motion, from where `lyapunov` stands, natural logarithm
-/// per sample.
-/// @param lyapunov  left after the last sample taken
-/// @param run       how long, and with what accuracy, is averaged
-/// @param pause     called every 2¹² samples; may throw to end the run
+/// The five leading Lyapunov exponents of a motion of a conductor by its modes, from where it
+/// stands, natural logarithm per sample.
+/// @param motion  ModalMotion; left after the last sample taken
+/// @param loop    that of the motion
+/// @param run     how long, and with what accuracy, is averaged
+/// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible
-template <class Scalar>
-LyapunovResult run_lyapunov(ModalLyapunov<Scalar>& lyapunov, const LyapunovRun& run,
+template <class Motion>
+LyapunovResult run_lyapunov(Motion& motion, const ModalLoop& loop, const LyapunovRun& run,
                             const std::function<void()>& pause = {}) {
   validate(run);
-  detail::SingleLane lane(lyapunov, pause);
-  return detail::run_average(lane, run)[0];
+  return detail::run_sampled(motion, ModalSpectrum(loop), run, pause);
 }
 
 }  // namespace holdfast

@@ -71,6 +71,7 @@ double closest_return(const std::vector<Vector<double, Size>>& states) {
 struct RepeatSearch {
   std::size_t lag;          ///< the smallest lag that repeats, 0 where none does
   std::size_t largest_lag;  ///< the largest lag that was tried
+  double tolerance;         ///< of a repeat, relative to the extent
 };
 
 /// Smallest lag n at which the whole second half of a series repeats itself,
@@ -100,9 +101,9 @@ RepeatSearch repeats_after(const std::vector<Vector<double, Size>>& states, doub
   for (std::size_t lag = 1; lag <= largest; ++lag) {
     std::size_t j = half;
     while (j < states.size() && distance(states[j], states[j - lag]) <= tolerance) ++j;
-    if (j == states.size()) return {lag, largest};
+    if (j == states.size()) return {lag, largest, tolerance};
   }
-  return {0, largest};
+  return {0, largest, tolerance};
 }
 
 /// Determinism of a series by its recurrence plot, the pairs of a state with itself left out: the

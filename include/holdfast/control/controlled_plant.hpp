@@ -179,33 +179,18 @@ std::enable_if_t<std::is_same_v<Plant, ControlledPlant>> validate(const Plant& p
   validate<Eigen::Dynamic>(plant);
 }
 
-/// The plant under a controller. Filters and lags of the plant come first.
-/// @throws InvalidParameter where the parts of the plant are of different orders
-template <class Law, int States>
-ControlledPlant with_controller(const LinearPlant<double, States>& plant, const Law& law) {
+/// The plant under a controller: the two masses, or a linear plant whose filters and lags come
+/// first.
+/// @throws InvalidParameter where the masses are not admissible, or the parts of the plant are of
+/// different orders
+template <class Plant, class Law>
+ControlledPlant with_controller(const Plant& plant, const Law& law) {
   if constexpr (detail::is_controller<Law>()) {
-    const auto [a, b, command, force, row, direct, ports] =
-        detail::enlarged<Law::states>(plant, detail::memory_size(law));
-    return {{a,
-             b,
-             command,
-             force,
-             row,
-             direct,
-             {ports.displacement, ports.velocity, ports.measured_displacement,
-              ports.measured_velocity, ports.relative_displacement, ports.relative_velocity,
-              ports.displacement_lift, ports.velocity_lift}},
+    return {detail::enlarged<Eigen::Dynamic>(linear_plant(plant), detail::memory_size(law)),
             OwnController(law)};
   } else {
     return {};
   }
-}
-/// The same of the two masses.
-/// @throws InvalidParameter where they are not admissible
-template <class Law>
-ControlledPlant with_controller(const TwoMass<double>& plant, const Law& law) {
-  validate(plant);
-  return with_controller(linear_plant(plant), law);
 }
 
 /// A linear controller of M states, as an observer or a filter is:

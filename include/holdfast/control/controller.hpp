@@ -87,7 +87,8 @@ class Controller {
   /// then as before the call
   double command(double displacement, double velocity, double elapsed) {
     const bool differs = limits_.velocity == VelocitySensing::difference;
-    if (differs && memory_.has_sampled) require_elapsed(elapsed);
+    if (differs && memory_.has_sampled)
+      require_positive("time since the last sample", elapsed, "s");
     const double read = quantised(displacement, limits_.displacement_quantum);
     const double rate =
         differs ? difference(read, elapsed) : quantised(velocity, limits_.velocity_quantum);
@@ -114,12 +115,6 @@ class Controller {
   const ControllerLimits& limits() const { return limits_; }
 
  private:
-  static void require_elapsed(double elapsed) {
-    // Asked first: the words of the error would be allocated at every sample.
-    if (std::isfinite(elapsed) && elapsed > 0) return;
-    throw InvalidParameter("time since the last sample", elapsed, "s", "finite and > 0");
-  }
-
   double difference(double read, double elapsed) const {
     return memory_.has_sampled ? (read - memory_.previous_displacement) / elapsed : 0.0;
   }

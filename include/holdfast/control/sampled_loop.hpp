@@ -48,20 +48,12 @@ struct SampledLoop {
   Vector<Scalar, States> held_excitation;  ///< c_d, N × 1: response per newton of F held over τ
 
   /// S of Eq. (14) for any δ, 5 × 5: [A_d + Γ₀ K, Γ₁; K, 0], the control force being transmitted;
-  /// of the two masses, whose K is [P, D, 0, 0].
-  Matrix<Scalar, larger_size(States, 1)> engaged_map(const PdGains<Scalar>& gains) const {
+  /// of the two masses, whose K is [P, D, 0, 0]. That of another plant is LoopMap::closed_map().
+  Matrix<Scalar, 5> engaged_map(const PdGains<Scalar>& gains) const {
     static_assert(States == 4, "the feedback row of another plant comes from its ports");
-    return engaged_map_for(gains.feedback_row());
-  }
-
-  /// S for any feedback u = K z, (N + 1) × (N + 1).
-  /// @param feedback  K, 1 × N
-  Matrix<Scalar, larger_size(States, 1)> engaged_map_for(
-      const RowVector<Scalar, States>& feedback) const {
-    const Eigen::Index n = transition.rows();
-    Matrix<Scalar, larger_size(States, 1)> map = backlash_map();
-    map.template topLeftCorner<States, States>(n, n) += present_force * feedback;
-    map.template bottomLeftCorner<1, States>(1, n) = feedback;
+    Matrix<Scalar, 5> map = backlash_map();
+    map.template topLeftCorner<4, 4>() += present_force * gains.feedback_row();
+    map.template bottomLeftCorner<1, 4>() = gains.feedback_row();
     return map;
   }
 

@@ -18,19 +18,18 @@ struct Rational {
 /// The fraction p/q in lowest terms that the decimal digits of `value` stand for, by continued
 /// fractions.
 ///
-/// A product such as f τ = 10 Hz · 0.011 s carries rounding; the first convergent within
-/// `relative_tolerance` of it is taken as what was meant (11/100).
+/// A product such as f τ = 10 Hz · 0.011 s carries rounding; the first convergent within 10⁻¹³ of
+/// itself is taken as what was meant (11/100).
 ///
 /// @param value                finite, |value| < 2⁵³
 /// @param largest_denominator  ≥ 1
-/// @param relative_tolerance   ≥ 0: largest |value − p/q| as a share of |value|
 /// @return nothing when no fraction with q ≤ largest_denominator is that close: the two frequencies
 ///         are then treated as incommensurate
 /// @throws InvalidParameter when `value` is not finite or too large
-inline std::optional<Rational> reconstruct_rational(double value, std::int64_t largest_denominator,
-                                                    double relative_tolerance = 1e-13) {
+inline std::optional<Rational> reconstruct_rational(double value,
+                                                    std::int64_t largest_denominator) {
   require_within("value to be written as a fraction", value, "", -9.0e15, 9.0e15);
-  const double tolerance = relative_tolerance * std::max(std::abs(value), 1e-300);
+  const double tolerance = 1e-13 * std::max(std::abs(value), 1e-300);
   std::int64_t previous_p = 1, previous_q = 0;
   double whole = std::floor(value);
   std::int64_t p = static_cast<std::int64_t>(whole), q = 1;

@@ -64,7 +64,6 @@ class VariationalFlow {
         map_(Map::Identity(motion.state().size() + 3, motion.state().size() + 3)),
         pending_(Row::Zero(motion.state().size() + 3)),
         sticking_(motion.contact().sticking_mode()),
-        sample_rank_(inputs(motion)),
         rank_(inputs(motion)) {
     const Sampling<double>& sampling = motion.loop().sampling;
     lengths_ = {sampling.processing_delay, sampling.period - sampling.processing_delay};
@@ -85,13 +84,10 @@ class VariationalFlow {
     enter(mode);
     const Reading reading = read(motion);
     if (!motion.contact().transmits_command()) pending_.setZero();
-    sample_rank_ = StructuralRank(inputs(motion));
-    on_ranks([&](StructuralRank& rank) {
-      if (!carries_anchor(mode)) rank.end(Carried::anchor);
-      rank.pass(directions(mode));
-      note_sample(rank, reading);
-      rank.pass(directions(mode));
-    });
+    if (!carries_anchor(mode)) rank_.end(Carried::anchor);
+    rank_.pass(directions(mode));
+    note_sample(reading);
+    rank_.pass(directions(mode));
   }
 
   // The observer of EventMotion::advance.
@@ -110,10 +106,8 @@ class VariationalFlow {
   void commanded() {
     close_flow();
     map_.row(command_row()) = pending_;
-    on_ranks([](StructuralRank& rank) {
-      rank.end(Carried::in_force);
-      rank.become(Carried::pending, Carried::in_force);
-    });
+    rank_.end(Carried::in_force);
+    rank_.become(Carried::pending, Carried::in_force);
   }
 
   /// Multiplies by the saltation matrix where a guard was reached outside stick; a jump of force or
@@ -123,19 +117,15 @@ class VariationalFlow {
     close_flow();
     if (guard >= 0 && from != sticking_) cross(from, to, instant);
     enter(to);
-    on_ranks([&](StructuralRank& rank) {
-      if (!carries_anchor(to)) rank.end(Carried::anchor);
-      rank.pass(directions(to));
-    });
+    if (!carries_anchor(to)) rank_.end(Carried::anchor);
+    rank_.pass(directions(to));
   }
 
   /// The derivative over the sample just advanced, (N + 3) × (N + 3).
   const Map& map() const { return map_; }
 
-  /// Its structural rank: that of almost every map with the same zeros.
-  int rank() const { return sample_rank_.rank(); }
-
-  /// The structural rank of the product of all maps since this tangent was made.
+  /// The structural rank of the product of all maps since this tangent was made: that of almost
+  /// every product of maps with the same zeros.
   int rank_of_product() const { return rank_.rank(); }
 
  private:
@@ -179,12 +169,6 @@ class VariationalFlow {
                                            : readings_.velocity_row();
   }
 
-  template <class Note>
-  void on_ranks(const Note& note) {
-    note(sample_rank_);
-    note(rank_);
-  }
-
   /// What the command depends on, and whether the displacement is remembered as read.
   struct Reading {
     bool state, previous, remembered;
@@ -218,11 +202,11 @@ class VariationalFlow {
   }
 
   /// The command depends on z and on what was read, which is then read again.
-  static void note_sample(StructuralRank& rank, const Reading& reading) {
-    if (reading.state) rank.begin(Carried::pending);
-    if (reading.previous) rank.become(Carried::reading, Carried::pending);
-    rank.end(Carried::reading);
-    if (reading.remembered) rank.begin(Carried::reading);
+  void note_sample(const Reading& reading) {
+    if (reading.state) rank_.begin(Carried::pending);
+    if (reading.previous) rank_.become(Carried::reading, Carried::pending);
+    rank_.end(Carried::reading);
+    if (reading.remembered) rank_.begin(Carried::reading);
   }
 
   Step exponential(int mode, double length) const;
@@ -243,10 +227,8 @@ class VariationalFlow {
     open_length_ = 0.0;
     enter(open_mode_);
     const bool transmits = !dynamics_[at(open_mode_)].command.isZero(0.0);
-    on_ranks([&](StructuralRank& rank) {
-      if (transmits) rank.act(Carried::in_force);
-      rank.pass(directions(open_mode_));
-    });
+    if (transmits) rank_.act(Carried::in_force);
+    rank_.pass(directions(open_mode_));
   }
 
   /// Keeps to what a mode holds: Δż = 0 and Δz = g in stick, no g while engaged.
@@ -270,7 +252,7 @@ class VariationalFlow {
     crossing.reset_rate = with_zero(State::Zero(n));
     if (anchored(from)) {
       crossing.gradient[n] = -1.0;
-      on_ranks([](StructuralRank& rank) { rank.act(Carried::anchor); });
+      rank_.act(Carried::anchor);
     } else if (anchored(to)) {
       crossing.reset.row(n) = with_zero(readings_.displacement_row()).transpose();
     }
@@ -291,7 +273,7 @@ class VariationalFlow {
   /// From one gap into another that begins at Δz: the rates agree.
   void anchor_anew() {
     map_.row(anchor_row()) = readings_.relative_displacements(states_of_map());
-    on_ranks([](StructuralRank& rank) { rank.end(Carried::anchor); });
+    rank_.end(Carried::anchor);
   }
 
   /// ż in a mode.
@@ -312,7 +294,7 @@ class VariationalFlow {
   double period_ = 0.0;
   int open_mode_ = 0;
   double open_begin_ = 0.0, open_length_ = 0.0;  // what has flowed, but is not in the map yet
-  StructuralRank sample_rank_, rank_;
+  StructuralRank rank_;                          // of the product of the maps
 };
 
 template <class Contact>

@@ -106,6 +106,22 @@ std::size_t shortest_period(const std::vector<State>& states, const std::vector<
   return samples;
 }
 
+/// Whether a sequence is another one that begins 0, `step`, 2 `step`, … places later.
+/// @param same  of two of its members
+template <class Member, class Same>
+bool is_rotated(const std::vector<Member>& one, const std::vector<Member>& other, std::size_t step,
+                const Same& same) {
+  if (one.size() != other.size()) return false;
+  for (std::size_t shift = 0; shift < one.size(); shift += step) {
+    const auto middle = other.begin() + static_cast<std::ptrdiff_t>(shift);
+    const auto split = one.end() - static_cast<std::ptrdiff_t>(shift);
+    if (std::equal(one.begin(), split, middle, same) &&
+        std::equal(split, one.end(), other.begin(), same))
+      return true;
+  }
+  return one.empty();
+}
+
 /// Whether an orbit comes so near to a switching surface that rounding may decide how it switches.
 /// @param extent        of the orbit's states
 /// @param error         of the states, as a share of the extent

@@ -176,11 +176,15 @@ auto basins_by(const typename Model::Loop& loop,
       std::vector<BasinLabel>(initial_states.size(), {outcome, -1}), {}};
 }
 
-/// Motions of an IdealLoop, which move on in batches; from where it stands, each may be searched
-/// for its own orbit.
-template <class Travel>
-struct BatchedMotions {
-  using Loop = IdealLoop<double>;
+/// Motions of a loop that move on together; each may be searched for its own orbit.
+/// @tparam LoopModel  IdealLoop<double>; ImplementedLoop in event_basins.hpp
+template <class LoopModel, class Travel>
+struct BatchedMotions;
+
+/// Those of an IdealLoop, each searched from where it stands.
+template <class Scalar, class Travel>
+struct BatchedMotions<IdealLoop<Scalar>, Travel> {
+  using Loop = IdealLoop<Scalar>;
 
   Loop loop;
   Rational ratio;
@@ -214,21 +218,22 @@ struct BatchedMotions {
 
 }  // namespace detail
 
-/// find_basins() of an IdealLoop with another way to move the motions on.
-/// @param travel          travel(motion) gives what has MotionBatch's run() and can be copied
-/// @param loop            the loop with its excitation and backlash
+/// find_basins() with another way to move the motions on.
+/// @param travel          of an IdealLoop travel(motion) gives what has MotionBatch's run() and can
+///                        be copied; of an ImplementedLoop (event_basins.hpp) travel(loop,
+///                        approaches) runs what EventApproaches hands out
+/// @param loop            with its excitation and backlash; an ImplementedLoop has_event_pack()
 /// @param initial_states  each (m, m/s, m, m/s), finite; may be none
 /// @param limits          of each search for one motion's own orbit
 /// @param for_tiles       as find_basins() takes it
 /// @throws InvalidParameter where loop, states or limits are not admissible
-template <class Travel, class Tiles>
-BasinMap find_basins_by(const Travel& travel, const IdealLoop<double>& loop,
-                        const std::vector<Vector<double, 4>>& initial_states,
-                        const OrbitLimits& limits, const Tiles& for_tiles) {
-  return detail::basins_by<detail::BatchedMotions<Travel>>(loop, initial_states, limits, for_tiles,
-                                                           travel);
+template <class Travel, class Loop, class Tiles>
+auto find_basins_by(const Travel& travel, const Loop& loop,
+                    const std::vector<Vector<double, 4>>& initial_states, const OrbitLimits& limits,
+                    const Tiles& for_tiles) {
+  return detail::basins_by<detail::BatchedMotions<Loop, Travel>>(loop, initial_states, limits,
+                                                                 for_tiles, travel);
 }
-
 /// The attractor of each of many initial states [z₁, ż₁, z₂, ż₂].
 ///
 /// Distinct attractors are told apart by their orbits; copies of one that run some common periods

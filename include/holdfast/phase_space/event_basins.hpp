@@ -257,12 +257,11 @@ struct SingleMotions {
   void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
 };
 
-/// Motions of an ImplementedLoop of which has_event_pack(): all that are left go past the orbits
-/// that are known by now side by side, from their begins; each may be searched for its own orbit.
-/// @tparam LoopModel  ImplementedLoop; a parameter so that only who calls it compiles it
-template <class Travel, class LoopModel = ImplementedLoop>
-struct BatchedEventMotions {
-  using Loop = LoopModel;
+/// Those of an ImplementedLoop of which has_event_pack(): all that are left go past the orbits that
+/// are known by now side by side, from their begins.
+template <class Plant, class Travel>
+struct BatchedMotions<ImplementedLoopOf<Plant>, Travel> {
+  using Loop = ImplementedLoopOf<Plant>;
 
   Loop loop;
   Rational ratio;
@@ -293,22 +292,6 @@ struct BatchedEventMotions {
 };
 
 }  // namespace detail
-
-/// find_basins() of an ImplementedLoop of which has_event_pack(), with another way to move the
-/// motions on.
-/// @param travel          travel(loop, approaches) runs what EventApproaches hands out
-/// @param loop            as it is built
-/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none
-/// @param limits          of each search for one motion's own orbit
-/// @param for_tiles       as find_basins() of an IdealLoop takes it
-/// @throws InvalidParameter where loop, states or limits are not admissible
-template <class Travel, class Tiles>
-BasinsOf<EventOrbit> find_basins_by(const Travel& travel, const ImplementedLoop& loop,
-                                    const std::vector<Vector<double, 4>>& initial_states,
-                                    const OrbitLimits& limits, const Tiles& for_tiles) {
-  return detail::basins_by<detail::BatchedEventMotions<Travel>>(loop, initial_states, limits,
-                                                                for_tiles, travel);
-}
 
 /// find_basins() of an implemented loop.
 ///

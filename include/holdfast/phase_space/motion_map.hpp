@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -98,17 +99,8 @@ struct SampledMapModel {
   }
 
   bool is_same(const Seed& known, const Seed& other) const {
-    const std::size_t samples = known.itinerary.size();
-    if (other.itinerary.size() != samples) return false;
     const auto step = static_cast<std::size_t>(known.ratio.denominator);
-    for (std::size_t shift = 0; shift < samples; shift += step) {
-      const auto middle = other.itinerary.begin() + static_cast<std::ptrdiff_t>(shift);
-      const auto split = known.itinerary.end() - static_cast<std::ptrdiff_t>(shift);
-      if (std::equal(known.itinerary.begin(), split, middle) &&
-          std::equal(split, known.itinerary.end(), other.itinerary.begin()))
-        return true;
-    }
-    return false;
+    return is_rotated(known.itinerary, other.itinerary, step, std::equal_to<>());
   }
 
   OrbitResult from_start(const Loop& loop, const Vector<Scalar, 4>& state) const {

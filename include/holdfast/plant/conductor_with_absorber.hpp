@@ -6,6 +6,7 @@
 #include "holdfast/plant/loop_hardware.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/plant_poles.hpp"
+#include "holdfast/plant/ports.hpp"
 
 namespace holdfast {
 
@@ -18,6 +19,10 @@ struct ConductorWithAbsorber {
   LoopHardware hardware = {};            ///< measurement filter and drive
   bool has_devices = false;              ///< on the span, which the poles know and the modes do not
 };
+
+/// It has no state of its own: its loop is known by its poles.
+template <>
+inline constexpr bool has_closed_forms<ConductorWithAbsorber> = false;
 
 /// z/F (m/N) at s of the absorber's place under a force there, without control (unchecked).
 inline std::complex<double> place_receptance(const ConductorWithAbsorber& conductor,

@@ -16,9 +16,8 @@
 
 namespace holdfast {
 
-/// A natural motion of a plant of which it is proved where it lies, with its
-/// part in the transfer function from the command to the reading: that of
-/// `PlantPole`, enclosed.
+/// A natural motion of a plant of which it is proved where it lies, with its part in the transfer
+/// function from the command to the reading: that of `PlantPole`, enclosed.
 struct EnclosedPole {
   ComplexEnclosure s;        ///< 1/s; of a pair that with Im s > 0, without a partner real
   ComplexEnclosure residue;  ///< r, m/(N s); real without a partner
@@ -27,16 +26,15 @@ struct EnclosedPole {
 
 namespace detail {
 
-/// The transfer function from the command to the reading of z of a conductor
-/// with its absorber and hardware, as a quotient of polynomials of which no
-/// coefficient is formed:
+/// The transfer function from the command to the reading of z of a conductor with its absorber and
+/// hardware, as a quotient of polynomials of which no coefficient is formed:
 ///
 ///     D = Π d_n,  S = Σ φ_n²/M_n Π_{j≠n} d_j,  d_n = s² + 2ζ_n ω_n s + ω_n²,
 ///     Q = m₂s² + c₂s + k₂ p = (Q D + (M_c s² Q + m₂ s² (k₂ + c₂ s)) S) h(s),
 ///     n = m₂ s² S h(0)
 ///
-/// h holds the poles of filter and drive. Numbers of modes are those doubles
-/// themselves, all others the decimals to which the doubles are nearest.
+/// h holds the poles of filter and drive. Numbers of modes are those doubles themselves, all others
+/// the decimals to which the doubles are nearest.
 class EnclosedTransfer {
  public:
   /// The values p and n divided by the same product.
@@ -151,8 +149,7 @@ class EnclosedTransfer {
   std::size_t lag_states_ = 0;
 };
 
-/// Approximate poles in conjugate pairs, the upper ones first, then those of
-/// the real axis.
+/// Approximate poles in conjugate pairs, the upper ones first, then those of the real axis.
 struct PairedPoles {
   std::vector<std::complex<double>> upper, real;
 
@@ -183,8 +180,8 @@ inline std::vector<ComplexEnclosure> others_of(const std::vector<ComplexEnclosur
   return others;
 }
 
-/// Radii of discs about the approximate poles, which hold all poles together,
-/// and one each where they are apart.
+/// Radii of discs about the approximate poles, which hold all poles together, and one each where
+/// they are apart.
 inline std::vector<double> disc_radii(const EnclosedTransfer& transfer,
                                       const std::vector<ComplexEnclosure>& centres) {
   std::vector<double> radii;
@@ -236,26 +233,21 @@ inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer
 
 }  // namespace detail
 
-/// Where the poles from the command to the reading of a conductor with its
-/// absorber and hardware lie, and their residues, all proved: about
-/// approximations z_k stand discs of radius
+/// Where the poles from the command to the reading of a conductor with its absorber and hardware
+/// lie, and their residues, all proved: about approximations z_k stand discs of radius
 ///
 ///     m |p(z_k) / (p_m Π_{j≠k} (z_k − z_j))|
 ///
-/// m the degree of the polynomial p whose roots they are and p_m its leading
-/// coefficient. The discs hold all roots, and where no two touch one each; one
-/// about a real z_k holds a real root. The residue is n(s)/p′(s), p′ = p_m
-/// Π_{j≠k} (s_k − s_j). Work: 10 m² complex operations.
+/// m the degree of the polynomial p whose roots they are and p_m its leading coefficient. The discs
+/// hold all roots, and where no two touch one each; one about a real z_k holds a real root. The
+/// residue is n(s)/p′(s), p′ = p_m Π_{j≠k} (s_k − s_j). Work: 10 m² complex operations.
 ///
-/// It is of the plant with the modes whose numbers are those doubles, and with
-/// the decimals of absorber and hardware. Source: B. T. Smith, Error bounds for
-/// zeros of a polynomial based upon Gerschgorin's theorems, J. ACM 17 (1970),
-/// pp. 661–674.
+/// It is of the plant with the modes whose numbers are those doubles, and with the decimals of
+/// absorber and hardware. Source: B. T. Smith, Error bounds for zeros of a polynomial based upon
+/// Gerschgorin's theorems, J. ACM 17 (1970), pp. 661–674.
 /// @param conductor  with its approximate poles
-/// @return nothing where the poles are not all known, or two are too close to
-/// be told apart
-/// @throws InvalidParameter where conductor, absorber or hardware are not
-/// admissible
+/// @return nothing where the poles are not all known, or two are too close to be told apart
+/// @throws InvalidParameter where conductor, absorber or hardware are not admissible
 inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& conductor) {
   validate(conductor.modes, conductor.absorber);
   if (conductor.poles.empty()) return {};

@@ -118,21 +118,18 @@ struct HardwarePoles {
   }
 };
 
-/// The partial fractions of G(s)·(−p)/(s − p), given those of G.
-inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles, const std::complex<double>& p) {
-  std::complex<double> there(0.0);
-  for (PlantPole& pole : poles) {
-    pole.residue *= -p / (pole.s - p);
-    // −p G(p), each part of which is the lagged residue with the other sign.
-    there -= pole.residue;
-  }
-  poles.push_back({p, there});
-  return poles;
-}
-
+/// The partial fractions of G(s) Π (−p)/(s − p), given those of G and all p.
 inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles,
                                      const std::vector<std::complex<double>>& lags) {
-  for (const std::complex<double>& p : lags) poles = lagged(std::move(poles), p);
+  for (const std::complex<double>& p : lags) {
+    std::complex<double> there(0.0);
+    for (PlantPole& pole : poles) {
+      pole.residue *= -p / (pole.s - p);
+      // −p G(p), each part of which is the lagged residue with the other sign.
+      there -= pole.residue;
+    }
+    poles.push_back({p, there});
+  }
   return poles;
 }
 

@@ -99,13 +99,6 @@ Scalar reduced_conductor_mass(const FrequencyReduction<Scalar>& asked,
   return asked.conductor_stiffness * absorber_stiffness / (asked.absorber_mass * product * product);
 }
 
-/// m₁ and k₂ of the plant with the natural frequencies asked for. A real plant exists only if
-/// 1/ω₁ − 1/ω₂ ≥ √(m₂/k₁); otherwise the outcome says so and names the largest m₂ and the smallest
-/// k₁ that have one.
-/// @throws InvalidParameter unless all inputs are finite and > 0 and the frequencies ascend
-template <class Scalar = double>
-ReductionResult reduce_to_frequencies(const FrequencyReduction<Scalar>& asked);
-
 /// c₁ = 2 m₁ ω ζ (N s/m), Eq. (3), ω = √(k₁/m₁) of the conductor without absorber.
 /// @throws InvalidParameter for non-positive m₁, k₁ or ζ outside 0 … 1
 inline double conductor_damping(double conductor_mass, double conductor_stiffness_value,
@@ -115,8 +108,6 @@ inline double conductor_damping(double conductor_mass, double conductor_stiffnes
   require_within("damping ratio zeta", damping_ratio, "", 0.0, 1.0);
   return 2.0 * std::sqrt(conductor_mass * conductor_stiffness_value) * damping_ratio;
 }
-
-// ---------------------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -148,7 +139,11 @@ ReducedMasses reduced_masses(const FrequencyReduction<Scalar>& asked, bool large
 
 }  // namespace detail
 
-template <class Scalar>
+/// m₁ and k₂ of the plant with the natural frequencies asked for. A real plant exists only if
+/// 1/ω₁ − 1/ω₂ ≥ √(m₂/k₁); otherwise the outcome says so and names the largest m₂ and the smallest
+/// k₁ that have one.
+/// @throws InvalidParameter unless all inputs are finite and > 0 and the frequencies ascend
+template <class Scalar = double>
 ReductionResult reduce_to_frequencies(const FrequencyReduction<Scalar>& asked) {
   require_positive("conductor stiffness k1", asked.conductor_stiffness, "N/m");
   require_positive("absorber mass m2", asked.absorber_mass, "kg");

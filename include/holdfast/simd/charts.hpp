@@ -15,13 +15,14 @@ namespace detail {
 /// Rows that a thread does at a time.
 inline constexpr std::int64_t rows_of_tile = 32;
 
-template <int Degree>
-void radius_chart(const LoopChart& chart, double* radius, int threads) {
-  using Rows = RadiusChartRows<Pack<double>, Degree>;
+/// Fills the cells of a chart.
+/// @tparam Rows  StabilityChartRows or RadiusChartRows
+template <class Rows, class Cell>
+void fill_chart(const LoopChart& chart, Cell* cells, int threads) {
   const std::int64_t columns = chart.fast.values.count;
   parallel_rows(chart.slow.values.count, rows_of_tile, threads, Rows(chart),
                 [&](Rows& rows, std::int64_t first, std::int64_t count) {
-                  rows.fill(first, count, radius + first * columns);
+                  rows.fill(first, count, cells + first * columns);
                 });
 }
 
@@ -44,12 +45,7 @@ inline std::size_t cells_of(const LoopChart& chart) {
 /// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
 /// @throws InvalidParameter where the chart is not admissible
 inline void stability_chart(const LoopChart& chart, std::uint8_t* stable, int threads = 0) {
-  using Rows = StabilityChartRows<Pack<double>>;
-  const std::int64_t columns = chart.fast.values.count;
-  parallel_rows(chart.slow.values.count, detail::rows_of_tile, threads, Rows(chart),
-                [&](Rows& rows, std::int64_t first, std::int64_t count) {
-                  rows.fill(first, count, stable + first * columns);
-                });
+  detail::fill_chart<StabilityChartRows<Pack<double>>>(chart, stable, threads);
 }
 
 /// The same as a vector.
@@ -66,9 +62,9 @@ inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int thr
 /// @throws InvalidParameter where the chart is not admissible
 inline void radius_chart(const LoopChart& chart, double* radius, int threads = 0) {
   if (has_processing_delay(chart)) {
-    detail::radius_chart<6>(chart, radius, threads);
+    detail::fill_chart<RadiusChartRows<Pack<double>, 6>>(chart, radius, threads);
   } else {
-    detail::radius_chart<5>(chart, radius, threads);
+    detail::fill_chart<RadiusChartRows<Pack<double>, 5>>(chart, radius, threads);
   }
 }
 

@@ -136,7 +136,6 @@ inline std::vector<SpanRoot> span_roots(const TautString<double>& string,
                                         const std::vector<SpanDevice>& devices, int count) {
   require_within("number of modes", count, "", 1, 100000);
   const std::vector<SpanDevice> ordered = in_order(devices, string.span);
-  const SpanWaves waves(string, ordered);
   std::vector<SpanRoot> roots;
   for (int n = 1; n <= count; ++n) roots.push_back(span_root(string, ordered, n));
   return roots;

@@ -57,8 +57,7 @@ void group_metrics(const SweepMotion* motions, const SampleSpan* spans, std::siz
 /// @param duration  s, ≥ 0
 /// @param results   as many, in the order of the motions
 /// @param source    SweepMatrices, or what is derived from it to be called at every sample j with
-/// the
-///                  numbers of the motions in the lanes, j, and the mask of the lanes that
+///                  the numbers of the motions in the lanes, j, and the mask of the lanes that
 ///                  transmit; also beyond a motion's last sample, and for a motion that repeats in
 ///                  spare lanes or is done again; and its pause() every some hundred samples, which
 ///                  may throw to end all

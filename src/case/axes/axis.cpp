@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "case/case_keys.hpp"
 #include "process/errors.hpp"
 #include "text/text.hpp"
 
@@ -143,6 +144,33 @@ WindowOption parse_window(std::string_view option, std::string_view text) {
 
 std::vector<double> parse_list(std::string_view option, std::string_view text) {
   return OptionText(option, text, "numbers between commas").list(text);
+}
+
+std::size_t GridAxis::count() const {
+  if (const auto* list = std::get_if<std::vector<double>>(&values)) return list->size();
+  if (const auto* ratios = std::get_if<LogAxis>(&values))
+    return static_cast<std::size_t>(ratios->count);
+  return static_cast<std::size_t>(std::get<Axis>(values).count);
+}
+
+double GridAxis::at(std::size_t index) const {
+  if (const auto* list = std::get_if<std::vector<double>>(&values)) return (*list)[index];
+  const auto number = static_cast<std::int64_t>(index);
+  if (const auto* ratios = std::get_if<LogAxis>(&values)) return ratios->at(number);
+  return std::get<Axis>(values).at(number);
+}
+
+std::size_t index_along(const std::vector<GridAxis>& axes, std::size_t axis, std::size_t cell) {
+  for (std::size_t faster = axes.size() - 1; faster > axis; --faster) cell /= axes[faster].count();
+  return cell % axes[axis].count();
+}
+
+GridAxis grid_axis(const CaseKey& key, const KeyValues& axis) {
+  return {{key.name, replaced(key.unit, " ", "."), key.description}, axis.values};
+}
+
+GridAxis grid_axis(const KeyAxis& axis) {
+  return grid_axis(*find_case_key(axis.key), {axis.key, axis.axis});
 }
 
 }  // namespace holdfast::program

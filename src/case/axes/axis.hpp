@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -7,8 +8,11 @@
 
 #include "holdfast/core/axis.hpp"
 #include "holdfast/core/log_axis.hpp"
+#include "text/column.hpp"
 
 namespace holdfast::program {
+
+struct CaseKey;
 
 /// MIN:MAX, finite, min <= max.
 struct Range {
@@ -53,5 +57,23 @@ WindowOption parse_window(std::string_view option, std::string_view text);
 
 /// Numbers between commas, `10,100,1000`; at least one, finite.
 std::vector<double> parse_list(std::string_view option, std::string_view text);
+
+/// An axis of a chart or a sweep.
+struct GridAxis {
+  Column column;
+  std::variant<Axis, LogAxis, std::vector<double>> values;
+
+  std::size_t count() const;
+  /// Value number `index`, 0 ≤ index < count().
+  double at(std::size_t index) const;
+};
+
+/// The index along one axis of a cell of their product, cells being numbered with the first axis
+/// slowest.
+std::size_t index_along(const std::vector<GridAxis>& axes, std::size_t axis, std::size_t cell);
+
+/// An axis over a key of the case, as a table names and describes it; units as N.s/m.
+GridAxis grid_axis(const CaseKey& key, const KeyValues& axis);
+GridAxis grid_axis(const KeyAxis& axis);
 
 }  // namespace holdfast::program

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "text/names.hpp"
 #include "text/text.hpp"
 
 namespace holdfast::program {
@@ -16,58 +17,44 @@ constexpr AdmissibleRange not_negative{0.0};
 constexpr AdmissibleRange any_number{};
 constexpr AdmissibleRange inside_one{0.0, 1.0, true, true};
 
-DeviceKey number(const char* name, double Device::*place, const char* unit,
-                 const AdmissibleRange& range, const char* description) {
-  DeviceKey key{name, unit, description, range, {}};
-  key.number = place;
-  return key;
+template <auto Member>
+ValuePlace where(Device& device) {
+  return &(device.*Member);
 }
 
-DeviceKey numbers(const char* name, std::vector<double> Device::*place, const char* unit,
-                  const AdmissibleRange& range, const char* description) {
-  DeviceKey key{name, unit, description, range, {}};
-  key.numbers = place;
-  return key;
-}
-
-DeviceKey word(const char* name, std::string Device::*place, std::vector<std::string> words,
-               const char* description) {
-  DeviceKey key{name, "", description, {}, std::move(words)};
-  key.word = place;
-  return key;
-}
-
-DeviceKey file(const char* name, std::string Device::*place, const char* description) {
-  DeviceKey key{name, "", description, {}, {}};
-  key.file = place;
-  return key;
+DeviceKey key(ValueKind kind, const char* name, ValuePlace (*place)(Device&), const char* unit,
+              const AdmissibleRange& range, const char* description,
+              std::vector<std::string> words = {}) {
+  return {{name, unit, description, range, std::move(words), kind, false}, place};
 }
 
 const std::vector<DeviceKey> listed_keys = {
-    word("kind", &Device::kind,
-         {"dashpot", "tuned_mass", "stockbridge", "measured", "inerter", "stiffness"},
-         "what it is"),
-    number("position", &Device::position, "m", positive,
-           "distance from the left support, inside the span"),
-    word("to", &Device::to, {"ground", "conductor"},
-         "what it pushes against: the ground, or a mass that hangs on the conductor by it"),
-    number("damping", &Device::damping, "N s/m", not_negative, "force over velocity"),
-    number("stiffness", &Device::stiffness, "N/m", any_number,
-           "force over displacement; below 0 of the kind stiffness alone"),
-    number("inertance", &Device::inertance, "kg", not_negative, "force over acceleration"),
-    number("mass", &Device::mass, "kg", positive,
-           "what hangs on the conductor by it; of a stockbridge its weights together"),
-    number("clamp_mass", &Device::clamp_mass, "kg", not_negative,
-           "what of it moves with the conductor"),
-    numbers("frequencies", &Device::frequencies, "Hz", positive,
-            "its resonances, ascending: two of a stockbridge, one of a tuned_mass in place of "
-            "stiffness"),
-    numbers("damping_ratios", &Device::damping_ratios, "", not_negative,
-            "of each resonance; of a tuned_mass in place of damping"),
-    number("mass_share", &Device::mass_share, "", inside_one,
-           "part of a stockbridge's mass that swings at its first frequency"),
-    file("file", &Device::file,
-         "CSV file of its impedance: columns frequency_Hz, magnitude_N_s_per_m and phase_deg"),
+    key(ValueKind::word, "kind", where<&Device::kind>, "", {}, "what it is",
+        {"dashpot", "tuned_mass", "stockbridge", "measured", "inerter", "stiffness"}),
+    key(ValueKind::number, "position", where<&Device::position>, "m", positive,
+        "distance from the left support, inside the span"),
+    key(ValueKind::word, "to", where<&Device::to>, "", {},
+        "what it pushes against: the ground, or a mass that hangs on the conductor by it",
+        {"ground", "conductor"}),
+    key(ValueKind::number, "damping", where<&Device::damping>, "N s/m", not_negative,
+        "force over velocity"),
+    key(ValueKind::number, "stiffness", where<&Device::stiffness>, "N/m", any_number,
+        "force over displacement; below 0 of the kind stiffness alone"),
+    key(ValueKind::number, "inertance", where<&Device::inertance>, "kg", not_negative,
+        "force over acceleration"),
+    key(ValueKind::number, "mass", where<&Device::mass>, "kg", positive,
+        "what hangs on the conductor by it; of a stockbridge its weights together"),
+    key(ValueKind::number, "clamp_mass", where<&Device::clamp_mass>, "kg", not_negative,
+        "what of it moves with the conductor"),
+    key(ValueKind::numbers, "frequencies", where<&Device::frequencies>, "Hz", positive,
+        "its resonances, ascending: two of a stockbridge, one of a tuned_mass in place of "
+        "stiffness"),
+    key(ValueKind::numbers, "damping_ratios", where<&Device::damping_ratios>, "", not_negative,
+        "of each resonance; of a tuned_mass in place of damping"),
+    key(ValueKind::number, "mass_share", where<&Device::mass_share>, "", inside_one,
+        "part of a stockbridge's mass that swings at its first frequency"),
+    key(ValueKind::file, "file", where<&Device::file>, "", {},
+        "CSV file of its impedance: columns frequency_Hz, magnitude_N_s_per_m and phase_deg"),
 };
 
 /// What a kind of device takes beside kind, position, to and clamp_mass.
@@ -96,11 +83,7 @@ const std::vector<Kind> kinds = {
 };
 
 /// Null where the device has no known kind.
-const Kind* kind_of(const Device& device) {
-  const auto found = std::find_if(kinds.begin(), kinds.end(),
-                                  [&](const Kind& kind) { return kind.name == device.kind; });
-  return found == kinds.end() ? nullptr : &*found;
-}
+const Kind* kind_of(const Device& device) { return find_named(kinds, device.kind); }
 
 /// In place of which key a list stands, of a tuned mass.
 std::string_view replaced_by(std::string_view list) {
@@ -188,22 +171,9 @@ CaseFault value_fault(const Device& device, const Kind& kind) {
 
 }  // namespace
 
-std::string DeviceKey::admissible() const {
-  if (file != nullptr) return "the name of a file in quotes";
-  if (numbers != nullptr) return list_in_words(range, unit);
-  if (number != nullptr) return range.in_words(unit);
-  std::string text;
-  for (const std::string& one : words) text += (text.empty() ? "\"" : " or \"") + one + "\"";
-  return text;
-}
-
 const std::vector<DeviceKey>& device_keys() { return listed_keys; }
 
-const DeviceKey* find_device_key(std::string_view name) {
-  const auto found = std::find_if(listed_keys.begin(), listed_keys.end(),
-                                  [&](const DeviceKey& key) { return key.name == name; });
-  return found == listed_keys.end() ? nullptr : &*found;
-}
+const DeviceKey* find_device_key(std::string_view name) { return find_named(listed_keys, name); }
 
 const DeviceKey& nearest_device_key(std::string_view name) {
   std::vector<std::string> names;
@@ -230,12 +200,13 @@ std::string device_key_text(std::size_t number, std::string_view key) {
   return "device." + std::to_string(number) + "." + std::string(key);
 }
 
-std::vector<const DeviceKey*> standing_keys(const Device& device) {
+std::vector<const DeviceKey*> standing_keys(Device device) {
   const Kind* kind = kind_of(device);
   std::vector<const DeviceKey*> standing;
   for (const DeviceKey& key : listed_keys) {
     const bool bare = key.name == "mass" && device.to == "ground";
-    const bool empty = key.numbers != nullptr && (device.*key.numbers).empty();
+    const bool empty = key.kind == ValueKind::numbers &&
+                       std::get<std::vector<double>*>(key.place(device))->empty();
     const bool replaced = (key.name == "stiffness" && !device.frequencies.empty()) ||
                           (key.name == "damping" && !device.damping_ratios.empty());
     if (kind != nullptr && kind->uses(key.name) && !bare && !empty && !replaced)

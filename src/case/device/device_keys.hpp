@@ -10,21 +10,9 @@
 
 namespace holdfast::program {
 
-/// One key of a table [[device]]. Exactly one of `number`, `numbers`, `word` and `file` says where
-/// its value lies.
-struct DeviceKey {
-  std::string name;  // "damping"
-  std::string unit;  // "" without dimension
-  std::string description;
-  AdmissibleRange range;           // of numbers, and of each of a list
-  std::vector<std::string> words;  // admissible ones
-  double case_tables::Device::*number = nullptr;
-  std::vector<double> case_tables::Device::*numbers = nullptr;
-  std::string case_tables::Device::*word = nullptr;
-  std::string case_tables::Device::*file = nullptr;
-
-  /// In words: `at least 0 N s/m`, `"ground" or "conductor"`.
-  std::string admissible() const;
+/// One key of a table [[device]], "damping".
+struct DeviceKey : KeyForm {
+  ValuePlace (*place)(case_tables::Device&) = nullptr;
 };
 
 /// Every key, in the order in which a device is written.
@@ -48,7 +36,7 @@ std::string device_key_text(std::size_t number, std::string_view key);
 
 /// The keys that say what a device is, in their order: those that its kind uses, but for one that
 /// another stands in place of, and its mass where nothing hangs on it.
-std::vector<const DeviceKey*> standing_keys(const case_tables::Device& device);
+std::vector<const DeviceKey*> standing_keys(case_tables::Device device);
 
 /// Gives a device the `to` of its kind, where nobody gives it.
 void settle_device(case_tables::Device& device, const std::set<std::string>& given);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "text/compiled_texts.hpp"
+#include "text/names.hpp"
 #include "text/text.hpp"
 
 namespace holdfast::program {
@@ -111,5 +112,7 @@ const std::array<LibraryKey, 9>& library_keys() {
   }};
   return keys;
 }
+
+bool is_library_key(std::string_view name) { return find_named(library_keys(), name) != nullptr; }
 
 }  // namespace holdfast::program

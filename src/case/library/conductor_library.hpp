@@ -35,5 +35,6 @@ struct LibraryKey {
   double LibraryConductor::*value;
 };
 const std::array<LibraryKey, 9>& library_keys();
+bool is_library_key(std::string_view name);
 
 }  // namespace holdfast::program

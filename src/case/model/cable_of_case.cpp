@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/case_keys.hpp"
-#include "case/library/named_conductor.hpp"
+#include "case/library/conductor_library.hpp"
 #include "case/needed.hpp"
 #include "holdfast/cable/modes.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -23,7 +23,7 @@ StiffnessReading stiffness_reading_of(const Case& the_case) {
 
 /// A range of the readings that the user has not chosen is not to blame, but the key that he gave.
 std::string blame_for_range(const Case& the_case, const char* key, const char* range) {
-  const bool by_key = the_case.places.count(key) > 0 && the_case.places.count(range) == 0;
+  const bool by_key = the_case.is_given(key) && !the_case.is_given(range);
   return by_key ? std::string(key) + " = " + format_number(case_value(the_case, key)) +
                       " m is too small for "
                 : "";
@@ -42,13 +42,21 @@ double known_or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
 bool plant_is_reduced(const Case& the_case) {
   const auto& keys = case_keys();
   return the_case.conductor_given && std::any_of(keys.begin(), keys.end(), [&](const CaseKey& key) {
-           return key.table() == "plant" && !key.beyond_two_masses &&
-                  the_case.places.count(key.name) == 0;
+           return key.table() == "plant" && !key.beyond_two_masses && !the_case.is_given(key.name);
          });
 }
 
+bool has_own_cable(const Case& the_case) {
+  return the_case.conductor_given || !the_case.plant_given;
+}
+
+bool is_from_library(const Case& the_case, std::string_view key) {
+  return !the_case.conductor.name.empty() && !the_case.is_given(std::string(key)) &&
+         is_library_key(key);
+}
+
 bool is_users(const Case& the_case, const std::string& key) {
-  return the_case.places.count(key) > 0 || is_from_library(the_case, key) ||
+  return the_case.is_given(key) || is_from_library(the_case, key) ||
          (key == "conductor.sag" && std::isfinite(the_case.conductor.tension));
 }
 
@@ -57,7 +65,7 @@ bool is_half_borrowed(const Case& the_case, const std::vector<std::string>& keys
   int telling = 0;
   for (const char* key : {"conductor.name", "conductor.mass_per_length", "conductor.span",
                           "conductor.tension", "conductor.sag"})
-    telling += the_case.places.count(key) > 0 ? 1 : 0;
+    telling += the_case.is_given(key) ? 1 : 0;
   const auto is_borrowed = [&](const std::string& key) {
     const std::string table = key.substr(0, key.find('.'));
     return (table == "conductor" || table == "absorber") && key != "conductor.gravity" &&
@@ -98,7 +106,7 @@ ReadingRange reading_range_of(const Case& the_case) {
   ReadingRange range{the_case.reduction.reading_below, the_case.reduction.reading_above};
   if (!the_case.stands_alone) return range;
   const auto stays_within = [&](const char* key, double& reading, double most) {
-    if (the_case.places.count(key) == 0) reading = std::min(reading, 0.5 * most);
+    if (!the_case.is_given(key)) reading = std::min(reading, 0.5 * most);
   };
   stays_within("reduction.reading_above", range.above, -highest_reading(the_case));
   stays_within("reduction.reading_below", range.below, the_case.conductor.sag);
@@ -141,7 +149,7 @@ std::pair<double, double> default_frequencies(const Case& the_case) {
 }
 
 std::string borrowed_cable_warning(const Case& the_case) {
-  if (!the_case.plant_given || the_case.conductor_given || the_case.stands_alone) return "";
+  if (has_own_cable(the_case) || the_case.stands_alone) return "";
   return "the case gives [plant] and no [conductor]: the cable is that of the built-in case";
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,13 @@ namespace holdfast::program {
 /// Whether the plant comes from the conductor: one is given, and not every key of [plant] beside
 /// it.
 bool plant_is_reduced(const Case& the_case);
+
+/// Whether the cable is the case's own: a plant alone stands beside that of the built-in case,
+/// which says nothing of it.
+bool has_own_cable(const Case& the_case);
+
+/// Whether the case has the key's value from the library, by conductor.name.
+bool is_from_library(const Case& the_case, std::string_view key);
 
 /// Whether a value is the user's: given, of the conductor that he named, or the sag that his
 /// tension leaves.

@@ -10,8 +10,8 @@
 
 namespace holdfast::program {
 
-/// What the user has to know of an answer that a small change of the question would change much;
-/// empty where there is nothing. Each is one line.
+/// What the user has to know of an answer that a small change of the question would change much,
+/// or that is not of the true force; empty where there is nothing. Each is one line.
 
 /// Of a reduction near its double solution.
 std::string sensitive_reduction_warning(const Case& the_case);
@@ -39,5 +39,17 @@ std::string stepped_reading_warning(const Case& the_case);
 /// Of exponents averaged over few forcing periods.
 /// @param averaged  s
 std::string short_average_warning(const Case& the_case, double averaged);
+
+/// The amplitude without control under the force as the case holds it over a sampling period τ (s),
+/// as a share of that under the true force at f (Hz); 1 where the case integrates the force
+/// exactly.
+double held_share(const Case& the_case, double sampling_period, double frequency);
+
+/// A warning where the two differ by more than 2 %, with what is shown; empty elsewhere.
+/// @param shown  behind a semicolon: "ratios are to the true one"
+std::string held_force_warning(const Case& the_case, double sampling_period, double frequency,
+                               const std::string& shown);
+/// The same at the case's own τ and f.
+std::string held_force_warning(const Case& the_case, const std::string& shown);
 
 }  // namespace holdfast::program

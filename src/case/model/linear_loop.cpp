@@ -10,12 +10,10 @@
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
-#include "holdfast/stability/boundary/circle_boundary.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/chart/circle_chart.hpp"
 #include "holdfast/stability/design/modal_design.hpp"
-#include "holdfast/stability/design/modal_max_delay.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
 #include "holdfast/stability/margins/modal_margins.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
@@ -178,7 +176,7 @@ StabilityMargins LinearLoop::margins(const PdGains<double>& gains) const {
 LoopMargins LinearLoop::whole_margins(const PdGains<double>& gains) const {
   const Sampling<double> sampling = sampling_of(case_);
   if (closed_) return loop_margins(plant_of(case_), sampling, gains);
-  return modal_loop_margins(loop_poles_of(case_), sampling, gains, {},
+  return modal_loop_margins(loop_poles_of(case_), sampling, gains,
                             hardware_of(case_).has_velocity_sensor);
 }
 

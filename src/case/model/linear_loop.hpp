@@ -17,7 +17,6 @@
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_amplitude_gains.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
-#include "holdfast/stability/margins/loop_margins.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "holdfast/stability/response/response.hpp"
 

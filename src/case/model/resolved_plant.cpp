@@ -8,18 +8,34 @@
 #include "case/model/decay/damping_fit.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "case/model/reduction_of_case.hpp"
+#include "case/needed.hpp"
 #include "process/errors.hpp"
 #include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
 
+NoAnswer no_plant(const Case& the_case, const FrequencyReduction<double>& asked,
+                  const ReductionResult& result) {
+  const bool computed = the_case.first_frequency_computed || the_case.second_frequency_computed;
+  const std::string remedy =
+      computed ? "; the frequencies are computed from the conductor where "
+                 "reduction.first_frequency and reduction.second_frequency are not given"
+               : "";
+  return NoAnswer(
+      "no two-mass plant has the natural frequencies " + format_rounded(asked.first_frequency) +
+      " and " + format_rounded(asked.second_frequency) +
+      " Hz with k1 = " + format_rounded(asked.conductor_stiffness) + " N/m and an absorber of " +
+      format_rounded(asked.absorber_mass) + " kg: with this k1 the absorber may weigh " +
+      format_rounded(result.largest_absorber_mass) + " kg at most, or k1 must be " +
+      format_rounded(result.smallest_conductor_stiffness) + " N/m at least" + remedy);
+}
+
 /// The keys of the two masses that the user gave.
 std::vector<const CaseKey*> given_of_plant(const Case& the_case) {
   std::vector<const CaseKey*> given;
   for (const CaseKey& key : case_keys())
-    if (key.table() == "plant" && !key.beyond_two_masses && the_case.places.count(key.name) > 0)
+    if (key.table() == "plant" && !key.beyond_two_masses && the_case.is_given(key.name))
       given.push_back(&key);
   return given;
 }
@@ -58,7 +74,7 @@ std::string joined_texts(const std::vector<std::string>& texts) {
 
 /// Fits c2 where it is not given; what there is to say of the fit.
 std::string settle_damping(Case& the_case) {
-  if (the_case.places.count("plant.absorber_damping") > 0) return "";
+  if (the_case.is_given("plant.absorber_damping")) return "";
   const AbsorberDampingFit found = fit_absorber_damping(the_case, plant_of(the_case));
   the_case.plant.absorber_damping = found.fit.minima.front().plant.absorber_damping;
   return misfit_warning(found);
@@ -66,14 +82,40 @@ std::string settle_damping(Case& the_case) {
 
 }  // namespace
 
+FrequencyReduction<double> reduction_options_of(const Case& the_case) {
+  require_keys(the_case, {"absorber.mass", "absorber.position", "conductor.damping_ratio"});
+  const double stiffness = conductor_stiffness_of(the_case);
+  require_keys(the_case, {"reduction.first_frequency", "reduction.second_frequency"});
+  return {stiffness, the_case.absorber.mass, the_case.reduction.first_frequency,
+          the_case.reduction.second_frequency};
+}
+
+ReductionResult reduction_of(const Case& the_case) {
+  return reduce_to_frequencies(reduction_options_of(the_case));
+}
+
+TwoMass<double> plant_without_absorber_damping(const Case& the_case) {
+  const FrequencyReduction<double> asked = reduction_options_of(the_case);
+  const ReductionResult result = reduce_to_frequencies(asked);
+  if (result.outcome == ReductionOutcome::no_solution) throw no_plant(the_case, asked, result);
+  const ReducedMasses& smaller = result.solutions.front();
+  return {smaller.conductor_mass,
+          asked.conductor_stiffness,
+          conductor_damping(smaller.conductor_mass, asked.conductor_stiffness,
+                            the_case.conductor.damping_ratio),
+          asked.absorber_mass,
+          smaller.absorber_stiffness,
+          0.0};
+}
+
 std::string settle_absorber(Case& the_case) {
   if (!plant_is_reduced(the_case) || has_own_plant(the_case)) return "";
-  if (the_case.places.count("plant.absorber_mass") == 0)
+  if (!the_case.is_given("plant.absorber_mass"))
     the_case.plant.absorber_mass = the_case.absorber.mass;
   if (!has_absorber(the_case) || the_case.stands_alone) return "";
   std::string names;
   for (const char* key : {"plant.absorber_stiffness", "plant.absorber_damping"})
-    if (the_case.places.count(key) == 0) names += (names.empty() ? "" : ", ") + std::string(key);
+    if (!the_case.is_given(key)) names += (names.empty() ? "" : ", ") + std::string(key);
   return names.empty() ? "" : names + " not given: the absorber's built-in value stands in";
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "case/case_source.hpp"
+#include "case/library/conductor_library.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/needed.hpp"
 #include "case/units.hpp"
@@ -19,10 +20,6 @@ namespace {
 
 using Keys = std::vector<std::string>;
 using Quantities = std::vector<PlausibleQuantity>;
-
-bool is_given(const Case& the_case, const std::string& key) {
-  return the_case.places.count(key) > 0;
-}
 
 /// NaN, where the case does not tell the quantity, is beyond nothing.
 bool is_beyond(const AdmissibleRange& range, double value) {
@@ -71,8 +68,8 @@ Case scaled(Case the_case, const Keys& keys, double factor) {
 Keys of_same_unit(const Case& the_case, const CaseKey& like) {
   Keys keys;
   for (const CaseKey& key : case_keys())
-    if (key.number != nullptr && key.unit == like.unit && key.table() == like.table() &&
-        is_given(the_case, key.name))
+    if (key.is_number() && key.unit == like.unit && key.table() == like.table() &&
+        the_case.is_given(key.name))
       keys.push_back(key.name);
   return keys;
 }
@@ -147,6 +144,22 @@ class BestUnits {
   UnitGuess guess_;
 };
 
+/// " (is it in lb/ft, 1.628 kg/m?)", of the unit by which the value is nearest to what it should
+/// be: within what conductors of one name differ by, as an area in kcmil is of the aluminium alone.
+std::string mistaken_unit_text(const std::string& own, double given, double ratio) {
+  double nearest = 0.15;
+  const Unit* found = nullptr;
+  for (const Unit& unit : other_units()) {
+    const double off = std::abs(unit.factor() * ratio - 1.0);
+    if (own != unit.own || !unit.is_mistaken || off >= nearest) continue;
+    nearest = off;
+    found = &unit;
+  }
+  if (found == nullptr) return "";
+  return std::string(" (is it in ") + found->name + ", " + format_rounded(found->in_own(given)) +
+         " " + own + "?)";
+}
+
 std::string found_text(const PlausibleQuantity& quantity, double value) {
   const std::string unit = quantity.unit;
   return std::string(quantity.name) + " is " + format_rounded(value) +
@@ -160,10 +173,10 @@ UnitGuess guessed_unit(const Case& the_case, const Keys& keys, const Quantities&
   std::set<Keys> groups;
   for (const std::string& name : keys) {
     const CaseKey* key = find_case_key(name);  // null of a device's key
-    if (key == nullptr || !is_given(the_case, name)) continue;
+    if (key == nullptr || !the_case.is_given(name)) continue;
     groups.insert(of_same_unit(the_case, *key));
     Case copy = the_case;
-    if (key->number != nullptr && !key->bears_word(copy)) best.try_keys({name});
+    if (key->is_number() && !key->bears_word(copy)) best.try_keys({name});
   }
   for (const Keys& together : groups)
     if (together.size() > 1) best.try_keys(together);
@@ -185,9 +198,8 @@ std::vector<PlausibleQuantity> in_question(const Case& the_case,
                                            const std::vector<PlausibleQuantity>& quantities) {
   const bool has_masses = is_two_masses(the_case), has_absorber = has_active_absorber(the_case);
   // The mass that a reduction would hang on the conductor is not the one that hangs there.
-  const bool is_given = the_case.places.count("plant.absorber_mass") > 0;
   const auto is_out = [&](const std::string& key) {
-    return (!has_masses && is_given && key == "absorber.mass") ||
+    return (!has_masses && the_case.is_given("plant.absorber_mass") && key == "absorber.mass") ||
            (!has_masses && key.rfind("plant.conductor", 0) == 0) ||
            (!has_absorber && key.find("absorber") != std::string::npos);
   };
@@ -208,7 +220,7 @@ std::vector<std::string> doubts_about(const Case& the_case, const Quantities& qu
     Keys keys = guess.keys;
     if (keys.empty())
       for (const std::string& key : quantity.keys)
-        if (is_given(the_case, key)) keys.push_back(key);
+        if (the_case.is_given(key)) keys.push_back(key);
     if (keys.empty()) continue;
     doubts.push_back(given_text(read, keys) + ": " + found_text(quantity, value) + ", usual is " +
                      quantity.usual.in_words(quantity.unit) + ": " + quantity.reason + guess.text);
@@ -254,18 +266,48 @@ std::string contradicted_conductor_text(const Case& the_case) {
          differ + "; take [plant] away to have it reduced from the conductor";
 }
 
+std::string contradicted_name_text(const Case& the_case) {
+  const LibraryConductor* conductor = find_conductor(the_case.conductor.name);
+  if (conductor == nullptr) return "";
+  constexpr double tolerance = 0.1;
+  std::string differ;
+  for (const LibraryKey& key : library_keys()) {
+    // How many layers, and how stiffly they hold together, no name tells.
+    if (key.name == "conductor.layers" || key.name == "conductor.bending_stiffness") continue;
+    const double given = case_value(the_case, key.name), ratio = given / (conductor->*key.value);
+    if (is_from_library(the_case, key.name) || !std::isfinite(ratio)) continue;
+    if (std::abs(ratio - 1.0) <= tolerance) continue;
+    const std::string& unit = find_case_key(key.name)->unit;
+    differ += (differ.empty() ? "" : "; ") + std::string(key.name) + " " + format_rounded(given) +
+              " instead of " + format_rounded(conductor->*key.value) + " " + unit + ", " +
+              format_rounded(ratio) + " of it" + mistaken_unit_text(unit, given, ratio);
+  }
+  if (differ.empty()) return "";
+  return the_case.places.at("conductor.name") + ": values beside conductor.name = \"" +
+         conductor->name + "\" are not those of the library: " + differ;
+}
+
+std::string borrowed_damping_text(const Case& the_case) {
+  if (the_case.stands_alone || the_case.conductor.name.empty() ||
+      the_case.is_given("conductor.damping_ratio"))
+    return "";
+  return "conductor.damping_ratio is " + format_number(the_case.conductor.damping_ratio) +
+         ", that of the built-in cable: a stranded conductor at its tension has some 0.0001 to "
+         "0.002, which no library tells; give it";
+}
+
 std::string borrowed_control(const Case& the_case) {
   if (the_case.stands_alone || (!the_case.plant_given && !the_case.conductor_given)) return "";
   Keys missing;
   for (const char* key : {"control.proportional_gain", "control.differential_gain",
                           "control.sampling_period", "backlash.width"})
-    if (!is_given(the_case, key)) missing.emplace_back(key);
+    if (!the_case.is_given(key)) missing.emplace_back(key);
   return listed(missing);
 }
 
 std::string borrowed_gains_text(const Case& the_case) {
-  if (the_case.stands_alone || is_given(the_case, "control.proportional_gain") ||
-      is_given(the_case, "control.differential_gain"))
+  if (the_case.stands_alone || the_case.is_given("control.proportional_gain") ||
+      the_case.is_given("control.differential_gain"))
     return "";
   const auto impedance = [](const case_tables::Plant& plant) {
     return std::sqrt(plant.absorber_stiffness * plant.absorber_mass);

@@ -40,6 +40,14 @@ std::vector<std::string> doubts_about(const Case& the_case,
 /// k1 from the paper's own conductor lie within 3 % of its Table 1.) Empty otherwise.
 std::string contradicted_conductor_text(const Case& the_case);
 
+/// That values given beside conductor.name are not its: those that differ by more than a tenth from
+/// the library's, with both and their ratio, and the unit whose mistake that ratio is. Empty
+/// otherwise.
+std::string contradicted_name_text(const Case& the_case);
+
+/// That the damping ratio of a named conductor is the built-in cable's. Empty otherwise.
+std::string borrowed_damping_text(const Case& the_case);
+
 /// That the gains are those of the built-in case while the plant is far from its: by the impedance
 /// √(k2 m2), the scale of a differential gain, more than three times off. Empty otherwise, and
 /// where the user gave either gain.

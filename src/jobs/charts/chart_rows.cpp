@@ -1,18 +1,13 @@
 #include "jobs/charts/chart_rows.hpp"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <iterator>
 #include <limits>
-#include <vector>
 
 #include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/math/poly/polynomial.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "jobs/columns.hpp"
 #include "kernels/pack_kernels.hpp"
@@ -160,12 +155,6 @@ std::vector<GridAxis> gain_axes(const GainGrid& grid) {
   return {{columns[0], grid.proportional}, {columns[1], grid.differential}};
 }
 
-LoopChart chart_over_gains(const Case& the_case, const GainGrid& grid) {
-  return {operating_point_of(the_case),
-          {LoopParameter::proportional_gain, grid.proportional},
-          {LoopParameter::differential_gain, grid.differential}};
-}
-
 ChartRows sampled_chart(const LoopChart& chart, bool radius, InstructionSet instructions) {
   using Kernel = CopiedKernel<ChartKernel>;
   Kernel kernel(pack_kernels(instructions).chart(chart, radius));
@@ -179,7 +168,10 @@ ChartRows sampled_chart(const LoopChart& chart, bool radius, InstructionSet inst
 ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool radius,
                              InstructionSet instructions) {
   if (has_closed_forms(the_case))
-    return sampled_chart(chart_over_gains(the_case, grid), radius, instructions);
+    return sampled_chart({operating_point_of(the_case),
+                          {LoopParameter::proportional_gain, grid.proportional},
+                          {LoopParameter::differential_gain, grid.differential}},
+                         radius, instructions);
   const LinearLoop loop(the_case);
   const auto stable = loop.stable_rows(grid.differential);
   const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,

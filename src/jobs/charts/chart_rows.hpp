@@ -17,9 +17,6 @@ namespace holdfast::program {
 /// The axes of a chart over P and D.
 std::vector<GridAxis> gain_axes(const GainGrid& grid);
 
-/// The chart of the sampled loop of a case on two masses over P, the slow axis, and D.
-LoopChart chart_over_gains(const Case& the_case, const GainGrid& grid);
-
 /// Where rows of a chart are computed, in memory of somebody else's: flags, then as many columns of
 /// numbers as the chart has.
 struct ChartMemory {

@@ -6,7 +6,6 @@
 #include "case/case_keys.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
 #include "jobs/design/gain_margins.hpp"

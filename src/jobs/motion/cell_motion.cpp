@@ -8,7 +8,6 @@
 
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
-#include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/modal_classification.hpp"
 #include "holdfast/chaos/modal_lyapunov.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
@@ -18,7 +17,6 @@
 #include "holdfast/sweep/modal_metrics.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
 #include "kernels/pack_kernels.hpp"
-#include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {
@@ -85,9 +83,9 @@ ExponentsOfMotion exponents_along(const SampledMasses& moving, const LyapunovRun
 }
 ExponentsOfMotion exponents_along(const SampledModes& moving, const LyapunovRun& run,
                                   const std::optional<Sampling<double>>&) {
-  ModalLyapunov modes(moving.loop, motion_of(moving));
-  const LyapunovResult result = run_lyapunov(modes, run, throw_if_interrupted);
-  return {result, {modes.time(), 0.0, {}}};
+  auto motion = motion_of(moving);
+  const LyapunovResult result = run_lyapunov(motion, moving.loop, run, throw_if_interrupted);
+  return {result, {motion.time(), 0.0, {}}};
 }
 /// With the saltation at its switches.
 template <class Moving>

@@ -2,9 +2,7 @@
 
 #include <vector>
 
-#include "holdfast/contact/contact_mode.hpp"
-#include "holdfast/core/types.hpp"
-#include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/motion/event_motion.hpp"
 #include "jobs/columns.hpp"
 #include "output/table.hpp"
 
@@ -16,22 +14,14 @@ inline std::vector<Column> motion_columns(Switching switching = Switching::sampl
   return columns_of(switching == Switching::exact ? "motion between samples" : "motion");
 }
 
-/// One sample of a motion.
-struct MotionRow {
-  double time;  // s
-  Vector<double, 4> state;
-  double force;  // N
-  ContactMode mode;
-};
-
-/// Writes it under motion_columns(switching).
-inline void write_motion_row(Table& table, Switching switching, const MotionRow& row) {
+/// Writes a sample of a motion under motion_columns(switching).
+inline void write_motion_row(Table& table, Switching switching, const EventSample& row) {
   const auto& z = row.state;
   const int in_backlash = row.mode == ContactMode::engaged ? 0 : 1;
   if (switching == Switching::exact)
-    table.row(row.time, z[0], z[1], z[2], z[3], row.force, in_backlash, word_for(row.mode));
+    table.row(row.time, z[0], z[1], z[2], z[3], row.control_force, in_backlash, word_for(row.mode));
   else
-    table.row(row.time, z[0], z[1], z[2], z[3], row.force, in_backlash);
+    table.row(row.time, z[0], z[1], z[2], z[3], row.control_force, in_backlash);
 }
 
 }  // namespace holdfast::program

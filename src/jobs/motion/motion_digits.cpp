@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/model/loop_of_case.hpp"
 #include "holdfast/chaos/classification.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "holdfast/motion/instant.hpp"
-#include "holdfast/phase_space/deviation.hpp"
 #include "jobs/motion/cell_motion.hpp"
 #include "text/text.hpp"
 

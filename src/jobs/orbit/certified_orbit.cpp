@@ -22,12 +22,6 @@
 namespace holdfast::program {
 namespace {
 
-/// How sampling and excitation go together: f τ, as a number and as a fraction where it is one.
-struct Ratio {
-  std::optional<Rational> fraction;
-  double cycles_per_sample;
-};
-
 constexpr Named<OrbitOutcome> reasons[] = {{OrbitOutcome::incommensurate, "incommensurate"},
                                            {OrbitOutcome::diverges, "diverges"},
                                            {OrbitOutcome::on_surface, "on surface"},
@@ -37,14 +31,17 @@ constexpr Named<OrbitOutcome> reasons[] = {{OrbitOutcome::incommensurate, "incom
                                            {OrbitOutcome::neutral, "neutral"}};
 
 /// Why there is no certificate, as a sentence without its end.
-/// @param found  of either model
+/// @param found   of either model
+/// @param cycles  f τ, of the excitation in a sample
+/// @param ratio   the same as a fraction, where it is one
 template <class Result>
-std::string reason_for(const Result& found, const Ratio& ratio, std::int64_t largest_period) {
+std::string reason_for(const Result& found, double cycles, const std::optional<Rational>& ratio,
+                       std::int64_t largest_period) {
   const bool unlooked = found.outcome == OrbitOutcome::none_found && found.samples == 0;
-  const std::int64_t coincidence = ratio.fraction ? ratio.fraction->denominator : 0;
+  const std::int64_t coincidence = ratio ? ratio->denominator : 0;
   return text_of(
       job_texts()["no orbit"][unlooked ? "not looked for" : name_in(reasons, found.outcome)],
-      {{"cycles", format_number(ratio.cycles_per_sample)},
+      {{"cycles", format_number(cycles)},
        {"period", std::to_string(found.orbit ? found.orbit->period_samples() : 0)},
        {"samples", std::to_string(found.samples)},
        {"state", std::to_string(found.neutral_state.value_or(0) + 1)},
@@ -60,8 +57,8 @@ auto certified_result(const JobContext& context, const Moving& moving,
   if (found.outcome != OrbitOutcome::certified) {
     const auto& clock = clock_of(moving);
     const double frequency = motion_excitation_of(context.case_data).frequency;
-    const Ratio ratio{forcing_ratio(clock), frequency * clock.sampling.period};
-    throw NoAnswer(reason_for(found, ratio, largest_period));
+    throw NoAnswer(
+        reason_for(found, frequency * clock.sampling.period, forcing_ratio(clock), largest_period));
   }
   report_warning(near_border_warning(found.orbit->border_share()), context.quiet);
   return found;

@@ -4,20 +4,19 @@
 #include <cmath>
 #include <cstddef>
 
-#include "case/axes/axis.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/orbit/event/event_motion_region.hpp"
 #include "holdfast/orbit/motion_region.hpp"
 #include "jobs/columns.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
-#include "jobs/orbit/followed_key.hpp"
-#include "jobs/orbit/surface_names.hpp"
+#include "jobs/orbit/proved_orbit.hpp"
 #include "output/table.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "process/interrupt.hpp"
 #include "text/names.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -32,32 +31,31 @@ constexpr Named<BorderKind> border_names[] = {{BorderKind::fold, "fold"},
                                               {BorderKind::jump, "jump"},
                                               {BorderKind::window, "range_end"}};
 
-/// One of the two keys.
-struct MapKey {
-  std::string name;
-  Range range;
-  double value;  // of the case
-};
-
-MapKey map_key(const Case& the_case, const std::string& text) {
-  const auto [key, range] = parse_key_range("--map", text);
-  if (!(range.min < range.max))
-    throw WrongInput("--map " + text + ": MIN must be smaller than MAX");
-  return {key, range, followed_value(the_case, "--map", text, key, range, true)};
+bool moves_the_orbit(const std::string& key) {
+  const bool of_the_loop = key == "control.proportional_gain" ||
+                           key == "control.differential_gain" || key == "control.processing_delay";
+  return of_the_loop || key.rfind("plant.", 0) == 0 || key == "backlash.width" ||
+         key == "excitation.amplitude";
 }
 
-std::vector<MapKey> map_keys(const Case& the_case, const std::vector<std::string>& axes) {
+/// Whether a key changes how sampling and excitation coincide.
+bool moves_the_coincidence(const std::string& key) {
+  return key == "control.sampling_period" || key == "excitation.frequency";
+}
+
+std::vector<FollowedKey> map_keys(const Case& the_case, const std::vector<std::string>& axes) {
   if (axes.size() != 2)
     throw WrongInput("--map: a map needs two keys, not " + std::to_string(axes.size()) +
                      ", for example --map backlash.width=0.0005:0.002 --map "
                      "control.differential_gain=-20:0");
-  std::vector<MapKey> keys{map_key(the_case, axes[0]), map_key(the_case, axes[1])};
+  std::vector<FollowedKey> keys{followed_key(the_case, "--map", axes[0]),
+                                followed_key(the_case, "--map", axes[1])};
   if (keys[0].name == keys[1].name) throw WrongInput("--map: both keys are " + keys[0].name);
   if (moves_the_coincidence(keys[0].name) && moves_the_coincidence(keys[1].name))
     throw WrongInput(
         "--map: control.sampling_period and excitation.frequency together change how sampling and "
         "excitation coincide, so the orbit cannot be followed over both");
-  for (const MapKey& key : keys)
+  for (const FollowedKey& key : keys)
     if (moves_the_coincidence(key.name) && !the_case.excitation.harmonics.empty())
       throw WrongInput("--map " + key.name +
                        ": with excitation.harmonics not every force keeps its phases");
@@ -67,7 +65,7 @@ std::vector<MapKey> map_keys(const Case& the_case, const std::vector<std::string
 /// The case at a point of the map. f τ and δ/τ stay, and a tuned gain too.
 class CaseOfMap {
  public:
-  CaseOfMap(const Case& the_case, const std::vector<MapKey>& keys)
+  CaseOfMap(const Case& the_case, const std::vector<FollowedKey>& keys)
       : keys_(keys), case_(the_case), cycles_(frequency() * period()), delay_(delay() / period()) {
     set_case_value(case_, "control.proportional_gain",
                    case_value(case_, "control.proportional_gain"));
@@ -77,7 +75,7 @@ class CaseOfMap {
     Case there = case_;
     set_case_value(there, keys_[0].name, x);
     set_case_value(there, keys_[1].name, y);
-    for (const MapKey& key : keys_) {
+    for (const FollowedKey& key : keys_) {
       if (key.name == "control.sampling_period")
         set_case_value(there, "excitation.frequency", cycles_ / there.control.sampling_period);
       if (key.name == "excitation.frequency")
@@ -94,7 +92,7 @@ class CaseOfMap {
   double period() const { return case_.control.sampling_period; }
   double delay() const { return case_.control.processing_delay; }
 
-  const std::vector<MapKey>& keys_;
+  const std::vector<FollowedKey>& keys_;
   Case case_;
   double cycles_, delay_;
 };
@@ -129,7 +127,7 @@ bool is_shown(const std::vector<MotionBorderPoint>& points, std::size_t k,
   return begins || ends || std::hypot(a.x - b.x, a.y - b.y) > 1e-3;
 }
 
-void write_region(const JobContext& context, const std::vector<MapKey>& keys,
+void write_region(const JobContext& context, const std::vector<FollowedKey>& keys,
                   const ParameterWindow& window, const MotionRegion& region) {
   Table table(context, columns_of("motion borders", {{"x", keys[0].name}, {"y", keys[1].name}}));
   const std::vector<MotionBorderPoint> points = from_a_corner(region);
@@ -161,7 +159,7 @@ void write_region(const JobContext& context, const std::vector<MapKey>& keys,
 
 /// Follows the border of the motion of a loop, `moving_at(case)` being the one at a point.
 template <class MovingAt>
-void write_borders_of(const JobContext& context, const std::vector<MapKey>& keys,
+void write_borders_of(const JobContext& context, const std::vector<FollowedKey>& keys,
                       std::int64_t largest_period, const MovingAt& moving_at) {
   const CaseOfMap case_at(context.case_data, keys);
   const auto family = [&](double x, double y) {
@@ -177,10 +175,44 @@ void write_borders_of(const JobContext& context, const std::vector<MapKey>& keys
 
 }  // namespace
 
+FollowedKey followed_key(const Case& the_case, const std::string& option, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) throw WrongInput(option + " " + text + ": expected KEY=MIN:MAX");
+  const std::string key = text.substr(0, equals);
+  const Range range = parse_range(option, text.substr(equals + 1));
+  const bool of_map = option == "--map";
+  if (of_map && !(range.min < range.max))
+    throw WrongInput(option + " " + text + ": MIN must be smaller than MAX");
+  const double value = case_value(the_case, key);
+  if (moves_the_coincidence(key) && !of_map)
+    throw WrongInput(option + " " + key +
+                     ": another value changes how sampling and excitation coincide, so the orbit "
+                     "cannot be followed along it");
+  if (!moves_the_orbit(key) && !moves_the_coincidence(key))
+    throw WrongInput(
+        option + " " + key +
+        ": expected control.proportional_gain, differential_gain or processing_delay, a key "
+        "of [plant], backlash.width or excitation.amplitude");
+  const CaseKey& known = *find_case_key(key);
+  for (const double end : {range.min, range.max}) {
+    if (!known.range.contains(end))
+      throw WrongInput(option + " " + text + ": " + key + " must be " + known.admissible());
+  }
+  if (!(range.min <= value && value <= range.max))
+    throw WrongInput(option + " " + text + ": the case's " + key + " = " + format_number(value) +
+                     " lies outside");
+  if (key == "backlash.width" && value == 0.0)
+    throw WrongInput(
+        option +
+        " backlash.width: the case has no backlash, where the rule is another one; set a "
+        "width greater than 0 m");
+  return {key, range, value};
+}
+
 void write_motion_borders(const JobContext& context, const std::vector<std::string>& axes,
                           std::int64_t largest_period, Switching switching) {
   const Case& the_case = context.case_data;
-  const std::vector<MapKey> keys = map_keys(the_case, axes);
+  const std::vector<FollowedKey> keys = map_keys(the_case, axes);
   if (is_sampled(motion_kind_of(the_case, switching)))
     return write_borders_of(context, keys, largest_period, sampled_masses_of);
   write_borders_of(context, keys, largest_period, [&](const Case& there) {

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "case/axes/axis.hpp"
-#include "case/axes/grid.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/phase_space/motion_map.hpp"

@@ -3,7 +3,6 @@
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "jobs/job_texts.hpp"
-#include "jobs/orbit/surface_names.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "text/text.hpp"

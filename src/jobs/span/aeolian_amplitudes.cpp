@@ -6,7 +6,9 @@
 
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_loop.hpp"
+#include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/span/wind/turbulence.hpp"
+#include "process/interrupt.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -20,8 +22,14 @@ TautString<double> string_in_wind(const Case& the_case) {
   return string_of(the_case);
 }
 
-}  // namespace
+/// y/d of a point of the grid.
+double share_of_diameter(const WindPowerLaw& wind, std::size_t point, std::size_t points) {
+  if (point + 1 == points) return wind.lowest;
+  return wind.highest * std::pow(wind.lowest / wind.highest,
+                                 static_cast<double>(point) / static_cast<double>(points - 1));
+}
 
+/// What the devices at both ends take of 1 m at the antinodes, over the span (W/m³).
 double taken_by_devices(const TautString<double>& string, double angular_frequency,
                         const std::array<EndResponse, 2>& ends) {
   double taken = 0.0;
@@ -30,6 +38,7 @@ double taken_by_devices(const TautString<double>& string, double angular_frequen
   return taken;
 }
 
+/// The largest angle (rad/m) by which a clamp bends the conductor there: at a support or a device.
 double sharpest_angle(const std::array<EndResponse, 2>& ends) {
   double angle = 0.0;
   for (const EndResponse& end : ends) {
@@ -40,13 +49,22 @@ double sharpest_angle(const std::array<EndResponse, 2>& ends) {
   return angle;
 }
 
-AeolianBalance::AeolianBalance(const Case& the_case, bool controlled)
+}  // namespace
+
+SpanInWind::SpanInWind(const Case& the_case)
     : string_(string_in_wind(the_case)),
       diameter_(the_case.conductor.diameter),
-      strouhal_(strouhal_of(the_case)),
       wind_share_(turbulent_share(the_case.site.turbulence_intensity)),
       losses_(loss_laws_of(the_case)),
-      bending_(clamp_bending_of(the_case)),
+      bending_(clamp_bending_of(the_case)) {}
+
+double SpanInWind::strain_of(const std::array<EndResponse, 2>& ends, double amplitude) const {
+  return bending_ ? bending_->strain_of_angle(sharpest_angle(ends) * amplitude) : std::nan("");
+}
+
+AeolianBalance::AeolianBalance(const Case& the_case, bool controlled)
+    : SpanInWind(the_case),
+      strouhal_(strouhal_of(the_case)),
       devices_(span_devices_of(the_case, controlled)),
       grows_(is_growing_span(the_case, controlled)) {}
 
@@ -62,9 +80,7 @@ Vibration AeolianBalance::vibration(const WindPowerLaw& wind, const LossLaw& los
     return (loss.power(frequency, y) + of_devices * y * y) / wind_share_;
   };
   const BalancedAmplitude found = balanced_amplitude(wind, frequency, diameter_, lost);
-  const double strain =
-      bending_ ? bending_->strain_of_angle(sharpest_angle(ends) * found.amplitude) : std::nan("");
-  return {found, strain};
+  return {found, strain_of(ends, found.amplitude)};
 }
 
 std::array<EndResponse, 2> AeolianBalance::ends_at(double angular_frequency) const {
@@ -99,6 +115,54 @@ Vibration AeolianBalance::largest(double frequency) const {
       if (!largest || found.amplitude.amplitude > largest->amplitude.amplitude) largest = found;
     }
   return *largest;
+}
+
+LargestVibration::LargestVibration(const Case& the_case, const std::vector<double>& frequencies)
+    : SpanInWind(the_case), frequencies_(frequencies) {
+  for (const WindPowerLaw& wind : wind_power_laws)
+    for (const LossLaw& loss : losses_) {
+      std::vector<Spare> of_pair(frequencies.size());
+      for (std::size_t k = 0; k < frequencies.size(); ++k) {
+        throw_if_interrupted();
+        for (std::size_t i = 0; i < points; ++i)
+          of_pair[k][i] =
+              spare(wind, loss, frequencies[k], share_of_diameter(wind, i, points) * diameter_);
+      }
+      spares_.push_back(std::move(of_pair));
+    }
+}
+
+double LargestVibration::spare(const WindPowerLaw& wind, const LossLaw& loss, double frequency,
+                               double y) const {
+  return (wind_share_ * wind.power(frequency, diameter_, y) - loss.power(frequency, y)) / (y * y);
+}
+
+BalancedAmplitude LargestVibration::balance(const WindPowerLaw& wind, std::size_t of_pair,
+                                            std::size_t k, double taken) const {
+  const Spare& spares = spares_[of_pair][k];
+  const auto first = static_cast<std::size_t>(
+      std::find_if(spares.begin(), spares.end(), [&](double left) { return left >= taken; }) -
+      spares.begin());
+  if (first == 0) return {wind.highest * diameter_, BalanceRange::above};
+  if (first == points) return {wind.lowest * diameter_, BalanceRange::below};
+  const LossLaw& loss = losses_[of_pair % losses_.size()];
+  const double lower = share_of_diameter(wind, first, points) * diameter_;
+  const double upper = share_of_diameter(wind, first - 1, points) * diameter_;
+  const auto root = bracketing_root<double>(
+      [&](double y) { return spare(wind, loss, frequencies_[k], y) - taken; },
+      {lower, upper, spares[first] - taken, spares[first - 1] - taken}, 1e-12 * lower);
+  return {root.lower, BalanceRange::within};
+}
+
+Vibration LargestVibration::at(std::size_t k, const std::array<EndResponse, 2>& ends) const {
+  const double taken = taken_by_devices(string_, 2.0 * pi<double> * frequencies_[k], ends);
+  BalancedAmplitude largest{0.0, BalanceRange::below};
+  for (std::size_t of_pair = 0; of_pair < spares_.size(); ++of_pair) {
+    const BalancedAmplitude found =
+        balance(wind_power_laws[of_pair / losses_.size()], of_pair, k, taken);
+    if (found.amplitude > largest.amplitude) largest = found;
+  }
+  return {largest, strain_of(ends, largest.amplitude)};
 }
 
 void RangeCount::add(const AeolianRow& row, bool with_devices) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "case/model/span/span_of_case.hpp"
 #include "holdfast/span/end_response.hpp"
 #include "holdfast/span/wind/energy_balance.hpp"
+#include "holdfast/span/wind/wind_power_law.hpp"
 
 namespace holdfast::program {
 
@@ -27,15 +29,23 @@ struct AeolianRow {
   Vibration bare, damped;
 };
 
-/// What the devices at both ends take of 1 m at the antinodes, over the span (W/m³).
-double taken_by_devices(const TautString<double>& string, double angular_frequency,
-                        const std::array<EndResponse, 2>& ends);
+/// What the energy balance takes from a case with its span, whatever devices are on it.
+class SpanInWind {
+ protected:
+  /// Throws WrongInput for a conductor whose diameter is not known.
+  explicit SpanInWind(const Case& the_case);
 
-/// The largest angle (rad/m) by which a clamp bends the conductor there: at a support or a device.
-double sharpest_angle(const std::array<EndResponse, 2>& ends);
+  /// Of the outermost wire, where the antinodes vibrate by an amplitude (m).
+  double strain_of(const std::array<EndResponse, 2>& ends, double amplitude) const;
+
+  TautString<double> string_;
+  double diameter_, wind_share_;
+  std::vector<LossLaw> losses_;
+  std::optional<ClampBending> bending_;
+};
 
 /// The energy balance of a case's span, one frequency after the other.
-class AeolianBalance {
+class AeolianBalance : SpanInWind {
  public:
   /// Throws WrongInput for a conductor whose diameter is not known.
   AeolianBalance(const Case& the_case, bool controlled);
@@ -62,12 +72,33 @@ class AeolianBalance {
   Vibration vibration(const WindPowerLaw& wind, const LossLaw& loss, double frequency,
                       const std::array<EndResponse, 2>& ends) const;
 
-  TautString<double> string_;
-  double diameter_, strouhal_, wind_share_;
-  std::vector<LossLaw> losses_;
-  std::optional<ClampBending> bending_;
+  double strouhal_;
   std::vector<SpanDevice> devices_;
   bool grows_;  // with the devices it comes to no steady vibration
+};
+
+/// `AeolianBalance::largest` of one set of devices after another, at frequencies that are known:
+/// what wind and conductor say by each pair of laws is computed once, on the grid on which
+/// `balanced_amplitude` looks.
+class LargestVibration : SpanInWind {
+ public:
+  /// @param frequencies  Hz
+  LargestVibration(const Case& the_case, const std::vector<double>& frequencies);
+
+  /// With ends that answer to the k-th frequency.
+  Vibration at(std::size_t k, const std::array<EndResponse, 2>& ends) const;
+
+ private:
+  static constexpr std::size_t points = 61;
+  /// What is left for devices (W/m³) at amplitudes from the largest of a law of the wind downward.
+  using Spare = std::array<double, points>;
+
+  double spare(const WindPowerLaw& wind, const LossLaw& loss, double frequency, double y) const;
+  BalancedAmplitude balance(const WindPowerLaw& wind, std::size_t of_pair, std::size_t k,
+                            double taken) const;
+
+  std::vector<double> frequencies_;
+  std::vector<std::vector<Spare>> spares_;  // of each pair, at each frequency
 };
 
 /// How many rows lie beyond the amplitudes that the law of the wind was measured for.

@@ -9,7 +9,6 @@
 
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "case/model/span/span_loop.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "holdfast/math/roots/root_from_pole.hpp"
 #include "holdfast/span/span_roots.hpp"

@@ -16,8 +16,6 @@ class CellWriter {
   virtual ~CellWriter() = default;
   CellWriter(const CellWriter&) = delete;
   CellWriter& operator=(const CellWriter&) = delete;
-  CellWriter(CellWriter&&) = delete;
-  CellWriter& operator=(CellWriter&&) = delete;
 
   /// The next cells; one entry a column.
   virtual void append(std::size_t cells, const std::vector<const double*>& columns) = 0;
@@ -47,5 +45,11 @@ std::unique_ptr<CellWriter> netcdf_cells(const JobContext& context, const GridLa
 ///
 /// Throws what StoreFolder::enter() and put() throw.
 std::unique_ptr<CellWriter> zarr_cells(const JobContext& context, const GridLayout& layout);
+
+/// Whether the tables of a job go to the host of its thread: where it has one, and no --output.
+bool is_received(const JobContext& context);
+
+/// Cells that become a table of the host's, which there must be.
+std::unique_ptr<CellWriter> memory_cells(const JobContext& context, const GridLayout& layout);
 
 }  // namespace holdfast::program

@@ -36,6 +36,11 @@ struct ChunkGrid {
   /// Of a file.
   std::int64_t cells_of_file() const { return product(chunk); }
 
+  /// Chunks along an axis.
+  std::int64_t along(std::size_t axis) const {
+    return (length(shape, axis) - 1) / length(chunk, axis) + 1;
+  }
+
   std::int64_t chunks() const {
     std::int64_t all = 1;
     for (std::size_t axis = 0; axis < shape.size(); ++axis) all *= along(axis);
@@ -76,9 +81,6 @@ struct ChunkGrid {
     std::int64_t all = 1;
     for (const std::size_t count : lengths) all *= static_cast<std::int64_t>(count);
     return all;
-  }
-  std::int64_t along(std::size_t axis) const {
-    return (length(shape, axis) - 1) / length(chunk, axis) + 1;
   }
 };
 

@@ -6,7 +6,6 @@
 
 #include "io/file/output.hpp"
 #include "output/grid/cell_writer.hpp"
-#include "output/memory_cells.hpp"
 #include "output/table.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"

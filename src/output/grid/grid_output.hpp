@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "case/axes/grid.hpp"
+#include "case/axes/axis.hpp"
 #include "case/job_context.hpp"
 
 namespace holdfast::program {
@@ -55,8 +55,6 @@ class GridOutput {
   ~GridOutput();
   GridOutput(const GridOutput&) = delete;
   GridOutput& operator=(const GridOutput&) = delete;
-  GridOutput(GridOutput&&) = delete;
-  GridOutput& operator=(GridOutput&&) = delete;
 
   /// The next `cells` cells; one entry a column, each pointing to as many values.
   void append(std::int64_t cells, const std::vector<const double*>& columns);

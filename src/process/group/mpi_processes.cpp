@@ -67,8 +67,6 @@ class Counter {
   ~Counter() { stop_attending(); }
   Counter(const Counter&) = delete;
   Counter& operator=(const Counter&) = delete;
-  Counter(Counter&&) = delete;
-  Counter& operator=(Counter&&) = delete;
 
   /// Gives the number, and adds the term to it.
   std::int64_t add(std::int64_t term) {
@@ -179,8 +177,6 @@ class MpiProcesses final : public ProcessGroup {
   ~MpiProcesses() override;
   MpiProcesses(const MpiProcesses&) = delete;
   MpiProcesses& operator=(const MpiProcesses&) = delete;
-  MpiProcesses(MpiProcesses&&) = delete;
-  MpiProcesses& operator=(MpiProcesses&&) = delete;
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }

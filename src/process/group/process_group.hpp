@@ -39,8 +39,6 @@ class ProcessGroup {
   virtual ~ProcessGroup() = default;
   ProcessGroup(const ProcessGroup&) = delete;
   ProcessGroup& operator=(const ProcessGroup&) = delete;
-  ProcessGroup(ProcessGroup&&) = delete;
-  ProcessGroup& operator=(ProcessGroup&&) = delete;
 
   /// Number of this process, 0 … size() − 1.
   virtual int rank() const = 0;

@@ -36,9 +36,9 @@ std::string interval_text(const std::vector<Interval<double>>& intervals) {
 }
 
 std::vector<Interval<double>> stable_gains(double sampling_period, double delay_fraction) {
-  PaperLoop loop{sampling_period};
-  loop.delay_fraction = delay_fraction;
-  return stable_differential_gains(characteristic_polynomial(loop.loop()), -557.0);
+  const IdealLoop<double> loop = paper_loop(sampling_period, 0.0, delay_fraction);
+  return stable_differential_gains(
+      characteristic_polynomial(sampled_loop(loop.plant, loop.sampling)), -557.0);
 }
 
 double lower_edge(const std::vector<Interval<double>>& intervals) {
@@ -51,7 +51,8 @@ void compare_stability(Comparisons& rows) {
   rows.number("fig3", lower_edge(continuous));
   for (const double fraction : delay_fractions)
     rows.number("fig4a", lower_edge(stable_gains(0.010, fraction)), delay_of(fraction));
-  const auto polynomial = characteristic_polynomial(PaperLoop{0.010}.loop());
+  const auto polynomial =
+      characteristic_polynomial(sampled_loop(kollar2022_plant(), Sampling<double>{0.010}));
   const double flip =
       -(evaluate(polynomial.base, -2.0) - 557.0 * evaluate(polynomial.proportional, -2.0)) /
       evaluate(polynomial.differential, -2.0);
@@ -63,11 +64,11 @@ void compare_stability(Comparisons& rows) {
 }
 
 void compare_best_gain(Comparisons& rows) {
-  const PaperLoop fast{1e-5};
-  const auto loop = fast.loop();
+  constexpr double fast = 1e-5;
+  const auto loop = sampled_loop(kollar2022_plant(), Sampling<double>{fast});
   const double omega = 20.0 * pi<double>;
   const SteadyResponse<double> response(loop, held_harmonic(loop), omega);
-  const auto stable = stable_gains(fast.sampling_period, 0.0);
+  const auto stable = stable_gains(fast, 0.0);
   const auto best = response.best_differential_gain(-557.0, stable);
   rows.statement(
       "best D",
@@ -103,23 +104,25 @@ void compare_delay(Comparisons& rows) {
 }
 
 /// Largest |z₁| of ten forcing periods from 30 s on.
-double steady_amplitude(const PaperLoop& loop) {
-  return loop.seen_by(PhaseExtent(30.0), 31.0).displacement();
+double steady_amplitude(const IdealLoop<double>& loop) {
+  return seen_by(PhaseExtent(30.0), loop, 31.0).displacement();
 }
 
 /// Smallest backlash, in steps of 0.1 mm, in which the motion stays for good once the transient is
 /// over.
 double swallowing_backlash() {
   for (int tenths = 5; tenths < 100; ++tenths) {
-    const PaperLoop loop{0.001, tenths * 1e-4};
-    if (loop.seen_by(SwitchLog(30.0), 40.0).switches().empty()) return loop.backlash_width;
+    const IdealLoop<double> loop = paper_loop(0.001, tenths * 1e-4);
+    if (seen_by(SwitchLog(30.0), loop, 40.0).switches().empty()) return loop.backlash_width;
   }
   return std::nan("");
 }
 
 void compare_histories(Comparisons& rows) {
-  const PaperLoop uncontrolled{0.001, 0.0, {0.0, 0.0}}, controlled{0.001, 0.0}, loop{0.001, 0.0005};
-  const auto peaks_of = [](const PaperLoop& of) { return of.seen_by(FirstPeaks(), 1.0); };
+  const IdealLoop<double> controlled = paper_loop(0.001), loop = paper_loop(0.001, 0.0005);
+  IdealLoop<double> uncontrolled = controlled;
+  uncontrolled.gains = {0.0, 0.0};
+  const auto peaks_of = [](const IdealLoop<double>& of) { return seen_by(FirstPeaks(), of, 1.0); };
   const FirstPeaks none = peaks_of(uncontrolled);
   rows.number("fig6a control", none.above_equilibrium() / peaks_of(controlled).above_equilibrium());
   rows.number("fig6a backlash", peaks_of(loop).below_equilibrium() / none.below_equilibrium());
@@ -129,11 +132,11 @@ void compare_histories(Comparisons& rows) {
 
 /// Time from the kick until the peaks of three forcing periods are again within 5 % of the
 /// undisturbed ones.
-double settling_time(const PaperLoop& loop, double kick_time) {
-  const Recorder recorder(samples_within(8.0, loop.sampling_period));
-  const Recorder undisturbed = loop.seen_by(recorder, 8.0);
-  const Recorder kicked = loop.seen_by(recorder, 8.0, Kick{kick_time, -0.003});
-  const auto per_window = static_cast<std::size_t>(std::lround(0.3 / loop.sampling_period));
+double settling_time(const IdealLoop<double>& loop, double kick_time) {
+  const Recorder recorder(samples_within(8.0, loop.sampling.period));
+  const Recorder undisturbed = seen_by(recorder, loop, 8.0);
+  const Recorder kicked = seen_by(recorder, loop, 8.0, Kick{kick_time, -0.003});
+  const auto per_window = static_cast<std::size_t>(std::lround(0.3 / loop.sampling.period));
   double settled = kick_time;
   for (std::size_t j = 0; j + per_window < kicked.samples().size(); ++j) {
     double with = 0.0, without = 0.0;
@@ -147,10 +150,10 @@ double settling_time(const PaperLoop& loop, double kick_time) {
 }
 
 void compare_perturbations_and_switching(Comparisons& rows) {
-  rows.number("fig7a", settling_time({0.001, 0.0005}, 0.95));
-  const double slow = settling_time({0.010, 0.002}, 0.84);
+  rows.number("fig7a", settling_time(paper_loop(0.001, 0.0005), 0.95));
+  const double slow = settling_time(paper_loop(0.010, 0.002), 0.84);
   rows.statement("fig7b", rounded(slow, 3) + " s", slow > 2.0);
-  const SwitchLog log = PaperLoop{0.001, 0.0005}.seen_by(SwitchLog(9.06), 9.2);
+  const SwitchLog log = seen_by(SwitchLog(9.06), paper_loop(0.001, 0.0005), 9.2);
   const char* printed[] = {"9.065", "9.068", "9.069", "9.095"};
   for (std::size_t k = 0; k < 4; ++k) {
     const bool enters = k % 2 == 0;

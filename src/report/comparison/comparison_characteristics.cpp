@@ -19,22 +19,16 @@ namespace {
 
 void compare_boundedness(Comparisons& rows) {
   for (const double fraction : delay_fractions) {
-    PaperLoop loop{0.011, 0.002};
-    loop.delay_fraction = fraction;
-    auto motion = loop.motion();
+    const IdealLoop<double> loop = paper_loop(0.011, 0.002, fraction);
+    auto motion = motion_of(loop);
     const bool bounded =
         run_trajectory(motion, samples_within(1000.0, 0.011), {}) == TrajectoryOutcome::completed;
-    const double radius = spectral_radius<double, 5>(loop.loop().engaged_map(loop.gains));
+    const double radius =
+        spectral_radius<double, 5>(sampled_loop(loop.plant, loop.sampling).engaged_map(loop.gains));
     rows.statement("fig9c",
                    (bounded ? "bounded, ρ(S) = " : "diverges, ρ(S) = ") + rounded(radius, 4),
                    bounded, delay_of(fraction));
   }
-}
-
-OrbitResult orbit_from_rest(const PaperLoop& loop) {
-  const IdealLoop<double> forced{kollar2022_plant(), loop.loop().sampling, loop.gains,
-                                 {0.5, 10.0},        loop.backlash_width,  ForceHold::sampled};
-  return find_periodic_orbit(forced, Vector<double, 4>::Zero());
 }
 
 std::string certificate_of(const OrbitResult& found) {
@@ -48,21 +42,23 @@ std::string certificate_of(const OrbitResult& found) {
 
 void compare_periods(Comparisons& rows) {
   for (const auto& [row, period] : {std::pair{"fig9b", 0.001}, {"fig12", 0.011}}) {
-    const OrbitResult found = orbit_from_rest({period, 0.002});
+    const OrbitResult found =
+        find_periodic_orbit(paper_loop(period, 0.002), Vector<double, 4>::Zero());
     rows.statement(row, certificate_of(found), found.outcome == OrbitOutcome::certified);
   }
 }
 
-std::vector<SpectralLine> steady_spectrum(const PaperLoop& loop, double frequency) {
-  const std::int64_t kept = whole_period_samples(samples_within(60.0, loop.sampling_period),
-                                                 frequency, loop.sampling_period);
-  auto motion = loop.motion();
+std::vector<SpectralLine> steady_spectrum(double sampling_period) {
+  const IdealLoop<double> loop = paper_loop(sampling_period, 0.002);
+  const std::int64_t kept = whole_period_samples(samples_within(60.0, sampling_period),
+                                                 loop.excitation.frequency, sampling_period);
+  auto motion = motion_of(loop);
   std::vector<double> record;
   record.reserve(static_cast<std::size_t>(kept));
-  run_trajectory(motion, samples_within(40.0, loop.sampling_period), {});
+  run_trajectory(motion, samples_within(40.0, sampling_period), {});
   run_trajectory(motion, kept, {},
                  [&](const MotionSample<double>& sample) { record.push_back(sample.state[0]); });
-  return amplitude_spectrum(record, loop.sampling_period, SpectralWindow::rectangular);
+  return amplitude_spectrum(record, sampling_period, SpectralWindow::rectangular);
 }
 
 /// Frequency of the highest line between two frequencies.
@@ -76,8 +72,8 @@ double highest_line(const std::vector<SpectralLine>& lines, double from, double 
 }
 
 void compare_spectra(Comparisons& rows) {
-  const auto fast = steady_spectrum({0.001, 0.002}, 10.0);
-  const auto slow = steady_spectrum({0.011, 0.002}, 10.0);
+  const auto fast = steady_spectrum(0.001);
+  const auto slow = steady_spectrum(0.011);
   rows.number("fig10a", highest_line(fast, 0.5, 45.0));
   rows.number("fig10a below", highest_line(fast, 0.5, 8.0));
   rows.number("fig10a above", highest_line(fast, 25.0, 45.0));
@@ -86,9 +82,8 @@ void compare_spectra(Comparisons& rows) {
 
 /// Largest |deviation of z₁| in the last second of a run.
 double final_deviation(double sampling_period, double duration) {
-  PaperLoop loop{sampling_period, 0.002}, neighbour = loop;
-  neighbour.initial_displacement = 1e-5;
-  auto first = loop.motion(), second = neighbour.motion();
+  const IdealLoop<double> loop = paper_loop(sampling_period, 0.002);
+  auto first = motion_of(loop), second = motion_of(loop, 1e-5);
   double largest = 0.0;
   run_deviation(first, second, samples_within(duration, sampling_period),
                 [&](const Deviation& deviation) {
@@ -106,12 +101,12 @@ void compare_deviations(Comparisons& rows) {
 }
 
 void compare_coverage(Comparisons& rows) {
-  const PaperLoop loop{0.011, 0.002};
+  constexpr double sampling_period = 0.011;
   Coverage coverage({-1.5e-3, 1.5e-3, -0.1, 0.1}, 100);
-  auto motion = loop.motion();
+  auto motion = motion_of(paper_loop(sampling_period, 0.002));
   std::vector<std::size_t> visited;
   for (const double duration : {10.0, 100.0, 1000.0}) {
-    run_trajectory(motion, samples_within(duration, loop.sampling_period) - motion.index(), {},
+    run_trajectory(motion, samples_within(duration, sampling_period) - motion.index(), {},
                    coverage);
     visited.push_back(coverage.visited());
   }
@@ -129,10 +124,10 @@ struct Table2Column {
 };
 
 void compare_exponents(Comparisons& rows, const Table2Column& column, double tangent_fraction) {
-  PaperLoop loop{column.sampling_period, 0.002}, tangent = loop;
-  tangent.delay_fraction = tangent_fraction;
-  LyapunovObserver observer(tangent.loop(), loop.gains);
-  auto motion = loop.motion();
+  const IdealLoop<double> loop = paper_loop(column.sampling_period, 0.002);
+  const IdealLoop<double> tangent = paper_loop(column.sampling_period, 0.002, tangent_fraction);
+  LyapunovObserver observer(sampled_loop(tangent.plant, tangent.sampling), loop.gains);
+  auto motion = motion_of(loop);
   run_trajectory(motion, samples_within(column.duration, column.sampling_period) - 1, {}, observer);
   const auto exponents = observer.spectrum().exponents();
   const bool consistent = tangent_fraction == 0.0;

@@ -4,11 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "holdfast/contact/hysteresis.hpp"
-#include "holdfast/control/gains.hpp"
-#include "holdfast/control/loop_input.hpp"
-#include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -18,38 +14,33 @@
 
 namespace holdfast::program {
 
-/// The loop of the paper's §4.2: P = −557 N/m, D = −13 N s/m, 0.5 N at 10 Hz, from rest.
-struct PaperLoop {
-  double sampling_period = 0.001;  ///< s
-  double backlash_width = 0.0;     ///< m
-  PdGains<double> gains{-557.0, -13.0};
-  double delay_fraction = 0.0;        ///< δ/τ
-  double initial_displacement = 0.0;  ///< z₁ at t = 0 (m)
+/// The loop of the paper's §4.2: P = −557 N/m, D = −13 N s/m, 0.5 N at 10 Hz.
+/// @param sampling_period  s
+/// @param backlash_width   m
+/// @param delay_fraction   δ/τ
+inline IdealLoop<double> paper_loop(double sampling_period, double backlash_width = 0.0,
+                                    double delay_fraction = 0.0) {
+  return {kollar2022_plant(),
+          {sampling_period, delay_fraction * sampling_period},
+          {-557.0, -13.0},
+          {0.5, 10.0},
+          backlash_width};
+}
 
-  SampledLoop<double> loop() const {
-    return sampled_loop(kollar2022_plant(),
-                        Sampling<double>{sampling_period, delay_fraction * sampling_period});
-  }
+/// Its motion from rest, but for z₁ (m).
+inline SampledMotion<double> motion_of(const IdealLoop<double>& loop,
+                                       double initial_displacement = 0.0) {
+  return harmonically_forced_motion(loop, Vector<double, 4>{initial_displacement, 0.0, 0.0, 0.0});
+}
 
-  SampledMotion<double> motion() const {
-    const SampledLoop<double> sampled = loop();
-    return {sampled,
-            gains,
-            held_harmonic(sampled),
-            HarmonicExcitation<double>{0.5, 10.0},
-            Backlash<double>(backlash_width),
-            Vector<double, 4>{initial_displacement, 0.0, 0.0, 0.0}};
-  }
-
-  /// The observer once it has seen a motion of so many seconds.
-  template <class Observer>
-  Observer seen_by(Observer observer, double duration,
-                   const std::optional<Kick>& kick = std::nullopt) const {
-    auto moving = motion();
-    run_trajectory(moving, samples_within(duration, sampling_period), kick, observer);
-    return observer;
-  }
-};
+/// The observer once it has seen so many seconds of the motion from rest.
+template <class Observer>
+Observer seen_by(Observer observer, const IdealLoop<double>& loop, double duration,
+                 const std::optional<Kick>& kick = std::nullopt) {
+  auto motion = motion_of(loop);
+  run_trajectory(motion, samples_within(duration, loop.sampling.period), kick, observer);
+  return observer;
+}
 
 /// δ/τ: what the paper's numbers belong to, and what its Eq. 14 prints.
 constexpr double delay_fractions[] = {0.0, 1.0};

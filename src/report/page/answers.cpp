@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "case/case_keys.hpp"
-#include "case/model/held_force.hpp"
+#include "case/model/conditioning.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/plant_of_case.hpp"

@@ -6,12 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "case/model/cable_of_case.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "case/plausibility/words.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "report/page/html.hpp"
@@ -153,7 +153,7 @@ Answer does_it_hold_on_the_cable(const Case& the_case) {
   Answer answer{page_text("cable question"), "", "",
                 words_of(page_text("cable command",
                                    {{"P", format_number(gains_of(the_case).proportional)}}))};
-  if (!plausibility::has_own_cable(the_case)) {
+  if (!has_own_cable(the_case)) {
     answer.answer = page_text("no conductor");
     answer.arguments = {"case"};
     return answer;

@@ -75,8 +75,6 @@ class PassingFolder {
   ~PassingFolder() { remove_passing(path_); }
   PassingFolder(const PassingFolder&) = delete;
   PassingFolder& operator=(const PassingFolder&) = delete;
-  PassingFolder(PassingFolder&&) = delete;
-  PassingFolder& operator=(PassingFolder&&) = delete;
 
   fs::path table(const std::string& name) const { return path_ / "data" / (name + ".csv"); }
   const fs::path& path() const { return path_; }

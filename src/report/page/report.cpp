@@ -55,8 +55,6 @@ class ReportFolders {
   }
   ReportFolders(const ReportFolders&) = delete;
   ReportFolders& operator=(const ReportFolders&) = delete;
-  ReportFolders(ReportFolders&&) = delete;
-  ReportFolders& operator=(ReportFolders&&) = delete;
 
  private:
   std::vector<fs::path> made_;

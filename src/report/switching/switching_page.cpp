@@ -274,7 +274,8 @@ DrawnFigure write_phases(const JobContext& context, bool builtin) {
 constexpr std::array<const char*, 5> law_names = {"kollar", "immediate", "play", "dead_zone",
                                                   "none"};
 
-std::vector<StudiedLaw> study_laws(const JobContext& context) {
+/// Of each law, with its drive switching at samples and exactly, the force exact in both.
+Motions study_laws(const JobContext& context) {
   Loops loops;
   for (const char* law : law_names) {
     Case changed = context.case_data;
@@ -282,15 +283,9 @@ std::vector<StudiedLaw> study_laws(const JobContext& context) {
     for (const std::size_t reading : {sampled_switching, exact_switching})
       loops.push_back({changed, readings[reading], studied_duration(changed)});
   }
-  const Motions motions = study(loops, context.threads);
+  Motions motions = study(loops, context.threads);
   write_motions(context, "switching-law-motions", motions);
-  std::vector<StudiedLaw> studied;
-  for (std::size_t k = 0; k < law_names.size(); ++k) {
-    // gnuplot sets what follows an underscore lower.
-    const std::string words = k == 4 ? "no backlash" : replaced(law_names[k], "_", " ");
-    studied.push_back({words, motions[2 * k], motions[2 * k + 1]});
-  }
-  return studied;
+  return motions;
 }
 
 /// The strip of a law with its amplitude; an empty one where the motion has no answer.
@@ -307,26 +302,26 @@ ContactStrip strip_with_amplitude(const std::string& name, const StudiedMotion& 
 }
 
 /// The strips of the laws that differ. Exactly taken, the first three are one.
-std::vector<ContactStrip> strips_of_laws(const std::vector<StudiedLaw>& studied) {
-  constexpr std::array<std::tuple<std::size_t, const char*, bool>, 7> shown = {
-      {{0, "kollar, at samples", false},
-       {1, "immediate, at samples", false},
-       {2, "play, at samples", false},
-       {2, "these three, exact", true},
-       {3, "dead zone, at samples", false},
-       {3, "dead zone, exact", true},
-       {4, "no backlash", false}}};
+std::vector<ContactStrip> strips_of_laws(const Motions& of_laws) {
+  constexpr std::array<std::pair<std::size_t, const char*>, 7> shown = {
+      {{0, "kollar, at samples"},
+       {2, "immediate, at samples"},
+       {4, "play, at samples"},
+       {5, "these three, exact"},
+       {6, "dead zone, at samples"},
+       {7, "dead zone, exact"},
+       {8, "no backlash"}}};
   std::vector<ContactStrip> strips;
   strips.reserve(shown.size());
-  for (const auto& [law, how, exact] : shown)
-    strips.push_back(strip_with_amplitude(how, exact ? studied[law].exact : studied[law].sampled));
+  for (const auto& [motion, how] : shown)
+    strips.push_back(strip_with_amplitude(how, of_laws[motion]));
   return strips;
 }
 
 constexpr const char* nowhere = "the motion diverges in all of them";
 
-DrawnFigure write_laws(const JobContext& context, const std::vector<StudiedLaw>& studied) {
-  const std::vector<ContactStrip> strips = strips_of_laws(studied);
+DrawnFigure write_laws(const JobContext& context, const Motions& of_laws) {
+  const std::vector<ContactStrip> strips = strips_of_laws(of_laws);
   const bool empty = std::all_of(strips.begin(), strips.end(), [](const ContactStrip& strip) {
     return strip.window.phases.empty();
   });

@@ -9,18 +9,12 @@
 
 namespace holdfast::program {
 
-/// A law of the backlash, with its drive switching at samples and exactly, the force exact in both.
-struct StudiedLaw {
-  std::string words;
-  StudiedMotion sampled, exact;
-};
-
 /// How much it matters for a case that its drive switches at samples alone.
 struct SwitchingPage {
   std::vector<StudiedMotion> of_case;   ///< in the order of `readings`
   std::vector<StudiedMotion> of_paper;  ///< of each loop of the paper, in that order; may be empty
-  std::vector<StudiedLaw> laws;
-  std::vector<DrawnFigure> figures;  ///< whose tables are written, but no pictures
+  std::vector<StudiedMotion> laws;      ///< of each, switching at samples and exactly
+  std::vector<DrawnFigure> figures;     ///< whose tables are written, but no pictures
 };
 
 /// Computes the page on many threads and writes its tables as FOLDER/data/switching-*.csv.

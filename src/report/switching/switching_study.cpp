@@ -11,6 +11,7 @@
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
+#include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/motion_run.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
 #include "output/row_blocks.hpp"
@@ -227,18 +228,14 @@ MotionWindow window_of(const StudiedLoop& studied, double begin, double end, int
 }
 
 double swing_without_control(const Case& the_case, double duration) {
-  const auto swing_of = [&](auto motion) {
-    double largest = 0.0;
-    for (; motion.time() < duration; motion.advance()) {
-      motion.sense();
-      if (not_before(motion.time(), 0.5 * duration))
-        largest = std::max(
-            largest, std::abs(relative_displacement(motion.readings().both_sides(motion.state()))));
-    }
-    return 2.0 * largest;
-  };
-  return std::visit([&](const auto& moving) { return swing_of(motion_of(moving)); },
-                    motion_without_control(the_case, duration));
+  CaseMotion motion(motion_without_control(the_case, duration));
+  double largest = 0.0;
+  for (; motion.time() < duration; motion.advance()) {
+    const EventSample sample = motion.sense();
+    if (not_before(motion.time(), 0.5 * duration))
+      largest = std::max(largest, std::abs(relative_displacement(sample.state)));
+  }
+  return 2.0 * largest;
 }
 
 double amplitude_without_control(const Case& the_case, double duration) {

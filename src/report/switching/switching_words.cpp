@@ -5,6 +5,7 @@
 
 #include "report/page/html.hpp"
 #include "report/switching/switching_page.hpp"
+#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -146,10 +147,13 @@ std::string law_cell(const StudiedMotion& motion) {
          escaped(period_or_reason(motion.period));
 }
 
-std::string table_of_laws(const std::vector<StudiedLaw>& laws) {
+std::string table_of_laws(const Motions& laws) {
   std::string rows;
-  for (const StudiedLaw& law : laws)
-    rows += html_row({escaped(law.words), law_cell(law.sampled), law_cell(law.exact)});
+  for (auto sampled = laws.begin(); sampled != laws.end(); sampled += 2) {
+    const std::string& law = sampled->loop.the_case.backlash.law;
+    const std::string words = law == "none" ? "no backlash" : replaced(law, "_", " ");
+    rows += html_row({escaped(words), law_cell(sampled[0]), law_cell(sampled[1])});
+  }
   return html_table({"law", "switching at samples", "exact switching"}, rows);
 }
 

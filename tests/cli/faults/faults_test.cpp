@@ -1,5 +1,4 @@
 #include "cli/program.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

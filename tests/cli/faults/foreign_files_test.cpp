@@ -2,7 +2,6 @@
 
 #include "cli/program.hpp"
 #include "cli/running_program.hpp"
-#include "support/testing.hpp"
 
 // Files that came from others, or that are none of the program's business: it does not fall over
 // them, tell what stands in them, hang on them or remove them.
@@ -12,8 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds patience{120};
-
 std::string repeated(const std::string& part, std::size_t times) {
   std::string text;
   for (std::size_t k = 0; k < times; ++k) text += part;
@@ -21,7 +18,7 @@ std::string repeated(const std::string& part, std::size_t times) {
 }
 
 Ending ending_of(const std::vector<std::string>& words, const std::string& surroundings = "") {
-  return RunningProgram(words, surroundings).wait_at_most(patience);
+  return RunningProgram(words, surroundings).wait_at_most();
 }
 
 // ---- what is too deep or too wide ---------------------------------------------------------------
@@ -98,7 +95,7 @@ void expect_interrupted_while_it_waits(const std::vector<std::string>& words, in
   program.wait_until_it_computes(std::chrono::milliseconds(0));
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   program.send(signal_number);
-  const Ending ending = program.wait_at_most(patience);
+  const Ending ending = program.wait_at_most();
   EXPECT_EQ(ending.exit_code, 130) << words.back();
   EXPECT_EQ(ending.errors, "holdfast: interrupted\n");
 }

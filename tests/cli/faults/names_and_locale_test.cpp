@@ -6,7 +6,6 @@
 #include "cli/running_program.hpp"
 #include "report/figures/figure.hpp"
 #include "report/figures/gnuplot.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

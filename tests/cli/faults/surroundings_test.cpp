@@ -1,7 +1,5 @@
 #include "cli/every_job.hpp"
-#include "cli/program.hpp"
 #include "cli/running_program.hpp"
-#include "support/testing.hpp"
 
 // What the surroundings of the program do to it: no memory, no space, no reader, a signal. Every
 // job is to end with the right code and one line, and to leave nothing behind.
@@ -12,8 +10,6 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::seconds;
 
-constexpr seconds patience{120};
-
 std::vector<std::string> with(const std::string& job, const std::vector<std::string>& more) {
   std::vector<std::string> words = words_of(job);
   words.insert(words.end(), more.begin(), more.end());
@@ -22,7 +18,7 @@ std::vector<std::string> with(const std::string& job, const std::vector<std::str
 
 Ending ending_of(const std::string& job, const std::vector<std::string>& more,
                  const std::string& surroundings = "") {
-  return RunningProgram(with(job, more), surroundings).wait_at_most(patience);
+  return RunningProgram(with(job, more), surroundings).wait_at_most();
 }
 
 std::size_t lines_in(const std::string& text) {
@@ -194,7 +190,7 @@ void expect_interrupted(RunningProgram& program, int signal_number) {
   program.wait_until_it_computes(std::chrono::milliseconds(50));
   const auto start = std::chrono::steady_clock::now();
   program.send(signal_number);
-  expect_ends(program.wait_at_most(patience), 130, "interrupted");
+  expect_ends(program.wait_at_most(), 130, "interrupted");
   EXPECT_LT(std::chrono::steady_clock::now() - start, seconds(30));
 }
 
@@ -244,7 +240,7 @@ void expect_bounded(const std::string& job) {
   program.wait_until_it_computes(std::chrono::milliseconds(250));
   const std::size_t peak = program.peak_memory_so_far_kib();
   program.send(SIGINT);
-  const Ending ending = program.wait_at_most(patience);
+  const Ending ending = program.wait_at_most();
   EXPECT_EQ(ending.ended_by_signal, 0);
   EXPECT_TRUE(ending.exit_code == 130 || ending.exit_code == 1 || ending.exit_code == 2)
       << ending.exit_code << ending.errors;

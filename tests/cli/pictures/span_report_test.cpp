@@ -1,8 +1,6 @@
 #include "cli/program.hpp"
-#include "io/text/csv.hpp"
 #include "report/figures/figure.hpp"
 #include "report/figures/gnuplot.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -6,9 +6,6 @@
 #include <regex>
 
 #include "cli/program.hpp"
-#include "io/text/csv.hpp"
-#include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

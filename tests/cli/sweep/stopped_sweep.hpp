@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 
 #include "cli/running_program.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 

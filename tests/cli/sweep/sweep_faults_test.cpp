@@ -1,6 +1,4 @@
 #include "cli/program.hpp"
-#include "io/text/csv.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -1,8 +1,6 @@
 #include <sys/stat.h>
 
 #include "cli/program.hpp"
-#include "io/text/csv.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -3,9 +3,7 @@
 #ifdef HOLDFAST_HAS_NETCDF
 
 #include "cli/sweep/stopped_sweep.hpp"
-#include "io/text/csv.hpp"
 #include "program/netcdf_variable.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

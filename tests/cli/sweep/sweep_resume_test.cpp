@@ -1,6 +1,4 @@
-#include "cli/running_program.hpp"
 #include "cli/sweep/stopped_sweep.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -1,6 +1,5 @@
 #include "cli/program.hpp"
 #include "cli/sweep/stopped_sweep.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

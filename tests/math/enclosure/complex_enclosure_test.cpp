@@ -4,7 +4,6 @@
 #include "holdfast/math/enclosure/complex_enclosure.hpp"
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -3,7 +3,6 @@
 #include <unsupported/Eigen/AutoDiff>
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "support/dense_routes.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "support/dense_routes.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

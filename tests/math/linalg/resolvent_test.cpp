@@ -2,7 +2,6 @@
 
 #include "holdfast/math/linalg/balancing.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -4,7 +4,6 @@
 #include "holdfast/core/types.hpp"
 #include "support/dense_routes.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

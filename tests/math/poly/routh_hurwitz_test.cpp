@@ -2,7 +2,6 @@
 
 #include "support/polynomial/hurwitz_conditions.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,7 +1,6 @@
 #include "holdfast/math/roots/bracketing_root.hpp"
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

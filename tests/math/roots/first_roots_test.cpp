@@ -1,7 +1,6 @@
 #include "holdfast/math/roots/first_roots.hpp"
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

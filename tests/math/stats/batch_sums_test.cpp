@@ -1,7 +1,6 @@
 #include "holdfast/math/stats/batch_sums.hpp"
 
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

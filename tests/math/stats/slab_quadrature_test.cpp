@@ -2,7 +2,6 @@
 
 #include "holdfast/math/poly/polynomial.hpp"
 #include "support/polynomial/made_polynomial.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -133,7 +133,7 @@ void expect_events_at_the_border_of_a_step() {
     ASSERT_EQ(seen[0].switches.size(), alone.switches.size());
     ASSERT_GT(alone.switches.size(), 2U);
     for (std::size_t k = 0; k < alone.switches.size(); ++k) {
-      const auto time = [&](const SeenSwitch& of) {
+      const auto time = [&](const MotionSwitch& of) {
         return static_cast<double>(of.sample) * at.loop.digital.sampling.period + of.after;
       };
       EXPECT_NEAR(time(seen[0].switches[k]), time(alone.switches[k]), 1e-9);

@@ -3,9 +3,8 @@
 #include "holdfast/motion/batch/event_pack.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "support/kollar_case.hpp"
-#include "support/random.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
+#include "support/switch_notes.hpp"
 
 namespace holdfast::test {
 
@@ -18,9 +17,7 @@ struct ExactMotion {
 /// The loop of Kollár 2022, §4.2, from rest.
 inline ExactMotion kollar_exact(double period, double width, double delay = 0.0,
                                 ForceHold hold = ForceHold::exact) {
-  KollarCase which;
-  which.sampling_period = period;
-  which.width = width;
+  KollarCase which = kollar_case(period, width);
   which.processing_delay = delay;
   IdealLoop<double> ideal = which.ideal_loop();
   ideal.hold = hold;
@@ -56,50 +53,23 @@ inline ExactMotion random_exact(Random& random) {
   return {loop, state};
 }
 
-/// A change of contact: its instant, s from the sample, and the modes.
-struct SeenSwitch {
-  std::int64_t sample;
-  double after;
-  int from, to;
-};
-
 /// What a motion went through: its changes of contact, and its state at every sample.
 struct SeenMotion {
-  std::vector<SeenSwitch> switches;
+  std::vector<MotionSwitch> switches;
   std::vector<Vector<double, 4>> states;
   bool accumulates = false;
-};
-
-class SwitchWatch {
- public:
-  explicit SwitchWatch(SeenMotion& seen) : seen_(seen) {}
-  void begin(std::int64_t sample) { sample_ = sample; }
-  void flowed(int, double begin, double length) { reached_ = begin + length; }
-  void commanded() const {}
-  void switched(int from, int to, int, const ContactInstant&) {
-    seen_.switches.push_back({sample_, reached_, from, to});
-  }
-
- private:
-  SeenMotion& seen_;
-  std::int64_t sample_ = 0;
-  double reached_ = 0.0;
 };
 
 /// By EventMotion.
 inline SeenMotion seen_alone(const ExactMotion& exact, std::int64_t samples) {
   SeenMotion seen;
   auto motion = event_motion(exact.loop, exact.state);
-  SwitchWatch watch(seen);
+  SwitchNotes notes(motion);
   for (std::int64_t j = 0; j < samples; ++j) {
     seen.states.push_back(motion.state());
-    const int before = motion.contact().mode();
-    motion.sense();
-    if (motion.contact().mode() != before)
-      seen.switches.push_back({j, 0.0, before, motion.contact().mode()});
-    watch.begin(j);
-    motion.advance(watch);
+    notes.move(1);
   }
+  seen.switches = notes.switches;
   seen.accumulates = motion.counts().accumulates;
   return seen;
 }
@@ -170,7 +140,7 @@ struct MotionGap {
 inline MotionGap gap_between(const SeenMotion& one, const SeenMotion& other) {
   MotionGap gap{one.switches.size() == other.switches.size(), 0.0, 0.0};
   for (std::size_t k = 0; gap.same_contacts && k < one.switches.size(); ++k) {
-    const SeenSwitch &a = one.switches[k], &b = other.switches[k];
+    const MotionSwitch &a = one.switches[k], &b = other.switches[k];
     gap.same_contacts = a.sample == b.sample && a.from == b.from && a.to == b.to;
     gap.instants = std::max(gap.instants, std::abs(a.after - b.after));
   }

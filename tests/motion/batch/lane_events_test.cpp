@@ -1,7 +1,6 @@
 #include "holdfast/motion/batch/lane_events.hpp"
 
 #include "motion/batch/event_pack_setting.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,8 +1,6 @@
 #include "holdfast/contact/contact.hpp"
 #include "motion/event/kollar_event.hpp"
 #include "motion/event/slow_flow.hpp"
-#include "support/kollar_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

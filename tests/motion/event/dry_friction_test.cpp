@@ -1,7 +1,6 @@
 #include "holdfast/contact/contact.hpp"
 #include "motion/event/kollar_event.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -138,11 +137,11 @@ TEST(DryFriction, SticksAndSlipsForAsLongAsTheClosedFormSays) {
     const int samples = static_cast<int>(20.0 * (stick + slip) / period);
     const auto changes = changes_of_block(block, period, samples);
     ASSERT_GT(changes.size(), 30U);
-    EXPECT_NEAR(changes[0].time, first, 1e-10 * first);
+    EXPECT_NEAR(changes[0].time(), first, 1e-10 * first);
     for (std::size_t k = 0; k + 1 < changes.size(); ++k) {
       const bool slips = k % 2 == 0;
       ASSERT_EQ(changes[k].to, slips ? BeltContact::back : BeltContact::stick) << k;
-      const double lasted = changes[k + 1].time - changes[k].time;
+      const double lasted = changes[k + 1].time() - changes[k].time();
       ASSERT_NEAR(lasted, slips ? slip : stick, 1e-10 * (stick + slip)) << "draw " << draw;
     }
   }
@@ -164,7 +163,7 @@ TEST(DryFriction, FromAnyStateItComesToTheSameCycle) {
     const auto& changes = notes.switches;
     ASSERT_GT(changes.size(), 6U);
     const std::size_t last = changes.size() - 1;
-    EXPECT_NEAR(changes[last].time - changes[last - 2].time, slip + stick, 1e-10) << speed;
+    EXPECT_NEAR(changes[last].time() - changes[last - 2].time(), slip + stick, 1e-10) << speed;
   }
 }
 

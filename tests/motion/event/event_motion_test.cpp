@@ -1,8 +1,6 @@
 #include "holdfast/motion/event_motion.hpp"
 
 #include "motion/event/kollar_event.hpp"
-#include "support/kollar_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -57,7 +55,7 @@ void expect_the_same_motion(const DigitalLoop& first, const DigitalLoop& second,
   }
   for (std::size_t k = 0; k < notes.switches.size(); ++k) {
     ASSERT_EQ(notes.switches[k].to, others.switches[k].to) << k;
-    ASSERT_NEAR(notes.switches[k].time, others.switches[k].time, 1e-9) << k;
+    ASSERT_NEAR(notes.switches[k].time(), others.switches[k].time(), 1e-9) << k;
   }
   EXPECT_GT(width > 0.0 ? notes.switches.size() : 10U, 9U);
 }

@@ -1,13 +1,13 @@
 #pragma once
 
 #include "holdfast/contact/contact.hpp"
-#include "holdfast/contact/contact_guard.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "support/contacts.hpp"
 #include "support/kollar_case.hpp"
-#include "support/testing.hpp"
+#include "support/move_samples.hpp"
+#include "support/switch_notes.hpp"
 
 namespace holdfast::test {
 
@@ -23,50 +23,6 @@ inline BacklashMotion kollar_motion(const DigitalLoop& loop, double width,
                                     const Vector<double, 4>& state = Vector<double, 4>::Zero()) {
   return {loop, test::exact_backlash(kollar2022_plant(), width), state};
 }
-
-template <class Motion>
-void move_samples(Motion& motion, int samples) {
-  for (int j = 0; j < samples; ++j) {
-    motion.sense();
-    motion.advance();
-  }
-}
-
-/// A change of contact: when it was, and what came after it.
-struct MotionSwitch {
-  double time;
-  int from, to;
-};
-
-/// Moves and notes every change of contact, those that a sample brings too.
-template <class Motion>
-class SwitchNotes {
- public:
-  explicit SwitchNotes(Motion& motion) : motion_(motion) {}
-
-  void move(int samples) {
-    for (int j = 0; j < samples; ++j) {
-      const int before = motion_.contact().mode();
-      start_ = motion_.time();
-      motion_.sense();
-      if (motion_.contact().mode() != before)
-        switches.push_back({start_, before, motion_.contact().mode()});
-      motion_.advance(*this);
-    }
-  }
-
-  void flowed(int, double begin, double length) { reached_ = begin + length; }
-  void commanded() {}
-  void switched(int from, int to, int, const ContactInstant&) {
-    switches.push_back({start_ + reached_, from, to});
-  }
-
-  std::vector<MotionSwitch> switches;
-
- private:
-  Motion& motion_;
-  double start_ = 0.0, reached_ = 0.0;
-};
 
 /// A force that is zero at all times, but recorded: what its rows part has to be followed by
 /// series.

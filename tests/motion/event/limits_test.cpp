@@ -1,10 +1,7 @@
 #include "holdfast/contact/contact.hpp"
 #include "motion/event/kollar_event.hpp"
 #include "motion/event/slow_flow.hpp"
-#include "support/contacts.hpp"
-#include "support/kollar_case.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -108,7 +105,7 @@ TEST(EventMotion, ABreakJustAfterAChangeOfContactChangesNothing) {
     for (const MotionSwitch& change : notes.switches) {
       for (const double later : {0.0, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 3e-7, 1e-6}) {
         DigitalLoop parted = plain;
-        parted.force.record = zero_record({-1.0, change.time + later, 2.0});
+        parted.force.record = zero_record({-1.0, change.time() + later, 2.0});
         BacklashMotion other = kollar_motion(parted, 0.0005);
         SwitchNotes others(other);
         others.move(samples);
@@ -146,7 +143,7 @@ TEST(EventMotion, AForceThatJumpsEndsAStickAsASampleWould) {
       ASSERT_EQ(within.size(), at_sample.size()) << force << " N";
       for (std::size_t k = 0; k < within.size(); ++k) {
         EXPECT_EQ(within[k].to, at_sample[k].to) << force << " N, switch " << k;
-        EXPECT_NEAR(within[k].time, at_sample[k].time, 1e-7) << force << " N, switch " << k;
+        EXPECT_NEAR(within[k].time(), at_sample[k].time(), 1e-7) << force << " N, switch " << k;
       }
     }
   }
@@ -254,7 +251,7 @@ TEST(EventMotion, ATouchIsNamedOrAPairOfChanges) {
     if (above <= -1e-11) {
       ASSERT_EQ(changes, 2U) << above;
       const double contact = 2.0 * std::sqrt(-2.0 * above * top / fall);
-      const double found = notes.switches[1].time - notes.switches[0].time;
+      const double found = notes.switches[1].time() - notes.switches[0].time();
       EXPECT_NEAR(found, contact, 0.05 * contact + 1e-9) << above;
     }
     if (above >= 1e-11) {

@@ -3,14 +3,12 @@
 #include "support/kollar_case.hpp"
 #include "support/plain_event_motion.hpp"
 #include "support/region_places.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
 
 ImplementedLoop exact_loop(double period, double width) {
-  IdealLoop<double> loop{kollar2022_plant(), {period, 0.0}, {-557.0, -13.0}, {0.5, 10.0}, width};
-  ImplementedLoop exact = implemented_loop(loop);
+  ImplementedLoop exact = implemented_loop(test::kollar_loop(period, width));
   exact.switching = Switching::exact;
   return exact;
 }

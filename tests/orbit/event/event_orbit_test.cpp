@@ -4,21 +4,15 @@
 #include "holdfast/orbit/orbit_search.hpp"
 #include "orbit/event/return_differences.hpp"
 #include "support/contacts.hpp"
-#include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
 
 IdealLoop<double> event_orbit_loop(double period, double width, ForceHold hold,
                                    double delay_fraction = 0.0) {
-  test::KollarCase which;
-  which.sampling_period = period;
-  which.width = width;
-  which.processing_delay = delay_fraction * period;
-  IdealLoop<double> loop = which.ideal_loop();
+  IdealLoop<double> loop = test::kollar_loop(period, width, delay_fraction);
   loop.hold = hold;
   return loop;
 }
@@ -93,7 +87,7 @@ TEST(EventOrbit, WithoutBacklashIsThatOfTheSampledLoop) {
 }
 
 // With switching at samples and the force held, the motions of 1 ms, 2 mm and 11 ms, 2 mm have
-// periods of 0.5 s and 23.1 s (tests/validation/motions_test.cpp).
+// periods of 0.5 s and 23.1 s (tests/validation/motion_figures_test.cpp).
 TEST(EventOrbit, ExactSwitchingLeavesOfEveryKnownMotionTheCommonPeriod) {
   for (const auto& which : known_motions()) {
     for (const ForceHold hold : {ForceHold::exact, ForceHold::sampled}) {
@@ -139,10 +133,7 @@ TEST(EventOrbit, ClosesUponItselfAndIsWhereALongMotionEnds) {
     EXPECT_EQ(orbit.states.front(), found.point->state);
     EventMotion<> motion = exactly_switching(loop);
     const std::int64_t periods = 60000 / orbit.period_samples();
-    for (std::int64_t j = 0; j < periods * orbit.period_samples(); ++j) {
-      motion.sense();
-      motion.advance();
-    }
+    test::move_samples(motion, periods * orbit.period_samples());
     // The phase of the force is exact on the orbit, rounded at the late instants of the motion.
     EXPECT_LT((motion.state() - orbit.states.front()).norm(), 1e-10);
   }
@@ -271,12 +262,12 @@ TEST(EventOrbit, APushedMotionComesBackAsTheMultipliersSay) {
     StroboscopicState<DriveContact<>> pushed = *found.point;
     pushed.state[0] += 1e-8;
     motion.go_to(pushed);
-    test::pass_samples(motion, orbit.period_samples());
+    test::move_samples(motion, orbit.period_samples());
     constexpr int count = 8;
     std::vector<Vector<double, 4>> deviation;
     for (int k = 0; k < count; ++k) {
       deviation.push_back(motion.motion().state() - orbit.states.front());
-      test::pass_samples(motion, orbit.period_samples());
+      test::move_samples(motion, orbit.period_samples());
     }
     Eigen::Matrix<double, 4 * (count - 3), 3> past;
     Eigen::Matrix<double, 4 * (count - 3), 1> next;
@@ -479,10 +470,7 @@ TEST(EventOrbit, AMotionSeenTooShortlyIsSaidToApproach) {
 TEST(EventOrbit, StartsAtAnySample) {
   const auto loop = event_orbit_loop(0.011, 0.001, ForceHold::exact);
   EventMotion<> motion = exactly_switching(loop);
-  for (int j = 0; j < 137; ++j) {
-    motion.sense();
-    motion.advance();
-  }
+  test::move_samples(motion, 137);
   const auto late = find_event_orbit(motion, OrbitLimits{1000});
   ASSERT_EQ(late.outcome, OrbitOutcome::certified);
   const auto early = certified_event_orbit(loop);

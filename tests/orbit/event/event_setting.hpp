@@ -7,7 +7,7 @@
 #include "holdfast/plant/two_mass.hpp"
 #include "support/contacts.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
+#include "support/switch_notes.hpp"
 
 namespace holdfast::test {
 
@@ -62,39 +62,6 @@ inline EventSetting bounded_event_setting(Random& random, int index) {
   }
 }
 
-/// A change of contact, to tell whether two motions go the same way.
-struct SeenSwitch {
-  std::int64_t index;
-  int from, to, guard;
-  bool operator==(const SeenSwitch& other) const {
-    return index == other.index && from == other.from && to == other.to && guard == other.guard;
-  }
-};
-
-/// Writes down the changes of contact of a motion between its samples, and at them.
-class SwitchRecorder {
- public:
-  void advance(EventMotion<>& motion) {
-    index_ = motion.index();
-    const int before = motion.contact().mode();
-    motion.sense();
-    if (motion.contact().mode() != before)
-      seen_.push_back({index_, before, motion.contact().mode(), -2});
-    motion.advance(*this);
-  }
-
-  void flowed(int, double, double) const {}
-  void commanded() const {}
-  void switched(int from, int to, int guard, const ContactInstant&) {
-    seen_.push_back({index_, from, to, guard});
-  }
-  const std::vector<SeenSwitch>& seen() const { return seen_; }
-
- private:
-  std::int64_t index_ = 0;
-  std::vector<SeenSwitch> seen_;
-};
-
 /// X = [z; u_{j−1}; g; z₁ as read] of a motion that has come to a sample.
 inline Vector<double, 7> extended_state(const EventMotion<>& motion) {
   const bool reads = motion.controller().limits().velocity == VelocitySensing::difference;
@@ -132,14 +99,14 @@ inline Vector<double, 7> sizes_of(const EventMotion<>& motion) {
 inline std::optional<Vector<double, 7>> difference_along(const EventMotion<>& motion,
                                                          const Vector<double, 7>& direction,
                                                          int samples,
-                                                         const std::vector<SeenSwitch>& seen) {
+                                                         const std::vector<MotionSwitch>& seen) {
   Vector<double, 7> ends[2];
   for (const int side : {0, 1}) {
     EventMotion<> other =
         displaced_motion(motion, side == 0 ? direction : Vector<double, 7>(-direction));
-    SwitchRecorder recorder;
-    for (int sample = 0; sample < samples; ++sample) recorder.advance(other);
-    if (!(recorder.seen() == seen)) return std::nullopt;
+    SwitchNotes notes(other);
+    notes.move(samples);
+    if (!same_way(notes.switches, seen)) return std::nullopt;
     ends[side] = extended_state(other);
   }
   return 0.5 * (ends[0] - ends[1]);
@@ -155,7 +122,7 @@ struct Difference {
 inline std::optional<Difference> derivative_along(const EventMotion<>& motion,
                                                   const Vector<double, 7>& direction, double step,
                                                   int samples,
-                                                  const std::vector<SeenSwitch>& seen) {
+                                                  const std::vector<MotionSwitch>& seen) {
   const auto coarse = difference_along(motion, direction * step, samples, seen);
   const auto fine = difference_along(motion, direction * (0.5 * step), samples, seen);
   if (!coarse || !fine) return std::nullopt;

@@ -3,7 +3,6 @@
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "orbit/event/return_differences.hpp"
 #include "support/lagging_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -71,10 +70,7 @@ void expect_closes_with_multiplier(const ImplementedLoopOf<Plant>& loop) {
   // Another motion, from another time on: sampling and forcing go on as they are.
   auto motion = event_motion(loop, found.point->state);
   motion.restore(0, found.point->state, found.point->previous_command, found.point->contact);
-  for (std::int64_t j = 0; j < period; ++j) {
-    motion.sense();
-    motion.advance();
-  }
+  test::move_samples(motion, period);
   const double residual =
       (motion.state() - found.point->state).cwiseAbs().cwiseQuotient(sizes.head(order)).maxCoeff();
   EXPECT_LE(residual, 1e-9);
@@ -86,7 +82,7 @@ void expect_closes_with_multiplier(const ImplementedLoopOf<Plant>& loop) {
          orbit.modes[engaged + 1] != ContactMode::engaged)
     ++engaged;
   repeating.go_to(*found.point);
-  test::pass_samples(repeating, static_cast<std::int64_t>(engaged) + 1);
+  test::move_samples(repeating, static_cast<std::int64_t>(engaged) + 1);
   const double expected =
       test::moduli_by_differences(repeating, repeating.point(), period, 1e-5 * sizes)[0];
   std::cout << "period " << period << ", residual " << residual << ", largest multiplier "

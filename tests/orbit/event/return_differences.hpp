@@ -2,17 +2,10 @@
 
 #include "holdfast/orbit/event/return_map.hpp"
 #include "support/dense_routes.hpp"
+#include "support/move_samples.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::test {
-
-template <class Contact>
-void pass_samples(RepeatingMotion<Contact>& motion, std::int64_t samples) {
-  for (std::int64_t j = 0; j < samples; ++j) {
-    motion.sense();
-    motion.advance();
-  }
-}
 
 /// Eigenvalues of the derivative of X_N by X_0 at a point, by differences; |λ| in falling order.
 /// @param steps  of [x; u_{j−1}; the gap; the displacement as last read]
@@ -27,7 +20,7 @@ Eigen::VectorXd moduli_by_differences(RepeatingMotion<Contact> motion,
       Eigen::VectorXd by = Eigen::VectorXd::Zero(steps.size());
       by[i] = side == 0 ? steps[i] : -steps[i];
       motion.go_to(holdfast::detail::shifted(point, holdfast::detail::PointDeviation<Contact>(by)));
-      pass_samples(motion, samples);
+      move_samples(motion, samples);
       ends[side] = holdfast::detail::difference(point, motion.point());
     }
     derivative.col(i) = 0.5 * (ends[0] - ends[1]).cwiseQuotient(steps);

@@ -5,16 +5,15 @@
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/modal/modal_attraction.hpp"
 #include "holdfast/orbit/modal/modal_orbit_search.hpp"
-#include "support/random.hpp"
+#include "support/move_samples.hpp"
 #include "support/string_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {
 
 ModalLoop loop_of(int modes, const Sampling<double>& sampling, double differential_gain,
                   double play, ForceHold hold) {
-  return {string_modes(taut_string(kollar2022_conductor()), 0.64, modes),
+  return {papers_modes(modes),
           papers_absorber(0.01),
           sampling,
           {-557.0, differential_gain},
@@ -59,10 +58,7 @@ TEST(ModalOrbit, IsWhereTheMotionComesTo) {
     // What it takes to be drawn in, and then to fall by 10¹².
     const auto periods =
         20000 / samples + static_cast<std::int64_t>(-28.0 / orbit.multipliers[0].log_modulus);
-    for (std::int64_t j = 0; j < periods * samples; ++j) {
-      motion.sense();
-      motion.advance();
-    }
+    move_samples(motion, periods * samples);
     // The motion comes to one of the copies of the orbit, each q samples later.
     const std::int64_t step = orbit.ratio.denominator;
     double nearest = std::numeric_limits<double>::infinity();

@@ -3,8 +3,6 @@
 #include "orbit/proof/proved_event_orbits.hpp"
 #include "support/plain_exact_motion.hpp"
 #include "support/property.hpp"
-#include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -18,8 +16,10 @@ using ProposedEvents = test::ProposedEventOrbit;
 /// A motion in extended precision from the given first state.
 PlainExactMotion plain_motion_of(const ProposedEvents& proposed) {
   const auto& [phase, state, command, reading, contact] = proposed.first;
-  return {test::plain_exact_loop(proposed.loop, proposed.orbit.ratio,
-                                 proposed.loop.hold == ForceHold::sampled),
+  test::PlainExactLoop loop = test::plain_exact_loop(proposed.loop);
+  loop.p = proposed.orbit.ratio.numerator;
+  loop.q = proposed.orbit.ratio.denominator;
+  return {loop,
           {state[0], state[1], state[2], state[3], command},
           static_cast<int>(contact.mode()),
           contact.sign(),

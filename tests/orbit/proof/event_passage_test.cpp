@@ -3,7 +3,6 @@
 #include "holdfast/motion/variational_flow.hpp"
 #include "orbit/proof/proved_event_orbits.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

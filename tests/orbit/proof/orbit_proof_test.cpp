@@ -2,8 +2,6 @@
 
 #include "orbit/proof/proved_orbits.hpp"
 #include "support/property.hpp"
-#include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "holdfast/orbit/orbit_continuation.hpp"
 #include "orbit/proof/proved_orbits.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

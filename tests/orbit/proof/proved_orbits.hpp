@@ -3,15 +3,12 @@
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/proof/orbit_proof.hpp"
 #include "support/kollar_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 
 /// The loop of the paper's plant and force.
 inline IdealLoop<double> proved_loop(double period, double width, double delay = 0.0) {
-  KollarCase which;
-  which.sampling_period = period;
-  which.width = width;
+  KollarCase which = kollar_case(period, width);
   which.processing_delay = delay;
   return which.ideal_loop();
 }

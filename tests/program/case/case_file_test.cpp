@@ -2,13 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "case/builtin_case.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "process/errors.hpp"
 #include "program/case/case_text.hpp"
-#include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -135,9 +132,8 @@ TEST(CaseFile, WritingAndReadingGivesTheSameCase) {
     Case the_case = from_text(i % 2 == 0 ? "" : wind_table,
                               i % 7 == 0 ? std::vector<std::string>() : digital_values);
     for (const CaseKey& key : case_keys()) {
-      const bool free = key.number != nullptr && key.number(the_case) != nullptr &&
-                        !key.range.whole && !key.bears_word(the_case) &&
-                        !(key.replaced_by_wind && the_case.wind);
+      const bool free = key.is_number() && key.number(the_case) != nullptr && !key.range.whole &&
+                        !key.bears_word(the_case) && !(key.replaced_by_wind && the_case.wind);
       if (free) set_case_value(the_case, key.name, *key.number(the_case) * factor(random));
     }
     the_case.control.proportional_gain_tuned = i % 3 == 0;
@@ -185,8 +181,8 @@ TEST(CaseFile, NumbersBeyondAnIntegerAreWrittenAsFloats) {
 TEST(CaseFile, EveryKeyRefusesAWrongTypeWithFileLineKeyAndWhatIsAdmissible) {
   for (const CaseKey& key : case_keys()) {
     for (const std::string value : {"true", "[1, 2]", "1979-05-27", "{ a = 1 }", "\"nonsense\""}) {
-      if (key.file != nullptr && value.front() == '"') continue;  // as good a name as any
-      const bool is_list = key.interval != nullptr || key.numbers != nullptr;
+      if (key.kind == ValueKind::file && value.front() == '"') continue;  // as good a name as any
+      const bool is_list = key.kind == ValueKind::interval || key.kind == ValueKind::numbers;
       if (is_list && value.front() == '[') continue;
       const std::string message =
           refusal("\n[" + key.table() + "]\n" + key.short_name() + " = " + value + "\n");
@@ -198,7 +194,7 @@ TEST(CaseFile, EveryKeyRefusesAWrongTypeWithFileLineKeyAndWhatIsAdmissible) {
 
 TEST(CaseFile, EveryNumberRefusesWhatIsNotFinite) {
   for (const CaseKey& key : case_keys()) {
-    if (key.number == nullptr) continue;
+    if (!key.is_number()) continue;
     for (const std::string value : {"nan", "inf", "-inf", "+inf", "1e999"}) {
       const std::string message =
           refusal("[" + key.table() + "]\n" + key.short_name() + " = " + value + "\n");
@@ -210,7 +206,7 @@ TEST(CaseFile, EveryNumberRefusesWhatIsNotFinite) {
 
 TEST(CaseFile, EveryBoundedNumberRefusesWhatIsBelow) {
   for (const CaseKey& key : case_keys()) {
-    if (key.number == nullptr || !std::isfinite(key.range.lowest)) continue;
+    if (!key.is_number() || !std::isfinite(key.range.lowest)) continue;
     const std::string message =
         refusal("[" + key.table() + "]\n" + key.short_name() + " = -1e-3\n");
     EXPECT_TRUE(holds(message, "case.toml:2: " + key.name + " = -0.001: ")) << message;

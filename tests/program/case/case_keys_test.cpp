@@ -41,11 +41,8 @@ TEST(CaseKeys, NamesAreDistinctAndEachHasOnePlaceAndADescription) {
   std::set<std::string> names;
   for (const CaseKey& key : case_keys()) {
     EXPECT_TRUE(names.insert(key.name).second) << key.name;
-    const int places = (key.number != nullptr) + (key.word != nullptr) + (key.file != nullptr) +
-                       (key.conductor != nullptr) + (key.harmonics != nullptr) +
-                       (key.interval != nullptr) + (key.numbers != nullptr);
-    EXPECT_EQ(places, 1) << key.name;
-    EXPECT_EQ(key.word != nullptr, key.number == nullptr && !key.words.empty()) << key.name;
+    EXPECT_NE(key.place, nullptr) << key.name;
+    EXPECT_EQ(key.kind == ValueKind::word, !key.is_number() && !key.words.empty()) << key.name;
     EXPECT_FALSE(key.description.empty()) << key.name;
     EXPECT_FALSE(key.admissible().empty()) << key.name;
     EXPECT_EQ(key.table() + "." + key.short_name(), key.name);
@@ -54,13 +51,14 @@ TEST(CaseKeys, NamesAreDistinctAndEachHasOnePlaceAndADescription) {
 }
 
 const void* place_of(const CaseKey& key, Case& the_case) {
-  if (key.number != nullptr) return key.number(the_case);
-  if (key.word != nullptr) return key.word(the_case);
-  if (key.file != nullptr) return key.file(the_case);
-  if (key.conductor != nullptr) return key.conductor(the_case);
-  if (key.interval != nullptr) return key.interval(the_case);
-  if (key.numbers != nullptr) return key.numbers(the_case);
-  return key.harmonics(the_case);
+  return std::visit([](const auto* value) -> const void* { return value; }, key.place(the_case));
+}
+
+TEST(CaseKeys, EachPlaceHasTheTypeOfItsKind) {
+  constexpr std::array<std::size_t, 7> types = {0, 1, 1, 1, 2, 3, 4};
+  Case windy = windy_case();
+  for (const CaseKey& key : case_keys())
+    EXPECT_EQ(key.place(windy).index(), types[static_cast<std::size_t>(key.kind)]) << key.name;
 }
 
 TEST(CaseKeys, NoTwoKeysShareAPlace) {
@@ -75,7 +73,7 @@ TEST(CaseKeys, EachNumberIsRefusedOutsideItsRangeAndSetInside) {
   int refused = 0;
   int accepted = 0;
   for (const CaseKey& key : case_keys()) {
-    if (key.number == nullptr) continue;
+    if (!key.is_number()) continue;
     for (const double value : numbers_near_ends(key.range)) {
       Case the_case = case_for(key);
       if (key.range.contains(value)) {

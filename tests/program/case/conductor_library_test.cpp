@@ -4,14 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
-#include "case/library/named_conductor.hpp"
+#include "case/model/cable_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "holdfast/core/types.hpp"
 #include "process/errors.hpp"
 #include "program/case/case_text.hpp"
-#include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

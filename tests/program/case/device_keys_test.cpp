@@ -4,6 +4,7 @@
 
 #include "case/case_source.hpp"
 #include "case/device/impedance_table.hpp"
+#include "case/toml_values.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/span/device/measured_impedance.hpp"
 #include "program/case/case_text.hpp"
@@ -45,29 +46,18 @@ std::string case_of(const std::vector<std::string>& texts) {
 /// Why a case of this device alone is none.
 std::string refusal_of(const std::string& device) { return refusal(case_of({device})); }
 
-void expect_same(const Device& a, const Device& b) {
-  for (const DeviceKey& key : device_keys()) {
-    if (key.number != nullptr) {
-      EXPECT_EQ(a.*key.number, b.*key.number) << key.name;
-    }
-    if (key.numbers != nullptr) {
-      EXPECT_EQ(a.*key.numbers, b.*key.numbers) << key.name;
-    }
-    if (key.word != nullptr) {
-      EXPECT_EQ(a.*key.word, b.*key.word) << key.name;
-    }
-    if (key.file != nullptr) {
-      EXPECT_EQ(a.*key.file, b.*key.file) << key.name;
-    }
-  }
+void expect_same(Device a, Device b) {
+  for (const DeviceKey& key : device_keys())
+    EXPECT_EQ(json_value(key, key.place(a)), json_value(key, key.place(b))) << key.name;
 }
 
 TEST(DeviceKeys, EachHasOnePlaceAndSaysWhatIsAdmissible) {
   for (const DeviceKey& key : device_keys()) {
-    const int places = (key.number != nullptr) + (key.numbers != nullptr) + (key.word != nullptr) +
-                       (key.file != nullptr);
-    EXPECT_EQ(places, 1) << key.name;
-    EXPECT_EQ(key.word != nullptr, !key.words.empty()) << key.name;
+    ASSERT_NE(key.place, nullptr) << key.name;
+    Device device;
+    const std::size_t type = key.is_number() ? 0 : key.kind == ValueKind::numbers ? 3 : 1;
+    EXPECT_EQ(key.place(device).index(), type) << key.name;
+    EXPECT_EQ(key.kind == ValueKind::word, !key.words.empty()) << key.name;
     EXPECT_FALSE(key.description.empty() || key.admissible().empty()) << key.name;
     EXPECT_EQ(find_device_key(key.name), &key);
     const auto name = device_key_name(device_key_text(12, key.name));
@@ -206,7 +196,7 @@ TEST(Devices, EveryKeyRefusesAWrongTypeWithFileLineAndWhatIsAdmissible) {
   for (const DeviceKey& key : device_keys())
     for (const std::string value :
          {"true", "[\"1\"]", "[nan]", "1979-05-27", "{ a = 1 }", "\"nonsense\"", "inf", "[]"}) {
-      if (key.file != nullptr && value.front() == '"') continue;  // as good a name as any
+      if (key.kind == ValueKind::file && value.front() == '"') continue;  // as good a name as any
       const std::string message = refusal(case_of({devices[0], key.name + " = " + value + "\n"}));
       EXPECT_TRUE(holds(message, "case.toml:8: device.2." + key.name + " = ")) << message;
       EXPECT_TRUE(holds(message, key.admissible())) << message;
@@ -215,7 +205,7 @@ TEST(Devices, EveryKeyRefusesAWrongTypeWithFileLineAndWhatIsAdmissible) {
 
 TEST(Devices, EveryBoundedNumberRefusesWhatIsBelow) {
   for (const DeviceKey& key : device_keys()) {
-    if (key.number == nullptr || !std::isfinite(key.range.lowest)) continue;
+    if (!key.is_number() || !std::isfinite(key.range.lowest)) continue;
     EXPECT_EQ(refusal_of(key.name + " = -1\n"),
               "case.toml:4: device.1." + key.name + " = -1: admissible is " + key.admissible());
   }

@@ -4,7 +4,6 @@
 #include "io/file/whole_file.hpp"
 #include "process/errors.hpp"
 #include "program/case/case_text.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

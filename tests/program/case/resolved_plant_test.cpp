@@ -4,7 +4,6 @@
 #include "case/model/cable_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "program/case/case_text.hpp"
-#include "support/testing.hpp"
 #include "text/text.hpp"
 
 namespace holdfast::program {

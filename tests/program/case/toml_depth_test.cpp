@@ -1,11 +1,9 @@
-#include "case/toml_depth.hpp"
+#include "case/toml_values.hpp"
 
 #include "case/case_file.hpp"
-#include "case/toml_values.hpp"
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
 #include "support/random.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -18,7 +18,6 @@
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"
 #include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

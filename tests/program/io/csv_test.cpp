@@ -3,7 +3,6 @@
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -4,7 +4,6 @@
 #include "program/child_process.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -15,7 +15,6 @@
 #include "program/child_process.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 
 #ifdef HOLDFAST_HAS_NETCDF
 #include "program/netcdf_variable.hpp"

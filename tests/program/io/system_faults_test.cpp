@@ -18,7 +18,6 @@
 #include "program/store/small_store.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 #include "text/checksum.hpp"
 
 namespace {

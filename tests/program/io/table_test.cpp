@@ -6,7 +6,6 @@
 #include "output/metadata.hpp"
 #include "process/errors.hpp"
 #include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

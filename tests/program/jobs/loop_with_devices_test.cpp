@@ -9,7 +9,6 @@
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "program/case/case_text.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

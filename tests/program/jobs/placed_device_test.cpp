@@ -8,11 +8,9 @@
 #include "holdfast/span/end_response.hpp"
 #include "jobs/span/aeolian_amplitudes.hpp"
 #include "jobs/span/placement/absorber_demands.hpp"
-#include "jobs/span/placement/largest_vibration.hpp"
 #include "jobs/span/placement/stable_gains.hpp"
 #include "program/case/case_text.hpp"
 #include "support/drake_case.hpp"
-#include "support/testing.hpp"
 
 #ifdef HOLDFAST_HAS_CERES
 
@@ -50,7 +48,7 @@ TEST(PlacedAbsorber, IsStableAndNoPairOfAGridWithItsMarginIsBetter) {
   const StableGains stable(before, question.margin);
   EXPECT_TRUE(stable.admits(found));
   const PlacementLevels levels(before, question);
-  const GainRectangle around = stable.around({1e9, 1e6});
+  const GainWindow around = stable.around({1e9, 1e6});
   constexpr int count = 41;
   int admitted = 0;
   for (int i = 0; i < count; ++i)

@@ -7,7 +7,6 @@
 #include "program/case/case_text.hpp"
 #include "support/dense_routes.hpp"
 #include "support/property.hpp"
-#include "support/testing.hpp"
 
 #ifdef HOLDFAST_HAS_CERES
 

@@ -7,7 +7,6 @@
 #include "process/interrupt.hpp"
 #include "process/worker_threads.hpp"
 #include "support/other_gnuplot.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -6,7 +6,6 @@
 #include "holdfast/motion/trajectory.hpp"
 #include "process/errors.hpp"
 #include "support/reference/state_between_samples.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -213,7 +212,8 @@ TEST(SwitchingPage, NamesBothSwitchings) {
   SwitchingPage page;
   page.of_case = {made_motion(sampled_and_held, 1e-3, 2), made_motion(sampled_switching, 1.1e-3, 2),
                   made_motion(exact_switching, 1e-3, 1)};
-  page.laws = {{"play", page.of_case[1], page.of_case[2]}};
+  page.laws = {page.of_case[1], page.of_case[2]};
+  page.laws[0].loop.the_case.backlash.law = "play";
   const std::string html = html_of(page);
   expect_in(html,
             {"id=\"switching\"", "How much the sampled switching matters",

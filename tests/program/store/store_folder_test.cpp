@@ -9,7 +9,6 @@
 #include "program/store/small_store.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -3,7 +3,6 @@
 #include "support/polynomial/made_polynomial.hpp"
 #include "support/polynomial/rounding.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

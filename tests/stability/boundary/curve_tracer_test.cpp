@@ -5,7 +5,6 @@
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "support/polynomial/rounding.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -4,7 +4,6 @@
 #include "holdfast/stability/boundary/boundary_curves.hpp"
 #include "support/polynomial/made_polynomial.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

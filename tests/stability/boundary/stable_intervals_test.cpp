@@ -2,7 +2,6 @@
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -7,9 +7,7 @@
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "support/dense_routes.hpp"
 #include "support/lagging_plant.hpp"
-#include "support/random.hpp"
 #include "support/string_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {

@@ -42,7 +42,7 @@ TEST(AmplitudeBand, FindsTheWorstFrequencyOfADenseScan) {
   for (const BandCase& c : band_cases()) {
     const bool is_light = c.plant.absorber_damping < 1.0;
     const auto loop = sampled_loop(c.plant, c.options.sampling);
-    const AmplitudeBand band(PlantOverBand<TwoMass<double>>{c.plant, loop, c.options.hold, false},
+    const AmplitudeBand band(PlantOverBand<TwoMass<double>>{c.plant, c.options},
                              c.proportional_gain, c.band);
     for (const double d : is_light ? std::vector<double>{-1.0, 0.3, 1.0, 2.0}
                                    : std::vector<double>{-13.0, -5.0, 1.0}) {

@@ -11,7 +11,6 @@
 #include "holdfast/stability/response/modal_steady_response.hpp"
 #include "support/margin_ends.hpp"
 #include "support/string_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {
@@ -20,7 +19,7 @@ const Sampling<double> samplings[] = {{1e-3, 3e-4}, {3e-3, 3e-3}, {0.01, 0.0}, {
 
 /// Five modes of the paper's string with its absorber, by its poles and by its matrices.
 struct SomeString {
-  std::vector<PlaceMode<double>> modes = string_modes(taut_string(kollar2022_conductor()), 0.64, 5);
+  std::vector<PlaceMode<double>> modes = papers_modes(5);
   Absorber<double> absorber;
   ConductorWithAbsorber conductor{modes, absorber, plant_poles(modes, absorber), {}};
   LinearPlant<double> plant = modal_plant(modes, absorber);

@@ -1,22 +1,16 @@
 // The slowest computer on a conductor by its modes, against the link by link search of two masses
 // and of a plant of any order.
 
-#include "holdfast/stability/design/modal_max_delay.hpp"
+#include "holdfast/stability/design/max_delay.hpp"
 
 #include "holdfast/cable/taut_string.hpp"
-#include "holdfast/stability/design/max_delay.hpp"
 #include "support/string_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {
 
 ConductorWithAbsorber string_with(int modes, double clamp_mass) {
-  ConductorWithAbsorber plant{string_modes(taut_string(kollar2022_conductor()), 0.64, modes),
-                              papers_absorber(clamp_mass),
-                              {}};
-  plant.poles = plant_poles(plant.modes, plant.absorber);
-  return plant;
+  return string_with_absorber(modes, 0.02, {}, 0.64, papers_absorber(clamp_mass));
 }
 
 MaxDelayOptions tuned_to(double frequency, const Absorber<double>& absorber) {

@@ -8,7 +8,6 @@
 #include "support/lagging_plant.hpp"
 #include "support/margin_ends.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -19,13 +18,10 @@ struct MarginCase {
 };
 
 /// All stable; the fifth one is close to its lower edge in D.
-const std::vector<MarginCase>& margin_cases() {
-  static const std::vector<MarginCase> cases = {
-      {{0.001, 0.0}, {-557.0, -13.0}},   {{0.010, 0.0}, {-557.0, -13.0}},
-      {{0.010, 0.005}, {-557.0, -13.0}}, {{0.003, 0.003}, {-557.0, -13.0}},
-      {{0.010, 0.0}, {-557.0, -15.4}},   {{0.050, 0.0}, {-20.0, -1.0}}};
-  return cases;
-}
+const std::vector<MarginCase> margin_cases = {
+    {{0.001, 0.0}, {-557.0, -13.0}},   {{0.010, 0.0}, {-557.0, -13.0}},
+    {{0.010, 0.005}, {-557.0, -13.0}}, {{0.003, 0.003}, {-557.0, -13.0}},
+    {{0.010, 0.0}, {-557.0, -15.4}},   {{0.050, 0.0}, {-20.0, -1.0}}};
 
 /// ρ, the commands on their way being states.
 double radius_of(const TwoMass<double>& plant, const Sampling<double>& sampling,
@@ -71,7 +67,7 @@ StabilityMargins expect_first_losses(const Plant& plant, const MarginCase& c, co
 }
 
 TEST(Margins, EndWhereTheSpectralRadiusIsOneAndNotBefore) {
-  for (const MarginCase& c : margin_cases())
+  for (const MarginCase& c : margin_cases)
     expect_first_losses(kollar2022_plant(), c, {2000, 1e4, 1e-10, 1e-6});
 }
 
@@ -81,20 +77,17 @@ struct LaggingCase {
 };
 
 /// Stable loops of seven states, with delays of none, part of a sample, and several.
-const std::vector<LaggingCase>& lagging_cases() {
-  static const std::vector<LaggingCase> cases = {{200.0, 300.0, {{0.001, 0.0}, {-100.0, -5.0}}},
-                                                 {100.0, 150.0, {{0.002, 0.001}, {-50.0, -3.0}}},
-                                                 {200.0, 300.0, {{0.001, 0.0025}, {-60.0, -4.0}}},
-                                                 {100.0, 300.0, {{0.001, 0.003}, {-30.0, -2.0}}},
-                                                 {200.0, 300.0, {{0.005, 0.002}, {-100.0, -6.5}}},
-                                                 {200.0, 300.0, {{0.0005, 0.0031}, {-60.0, -5.5}}},
-                                                 {30.0, 60.0, {{0.01, 0.0}, {-20.0, -1.0}}}};
-  return cases;
-}
+const std::vector<LaggingCase> lagging_cases = {{200.0, 300.0, {{0.001, 0.0}, {-100.0, -5.0}}},
+                                                {100.0, 150.0, {{0.002, 0.001}, {-50.0, -3.0}}},
+                                                {200.0, 300.0, {{0.001, 0.0025}, {-60.0, -4.0}}},
+                                                {100.0, 300.0, {{0.001, 0.003}, {-30.0, -2.0}}},
+                                                {200.0, 300.0, {{0.005, 0.002}, {-100.0, -6.5}}},
+                                                {200.0, 300.0, {{0.0005, 0.0031}, {-60.0, -5.5}}},
+                                                {30.0, 60.0, {{0.01, 0.0}, {-20.0, -1.0}}}};
 
 TEST(AnyOrderMargins, OfSevenStatesAreTheFirstLossesOfStability) {
   int late = 0;
-  for (const LaggingCase& c : lagging_cases()) {
+  for (const LaggingCase& c : lagging_cases) {
     SCOPED_TRACE(c.loop.sampling.processing_delay / c.loop.sampling.period);
     const auto margins =
         expect_first_losses(test::lagging_plant(c.filter, c.drive), c.loop, {500, 1e4, 1e-9, 1e-5});
@@ -281,7 +274,7 @@ TEST(Margins, OfThePapersGainsEndWhereItsChartsDo) {
 }
 
 TEST(Margins, NameTheRootThatCrosses) {
-  for (const MarginCase& c : margin_cases()) {
+  for (const MarginCase& c : margin_cases) {
     const auto margins = stability_margins(kollar2022_plant(), c.sampling, c.gains);
     for (const MarginEnd& end :
          {margins.differential_gain.below, margins.differential_gain.above}) {

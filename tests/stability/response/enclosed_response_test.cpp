@@ -4,9 +4,7 @@
 #include "holdfast/stability/response/enclosed_response.hpp"
 
 #include "holdfast/stability/response/modal_response.hpp"
-#include "support/random.hpp"
 #include "support/string_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {

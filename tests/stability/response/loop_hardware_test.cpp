@@ -11,7 +11,6 @@
 #include "holdfast/stability/response/modal_steady_response.hpp"
 #include "support/message_of.hpp"
 #include "support/string_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {
@@ -19,9 +18,7 @@ namespace {
 constexpr double ideal = LoopHardware::ideal;
 
 ConductorWithAbsorber conductor(int modes, const LoopHardware& hardware) {
-  const auto places = string_modes(taut_string(kollar2022_conductor()), 0.64, modes);
-  const Absorber<double> absorber = papers_absorber(0.01);
-  return {places, absorber, plant_poles(places, absorber), hardware};
+  return string_with_absorber(modes, 0.02, hardware);
 }
 
 const std::vector<LoopHardware> kinds = {{80.0, ideal, ideal}, {ideal, 60.0, ideal},
@@ -110,7 +107,7 @@ TEST(LoopHardware, SteadyResponseIsThatOfThePlant) {
 
 /// The first-order law knows filter and drive: of a light device it is the exact damping.
 TEST(LoopHardware, ModalDampingOfALightDeviceIsItsFirstOrder) {
-  auto modes = string_modes(taut_string(kollar2022_conductor()), 0.64, 6);
+  auto modes = papers_modes(6);
   for (auto& mode : modes) {
     mode.mass *= 1e6;
     mode.damping_ratio = 1e-5;

@@ -7,9 +7,7 @@
 
 #include "holdfast/cable/taut_string.hpp"
 #include "holdfast/control/loop_map.hpp"
-#include "support/random.hpp"
 #include "support/string_case.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {

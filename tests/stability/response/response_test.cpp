@@ -6,7 +6,6 @@
 #include "support/dense_routes.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/random_loop.hpp"
-#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -98,10 +98,6 @@ class ComplexEnclosure {
     return {{x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()},
             detail::above_roundings(radius) + least};
   }
-  /// a x of a real x.
-  friend ComplexEnclosure operator*(const ComplexEnclosure& a, const Enclosure& x) {
-    return a * ComplexEnclosure(x);
-  }
   /// a / b; unknown where b may be 0.
   friend ComplexEnclosure operator/(const ComplexEnclosure& a, const ComplexEnclosure& b) {
     return a * inverse(b);

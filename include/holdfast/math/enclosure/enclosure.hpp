@@ -6,10 +6,6 @@
 
 #include "holdfast/core/types.hpp"
 
-#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
-#error "-ffast-math lets the compiler round and compare as it likes: nothing is proved then"
-#endif
-
 namespace holdfast {
 
 namespace detail {

@@ -12,6 +12,62 @@
 
 namespace holdfast {
 
+namespace detail {
+
+/// M = U T U* with T upper triangular and U unitary: the real Schur form, whose 2 × 2 blocks are
+/// turned into triangles.
+template <class Scalar>
+struct TriangularForm {
+  using Complex = std::complex<Scalar>;
+  using Square = Matrix<Scalar, Eigen::Dynamic>;
+
+  Matrix<Complex, Eigen::Dynamic> triangle;  ///< T
+  Matrix<Complex, Eigen::Dynamic> basis;     ///< U
+  bool converged;                            ///< whether the QR algorithm did
+
+  /// @param matrix  M, n × n, finite
+  /// @param scale   by which it is divided for the QR algorithm
+  explicit TriangularForm(const Square& matrix, const Scalar& scale = Scalar(1)) {
+    const HessenbergForm<Square> hessenberg(matrix / scale);
+    Eigen::RealSchur<Square> schur(matrix.rows());
+    schur.computeFromHessenberg(hessenberg.form, hessenberg.basis, true);
+    converged = schur.info() == Eigen::Success;
+    triangle = (schur.matrixT() * scale).template cast<Complex>();
+    basis = schur.matrixU().template cast<Complex>();
+    make_triangular();
+  }
+
+ private:
+  /// Turns each 2 × 2 block of the real Schur form by a unitary rotation into a triangle.
+  void make_triangular() {
+    const Eigen::Index n = triangle.rows();
+    for (Eigen::Index m = n - 1; m > 0; --m) {
+      if (triangle(m, m - 1) == Complex(0)) continue;
+      const Complex half = (triangle(m - 1, m - 1) - triangle(m, m)) / Scalar(2);
+      const Complex root = std::sqrt(half * half + triangle(m - 1, m) * triangle(m, m - 1));
+      const Complex away = half + root;  // eigenvalue less the lower diagonal entry
+      const Scalar length = std::sqrt(std::norm(away) + std::norm(triangle(m, m - 1)));
+      const Complex c = away / length, s = triangle(m, m - 1) / length;
+      const auto turn = [&c, &s](auto&& upper, auto&& lower) {
+        const auto before = upper.eval();
+        upper = std::conj(c) * before + std::conj(s) * lower;
+        lower = c * lower - s * before;
+      };
+      turn(triangle.row(m - 1).tail(n - m + 1), triangle.row(m).tail(n - m + 1));
+      const auto turn_columns = [&c, &s](auto&& left, auto&& right) {
+        const auto before = left.eval();
+        left = c * before + s * right;
+        right = std::conj(c) * right - std::conj(s) * before;
+      };
+      turn_columns(triangle.col(m - 1).head(m + 1), triangle.col(m).head(m + 1));
+      turn_columns(basis.col(m - 1), basis.col(m));
+      triangle(m, m - 1) = Complex(0);
+    }
+  }
+};
+
+}  // namespace detail
+
 /// The eigenvalues and eigenvectors of a real square matrix, A V = V diag(s), as a basis in which
 /// ẋ = A x + b u, y = h x falls into N scalar equations:
 ///
@@ -46,33 +102,6 @@ class EigenBasis {
   bool is_sound() const;
 
  private:
-  /// Turns each 2 × 2 block of the real Schur form by a unitary rotation into a triangle.
-  void make_triangular() {
-    const Eigen::Index n = triangle_.rows();
-    for (Eigen::Index m = n - 1; m > 0; --m) {
-      if (triangle_(m, m - 1) == Complex(0)) continue;
-      const Complex half = (triangle_(m - 1, m - 1) - triangle_(m, m)) / Scalar(2);
-      const Complex root = std::sqrt(half * half + triangle_(m - 1, m) * triangle_(m, m - 1));
-      const Complex away = half + root;  // eigenvalue less the lower diagonal entry
-      const Scalar length = std::sqrt(std::norm(away) + std::norm(triangle_(m, m - 1)));
-      const Complex c = away / length, s = triangle_(m, m - 1) / length;
-      const auto turn = [&c, &s](auto&& upper, auto&& lower) {
-        const auto before = upper.eval();
-        upper = std::conj(c) * before + std::conj(s) * lower;
-        lower = c * lower - s * before;
-      };
-      turn(triangle_.row(m - 1).tail(n - m + 1), triangle_.row(m).tail(n - m + 1));
-      const auto turn_columns = [&c, &s](auto&& left, auto&& right) {
-        const auto before = left.eval();
-        left = c * before + s * right;
-        right = std::conj(c) * right - std::conj(s) * before;
-      };
-      turn_columns(triangle_.col(m - 1).head(m + 1), triangle_.col(m).head(m + 1));
-      turn_columns(basis_.col(m - 1), basis_.col(m));
-      triangle_(m, m - 1) = Complex(0);
-    }
-  }
-
   /// Column k solves (T − t_kk) x = 0 with x_k = 1.
   void find_vectors() {
     const Eigen::Index n = triangle_.rows();
@@ -102,18 +131,14 @@ class EigenBasis {
 
 template <class Scalar>
 EigenBasis<Scalar>::EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix) {
-  using Square = Matrix<Scalar, Eigen::Dynamic>;
   const BalancedMatrix<Scalar, Eigen::Dynamic> similar(matrix);
   factors_ = similar.factors;
   const Scalar scale =
       std::max(similar.balanced.cwiseAbs().maxCoeff(), std::numeric_limits<Scalar>::min());
-  const HessenbergForm<Square> hessenberg(similar.balanced / scale);
-  Eigen::RealSchur<Square> schur(matrix.rows());
-  schur.computeFromHessenberg(hessenberg.form, hessenberg.basis, true);
-  converged_ = schur.info() == Eigen::Success;
-  triangle_ = (schur.matrixT() * scale).template cast<Complex>();
-  basis_ = schur.matrixU().template cast<Complex>();
-  make_triangular();
+  const detail::TriangularForm<Scalar> schur(similar.balanced, scale);
+  triangle_ = schur.triangle;
+  basis_ = schur.basis;
+  converged_ = schur.converged;
   find_vectors();
 }
 

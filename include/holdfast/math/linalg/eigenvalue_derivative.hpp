@@ -36,10 +36,4 @@ std::complex<Scalar> eigenvalue_derivative(const Matrix<Scalar, Eigen::Dynamic>&
          resolvent.trace();
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template std::complex<double> eigenvalue_derivative(const Matrix<double, Eigen::Dynamic>&,
-                                                           const Matrix<double, Eigen::Dynamic>&,
-                                                           const std::complex<double>&);
-#endif
-
 }  // namespace holdfast

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -10,9 +10,9 @@
 
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/eigenbasis.hpp"
 #include "holdfast/math/linalg/elimination.hpp"
 #include "holdfast/math/linalg/moving_number.hpp"
-#include "holdfast/math/linalg/reflections.hpp"
 
 namespace holdfast {
 
@@ -23,41 +23,6 @@ struct MovingMatrix {
   std::vector<Eigen::MatrixXd> terms;  ///< terms[0] = S(0) − I and so on, n × n each, at least two
   Eigen::MatrixXd remainder;           ///< n × n, ≥ 0
 };
-
-namespace detail {
-
-/// A unitary Q, n × n, for which Q*MQ is upper triangular: the real Schur form with the two vectors
-/// of each of its complex blocks turned into one another.
-template <class Scalar>
-Matrix<std::complex<Scalar>, Eigen::Dynamic> triangular_basis(
-    const Matrix<Scalar, Eigen::Dynamic>& matrix) {
-  using Square = Matrix<Scalar, Eigen::Dynamic>;
-  using Complex = std::complex<Scalar>;
-  const Eigen::Index n = matrix.rows();
-  const HessenbergForm<Square> hessenberg(matrix);
-  Eigen::RealSchur<Square> schur(n);
-  schur.computeFromHessenberg(hessenberg.form, hessenberg.basis, true);
-  const Square& form = schur.matrixT();
-  Matrix<Complex, Eigen::Dynamic> basis = schur.matrixU().template cast<Complex>();
-  for (Eigen::Index i = 0; i + 1 < n; ++i) {
-    if (form(i + 1, i) == Scalar(0)) continue;
-    const Scalar half = Scalar(0.5) * (form(i, i) - form(i + 1, i + 1));
-    const Scalar square = half * half + form(i, i + 1) * form(i + 1, i);
-    // (λ − t₂₂, t₂₁) is an eigenvector of the block.
-    Complex first = half + std::sqrt(Complex(square));
-    Complex second = form(i + 1, i);
-    const Scalar length = std::sqrt(std::norm(first) + std::norm(second));
-    first /= length;
-    second /= length;
-    const Vector<Complex, Eigen::Dynamic> one = basis.col(i), other = basis.col(i + 1);
-    basis.col(i) = first * one + second * other;
-    basis.col(i + 1) = -std::conj(second) * one + std::conj(first) * other;
-    ++i;
-  }
-  return basis;
-}
-
-}  // namespace detail
 
 /// A complex quantity of n entries that moves with a number x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ and what
 /// is not in it, entry by entry.
@@ -128,7 +93,7 @@ class MovingSpectrum {
     const auto balanced = [&](const Eigen::MatrixXd& entries) -> Eigen::MatrixXd {
       return inverse.asDiagonal() * entries * factors.asDiagonal();
     };
-    const Form unitary = detail::triangular_basis<Scalar>(similar.balanced);
+    const Form unitary = detail::TriangularForm<Scalar>(similar.balanced).basis;
     const Form form = unitary.adjoint() * (similar.balanced * unitary);
     find_cleared(form, unitary.adjoint() * (balanced(matrix.terms[1]) * unitary));
     const Form x = diagonalising(form);

@@ -10,7 +10,6 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"
-#include "holdfast/math/linalg/gram_schmidt.hpp"
 #include "holdfast/math/linalg/reflections.hpp"
 
 namespace holdfast {
@@ -64,27 +63,18 @@ struct ScaledTriangle {
   }
 };
 
-/// An orthogonal matrix whose columns lie in no special position, so that no coordinate axis that
-/// the maps keep is mistaken for the leading direction.
-template <class Scalar, int Size>
-Matrix<Scalar, Size> generic_basis(int order) {
-  Matrix<Scalar, Size> dense(order, order);
-  for (int i = 0; i < order; ++i)
-    for (int j = 0; j < order; ++j)
-      dense(i, j) = Scalar(std::cos(1.0 + 3.0 * i + 7.0 * j + 1.3 * i * j));
-  return orthogonal_factor(dense);
-}
-
-/// Some columns in no special position, orthonormal.
-inline Eigen::MatrixXd generic_columns(Eigen::Index rows, Eigen::Index columns) {
-  Eigen::MatrixXd basis(rows, columns);
-  for (Eigen::Index j = 0; j < columns; ++j)
-    for (Eigen::Index i = 0; i < rows; ++i) {
+/// Columns in no special position, so that no coordinate axis that the maps keep is mistaken for
+/// the leading direction.
+template <class Columns>
+Columns generic_columns(Eigen::Index rows, Eigen::Index columns) {
+  Columns dense(rows, columns);
+  for (Eigen::Index i = 0; i < rows; ++i)
+    for (Eigen::Index j = 0; j < columns; ++j) {
       const auto row = static_cast<double>(i), column = static_cast<double>(j);
-      basis(i, j) = std::cos(1.0 + 3.0 * row + 7.0 * column + 1.3 * row * column);
+      dense(i, j) =
+          typename Columns::Scalar(std::cos(1.0 + 3.0 * row + 7.0 * column + 1.3 * row * column));
     }
-  orthonormalise(basis);
-  return basis;
+  return dense;
 }
 
 /// One turn of orthogonal iteration around the period: Q ← the orthogonal factor after the last
@@ -174,7 +164,8 @@ std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<Scalar, 
     require_size("columns of a map", map.cols(), maps.front().rows());
   }
   const Eigen::Index order = maps.front().rows();
-  Matrix<Scalar, Size> basis = detail::generic_basis<Scalar, Size>(static_cast<int>(order)), turn;
+  auto dense = detail::generic_columns<Matrix<Scalar, Size>>(order, order);
+  Matrix<Scalar, Size> basis = orthogonal_factor(dense), turn;
   detail::ScaledTriangle<Scalar, Size> triangle(order);
   for (int count = 0; count < most_turns; ++count) {
     const Matrix<Scalar, Size> before = basis;

@@ -168,13 +168,14 @@ std::vector<std::complex<typename Coefficients::Scalar>> roots(
 /// The positive roots of a real polynomial of low degree, ascending.
 ///
 /// A pair that is a double root split by round-off, by √ε off the real axis, counts as two of them.
+/// @param split  the largest |Im x/Re x| of such a pair
 template <class Coefficients>
 std::vector<typename Coefficients::Scalar> positive_roots(
-    const Eigen::MatrixBase<Coefficients>& polynomial) {
+    const Eigen::MatrixBase<Coefficients>& polynomial, double split = 1e-5) {
   using Scalar = typename Coefficients::Scalar;
   std::vector<Scalar> result;
   for (const auto& root : roots(polynomial)) {
-    const bool real = std::abs(root.imag()) <= Scalar(1e-5) * std::abs(root.real());
+    const bool real = std::abs(root.imag()) <= Scalar(split) * std::abs(root.real());
     if (root.real() > Scalar(0) && real) result.push_back(root.real());
   }
   std::sort(result.begin(), result.end());

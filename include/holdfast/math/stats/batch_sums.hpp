@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "holdfast/core/lanes.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
@@ -19,7 +18,7 @@ namespace holdfast {
 /// errors are honest once a batch is longer than the correlation.
 /// Source: P. W. Glynn, D. L. Iglehart, Simulation output analysis using standardized time series,
 /// 1990.
-/// @tparam Number  of a sum; a pack holds that many families of series of equal lengths
+/// @tparam Number  of a sum
 /// @tparam Series  number of series
 template <class Number, int Series, std::size_t Batches = 64>
 class BatchSums {
@@ -63,16 +62,6 @@ class BatchSums {
     return total;
   }
 
-  /// The series of one lane of a pack.
-  BatchSums<double, Series, Batches> lane(std::size_t lane) const {
-    BatchSums<double, Series, Batches> result(length_, open_.size());
-    for (std::size_t k = 0; k < complete_; ++k) result.sums_[k] = lane_of(sums_[k], lane);
-    result.complete_ = complete_;
-    result.open_ = lane_of(open_, lane);
-    result.open_steps_ = open_steps_;
-    return result;
-  }
-
   /// Standard errors of the means per step from the complete batches but the first ones, `merged`
   /// neighbours (≥ 1) taken together; NaN while there are fewer than four.
   Sums standard_errors(std::size_t merged = 1, std::size_t first = 0) const {
@@ -95,14 +84,6 @@ class BatchSums {
   }
 
  private:
-  template <class, int, std::size_t>
-  friend class BatchSums;
-
-  static Vector<double, Series> lane_of(const Sums& sums, std::size_t lane) {
-    return sums.unaryExpr(
-        [lane](const Number& pack) { return static_cast<double>(detail::lane_of(pack, lane)); });
-  }
-
   void close() {
     sums_[complete_++] = open_;
     open_ = Sums::Constant(open_.size(), Number(0));

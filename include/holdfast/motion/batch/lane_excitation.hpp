@@ -86,13 +86,6 @@ class LaneExcitation {
     return sum;
   }
 
-  /// F (N) of harmonics.
-  static Scalar force(const std::vector<LanePhasor<Scalar>>& phasors) {
-    Scalar sum(0);
-    for (const LanePhasor<Scalar>& phasor : phasors) sum = sum + phasor.phase.cosine;
-    return sum;
-  }
-
  private:
   static constexpr std::size_t lanes = Lanes<Scalar>::count;
 

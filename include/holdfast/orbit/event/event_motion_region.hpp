@@ -16,24 +16,6 @@
 
 namespace holdfast {
 
-namespace detail {
-
-/// Whether two periods have the same modes in the same order, wherever they begin.
-inline bool change_alike(const std::vector<ContactSwitch>& one,
-                         const std::vector<ContactSwitch>& other) {
-  const std::size_t count = one.size();
-  if (other.size() != count) return false;
-  for (std::size_t shift = 0; shift < std::max<std::size_t>(count, 1); ++shift) {
-    bool same = true;
-    for (std::size_t k = 0; same && k < count; ++k)
-      same = one[k].mode == other[(k + shift) % count].mode;
-    if (same) return true;
-  }
-  return false;
-}
-
-}  // namespace detail
-
 /// The periodic motion of a loop that lies near one of another loop: same period, same modes in the
 /// same order; when they change may differ.
 /// @param loop   with the same f τ
@@ -66,8 +48,11 @@ OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
   }
   auto found = detail::EventOrbitSolver<Contact>(motion, orbit.ratio)
                    .solve(motion.point(), orbit.period_samples());
+  const auto same_mode = [](const ContactSwitch& a, const ContactSwitch& b) {
+    return a.mode == b.mode;
+  };
   const bool alike = found.orbit && found.orbit->period_samples() == orbit.period_samples() &&
-                     detail::change_alike(found.orbit->switches, orbit.switches);
+                     detail::is_rotated(found.orbit->switches, orbit.switches, 1, same_mode);
   if (found.outcome == OrbitOutcome::certified && !alike)
     found.outcome = OrbitOutcome::not_reproduced;
   return {found.outcome, std::move(found.orbit), found.samples, found.candidates};

@@ -48,9 +48,6 @@ class ModalItineraryMaps {
   const ModalDeviations& deviations() const { return deviations_; }
   /// Those of `deviations`.
   const Eigen::VectorXd& units() const { return deviations_.units(); }
-  /// q.
-  std::size_t samples_of_forcing() const { return phases_.size(); }
-
   /// At rest.
   State rest() const { return State::Zero(units().size()); }
 
@@ -174,7 +171,9 @@ std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itiner
   const Eigen::Index order = flow.order(), count = std::min(order, leading + beside);
   const auto most =
       std::max(most_turns * itinerary.size(), std::max(most_samples, itinerary.size()));
-  Eigen::MatrixXd basis = detail::generic_columns(order, count), turn;
+  auto basis = detail::generic_columns<Eigen::MatrixXd>(order, count);
+  orthonormalise(basis);
+  Eigen::MatrixXd turn;
   detail::ScaledTriangle<double, Eigen::Dynamic> triangle(count);
   bool spans = false;
   std::size_t taken = 0;

@@ -39,7 +39,21 @@ class ContractingNorms {
   /// @return nothing where no such norms were found
   static std::optional<ContractingNorms> of(const std::vector<Maps>& corners,
                                             const std::vector<std::uint8_t>& sequence,
-                                            double log_modulus);
+                                            double log_modulus) {
+    if (!(log_modulus < 0.0)) return std::nullopt;
+    const double rate = detail::contracting_rate(log_modulus, sequence.size());
+    const std::array<Form, 2> middles{middle(corners, 0), middle(corners, 1)};
+    const Form identity = Form::Identity(middles[0].rows(), middles[0].cols());
+    auto forms = detail::contracting_forms<Size>(
+        sequence.size(), [&](std::size_t j) -> const Form& { return middles.at(sequence[j]); },
+        [&](std::size_t) -> const Form& { return identity; }, rate);
+    if (!forms) return std::nullopt;
+    ContractingNorms norms;
+    norms.forms_ = std::move(*forms);
+    norms.factors_.resize(sequence.size());
+    if (!norms.prove(corners, sequence, rate)) return std::nullopt;
+    return norms;
+  }
 
   /// At least V_j of every vector inside.
   Enclosure size(std::size_t sample, const Vector<Enclosure, Size>& vector) const {
@@ -50,8 +64,19 @@ class ContractingNorms {
   double factor(std::size_t sample) const { return factors_[sample]; }
   /// At least s_{N−1} … s_0; below 1.
   double contraction() const { return contraction_; }
+
   /// At least |row · e| / V_j(e) of every e.
-  double reading(std::size_t sample, const RowVector<double, Size>& row) const;
+  double reading(std::size_t sample, const RowVector<double, Size>& row) const {
+    // κ² P − rowᵀ row ≥ 0, κ² = row P⁻¹ rowᵀ but for rounding; P ≥ I/2 is proved.
+    const Form& form = forms_[sample];
+    const double exact = row.dot(form.llt().solve(row.transpose()));
+    const Enclosure squared(exact * (1.0 + 1e-9));
+    const Vector<Enclosure, Size> column = row.transpose().template cast<Enclosure>();
+    const Matrix<Enclosure, Size> left =
+        form.template cast<Enclosure>() * squared - column * column.transpose();
+    if (is_positive_definite<Size>(left)) return sqrt(squared).upper();
+    return sqrt(Enclosure(2.0) * Enclosure(column.dot(column).magnitude())).upper();
+  }
 
  private:
   using Form = Matrix<double, Size>;
@@ -63,76 +88,40 @@ class ContractingNorms {
       sum += corners[k].at(which).template cast<double>();
     return sum / static_cast<double>(corners.size());
   }
+
   bool prove(const std::vector<Maps>& corners, const std::vector<std::uint8_t>& sequence,
-             double rate);
+             double rate) {
+    Enclosure product(1.0);
+    for (std::size_t j = 0; j < sequence.size(); ++j) {
+      const Form& next = forms_[j + 1 == sequence.size() ? 0 : j + 1];
+      const Matrix<Enclosure, Size> form = forms_[j].template cast<Enclosure>();
+      const Matrix<Enclosure, Size> half =
+          Matrix<Enclosure, Size>::Identity(form.rows(), form.cols()) * Enclosure(0.5);
+      if (!is_positive_definite<Size>(form - half)) return false;
+      const auto shrinks = [&](const Maps& maps, double factor) {
+        const Matrix<Enclosure, Size>& map = maps.at(sequence[j]);
+        const Matrix<Enclosure, Size> moved =
+            map.transpose() * (next.template cast<Enclosure>() * map).eval();
+        return is_positive_definite<Size>(form * square(Enclosure(factor)) - moved);
+      };
+      // Rounding leaves the solution open at the seam, and the corners are not the middle.
+      double factor = rate, more = 1e-12;
+      while (!std::all_of(corners.begin(), corners.end(),
+                          [&](const Maps& maps) { return shrinks(maps, factor); })) {
+        if (more > 0.1) return false;
+        factor = rate * (1.0 + more);
+        more *= 10.0;
+      }
+      factors_[j] = factor;
+      product *= Enclosure(factor);
+    }
+    contraction_ = product.upper();
+    return contraction_ < 1.0;
+  }
 
   std::vector<Form> forms_;
   std::vector<double> factors_;
   double contraction_ = 1.0;
 };
-
-template <int Size>
-double ContractingNorms<Size>::reading(std::size_t sample,
-                                       const RowVector<double, Size>& row) const {
-  // κ² P − rowᵀ row ≥ 0, κ² = row P⁻¹ rowᵀ but for rounding; P ≥ I/2 is proved.
-  const Form& form = forms_[sample];
-  const double exact = row.dot(form.llt().solve(row.transpose()));
-  const Enclosure squared(exact * (1.0 + 1e-9));
-  const Vector<Enclosure, Size> column = row.transpose().template cast<Enclosure>();
-  const Matrix<Enclosure, Size> left =
-      form.template cast<Enclosure>() * squared - column * column.transpose();
-  if (is_positive_definite<Size>(left)) return sqrt(squared).upper();
-  return sqrt(Enclosure(2.0) * Enclosure(column.dot(column).magnitude())).upper();
-}
-
-template <int Size>
-bool ContractingNorms<Size>::prove(const std::vector<Maps>& corners,
-                                   const std::vector<std::uint8_t>& sequence, double rate) {
-  Enclosure product(1.0);
-  for (std::size_t j = 0; j < sequence.size(); ++j) {
-    const Form& next = forms_[j + 1 == sequence.size() ? 0 : j + 1];
-    const Matrix<Enclosure, Size> form = forms_[j].template cast<Enclosure>();
-    const Matrix<Enclosure, Size> half =
-        Matrix<Enclosure, Size>::Identity(form.rows(), form.cols()) * Enclosure(0.5);
-    if (!is_positive_definite<Size>(form - half)) return false;
-    const auto shrinks = [&](const Maps& maps, double factor) {
-      const Matrix<Enclosure, Size>& map = maps.at(sequence[j]);
-      const Matrix<Enclosure, Size> moved =
-          map.transpose() * (next.template cast<Enclosure>() * map).eval();
-      return is_positive_definite<Size>(form * square(Enclosure(factor)) - moved);
-    };
-    // Rounding leaves the solution open at the seam, and the corners are not the middle.
-    double factor = rate, more = 1e-12;
-    while (!std::all_of(corners.begin(), corners.end(),
-                        [&](const Maps& maps) { return shrinks(maps, factor); })) {
-      if (more > 0.1) return false;
-      factor = rate * (1.0 + more);
-      more *= 10.0;
-    }
-    factors_[j] = factor;
-    product *= Enclosure(factor);
-  }
-  contraction_ = product.upper();
-  return contraction_ < 1.0;
-}
-
-template <int Size>
-std::optional<ContractingNorms<Size>> ContractingNorms<Size>::of(
-    const std::vector<Maps>& corners, const std::vector<std::uint8_t>& sequence,
-    double log_modulus) {
-  if (!(log_modulus < 0.0)) return std::nullopt;
-  const double rate = detail::contracting_rate(log_modulus, sequence.size());
-  const std::array<Form, 2> middles{middle(corners, 0), middle(corners, 1)};
-  const Form identity = Form::Identity(middles[0].rows(), middles[0].cols());
-  auto forms = detail::contracting_forms<Size>(
-      sequence.size(), [&](std::size_t j) -> const Form& { return middles.at(sequence[j]); },
-      [&](std::size_t) -> const Form& { return identity; }, rate);
-  if (!forms) return std::nullopt;
-  ContractingNorms norms;
-  norms.forms_ = std::move(*forms);
-  norms.factors_.resize(sequence.size());
-  if (!norms.prove(corners, sequence, rate)) return std::nullopt;
-  return norms;
-}
 
 }  // namespace holdfast

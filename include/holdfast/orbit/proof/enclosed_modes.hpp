@@ -75,7 +75,39 @@ class EnclosedModes {
   static constexpr double most_growth = 20.1;
 
   /// @param ratio  f τ = p/q
-  EnclosedModes(const IdealLoop<Number>& loop, const Rational& ratio);
+  EnclosedModes(const IdealLoop<Number>& loop, const Rational& ratio)
+      : in_doubles_(plant_scaling(
+            Matrix<double, 4>(loop.plant.state_matrix().template cast<double>()),
+            Vector<double, 4>(loop.plant.excitation_input().template cast<double>()))),
+        units_(in_doubles_.template cast<Number>()),
+        parts_{loop.sampling.processing_delay,
+               loop.sampling.processing_delay == loop.sampling.period
+                   ? Number()
+                   : loop.sampling.period - loop.sampling.processing_delay} {
+    for (const Number& part : parts_)
+      if (!(part.lower() > 0.0) && part.upper() > 0.0)
+        throw InvalidParameter("processing delay", part.middle(), "s",
+                               "0, the sampling period, or farther from both than their rounding");
+    for (const ContactMode mode : {ContactMode::engaged, ContactMode::gap, ContactMode::stick}) {
+      rates_[at(mode)] = Sparse(rate_of(loop, mode));
+      norm_ = std::max(norm_, norm_bound(rate(mode)));
+    }
+    longest_ = (Number(3.0) / Number(norm_)).lower();
+    const Number mass = loop.plant.conductor_mass + loop.plant.absorber_mass;
+    common_velocity_[1] = loop.plant.conductor_mass / mass;
+    common_velocity_[3] = loop.plant.absorber_mass / mass;
+    command_[0] = loop.gains.proportional * units_[0] / units_[4];
+    command_[1] = loop.gains.differential * units_[1] / units_[4];
+    for (std::int64_t j = 0; j < ratio.denominator; ++j) {
+      const auto turn = static_cast<double>(j * ratio.numerator % ratio.denominator);
+      const Number angle =
+          Number(2.0) * pi<Number> * Number(turn) / Number(static_cast<double>(ratio.denominator));
+      forces_.push_back(
+          {loop.excitation.amplitude * cos(angle), loop.excitation.amplitude * sin(angle)});
+    }
+    make_guards(loop.backlash_width);
+    make_steps();
+  }
 
   /// A of a mode.
   const Rate& rate(ContactMode mode) const { return rates_[at(mode)].matrix; }
@@ -90,7 +122,11 @@ class EnclosedModes {
   template <int Columns>
   Matrix<Number, FlowPlace::size, Columns> flowed(
       ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states,
-      const Number& length) const;
+      const Number& length) const {
+    const double middle = length.middle();
+    return by_series<Columns>(mode, by_series<Columns>(mode, states, Number(middle)),
+                              length - Number(middle));
+  }
 
   /// How many terms a series over a length (s) needs, so that the rest is below rounding.
   int terms_for(double length) const {
@@ -167,14 +203,98 @@ class EnclosedModes {
 
   static std::size_t at(ContactMode mode) { return static_cast<std::size_t>(mode); }
 
+  /// The series itself, which makes more of the width of a length.
   template <int Columns>
   Matrix<Number, FlowPlace::size, Columns> by_series(
       ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states,
-      const Number& length) const;
-  Rate rate_of(const IdealLoop<Number>& loop, ContactMode mode) const;
-  EnclosedGuard<Number> guard(ContactMode mode, ContactSurface surface, const Row& row) const;
-  void make_guards(const Number& width);
-  void make_steps();
+      const Number& length) const {
+    Matrix<Number, FlowPlace::size, Columns> term = states, sum = states;
+    const int count = terms_for(length.magnitude());
+    for (int k = 1; k < count; ++k) {
+      term = moved<Columns>(mode, term) * (length / Number(double(k)));
+      sum += term;
+    }
+    // ‖e^X − Σ_{k<m} Xᵏ/k!‖ ≤ ‖X‖ᵐ/m! e^{‖X‖}.
+    Number rest(most_growth);
+    for (int k = 1; k <= count; ++k) rest *= Number(norm_) * length / Number(double(k));
+    for (Eigen::Index column = 0; column < states.cols(); ++column) {
+      double size = 0.0;
+      for (Eigen::Index i = 0; i < states.rows(); ++i)
+        size = std::max(size, states(i, column).magnitude());
+      const double bound = (Number(rest.magnitude()) * Number(size)).upper();
+      sum.col(column).array() += Number(-bound, bound);
+    }
+    return sum;
+  }
+
+  Rate rate_of(const IdealLoop<Number>& loop, ContactMode mode) const {
+    Rate a = Rate::Zero();
+    const TwoMass<Number>& plant = loop.plant;
+    if (mode == ContactMode::stick) {
+      const Number mass = plant.conductor_mass + plant.absorber_mass;
+      a(0, 1) = a(2, 3) = Number(1.0);
+      for (const Eigen::Index row : {1, 3}) {
+        // Δż = 0: both move as the conductor does.
+        a(row, 0) = -plant.conductor_stiffness / mass;
+        a(row, 1) = -plant.conductor_damping / mass;
+        a(row, FlowPlace::force) = Number(1.0) / mass;
+      }
+    } else {
+      a.template topLeftCorner<4, 4>() = plant.state_matrix();
+      a.col(FlowPlace::force).template head<4>() = plant.excitation_input();
+      if (mode == ContactMode::engaged)
+        a.col(FlowPlace::command).template head<4>() = plant.control_input();
+    }
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      a.row(i) /= units_[i];
+      a.template topRows<4>().col(i) *= units_[i];
+    }
+    a.col(FlowPlace::command).template head<4>() *= units_[4];
+    a(FlowPlace::time, FlowPlace::one) = Number(1.0);
+    if (loop.hold == ForceHold::exact) {
+      const Number turns = loop.excitation.angular_frequency();
+      a(FlowPlace::force, FlowPlace::quadrature) = -turns;
+      a(FlowPlace::quadrature, FlowPlace::force) = turns;
+    }
+    return a;
+  }
+
+  EnclosedGuard<Number> guard(ContactMode mode, ContactSurface surface, const Row& row) const {
+    EnclosedGuard<Number> result{surface, {row}};
+    for (int k = 1; k <= terms; ++k)
+      result.terms.push_back((result.terms.back() * rate(mode)).eval() / Number(double(k)));
+    return result;
+  }
+
+  void make_guards(const Number& width) {
+    if (!(width.upper() > 0.0)) return;  // a drive without backlash stays engaged
+    const Row travelled = displacement() - unit(FlowPlace::gap),
+              wide = width * unit(FlowPlace::one);
+    const Row driven = velocity() * rate(ContactMode::engaged);
+    for (const bool positive : {false, true}) {
+      const Number sign(positive ? 1.0 : -1.0);
+      const auto add = [&, k = positive ? 1U : 0U](ContactMode mode, ContactSurface surface,
+                                                   const Row& row) {
+        guards_[at(mode)][k].push_back(guard(mode, surface, row));
+      };
+      add(ContactMode::engaged, ContactSurface::reversal, sign * velocity());
+      // The end at which the drive reversed is g itself.
+      const Row upper = -travelled, lower = travelled;
+      add(ContactMode::gap, ContactSurface::gap_upper, positive ? upper : Row(upper + wide));
+      add(ContactMode::gap, ContactSurface::gap_lower, positive ? Row(lower + wide) : lower);
+      add(ContactMode::stick, ContactSurface::free_acceleration, sign * free_acceleration());
+      add(ContactMode::stick, ContactSurface::driven_acceleration, -sign * driven);
+    }
+  }
+
+  void make_steps() {
+    for (std::size_t part = 0; part < 2; ++part) {
+      if (!parts_[part].is_positive()) continue;  // δ = 0, or δ = τ
+      pieces_[part] = static_cast<int>(std::ceil(parts_[part].upper() / longest_));
+      for (std::size_t mode = 0; mode < 3; ++mode)
+        steps_[part][mode] = Sparse(exponential(Rate(rates_[mode].matrix * piece(part))));
+    }
+  }
 
   Vector<double, 5> in_doubles_;
   Vector<Number, 5> units_;
@@ -187,150 +307,6 @@ class EnclosedModes {
   std::array<std::array<Sparse, 3>, 2> steps_;
   std::array<std::array<Guards, 2>, 3> guards_;
 };
-
-template <class Number>
-EnclosedModes<Number>::EnclosedModes(const IdealLoop<Number>& loop, const Rational& ratio)
-    : in_doubles_(
-          plant_scaling(Matrix<double, 4>(loop.plant.state_matrix().template cast<double>()),
-                        Vector<double, 4>(loop.plant.excitation_input().template cast<double>()))),
-      units_(in_doubles_.template cast<Number>()),
-      parts_{loop.sampling.processing_delay,
-             loop.sampling.processing_delay == loop.sampling.period
-                 ? Number()
-                 : loop.sampling.period - loop.sampling.processing_delay} {
-  for (const Number& part : parts_)
-    if (!(part.lower() > 0.0) && part.upper() > 0.0)
-      throw InvalidParameter("processing delay", part.middle(), "s",
-                             "0, the sampling period, or farther from both than their rounding");
-  for (const ContactMode mode : {ContactMode::engaged, ContactMode::gap, ContactMode::stick}) {
-    rates_[at(mode)] = Sparse(rate_of(loop, mode));
-    norm_ = std::max(norm_, norm_bound(rate(mode)));
-  }
-  longest_ = (Number(3.0) / Number(norm_)).lower();
-  const Number mass = loop.plant.conductor_mass + loop.plant.absorber_mass;
-  common_velocity_[1] = loop.plant.conductor_mass / mass;
-  common_velocity_[3] = loop.plant.absorber_mass / mass;
-  command_[0] = loop.gains.proportional * units_[0] / units_[4];
-  command_[1] = loop.gains.differential * units_[1] / units_[4];
-  for (std::int64_t j = 0; j < ratio.denominator; ++j) {
-    const auto turn = static_cast<double>(j * ratio.numerator % ratio.denominator);
-    const Number angle =
-        Number(2.0) * pi<Number> * Number(turn) / Number(static_cast<double>(ratio.denominator));
-    forces_.push_back(
-        {loop.excitation.amplitude * cos(angle), loop.excitation.amplitude * sin(angle)});
-  }
-  make_guards(loop.backlash_width);
-  make_steps();
-}
-
-template <class Number>
-typename EnclosedModes<Number>::Rate EnclosedModes<Number>::rate_of(const IdealLoop<Number>& loop,
-                                                                    ContactMode mode) const {
-  Rate a = Rate::Zero();
-  const TwoMass<Number>& plant = loop.plant;
-  if (mode == ContactMode::stick) {
-    const Number mass = plant.conductor_mass + plant.absorber_mass;
-    a(0, 1) = a(2, 3) = Number(1.0);
-    for (const Eigen::Index row : {1, 3}) {
-      // Δż = 0: both move as the conductor does.
-      a(row, 0) = -plant.conductor_stiffness / mass;
-      a(row, 1) = -plant.conductor_damping / mass;
-      a(row, FlowPlace::force) = Number(1.0) / mass;
-    }
-  } else {
-    a.template topLeftCorner<4, 4>() = plant.state_matrix();
-    a.col(FlowPlace::force).template head<4>() = plant.excitation_input();
-    if (mode == ContactMode::engaged)
-      a.col(FlowPlace::command).template head<4>() = plant.control_input();
-  }
-  for (Eigen::Index i = 0; i < 4; ++i) {
-    a.row(i) /= units_[i];
-    a.template topRows<4>().col(i) *= units_[i];
-  }
-  a.col(FlowPlace::command).template head<4>() *= units_[4];
-  a(FlowPlace::time, FlowPlace::one) = Number(1.0);
-  if (loop.hold == ForceHold::exact) {
-    const Number turns = loop.excitation.angular_frequency();
-    a(FlowPlace::force, FlowPlace::quadrature) = -turns;
-    a(FlowPlace::quadrature, FlowPlace::force) = turns;
-  }
-  return a;
-}
-
-template <class Number>
-EnclosedGuard<Number> EnclosedModes<Number>::guard(ContactMode mode, ContactSurface surface,
-                                                   const Row& row) const {
-  EnclosedGuard<Number> result{surface, {row}};
-  for (int k = 1; k <= terms; ++k)
-    result.terms.push_back((result.terms.back() * rate(mode)).eval() / Number(double(k)));
-  return result;
-}
-
-template <class Number>
-void EnclosedModes<Number>::make_guards(const Number& width) {
-  if (!(width.upper() > 0.0)) return;  // a drive without backlash stays engaged
-  const Row travelled = displacement() - unit(FlowPlace::gap), wide = width * unit(FlowPlace::one);
-  const Row driven = velocity() * rate(ContactMode::engaged);
-  for (const bool positive : {false, true}) {
-    const Number sign(positive ? 1.0 : -1.0);
-    const auto add = [&, k = positive ? 1U : 0U](ContactMode mode, ContactSurface surface,
-                                                 const Row& row) {
-      guards_[at(mode)][k].push_back(guard(mode, surface, row));
-    };
-    add(ContactMode::engaged, ContactSurface::reversal, sign * velocity());
-    // The end at which the drive reversed is g itself.
-    const Row upper = -travelled, lower = travelled;
-    add(ContactMode::gap, ContactSurface::gap_upper, positive ? upper : Row(upper + wide));
-    add(ContactMode::gap, ContactSurface::gap_lower, positive ? Row(lower + wide) : lower);
-    add(ContactMode::stick, ContactSurface::free_acceleration, sign * free_acceleration());
-    add(ContactMode::stick, ContactSurface::driven_acceleration, -sign * driven);
-  }
-}
-
-template <class Number>
-void EnclosedModes<Number>::make_steps() {
-  for (std::size_t part = 0; part < 2; ++part) {
-    if (!parts_[part].is_positive()) continue;  // δ = 0, or δ = τ
-    pieces_[part] = static_cast<int>(std::ceil(parts_[part].upper() / longest_));
-    for (std::size_t mode = 0; mode < 3; ++mode)
-      steps_[part][mode] = Sparse(exponential(Rate(rates_[mode].matrix * piece(part))));
-  }
-}
-
-template <class Number>
-template <int Columns>
-Matrix<Number, FlowPlace::size, Columns> EnclosedModes<Number>::flowed(
-    ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states,
-    const Number& length) const {
-  const double middle = length.middle();
-  return by_series<Columns>(mode, by_series<Columns>(mode, states, Number(middle)),
-                            length - Number(middle));
-}
-
-/// The series itself, which makes more of the width of a length.
-template <class Number>
-template <int Columns>
-Matrix<Number, FlowPlace::size, Columns> EnclosedModes<Number>::by_series(
-    ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states,
-    const Number& length) const {
-  Matrix<Number, FlowPlace::size, Columns> term = states, sum = states;
-  const int count = terms_for(length.magnitude());
-  for (int k = 1; k < count; ++k) {
-    term = moved<Columns>(mode, term) * (length / Number(double(k)));
-    sum += term;
-  }
-  // ‖e^X − Σ_{k<m} Xᵏ/k!‖ ≤ ‖X‖ᵐ/m! e^{‖X‖}.
-  Number rest(most_growth);
-  for (int k = 1; k <= count; ++k) rest *= Number(norm_) * length / Number(double(k));
-  for (Eigen::Index column = 0; column < states.cols(); ++column) {
-    double size = 0.0;
-    for (Eigen::Index i = 0; i < states.rows(); ++i)
-      size = std::max(size, states(i, column).magnitude());
-    const double bound = (Number(rest.magnitude()) * Number(size)).upper();
-    sum.col(column).array() += Number(-bound, bound);
-  }
-  return sum;
-}
 
 }  // namespace detail
 }  // namespace holdfast

@@ -74,12 +74,46 @@ class EventOrbitProver {
   /// @param log_modulus   ln of the largest multiplier, as it is thought to be
   /// @param largest_miss  of a sample by the image of the one before, as a share of the states'
   /// extent
-  EventOrbitProof prove(double log_modulus, double largest_miss);
+  EventOrbitProof prove(double log_modulus, double largest_miss) {
+    proof_.outcome = OrbitProofOutcome::other_contacts;
+    if (!path_.repeats || !path_.is_plain) return proof_;
+    std::vector<Matrix<double, 6>> maps;
+    if (!linearise(largest_miss, maps)) return proof_;
+    proof_.outcome = OrbitProofOutcome::not_contracting;
+    if (!make_axes(maps, log_modulus)) return proof_;
+    // What a point misses, carried around once, tells how small an ellipsoid may be.
+    const auto look_away = [](std::size_t, const Set&, const Passage&) {};
+    Passage points(modes_, path_, delay_);
+    const Turn once = turn(0.0, points, look_away);
+    if (!(once.contraction < 1.0)) return proof_;
+    first_radius_ =
+        (Number(1.1) * Number(once.radius) / (Number(1.0) - Number(once.contraction))).upper();
+    Passage passage(modes_, path_, delay_);
+    proof_.displacement_error = proof_.velocity_error = 0.0;
+    const Turn small =
+        turn(first_radius_, passage, [&](std::size_t sample, const Set& set, const Passage& at) {
+          note_errors(sample, set, at);
+        });
+    if (!small.is_decided) {
+      fails(passage);
+      return proof_;
+    }
+    if (!(small.radius <= first_radius_ && small.contraction < 1.0)) return proof_;
+    proof_.nearest = passage.nearest();
+    proof_.instant_error = passage.instant_error();
+    proof_.multiplier_bound = small.contraction;
+    proof_.outcome = OrbitProofOutcome::proved;
+    return proof_;
+  }
 
   /// The same with the ball, as large as is proved.
   /// @param weights  deviation_weights(), of which the last one is 1
   EventOrbitProof prove_with_ball(double log_modulus, const Vector<double, 6>& weights,
-                                  double largest_miss);
+                                  double largest_miss) {
+    if (prove(log_modulus, largest_miss).outcome == OrbitProofOutcome::proved && !attract(weights))
+      proof_.outcome = OrbitProofOutcome::no_ball;
+    return proof_;
+  }
 
  private:
   using Passage = EventPassage<Number>;
@@ -104,17 +138,158 @@ class EventOrbitProver {
     return sample + 1 == nodes_.size() ? 0 : sample + 1;
   }
 
-  bool fails(const Passage& passage);
-  bool linearise(double largest_miss, std::vector<Matrix<double, 6>>& maps);
-  bool make_axes(const std::vector<Matrix<double, 6>>& maps, double log_modulus);
-  Six missed(std::size_t sample, const Set& set) const;
-  double share_of_extent(const Six& miss) const;
+  /// Notes why a passage was stopped. @return false
+  bool fails(const Passage& passage) {
+    proof_.outcome = passage.is_undecided() ? OrbitProofOutcome::near_surface
+                                            : OrbitProofOutcome::other_contacts;
+    proof_.nearest = passage.nearest();
+    return false;
+  }
+
+  /// The derivatives from sample to sample at the proposal, in doubles.
+  bool linearise(double largest_miss, std::vector<Matrix<double, 6>>& maps) {
+    Passage passage(modes_, path_, delay_);
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      Set set = passage.ball(k, nodes_[k].axes, 0.0);
+      if (!passage.pass(k, set)) return fails(passage);
+      maps.push_back(Passage::deviations(set).template cast<double>());
+      proof_.miss = std::max(proof_.miss, share_of_extent(missed(k, set)));
+      if (proof_.miss <= largest_miss) continue;
+      proof_.outcome = OrbitProofOutcome::not_closed;
+      return false;
+    }
+    return true;
+  }
+
+  /// X Xᵀ = P⁻¹ of forms P in which the maps contract. Those of Q = I are as long as what decays
+  /// slowly, and short along what is forgotten at once; from Q = P⁻¹ of these come rounder ones, of
+  /// which a ball fills more.
+  bool make_axes(const std::vector<Matrix<double, 6>>& maps, double log_modulus) {
+    if (!(log_modulus < 0.0)) return false;
+    using Form = Matrix<double, 6>;
+    const double rate = contracting_rate(log_modulus, maps.size());
+    const auto forms_of = [&](const std::vector<Form>& rests) {
+      return contracting_forms<6>(
+          maps.size(), [&](std::size_t k) -> const Form& { return maps[k]; },
+          [&](std::size_t k) -> const Form& { return rests[k]; }, rate);
+    };
+    std::vector<Form> rests(maps.size(), Form::Identity());
+    auto forms = forms_of(rests);
+    if (!forms) return false;
+    for (std::size_t k = 0; k < rests.size(); ++k)
+      rests[k] = (*forms)[k].llt().solve(Form::Identity());
+    forms = forms_of(rests);
+    if (!forms) return false;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      Node& node = nodes_[k];
+      const Eigen::LLT<Form> factor((*forms)[k]);
+      node.inverse = factor.matrixU();
+      node.axes = factor.matrixU().solve(Form::Identity());
+      const Map product = node.inverse.template cast<Number>() * node.axes.template cast<Number>();
+      const Map identity = Map::Identity();
+      const double wrong = spectral_norm_bound<6>(Map(identity - product));
+      if (!(wrong < 0.5)) return false;
+      node.inverse_error = Number((Number(1.0) / (Number(1.0) - Number(wrong))).upper());
+    }
+    return true;
+  }
+
+  /// What the centre misses the next sample's proposal by.
+  Six missed(std::size_t sample, const Set& set) const {
+    const Passage passage(modes_, path_, delay_);
+    const Vector<double, 6> proposed = passage.proposed(after(sample));
+    Six miss;
+    for (Eigen::Index i = 0; i < 6; ++i)
+      miss[i] = set.centre[Passage::place(i)] - Number(proposed[i]);
+    return miss;
+  }
+
+  /// Of displacements and velocities, as a share of those of the states.
+  double share_of_extent(const Six& miss) const {
+    StateScale extent;
+    for (const RecordedSample& sample : path_.samples) extent.include(sample.state);
+    Vector<double, 4> most;
+    for (Eigen::Index i = 0; i < 4; ++i) most[i] = miss[i].magnitude() * modes_.units()[i];
+    return extent.share_of(most);
+  }
+
+  /// Once around from the first ellipsoid.
   template <class Look>
-  Turn turn(double radius, Passage& passage, const Look& look) const;
-  void note_errors(std::size_t sample, const Set& set, const Passage& passage);
-  bool attract(const Vector<double, 6>& weights);
-  double weighted(double radius, const Vector<double, 6>& weights) const;
-  double farthest_in_first(const Vector<double, 6>& weights) const;
+  Turn turn(double radius, Passage& passage, const Look& look) const {
+    Number contraction(1.0);
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (contraction.upper() > 2.0) return {false, radius, contraction.upper()};
+      Set set = passage.ball(k, nodes_[k].axes, radius);
+      look(k, set, passage);
+      if (!passage.pass(k, set)) return {false, radius, contraction.upper()};
+      const Node& next = nodes_[after(k)];
+      const Map inverse = next.inverse.template cast<Number>();
+      const Number factor =
+          Number(spectral_norm_bound<6>(Map(inverse * Passage::deviations(set)))) *
+          next.inverse_error;
+      const Six miss = inverse * missed(k, set);
+      Number squared;
+      for (const Number& entry : miss) squared += square(entry);
+      radius = (factor * Number(radius) + sqrt(squared) * next.inverse_error).upper();
+      contraction *= Number(factor.upper());
+    }
+    return {true, radius, contraction.upper()};
+  }
+
+  /// How far the motions of the set are from the state that is given for a sample.
+  void note_errors(std::size_t sample, const Set& set, const Passage& passage) {
+    const Vector<double, 6> given = passage.proposed(sample);
+    for (const Eigen::Index i : {0, 1, 2, 3}) {
+      const Number here = set.range(EnclosedModes<Number>::unit(i)) - Number(given[i]);
+      double& most = i % 2 == 0 ? proof_.displacement_error : proof_.velocity_error;
+      most = std::max(most, here.magnitude() * modes_.units()[i]);
+    }
+  }
+
+  /// The largest first ellipsoid that is found to come back into itself, by the ball inside it.
+  bool attract(const Vector<double, 6>& weights) {
+    if (modes_.guards(ContactMode::engaged, 1.0).empty()) {
+      proof_.radius = std::numeric_limits<double>::infinity();
+      return true;
+    }
+    const auto holds = [&](double radius) {
+      Passage passage(modes_, path_, delay_);
+      const Turn once = turn(radius, passage, [](std::size_t, const Set&, const Passage&) {});
+      return once.is_decided && once.radius <= radius && once.contraction < 1.0;
+    };
+    double proved = first_radius_, refused = proved;
+    do {
+      proved = refused;
+      refused *= 64.0;
+    } while (holds(refused));
+    for (int halving = 0; halving < 6; ++halving) {
+      const double between = std::sqrt(proved * refused);
+      (holds(between) ? proved : refused) = between;
+    }
+    proof_.radius = weighted(proved, weights);
+    return farthest_in_first(weights) < proof_.radius;
+  }
+
+  /// The largest ball of the weighted norm in the first ellipsoid, of states that the contact
+  /// allows.
+  double weighted(double radius, const Vector<double, 6>& weights) const {
+    const Node& first = nodes_.front();
+    const Passage passage(modes_, path_, delay_);
+    Matrix<double, 6> identity = Matrix<double, 6>::Identity();
+    Map allowed = Passage::deviations(passage.ball(0, identity, radius));
+    for (Eigen::Index i = 0; i < 6; ++i) allowed.col(i) /= weight(i, weights);
+    const Map length = first.inverse.template cast<Number>() * allowed;
+    const Number longest = Number(spectral_norm_bound<6>(length)) * first.inverse_error;
+    return (Number(radius) / longest).lower();
+  }
+
+  /// At least how far the motion's first state may be from the given one, in the weighted norm.
+  double farthest_in_first(const Vector<double, 6>& weights) const {
+    Map lengths = nodes_.front().axes.template cast<Number>();
+    for (Eigen::Index i = 0; i < 6; ++i) lengths.row(i) *= weight(i, weights);
+    return (Number(spectral_norm_bound<6>(lengths)) * Number(first_radius_)).upper();
+  }
+
   /// That of a coordinate in its unit.
   Number weight(Eigen::Index coordinate, const Vector<double, 6>& weights) const {
     const double unit = coordinate < 5 ? modes_.units()[coordinate] : 1.0;
@@ -128,213 +303,6 @@ class EventOrbitProver {
   double first_radius_ = 0.0;  // r_0 of the small ellipsoid that holds the motion
   EventOrbitProof proof_;
 };
-
-template <class Number>
-EventOrbitProof EventOrbitProver<Number>::prove(double log_modulus, double largest_miss) {
-  proof_.outcome = OrbitProofOutcome::other_contacts;
-  if (!path_.repeats || !path_.is_plain) return proof_;
-  std::vector<Matrix<double, 6>> maps;
-  if (!linearise(largest_miss, maps)) return proof_;
-  proof_.outcome = OrbitProofOutcome::not_contracting;
-  if (!make_axes(maps, log_modulus)) return proof_;
-  // What a point misses, carried around once, tells how small an ellipsoid may be.
-  const auto look_away = [](std::size_t, const Set&, const Passage&) {};
-  Passage points(modes_, path_, delay_);
-  const Turn once = turn(0.0, points, look_away);
-  if (!(once.contraction < 1.0)) return proof_;
-  first_radius_ =
-      (Number(1.1) * Number(once.radius) / (Number(1.0) - Number(once.contraction))).upper();
-  Passage passage(modes_, path_, delay_);
-  proof_.displacement_error = proof_.velocity_error = 0.0;
-  const Turn small = turn(
-      first_radius_, passage,
-      [&](std::size_t sample, const Set& set, const Passage& at) { note_errors(sample, set, at); });
-  if (!small.is_decided) {
-    fails(passage);
-    return proof_;
-  }
-  if (!(small.radius <= first_radius_ && small.contraction < 1.0)) return proof_;
-  proof_.nearest = passage.nearest();
-  proof_.instant_error = passage.instant_error();
-  proof_.multiplier_bound = small.contraction;
-  proof_.outcome = OrbitProofOutcome::proved;
-  return proof_;
-}
-
-template <class Number>
-EventOrbitProof EventOrbitProver<Number>::prove_with_ball(double log_modulus,
-                                                          const Vector<double, 6>& weights,
-                                                          double largest_miss) {
-  if (prove(log_modulus, largest_miss).outcome == OrbitProofOutcome::proved && !attract(weights))
-    proof_.outcome = OrbitProofOutcome::no_ball;
-  return proof_;
-}
-
-/// Notes why a passage was stopped. @return false
-template <class Number>
-bool EventOrbitProver<Number>::fails(const Passage& passage) {
-  proof_.outcome =
-      passage.is_undecided() ? OrbitProofOutcome::near_surface : OrbitProofOutcome::other_contacts;
-  proof_.nearest = passage.nearest();
-  return false;
-}
-
-/// The derivatives from sample to sample at the proposal, in doubles.
-template <class Number>
-bool EventOrbitProver<Number>::linearise(double largest_miss,
-                                         std::vector<Matrix<double, 6>>& maps) {
-  Passage passage(modes_, path_, delay_);
-  for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    Set set = passage.ball(k, nodes_[k].axes, 0.0);
-    if (!passage.pass(k, set)) return fails(passage);
-    maps.push_back(Passage::deviations(set).template cast<double>());
-    proof_.miss = std::max(proof_.miss, share_of_extent(missed(k, set)));
-    if (proof_.miss <= largest_miss) continue;
-    proof_.outcome = OrbitProofOutcome::not_closed;
-    return false;
-  }
-  return true;
-}
-
-/// X Xᵀ = P⁻¹ of forms P in which the maps contract. Those of Q = I are as long as what decays
-/// slowly, and short along what is forgotten at once; from Q = P⁻¹ of these come rounder ones, of
-/// which a ball fills more.
-template <class Number>
-bool EventOrbitProver<Number>::make_axes(const std::vector<Matrix<double, 6>>& maps,
-                                         double log_modulus) {
-  if (!(log_modulus < 0.0)) return false;
-  using Form = Matrix<double, 6>;
-  const double rate = contracting_rate(log_modulus, maps.size());
-  const auto forms_of = [&](const std::vector<Form>& rests) {
-    return contracting_forms<6>(
-        maps.size(), [&](std::size_t k) -> const Form& { return maps[k]; },
-        [&](std::size_t k) -> const Form& { return rests[k]; }, rate);
-  };
-  std::vector<Form> rests(maps.size(), Form::Identity());
-  auto forms = forms_of(rests);
-  if (!forms) return false;
-  for (std::size_t k = 0; k < rests.size(); ++k)
-    rests[k] = (*forms)[k].llt().solve(Form::Identity());
-  forms = forms_of(rests);
-  if (!forms) return false;
-  for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    Node& node = nodes_[k];
-    const Eigen::LLT<Form> factor((*forms)[k]);
-    node.inverse = factor.matrixU();
-    node.axes = factor.matrixU().solve(Form::Identity());
-    const Map product = node.inverse.template cast<Number>() * node.axes.template cast<Number>();
-    const Map identity = Map::Identity();
-    const double wrong = spectral_norm_bound<6>(Map(identity - product));
-    if (!(wrong < 0.5)) return false;
-    node.inverse_error = Number((Number(1.0) / (Number(1.0) - Number(wrong))).upper());
-  }
-  return true;
-}
-
-/// What the centre misses the next sample's proposal by.
-template <class Number>
-typename EventOrbitProver<Number>::Six EventOrbitProver<Number>::missed(std::size_t sample,
-                                                                        const Set& set) const {
-  const Passage passage(modes_, path_, delay_);
-  const Vector<double, 6> proposed = passage.proposed(after(sample));
-  Six miss;
-  for (Eigen::Index i = 0; i < 6; ++i)
-    miss[i] = set.centre[Passage::place(i)] - Number(proposed[i]);
-  return miss;
-}
-
-/// Of displacements and velocities, as a share of those of the states.
-template <class Number>
-double EventOrbitProver<Number>::share_of_extent(const Six& miss) const {
-  StateScale extent;
-  for (const RecordedSample& sample : path_.samples) extent.include(sample.state);
-  Vector<double, 4> most;
-  for (Eigen::Index i = 0; i < 4; ++i) most[i] = miss[i].magnitude() * modes_.units()[i];
-  return extent.share_of(most);
-}
-
-/// Once around from the first ellipsoid.
-template <class Number>
-template <class Look>
-typename EventOrbitProver<Number>::Turn EventOrbitProver<Number>::turn(double radius,
-                                                                       Passage& passage,
-                                                                       const Look& look) const {
-  Number contraction(1.0);
-  for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    if (contraction.upper() > 2.0) return {false, radius, contraction.upper()};
-    Set set = passage.ball(k, nodes_[k].axes, radius);
-    look(k, set, passage);
-    if (!passage.pass(k, set)) return {false, radius, contraction.upper()};
-    const Node& next = nodes_[after(k)];
-    const Map inverse = next.inverse.template cast<Number>();
-    const Number factor = Number(spectral_norm_bound<6>(Map(inverse * Passage::deviations(set)))) *
-                          next.inverse_error;
-    const Six miss = inverse * missed(k, set);
-    Number squared;
-    for (const Number& entry : miss) squared += square(entry);
-    radius = (factor * Number(radius) + sqrt(squared) * next.inverse_error).upper();
-    contraction *= Number(factor.upper());
-  }
-  return {true, radius, contraction.upper()};
-}
-
-/// How far the motions of the set are from the state that is given for a sample.
-template <class Number>
-void EventOrbitProver<Number>::note_errors(std::size_t sample, const Set& set,
-                                           const Passage& passage) {
-  const Vector<double, 6> given = passage.proposed(sample);
-  for (const Eigen::Index i : {0, 1, 2, 3}) {
-    const Number here = set.range(EnclosedModes<Number>::unit(i)) - Number(given[i]);
-    double& most = i % 2 == 0 ? proof_.displacement_error : proof_.velocity_error;
-    most = std::max(most, here.magnitude() * modes_.units()[i]);
-  }
-}
-
-/// The largest first ellipsoid that is found to come back into itself, by the ball inside it.
-template <class Number>
-bool EventOrbitProver<Number>::attract(const Vector<double, 6>& weights) {
-  if (modes_.guards(ContactMode::engaged, 1.0).empty()) {
-    proof_.radius = std::numeric_limits<double>::infinity();
-    return true;
-  }
-  const auto holds = [&](double radius) {
-    Passage passage(modes_, path_, delay_);
-    const Turn once = turn(radius, passage, [](std::size_t, const Set&, const Passage&) {});
-    return once.is_decided && once.radius <= radius && once.contraction < 1.0;
-  };
-  double proved = first_radius_, refused = proved;
-  do {
-    proved = refused;
-    refused *= 64.0;
-  } while (holds(refused));
-  for (int halving = 0; halving < 6; ++halving) {
-    const double between = std::sqrt(proved * refused);
-    (holds(between) ? proved : refused) = between;
-  }
-  proof_.radius = weighted(proved, weights);
-  return farthest_in_first(weights) < proof_.radius;
-}
-
-/// At least how far the motion's first state may be from the given one, in the weighted norm.
-template <class Number>
-double EventOrbitProver<Number>::farthest_in_first(const Vector<double, 6>& weights) const {
-  Map lengths = nodes_.front().axes.template cast<Number>();
-  for (Eigen::Index i = 0; i < 6; ++i) lengths.row(i) *= weight(i, weights);
-  return (Number(spectral_norm_bound<6>(lengths)) * Number(first_radius_)).upper();
-}
-
-/// The largest ball of the weighted norm in the first ellipsoid, of states that the contact allows.
-template <class Number>
-double EventOrbitProver<Number>::weighted(double radius, const Vector<double, 6>& weights) const {
-  const Node& first = nodes_.front();
-  const Passage passage(modes_, path_, delay_);
-  Matrix<double, 6> identity = Matrix<double, 6>::Identity();
-  Map allowed = Passage::deviations(passage.ball(0, identity, radius));
-  for (Eigen::Index i = 0; i < 6; ++i) allowed.col(i) /= weight(i, weights);
-  const Map length = first.inverse.template cast<Number>() * allowed;
-  const Number longest = Number(spectral_norm_bound<6>(length)) * first.inverse_error;
-  return (Number(radius) / longest).lower();
-}
 
 }  // namespace detail
 

@@ -86,7 +86,30 @@ class EventPassage {
 
   /// Moves a set from a sample to the next one.
   /// @return false where an inequality was not proved; `nearest()` is it then
-  bool pass(std::size_t sample, Set& set);
+  bool pass(std::size_t sample, Set& set) {
+    sample_ = sample;
+    const RecordedSample& here = path_.samples[sample];
+    take_command(set);
+    if (witness_) take_command(*witness_);
+    const bool continues = mode_ == here.before.mode && sign_ == here.before.sign;
+    if (has_begun_ && !continues) return false;  // a change of contact without an event
+    if (!continues) begin(here.before, 0);
+    has_begun_ = true;
+    zeros_ = 0;
+    if (guards().empty() && mode_ != ContactMode::engaged) return false;  // there is no backlash
+    if (!jump(here.from, set)) return false;
+    std::size_t next = 0;
+    if (!pass_part(0, next, set)) return false;
+    set.assign(FlowPlace::command, Modes::unit(FlowPlace::pending));
+    if (witness_) witness_->assign(FlowPlace::command, Modes::unit(FlowPlace::pending));
+    if (next < here.switches.size() && here.switches[next].guard < 0 &&
+        !jump(here.switches[next++].begun, set))
+      return false;
+    if (!pass_part(1, next, set)) return false;
+    settle(mode_, set);
+    keep_witness(set, !here.switches.empty() || here.from.mode != here.before.mode);
+    return next == here.switches.size();
+  }
 
   /// The least decided of all inequalities so far, or the one that was not decided.
   const ContactTest& nearest() const { return nearest_; }
@@ -114,27 +137,292 @@ class EventPassage {
     witness_.reset();
   }
 
-  void hold(ContactMode mode, Set& set) const;
-  void take_command(Set& set) const;
-  void keep_witness(const Set& set, bool has_changed);
-  void settle(ContactMode mode, Set& set) const;
-  bool jump(const RecordedContact& to, Set& set);
-  bool pass_part(std::size_t part, std::size_t& next, Set& set);
-  bool pass_whole(std::size_t part, Set& set);
-  bool pass_piece(const Number& length, Set& set);
-  bool pass_to_switch(const RecordedSwitch& recorded, const Number& end, Set& set);
-  bool pass_to_clock(const Number& end, Set& set);
-  void flow(const Number& length, Set& set) const;
-  void meet(const Row& surface, const Number& centre_length, const Number& length,
-            ContactMode after, Set& set);
-  typename Modes::Rate saltation(const Row& surface, ContactMode after, const Set& there) const;
-  typename Set::Spread carried_across(const typename Modes::Rate& saltation, ContactMode after,
-                                      const typename Set::Spread& together, double apart) const;
-  void change(const RecordedContact& to, std::size_t guard, Set& set);
+  /// What a contact keeps, exactly: Δż = 0 and Δz = g in stick, no g while engaged.
+  void hold(ContactMode mode, Set& set) const {
+    if (mode == ContactMode::stick) {
+      set.assign(3, Modes::unit(1));
+      set.assign(2, Modes::unit(0) + Modes::unit(FlowPlace::gap));
+    }
+    if (mode == ContactMode::engaged) set.assign(FlowPlace::gap, Number());
+  }
 
-  bool may_change(std::size_t guard, const RecordedContact& to) const;
-  bool stays_positive(const Set& set, double end, std::size_t but);
-  void note_minima(std::size_t guard, const Series& series, double from, double end, double now);
+  /// At a sample also: u_{j−1} is forgotten where u_j is in force at once, and a gap that is never
+  /// left is given.
+  void settle(ContactMode mode, Set& set) const {
+    hold(mode, set);
+    if (!moves_gap_) set.spread.row(FlowPlace::gap).setZero();
+    if (!is_late()) set.assign(FlowPlace::command, Number());
+  }
+
+  /// At a sample: the command that is to come, and what moves with the time since it.
+  void take_command(Set& set) const {
+    set.assign(FlowPlace::pending, modes_.command());
+    if (!is_late()) set.assign(FlowPlace::command, Modes::unit(FlowPlace::pending));
+    const auto& [force, quadrature] = modes_.force(sample_);
+    set.assign(FlowPlace::force, force);
+    set.assign(FlowPlace::quadrature, quadrature);
+    set.assign(FlowPlace::one, Number(1.0));
+    set.assign(FlowPlace::time, Number());
+  }
+
+  void keep_witness(const Set& set, bool has_changed) {
+    if (has_changed) witness_ = set;
+    if (witness_) settle(mode_, *witness_);
+  }
+
+  /// The command or the force has jumped; only stick may end by that.
+  bool jump(const RecordedContact& to, Set& set) {
+    if (to.mode == mode_) return true;
+    if (mode_ != ContactMode::stick || to.sign != sign_) return false;
+    hold(ContactMode::stick, set);
+    if (to.mode == ContactMode::engaged) {
+      // The drive would rather enter the gap where nothing pushes it on.
+      const Row pushed_on = Number(sign_) * modes_.free_acceleration();
+      if (!test(about(ContactSurface::free_acceleration, 0, now(set)), set.range(pushed_on)))
+        return false;
+      hold(to.mode, set);
+    }
+    begin(to, to.mode == ContactMode::gap ? 2 : 1);
+    return true;
+  }
+
+  bool pass_part(std::size_t part, std::size_t& next, Set& set) {
+    if (modes_.pieces(part) == 0) return true;
+    const auto& switches = path_.samples[sample_].switches;
+    const Number end = part == 0 ? modes_.part(0) : modes_.part(0) + modes_.part(1);
+    const bool is_first = part == 0;
+    bool changed = false;
+    while (next < switches.size() && switches[next].guard >= 0 &&
+           (!is_first || switches[next].after < delay_)) {
+      if (!pass_to_switch(switches[next++], end, set)) return false;
+      changed = true;
+    }
+    return changed ? pass_to_clock(end, set) : pass_whole(part, set);
+  }
+
+  /// A part in which nothing happens.
+  bool pass_whole(std::size_t part, Set& set) {
+    const Number length = modes_.piece(part);
+    for (int count = 0; count < modes_.pieces(part); ++count) {
+      if (!stays_positive(set, length.upper(), guards().size())) return false;
+      for (Set* one : {&set, witness_ ? &*witness_ : nullptr}) {
+        if (one == nullptr) continue;
+        one->centre = modes_.over_piece(mode_, part, one->centre);
+        one->spread = modes_.over_piece(mode_, part, one->spread);
+      }
+      zeros_ = 0;
+    }
+    return true;
+  }
+
+  /// A length of time that is the same for all motions of the set.
+  bool pass_piece(const Number& length, Set& set) {
+    if (!stays_positive(set, length.upper(), guards().size())) return false;
+    flow(length, set);
+    if (witness_) flow(length, *witness_);
+    zeros_ = 0;
+    return true;
+  }
+
+  bool pass_to_switch(const RecordedSwitch& recorded, const Number& end, Set& set) {
+    const auto which = static_cast<std::size_t>(recorded.guard);
+    if (!may_change(which, recorded.begun)) return false;
+    while (recorded.after - now(set) > 0.9 * modes_.longest())
+      if (!pass_piece(Number(0.5 * modes_.longest()), set)) return false;
+    const Guard& guard = guards()[which];
+    const int terms = modes_.terms_for(modes_.longest());
+    const Series all(guard, set, terms);
+    Set single = set;
+    single.radius = 0.0;
+    const double near = recorded.after - now(set);
+    const std::optional<Number> length = all.falls_through_zero(near);
+    std::optional<Number> exact = Series(guard, single, terms).falls_through_zero(near);
+    // Of the centre's motion the zero that all motions meet first, not a later one.
+    const bool is_that =
+        length && exact && length->lower() <= exact->lower() && exact->upper() <= length->upper();
+    if (exact && !is_that) exact = length;
+    const ContactTest crossing = about(guard.surface, 1, recorded.after);
+    const int zeros = zeros_of(which);
+    if (!length || !exact || length->upper() > modes_.longest()) {
+      const Number begins = all.derivative(zeros);
+      return begins.is_positive() ? refuse(crossing, -all.slope(Number(std::max(near, 0.0))))
+                                  : refuse(about(guard.surface, zeros, now(set)), begins);
+    }
+    if (!all.is_positive(length->lower(), zeros))
+      return refuse(about(guard.surface, zeros, now(set)), all.derivative(zeros));
+    if (!stays_positive(set, length->upper(), which)) return false;
+    if (!test(crossing, -all.slope(*length))) return false;
+    meet(guard.terms.front(), *exact, *length, recorded.begun.mode, set);
+    const Number instant = set.range(Modes::unit(FlowPlace::time));
+    instant_error_ = std::max(instant_error_, (instant - Number(recorded.after)).magnitude());
+    change(recorded.begun, which, set);
+    return test(about(ContactSurface::sampling_instant, 0, recorded.after), end - instant);
+  }
+
+  bool pass_to_clock(const Number& end, Set& set) {
+    const Row time = Modes::unit(FlowPlace::time);
+    for (;;) {
+      const Number left = end - set.range(time);
+      if (left.upper() <= modes_.longest()) break;
+      if (!pass_piece(Number(0.5 * modes_.longest()), set)) return false;
+    }
+    const Number left = end - set.range(time);
+    if (!left.is_positive())
+      return refuse(about(ContactSurface::sampling_instant, 0, now(set)), left);
+    if (!stays_positive(set, left.upper(), guards().size())) return false;
+    flow(end - set.at_centre(time), set);
+    set.spread = set.together();
+    set.is_apart = false;
+    set.assign(FlowPlace::time, end);
+    zeros_ = 0;
+    return true;
+  }
+
+  void flow(const Number& length, Set& set) const {
+    set.centre = modes_.flowed(mode_, set.centre, length);
+    set.spread = modes_.flowed(mode_, set.spread, length);
+    if (set.is_apart) set.at_once = modes_.flowed(mode_, set.at_once, length);
+  }
+
+  /// To a surface h w = 0 that all motions meet within a length, that of the centre within another
+  /// one. With D as it was and f⁻ = A⁻w there, the derivative by y of where they meet it is
+  /// (I − f⁻ h/(h f⁻)) e^{A⁻s} D.
+  void meet(const Row& surface, const Number& centre_length, const Number& length,
+            ContactMode after, Set& set) {
+    Set there = set;
+    flow(length, there);
+    const auto& rate = modes_.rate(mode_);
+    typename Set::State field;
+    for (Eigen::Index i = 0; i < field.size(); ++i) field[i] = there.range(rate.row(i));
+    const RowVector<Number, 6> earlier =
+        (surface * there.spread).eval() / there.range(surface * rate);
+    flow(centre_length, set);
+    typename Set::Spread together = set.together();
+    if (mode_ == ContactMode::stick) {
+      together.row(3) = together.row(1);
+      together.row(2) = together.row(0) + together.row(FlowPlace::gap);
+    }
+    set.spread = there.spread - field * earlier;
+    const double apart = set.deviation(Modes::unit(FlowPlace::time)).upper();
+    set.at_once = carried_across(saltation(surface, after, there), after, together, apart);
+    set.is_apart = true;
+  }
+
+  /// S = R + (f⁺ − R f⁻) h/(h f⁻) of all motions that meet a surface, R being what becomes of g.
+  /// Where stick begins the momentum stays and Δż goes, whatever the accelerations; where it ends
+  /// at a surface the rates agree.
+  typename Modes::Rate saltation(const Row& surface, ContactMode after, const Set& there) const {
+    using Rate = typename Modes::Rate;
+    Rate result = Rate::Identity();
+    if (after == ContactMode::stick) {
+      result.row(1) = modes_.common_velocity();
+      result.row(3) = modes_.common_velocity();
+    } else if (mode_ != ContactMode::stick) {
+      const Rate& rate = modes_.rate(mode_);
+      const Row gradient = surface / there.range(surface * rate);
+      for (const Eigen::Index i : {1, 3})
+        result.row(i) += there.range(modes_.rate(after).row(i) - rate.row(i)) * gradient;
+    }
+    if (mode_ == ContactMode::engaged) result.row(FlowPlace::gap) = Modes::unit(2) - Modes::unit(0);
+    return result;
+  }
+
+  /// The derivative at one instant, carried back by the flow to the instant of the centre: of
+  /// motions that change their contact δ later, |δ| ≤ apart,
+  ///
+  ///     e^{−A⁺δ} S e^{A⁻δ} = S + δ (S A⁻ − A⁺S)
+  ///                          + δ²/2 e^{−A⁺δ'} (A⁺²S − 2 A⁺S A⁻ + S A⁻²) e^{A⁻δ'},
+  ///
+  /// in which most of S A⁻ and A⁺S is the same and falls out.
+  /// @param together  the derivative at the instant of the centre, before
+  typename Set::Spread carried_across(const typename Modes::Rate& saltation, ContactMode after,
+                                      const typename Set::Spread& together, double apart) const {
+    using Spread = typename Set::Spread;
+    const auto before = [&](const Spread& spread) { return modes_.moved(mode_, spread); };
+    const auto beyond = [&](const Spread& spread) { return modes_.moved(after, spread); };
+    if (apart > modes_.longest()) return Spread::Constant(Number::unknown());
+    const Number later(-apart, apart);
+    const Spread around = modes_.flowed(mode_, together, later);
+    const Spread at_centre = saltation * together;
+    const Spread first = saltation * before(together) - beyond(at_centre);
+    const Spread second = beyond(beyond(saltation * around)) -
+                          beyond(saltation * before(around)) * Number(2.0) +
+                          saltation * before(before(around));
+    return at_centre + first * later +
+           modes_.flowed(after, second, later) * (square(later) * Number(0.5));
+  }
+
+  /// A guard has come to zero: what holds on the surface, and which derivatives of the next guard
+  /// are zero there.
+  void change(const RecordedContact& to, std::size_t guard, Set& set) {
+    const ContactMode left = mode_;
+    if (left != ContactMode::gap) set.assign_where_met(3, Modes::unit(1));
+    if (left == ContactMode::engaged)
+      set.assign_where_met(FlowPlace::gap, Modes::unit(2) - Modes::unit(0));
+    if (left == ContactMode::stick)
+      set.assign_where_met(2, Modes::unit(0) + Modes::unit(FlowPlace::gap));
+    if (to.mode == ContactMode::engaged) set.assign(FlowPlace::gap, Number());
+    int zeros = 0;
+    if (to.mode == ContactMode::gap) zeros = left == ContactMode::stick ? 3 : 2;
+    if (to.mode == ContactMode::engaged && left == ContactMode::stick) zeros = guard == 1 ? 2 : 0;
+    begin(to, zeros);
+  }
+
+  /// Whether the law lets a guard's zero lead to a contact; which of them it is, is decided by the
+  /// guards of that contact.
+  bool may_change(std::size_t guard, const RecordedContact& to) const {
+    if (guard >= guards().size()) return false;
+    switch (mode_) {
+      case ContactMode::engaged:
+        return to.mode != ContactMode::engaged && to.sign == sign_;
+      case ContactMode::gap:
+        return to.mode == ContactMode::engaged && to.sign == (guard == 0 ? 1.0 : -1.0);
+      case ContactMode::stick:
+        return to.mode == (guard == 0 ? ContactMode::gap : ContactMode::engaged) &&
+               to.sign == sign_;
+    }
+    return false;
+  }
+
+  /// Whether no guard but one comes to zero within a length.
+  bool stays_positive(const Set& set, double end, std::size_t but) {
+    for (std::size_t g = 0; g < guards().size(); ++g) {
+      if (g == but) continue;
+      const ContactSurface surface = guards()[g].surface;
+      const int terms = modes_.terms_for(end);
+      const Series series(guards()[g], set, terms);
+      const int zeros = zeros_of(g);
+      if (!series.is_positive(end, zeros)) {
+        if (witness_ && zeros == 0 && Series(guards()[g], *witness_, terms).is_positive(end, 0))
+          continue;
+        const bool begins = zeros > 0 || !series.value(Number()).is_positive();
+        return refuse(about(surface, zeros, now(set) + (begins ? 0.0 : end)),
+                      begins ? series.derivative(zeros) : series.value(Number(end)));
+      }
+      if (zeros > 0) note(about(surface, zeros, now(set)), series.derivative(zeros));
+      note_minima(g, series, zeros > 0 ? end : 0.0, end, now(set));
+    }
+    return true;
+  }
+
+  /// Where a guard is least without coming to zero: where it turns, and in stick where it begins.
+  void note_minima(std::size_t guard, const Series& series, double from, double end, double now) {
+    const ContactSurface surface = guards()[guard].surface;
+    const auto slope = [&](double s) { return series.slope(Number(s)).middle(); };
+    double& last = last_slopes_[guard];
+    const bool may_turn = last < 0.0 || (last == 0.0 && mode_ == ContactMode::stick);
+    if (from < end && slope(from) > 0.0 && may_turn)
+      note(about(surface, 0, now + from), series.value(Number(from)));
+    if (from < end && slope(from) < 0.0 && slope(end) > 0.0) {
+      double falls = from, rises = end;
+      for (int halving = 0; halving < 50; ++halving) {
+        const double middle = 0.5 * (falls + rises);
+        (slope(middle) < 0.0 ? falls : rises) = middle;
+      }
+      note(about(surface, 0, now + falls), series.value(Number(falls)));
+    }
+    last = slope(end);
+  }
 
   std::int64_t number_of_sample() const { return static_cast<std::int64_t>(sample_); }
   /// Since the sample (s).
@@ -175,340 +463,6 @@ class EventPassage {
   bool is_undecided_ = false;
   double instant_error_ = 0.0;
 };
-
-/// What a contact keeps, exactly: Δż = 0 and Δz = g in stick, no g while engaged.
-template <class Number>
-void EventPassage<Number>::hold(ContactMode mode, Set& set) const {
-  if (mode == ContactMode::stick) {
-    set.assign(3, Modes::unit(1));
-    set.assign(2, Modes::unit(0) + Modes::unit(FlowPlace::gap));
-  }
-  if (mode == ContactMode::engaged) set.assign(FlowPlace::gap, Number());
-}
-
-/// At a sample also: u_{j−1} is forgotten where u_j is in force at once, and a gap that is never
-/// left is given.
-template <class Number>
-void EventPassage<Number>::settle(ContactMode mode, Set& set) const {
-  hold(mode, set);
-  if (!moves_gap_) set.spread.row(FlowPlace::gap).setZero();
-  if (!is_late()) set.assign(FlowPlace::command, Number());
-}
-
-template <class Number>
-bool EventPassage<Number>::pass(std::size_t sample, Set& set) {
-  sample_ = sample;
-  const RecordedSample& here = path_.samples[sample];
-  take_command(set);
-  if (witness_) take_command(*witness_);
-  const bool continues = mode_ == here.before.mode && sign_ == here.before.sign;
-  if (has_begun_ && !continues) return false;  // a change of contact without an event
-  if (!continues) begin(here.before, 0);
-  has_begun_ = true;
-  zeros_ = 0;
-  if (guards().empty() && mode_ != ContactMode::engaged) return false;  // there is no backlash
-  if (!jump(here.from, set)) return false;
-  std::size_t next = 0;
-  if (!pass_part(0, next, set)) return false;
-  set.assign(FlowPlace::command, Modes::unit(FlowPlace::pending));
-  if (witness_) witness_->assign(FlowPlace::command, Modes::unit(FlowPlace::pending));
-  if (next < here.switches.size() && here.switches[next].guard < 0 &&
-      !jump(here.switches[next++].begun, set))
-    return false;
-  if (!pass_part(1, next, set)) return false;
-  settle(mode_, set);
-  keep_witness(set, !here.switches.empty() || here.from.mode != here.before.mode);
-  return next == here.switches.size();
-}
-
-/// At a sample: the command that is to come, and what moves with the time since it.
-template <class Number>
-void EventPassage<Number>::take_command(Set& set) const {
-  set.assign(FlowPlace::pending, modes_.command());
-  if (!is_late()) set.assign(FlowPlace::command, Modes::unit(FlowPlace::pending));
-  const auto& [force, quadrature] = modes_.force(sample_);
-  set.assign(FlowPlace::force, force);
-  set.assign(FlowPlace::quadrature, quadrature);
-  set.assign(FlowPlace::one, Number(1.0));
-  set.assign(FlowPlace::time, Number());
-}
-
-template <class Number>
-void EventPassage<Number>::keep_witness(const Set& set, bool has_changed) {
-  if (has_changed) witness_ = set;
-  if (witness_) settle(mode_, *witness_);
-}
-
-/// The command or the force has jumped; only stick may end by that.
-template <class Number>
-bool EventPassage<Number>::jump(const RecordedContact& to, Set& set) {
-  if (to.mode == mode_) return true;
-  if (mode_ != ContactMode::stick || to.sign != sign_) return false;
-  hold(ContactMode::stick, set);
-  if (to.mode == ContactMode::engaged) {
-    // The drive would rather enter the gap where nothing pushes it on.
-    const Row pushed_on = Number(sign_) * modes_.free_acceleration();
-    if (!test(about(ContactSurface::free_acceleration, 0, now(set)), set.range(pushed_on)))
-      return false;
-    hold(to.mode, set);
-  }
-  begin(to, to.mode == ContactMode::gap ? 2 : 1);
-  return true;
-}
-
-template <class Number>
-bool EventPassage<Number>::pass_part(std::size_t part, std::size_t& next, Set& set) {
-  if (modes_.pieces(part) == 0) return true;
-  const auto& switches = path_.samples[sample_].switches;
-  const Number end = part == 0 ? modes_.part(0) : modes_.part(0) + modes_.part(1);
-  const bool is_first = part == 0;
-  bool changed = false;
-  while (next < switches.size() && switches[next].guard >= 0 &&
-         (!is_first || switches[next].after < delay_)) {
-    if (!pass_to_switch(switches[next++], end, set)) return false;
-    changed = true;
-  }
-  return changed ? pass_to_clock(end, set) : pass_whole(part, set);
-}
-
-/// A part in which nothing happens.
-template <class Number>
-bool EventPassage<Number>::pass_whole(std::size_t part, Set& set) {
-  const Number length = modes_.piece(part);
-  for (int count = 0; count < modes_.pieces(part); ++count) {
-    if (!stays_positive(set, length.upper(), guards().size())) return false;
-    for (Set* one : {&set, witness_ ? &*witness_ : nullptr}) {
-      if (one == nullptr) continue;
-      one->centre = modes_.over_piece(mode_, part, one->centre);
-      one->spread = modes_.over_piece(mode_, part, one->spread);
-    }
-    zeros_ = 0;
-  }
-  return true;
-}
-
-/// A length of time that is the same for all motions of the set.
-template <class Number>
-bool EventPassage<Number>::pass_piece(const Number& length, Set& set) {
-  if (!stays_positive(set, length.upper(), guards().size())) return false;
-  flow(length, set);
-  if (witness_) flow(length, *witness_);
-  zeros_ = 0;
-  return true;
-}
-
-template <class Number>
-void EventPassage<Number>::flow(const Number& length, Set& set) const {
-  set.centre = modes_.flowed(mode_, set.centre, length);
-  set.spread = modes_.flowed(mode_, set.spread, length);
-  if (set.is_apart) set.at_once = modes_.flowed(mode_, set.at_once, length);
-}
-
-/// Whether the law lets a guard's zero lead to a contact; which of them it is, is decided by the
-/// guards of that contact.
-template <class Number>
-bool EventPassage<Number>::may_change(std::size_t guard, const RecordedContact& to) const {
-  if (guard >= guards().size()) return false;
-  switch (mode_) {
-    case ContactMode::engaged:
-      return to.mode != ContactMode::engaged && to.sign == sign_;
-    case ContactMode::gap:
-      return to.mode == ContactMode::engaged && to.sign == (guard == 0 ? 1.0 : -1.0);
-    case ContactMode::stick:
-      return to.mode == (guard == 0 ? ContactMode::gap : ContactMode::engaged) && to.sign == sign_;
-  }
-  return false;
-}
-
-template <class Number>
-bool EventPassage<Number>::pass_to_switch(const RecordedSwitch& recorded, const Number& end,
-                                          Set& set) {
-  const auto which = static_cast<std::size_t>(recorded.guard);
-  if (!may_change(which, recorded.begun)) return false;
-  while (recorded.after - now(set) > 0.9 * modes_.longest())
-    if (!pass_piece(Number(0.5 * modes_.longest()), set)) return false;
-  const Guard& guard = guards()[which];
-  const int terms = modes_.terms_for(modes_.longest());
-  const Series all(guard, set, terms);
-  Set single = set;
-  single.radius = 0.0;
-  const double near = recorded.after - now(set);
-  const std::optional<Number> length = all.falls_through_zero(near);
-  std::optional<Number> exact = Series(guard, single, terms).falls_through_zero(near);
-  // Of the centre's motion the zero that all motions meet first, not a later one.
-  const bool is_that =
-      length && exact && length->lower() <= exact->lower() && exact->upper() <= length->upper();
-  if (exact && !is_that) exact = length;
-  const ContactTest crossing = about(guard.surface, 1, recorded.after);
-  const int zeros = zeros_of(which);
-  if (!length || !exact || length->upper() > modes_.longest()) {
-    const Number begins = all.derivative(zeros);
-    return begins.is_positive() ? refuse(crossing, -all.slope(Number(std::max(near, 0.0))))
-                                : refuse(about(guard.surface, zeros, now(set)), begins);
-  }
-  if (!all.is_positive(length->lower(), zeros))
-    return refuse(about(guard.surface, zeros, now(set)), all.derivative(zeros));
-  if (!stays_positive(set, length->upper(), which)) return false;
-  if (!test(crossing, -all.slope(*length))) return false;
-  meet(guard.terms.front(), *exact, *length, recorded.begun.mode, set);
-  const Number instant = set.range(Modes::unit(FlowPlace::time));
-  instant_error_ = std::max(instant_error_, (instant - Number(recorded.after)).magnitude());
-  change(recorded.begun, which, set);
-  return test(about(ContactSurface::sampling_instant, 0, recorded.after), end - instant);
-}
-
-template <class Number>
-bool EventPassage<Number>::pass_to_clock(const Number& end, Set& set) {
-  const Row time = Modes::unit(FlowPlace::time);
-  for (;;) {
-    const Number left = end - set.range(time);
-    if (left.upper() <= modes_.longest()) break;
-    if (!pass_piece(Number(0.5 * modes_.longest()), set)) return false;
-  }
-  const Number left = end - set.range(time);
-  if (!left.is_positive())
-    return refuse(about(ContactSurface::sampling_instant, 0, now(set)), left);
-  if (!stays_positive(set, left.upper(), guards().size())) return false;
-  flow(end - set.at_centre(time), set);
-  set.spread = set.together();
-  set.is_apart = false;
-  set.assign(FlowPlace::time, end);
-  zeros_ = 0;
-  return true;
-}
-
-/// To a surface h w = 0 that all motions meet within a length, that of the centre within another
-/// one. With D as it was and f⁻ = A⁻w there, the derivative by y of where they meet it is
-/// (I − f⁻ h/(h f⁻)) e^{A⁻s} D.
-template <class Number>
-void EventPassage<Number>::meet(const Row& surface, const Number& centre_length,
-                                const Number& length, ContactMode after, Set& set) {
-  Set there = set;
-  flow(length, there);
-  const auto& rate = modes_.rate(mode_);
-  typename Set::State field;
-  for (Eigen::Index i = 0; i < field.size(); ++i) field[i] = there.range(rate.row(i));
-  const RowVector<Number, 6> earlier =
-      (surface * there.spread).eval() / there.range(surface * rate);
-  flow(centre_length, set);
-  typename Set::Spread together = set.together();
-  if (mode_ == ContactMode::stick) {
-    together.row(3) = together.row(1);
-    together.row(2) = together.row(0) + together.row(FlowPlace::gap);
-  }
-  set.spread = there.spread - field * earlier;
-  const double apart = set.deviation(Modes::unit(FlowPlace::time)).upper();
-  set.at_once = carried_across(saltation(surface, after, there), after, together, apart);
-  set.is_apart = true;
-}
-
-/// S = R + (f⁺ − R f⁻) h/(h f⁻) of all motions that meet a surface, R being what becomes of g.
-/// Where stick begins the momentum stays and Δż goes, whatever the accelerations; where it ends at
-/// a surface the rates agree.
-template <class Number>
-typename EnclosedModes<Number>::Rate EventPassage<Number>::saltation(const Row& surface,
-                                                                     ContactMode after,
-                                                                     const Set& there) const {
-  using Rate = typename Modes::Rate;
-  Rate result = Rate::Identity();
-  if (after == ContactMode::stick) {
-    result.row(1) = modes_.common_velocity();
-    result.row(3) = modes_.common_velocity();
-  } else if (mode_ != ContactMode::stick) {
-    const Rate& rate = modes_.rate(mode_);
-    const Row gradient = surface / there.range(surface * rate);
-    for (const Eigen::Index i : {1, 3})
-      result.row(i) += there.range(modes_.rate(after).row(i) - rate.row(i)) * gradient;
-  }
-  if (mode_ == ContactMode::engaged) result.row(FlowPlace::gap) = Modes::unit(2) - Modes::unit(0);
-  return result;
-}
-
-/// The derivative at one instant, carried back by the flow to the instant of the centre: of motions
-/// that change their contact δ later, |δ| ≤ apart,
-///
-///     e^{−A⁺δ} S e^{A⁻δ} = S + δ (S A⁻ − A⁺S) + δ²/2 e^{−A⁺δ'} (A⁺²S − 2 A⁺S A⁻ + S A⁻²) e^{A⁻δ'},
-///
-/// in which most of S A⁻ and A⁺S is the same and falls out.
-/// @param together  the derivative at the instant of the centre, before
-template <class Number>
-typename SetOfStates<Number>::Spread EventPassage<Number>::carried_across(
-    const typename Modes::Rate& saltation, ContactMode after, const typename Set::Spread& together,
-    double apart) const {
-  using Spread = typename Set::Spread;
-  const auto before = [&](const Spread& spread) { return modes_.moved(mode_, spread); };
-  const auto beyond = [&](const Spread& spread) { return modes_.moved(after, spread); };
-  if (apart > modes_.longest()) return Spread::Constant(Number::unknown());
-  const Number later(-apart, apart);
-  const Spread around = modes_.flowed(mode_, together, later);
-  const Spread at_centre = saltation * together;
-  const Spread first = saltation * before(together) - beyond(at_centre);
-  const Spread second = beyond(beyond(saltation * around)) -
-                        beyond(saltation * before(around)) * Number(2.0) +
-                        saltation * before(before(around));
-  return at_centre + first * later +
-         modes_.flowed(after, second, later) * (square(later) * Number(0.5));
-}
-
-/// A guard has come to zero: what holds on the surface, and which derivatives of the next guard are
-/// zero there.
-template <class Number>
-void EventPassage<Number>::change(const RecordedContact& to, std::size_t guard, Set& set) {
-  const ContactMode left = mode_;
-  if (left != ContactMode::gap) set.assign_where_met(3, Modes::unit(1));
-  if (left == ContactMode::engaged)
-    set.assign_where_met(FlowPlace::gap, Modes::unit(2) - Modes::unit(0));
-  if (left == ContactMode::stick)
-    set.assign_where_met(2, Modes::unit(0) + Modes::unit(FlowPlace::gap));
-  if (to.mode == ContactMode::engaged) set.assign(FlowPlace::gap, Number());
-  int zeros = 0;
-  if (to.mode == ContactMode::gap) zeros = left == ContactMode::stick ? 3 : 2;
-  if (to.mode == ContactMode::engaged && left == ContactMode::stick) zeros = guard == 1 ? 2 : 0;
-  begin(to, zeros);
-}
-
-/// Whether no guard but one comes to zero within a length.
-template <class Number>
-bool EventPassage<Number>::stays_positive(const Set& set, double end, std::size_t but) {
-  for (std::size_t g = 0; g < guards().size(); ++g) {
-    if (g == but) continue;
-    const ContactSurface surface = guards()[g].surface;
-    const int terms = modes_.terms_for(end);
-    const Series series(guards()[g], set, terms);
-    const int zeros = zeros_of(g);
-    if (!series.is_positive(end, zeros)) {
-      if (witness_ && zeros == 0 && Series(guards()[g], *witness_, terms).is_positive(end, 0))
-        continue;
-      const bool begins = zeros > 0 || !series.value(Number()).is_positive();
-      return refuse(about(surface, zeros, now(set) + (begins ? 0.0 : end)),
-                    begins ? series.derivative(zeros) : series.value(Number(end)));
-    }
-    if (zeros > 0) note(about(surface, zeros, now(set)), series.derivative(zeros));
-    note_minima(g, series, zeros > 0 ? end : 0.0, end, now(set));
-  }
-  return true;
-}
-
-/// Where a guard is least without coming to zero: where it turns, and in stick where it begins.
-template <class Number>
-void EventPassage<Number>::note_minima(std::size_t guard, const Series& series, double from,
-                                       double end, double now) {
-  const ContactSurface surface = guards()[guard].surface;
-  const auto slope = [&](double s) { return series.slope(Number(s)).middle(); };
-  double& last = last_slopes_[guard];
-  const bool may_turn = last < 0.0 || (last == 0.0 && mode_ == ContactMode::stick);
-  if (from < end && slope(from) > 0.0 && may_turn)
-    note(about(surface, 0, now + from), series.value(Number(from)));
-  if (from < end && slope(from) < 0.0 && slope(end) > 0.0) {
-    double falls = from, rises = end;
-    for (int halving = 0; halving < 50; ++halving) {
-      const double middle = 0.5 * (falls + rises);
-      (slope(middle) < 0.0 ? falls : rises) = middle;
-    }
-    note(about(surface, 0, now + falls), series.value(Number(falls)));
-  }
-  last = slope(end);
-}
 
 }  // namespace detail
 }  // namespace holdfast

@@ -62,7 +62,21 @@ class GuardSeries {
   /// An interval in which g of every motion has its only zero between its ends, falling through it.
   /// @param near  a guess (s)
   /// @return nothing where it was not proved
-  std::optional<Number> falls_through_zero(double near) const;
+  std::optional<Number> falls_through_zero(double near) const {
+    for (int step = 0; step < 8; ++step)
+      near -= value(Number(near)).middle() / slope(Number(near)).middle();
+    if (!(near > 0.0)) return std::nullopt;
+    const Number here = value(Number(near));
+    double reach = 1.5 * here.magnitude() / std::abs(slope(Number(near)).middle()) +
+                   4.0 * std::numeric_limits<double>::epsilon() * near;
+    for (int attempt = 0; attempt < 12 && reach < near; ++attempt, reach *= 1.5) {
+      const Number around(near - reach, near + reach);
+      if (value(Number(around.lower())).is_positive() &&
+          value(Number(around.upper())).is_negative() && slope(around).is_negative())
+        return around;
+    }
+    return std::nullopt;
+  }
 
  private:
   static constexpr int least_terms = 6;  // the first derivative that is not zero is one of them
@@ -87,22 +101,5 @@ class GuardSeries {
 
   std::vector<Number> coefficients_;
 };
-
-template <class Number>
-std::optional<Number> GuardSeries<Number>::falls_through_zero(double near) const {
-  for (int step = 0; step < 8; ++step)
-    near -= value(Number(near)).middle() / slope(Number(near)).middle();
-  if (!(near > 0.0)) return std::nullopt;
-  const Number here = value(Number(near));
-  double reach = 1.5 * here.magnitude() / std::abs(slope(Number(near)).middle()) +
-                 4.0 * std::numeric_limits<double>::epsilon() * near;
-  for (int attempt = 0; attempt < 12 && reach < near; ++attempt, reach *= 1.5) {
-    const Number around(near - reach, near + reach);
-    if (value(Number(around.lower())).is_positive() &&
-        value(Number(around.upper())).is_negative() && slope(around).is_negative())
-      return around;
-  }
-  return std::nullopt;
-}
 
 }  // namespace holdfast::detail

@@ -48,12 +48,13 @@ class SegmentOfLoops {
 
   SegmentOfLoops(const IdealLoop<Number>& first, const IdealLoop<Number>& last,
                  const Rational& ratio)
-      : SegmentOfLoops(ItineraryMaps<Number>(first, ratio), ItineraryMaps<Number>(last, ratio)) {
-    widths_ = {middle_of(first.backlash_width, last.backlash_width),
+      : SegmentOfLoops(
+            Ends{ItineraryMaps<Number>(first, ratio), ItineraryMaps<Number>(last, ratio)}) {
+    widths_ = {Number(0.5) * (first.backlash_width + last.backlash_width),
                last.backlash_width - first.backlash_width};
   }
   SegmentOfLoops(const IdealLoop<Number>& loop, const Rational& ratio)
-      : SegmentOfLoops(ItineraryMaps<Number>(loop, ratio)) {
+      : SegmentOfLoops(Ends{ItineraryMaps<Number>(loop, ratio)}) {
     widths_ = {loop.backlash_width, Number()};
   }
 
@@ -78,34 +79,25 @@ class SegmentOfLoops {
   const Vector<double, 5>& units() const { return units_; }
 
  private:
-  static Number middle_of(const Number& a, const Number& b) { return Number(0.5) * (a + b); }
+  using Ends = std::vector<ItineraryMaps<Number>>;
 
-  explicit SegmentOfLoops(const ItineraryMaps<Number>& maps)
-      : units_(maps.units().template cast<double>()) {
-    ends_.push_back(maps_of(maps));
+  explicit SegmentOfLoops(const Ends& loops)
+      : units_(loops.front().units().template cast<double>()) {
+    for (const auto& maps : loops)
+      ends_.push_back({maps.map_in_units(false), maps.map_in_units(true)});
     for (const std::size_t engaged : {std::size_t{0}, std::size_t{1}})
-      maps_.at(engaged) = {ends_.front().at(engaged), Map::Zero()};
-    for (std::size_t k = 0; k < maps.samples_of_forcing(); ++k)
-      additions_.push_back({in_units(maps, k), State::Zero()});
+      maps_.at(engaged) = between(ends_.front().at(engaged), ends_.back().at(engaged));
+    for (std::size_t k = 0; k < loops.front().samples_of_forcing(); ++k)
+      additions_.push_back(between(in_units(loops.front(), k), in_units(loops.back(), k)));
   }
 
-  SegmentOfLoops(const ItineraryMaps<Number>& first, const ItineraryMaps<Number>& last)
-      : units_(first.units().template cast<double>()) {
-    const Number half(0.5);
-    ends_ = {maps_of(first), maps_of(last)};
-    for (const std::size_t engaged : {std::size_t{0}, std::size_t{1}}) {
-      const Map &from = ends_[0].at(engaged), &to = ends_[1].at(engaged);
-      maps_.at(engaged) = {(from + to) * half, to - from};
-    }
-    for (std::size_t k = 0; k < first.samples_of_forcing(); ++k) {
-      const State from = in_units(first, k), to = in_units(last, k);
-      additions_.push_back({(from + to) * half, to - from});
-    }
+  /// A quantity by its values at the ends; that of one loop does not change at all.
+  template <class Value>
+  AlongSegment<Value> between(const Value& from, const Value& to) const {
+    if (ends_.size() == 1) return {from, Value::Zero()};
+    return {(from + to) * Number(0.5), to - from};
   }
 
-  static std::array<Map, 2> maps_of(const ItineraryMaps<Number>& maps) {
-    return {maps.map_in_units(false), maps.map_in_units(true)};
-  }
   static State in_units(const ItineraryMaps<Number>& maps, std::size_t phase) {
     State addition = State::Zero();
     addition.template head<4>() =

@@ -39,19 +39,17 @@ struct ParityPencil {
   explicit ParityPencil(const RootPairCurve<Scalar>& curve) {
     even << curve.base().even, curve.proportional().even, curve.differential().even;
     odd << curve.base().odd, curve.proportional().odd, curve.differential().odd;
-    column.setOnes();
+    const auto size_of = [](const auto& one, const auto& other) {
+      const Scalar size = std::max(one.cwiseAbs().maxCoeff(), other.cwiseAbs().maxCoeff());
+      return size > Scalar(0) ? size : Scalar(1);
+    };
     for (int k = 0; k < 3; ++k) {
-      const Scalar size =
-          std::max(even.col(k).cwiseAbs().maxCoeff(), odd.col(k).cwiseAbs().maxCoeff());
-      if (!(size > Scalar(0))) continue;
-      column[k] = Scalar(1) / size;
+      column[k] = Scalar(1) / size_of(even.col(k), odd.col(k));
       even.col(k) *= column[k];
       odd.col(k) *= column[k];
     }
     for (int k = 0; k < 3; ++k) {
-      const Scalar size =
-          std::max(even.row(k).cwiseAbs().maxCoeff(), odd.row(k).cwiseAbs().maxCoeff());
-      if (!(size > Scalar(0))) continue;
+      const Scalar size = size_of(even.row(k), odd.row(k));
       even.row(k) /= size;
       odd.row(k) /= size;
     }

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
-#include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
@@ -45,6 +44,12 @@ struct GainPassage {
 template <class Scalar>
 class ResolvedCircle {
  public:
+  /// G at an angle.
+  struct Place {
+    Scalar angle;               ///< θ (rad)
+    CommandResponse<Scalar> g;  ///< G_z and G_v
+  };
+
   /// @param response  of the loop; kept
   explicit ResolvedCircle(ModalResponse<Scalar> response) : response_(std::move(response)) {
     const Scalar close(0.12);
@@ -75,19 +80,8 @@ class ResolvedCircle {
   /// G_z and G_v, of which all this is made.
   const ModalResponse<Scalar>& response() const { return response_; }
 
-  /// θ (rad) at which the circle is resolved, ascending.
-  std::vector<Scalar> angles() const {
-    std::vector<Scalar> all;
-    for (const Place& place : places_) all.push_back(place.angle);
-    return all;
-  }
-
-  /// G_z and G_v at those angles.
-  std::vector<CommandResponse<Scalar>> responses() const {
-    std::vector<CommandResponse<Scalar>> all;
-    for (const Place& place : places_) all.push_back(place.g);
-    return all;
-  }
+  /// Where the circle is resolved, by ascending angle.
+  const std::vector<Place>& places() const { return places_; }
 
   /// The number of roots of the loop outside the unit circle; −1 where round-off hides it: a root
   /// lies on the circle, or the gains are so large or so little finite that p is noise.
@@ -161,16 +155,10 @@ class ResolvedCircle {
       const Scalar x = gap.contains(Scalar(0)) ? Scalar(0) : gap.representative();
       return roots_outside(detail::with_gain(gains, free, x));
     };
-    return without_roots_outside(found, gaps_between(found), outside);
+    return without_roots_outside(found, outside);
   }
 
  private:
-  /// G at an angle.
-  struct Place {
-    Scalar angle;
-    CommandResponse<Scalar> g;
-  };
-
   /// The plane's line along which one gain is free.
   struct Line {
     FreeGain free;
@@ -277,23 +265,14 @@ class ResolvedCircle {
     }
   }
 
-  static std::vector<Interval<Scalar>> gaps_between(const std::vector<GainPassage<Scalar>>& found) {
-    std::vector<Interval<Scalar>> gaps;
-    Interval<Scalar> gap;
-    for (const GainPassage<Scalar>& passage : found) {
-      gap.upper = passage.gain;
-      gaps.push_back(gap);
-      gap = {passage.gain};
-    }
-    gaps.push_back(gap);
-    return gaps;
-  }
-
-  /// Of the gaps those without a root outside; one that the winding cannot decide is none of them.
+  /// Of the gaps between passages those without a root outside; one that the winding cannot decide
+  /// is none of them.
   template <class Outside>
   static std::vector<Interval<Scalar>> without_roots_outside(
-      const std::vector<GainPassage<Scalar>>& found, const std::vector<Interval<Scalar>>& gaps,
-      const Outside& outside) {
+      const std::vector<GainPassage<Scalar>>& found, const Outside& outside) {
+    std::vector<Interval<Scalar>> gaps(found.size() + 1);  // unbounded at first
+    for (std::size_t k = 0; k < found.size(); ++k)
+      gaps[k].upper = gaps[k + 1].lower = found[k].gain;
     // The count begins in the widest bounded gap.
     std::size_t first = 0;
     for (std::size_t k = 1; k + 1 < gaps.size(); ++k)

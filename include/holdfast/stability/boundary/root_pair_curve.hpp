@@ -199,8 +199,9 @@ class RootPairCurve {
 
   /// The whole curve, 0 < Y < ∞, cut at its poles and at the extremes of P.
   std::vector<MonotoneArc<Scalar>> arcs() const {
-    std::vector<Cut> cuts = {{end_at_zero(), end_at_zero()},
-                             {end_at_infinity(), end_at_infinity()}};
+    const ArcEnd<Scalar> first = outer_end(Scalar(0), 0, 4),
+                         last = outer_end(std::numeric_limits<Scalar>::infinity(), 4, 0);
+    std::vector<Cut> cuts = {{first, first}, {last, last}};
     for (const Scalar& square : poles()) cuts.push_back(cut_at_pole(square));
     for (const Scalar& square : proportional_extremes()) {
       const ArcEnd<Scalar> end{square, evaluate(proportional_numerator_, square),
@@ -302,30 +303,18 @@ class RootPairCurve {
         .template head<7>();
   }
 
-  ArcEnd<Scalar> end_at_zero() const {
-    int order = 0;
-    while (order < 4 && no_term(order)) ++order;
-    return {Scalar(0), proportional_numerator_[order], denominator_[order]};
-  }
-
-  ArcEnd<Scalar> end_at_infinity() const {
-    int order = 4;
-    while (order > 0 && no_term(order)) --order;
-    return {std::numeric_limits<Scalar>::infinity(), proportional_numerator_[order],
-            denominator_[order]};
-  }
-
-  bool no_term(int order) const {
-    return proportional_numerator_[order] == Scalar(0) && denominator_[order] == Scalar(0);
+  /// The end at Y = 0 (from power 0 on) or ∞ (from power 4 down).
+  ArcEnd<Scalar> outer_end(const Scalar& square, int from, int last) const {
+    int order = from;
+    while (order != last && proportional_numerator_[order] == Scalar(0) &&
+           denominator_[order] == Scalar(0))
+      order += from < last ? 1 : -1;
+    return {square, proportional_numerator_[order], denominator_[order]};
   }
 
   Scalar unit_;
   ParityParts<Scalar> base_, proportional_, differential_;
   Polynomial<Scalar, 4> denominator_, proportional_numerator_, differential_numerator_;
 };
-
-/// The curve's type does not tell the degree of the polynomial that it was made from.
-template <class Scalar, int Degree>
-RootPairCurve(const HalfPlanePolynomial<Scalar, Degree>&) -> RootPairCurve<Scalar>;
 
 }  // namespace holdfast

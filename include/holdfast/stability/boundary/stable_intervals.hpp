@@ -40,10 +40,7 @@ std::vector<Scalar> boundary_crossings(const Vector<Scalar, Size>& constant_part
   const auto d_even = detail::parity_part(d, 0), d_odd = detail::parity_part(d, 1);
   const Vector<Scalar, 5> eliminated =
       multiply<Scalar, 3, 3>(a_even, d_odd) - multiply<Scalar, 3, 3>(a_odd, d_even);
-  for (const auto& root : roots(eliminated)) {
-    // A double root leaves the axis by round-off of size √ε: it is still a crossing candidate.
-    if (!(root.real() > Scalar(0)) || std::abs(root.imag()) > Scalar(1e-6) * root.real()) continue;
-    const Scalar y2 = root.real();
+  for (const Scalar& y2 : positive_roots(eliminated, 1e-6)) {
     const Scalar even_slope = evaluate(d_even, y2), odd_slope = evaluate(d_odd, y2);
     if (even_slope * even_slope > odd_slope * odd_slope * y2) {
       solve(evaluate(a_even, y2), even_slope);

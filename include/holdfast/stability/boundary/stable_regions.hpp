@@ -113,8 +113,8 @@ class RegionBuilder {
     bool is_wall;
   };
 
-  void add_event(const PdGains<Scalar>& gains) {
-    if (window_.contains(gains)) events_.push_back({gains.proportional, false});
+  void add_event(const PdGains<Scalar>& gains, bool is_wall = false) {
+    if (window_.contains(gains)) events_.push_back({gains.proportional, is_wall});
   }
 
   /// Where the boundary passes D = `differential` (N s/m).
@@ -132,18 +132,13 @@ class RegionBuilder {
   void find_events() {
     events_ = {{Scalar(window_.proportional.lower), false},
                {Scalar(window_.proportional.upper), false}};
-    for (const auto& feature : FeatureFinder<Scalar, Degree>(curves_).find()) {
+    for (const auto& feature : FeatureFinder<Scalar, Degree>(curves_).find())
       add_event(feature.gains);
-    }
     add_edge(Scalar(window_.differential.lower));
     add_edge(Scalar(window_.differential.upper));
-    for (const auto& line : curves_.lines()) {
-      const Scalar p = line.proportional_at(Scalar(0));
-      if (line.is_vertical() &&
-          window_.contains(PdGains<Scalar>{p, Scalar(window_.differential.lower)})) {
-        events_.push_back({p, true});
-      }
-    }
+    const Scalar bottom(window_.differential.lower);
+    for (const auto& line : curves_.lines())
+      if (line.is_vertical()) add_event({line.proportional_at(bottom), bottom}, true);
     std::sort(events_.begin(), events_.end(),
               [](const Event& a, const Event& b) { return a.proportional < b.proportional; });
   }

@@ -76,7 +76,10 @@ class StabilityRows {
     find_crossings(proportional_gain);
     std::int64_t first = 0;
     for (const RowCrossing<double>& crossing : crossings_) {
-      const auto [before, after] = cells_about(crossing, first);
+      const auto& [value, uncertainty] = crossing;
+      const std::int64_t on_it = differential_.first_not_below(value - uncertainty);
+      const std::int64_t beyond_it = differential_.first_above(value + uncertainty);
+      const std::int64_t before = std::max(first, on_it), after = std::max(before, beyond_it);
       fill_gap(row, first, before, stable);
       std::fill(stable + before, stable + after, std::uint8_t{0});
       first = after;
@@ -125,14 +128,6 @@ class StabilityRows {
     const double term = proportional_gain * (curve_.proportional().*part)[k];
     add({-(base + term) / slope,
          curve_.rounding * (std::abs(base) + std::abs(term)) / std::abs(slope)});
-  }
-
-  /// Index of the first cell on the crossing and of the first one beyond it.
-  std::pair<std::int64_t, std::int64_t> cells_about(const RowCrossing<double>& crossing,
-                                                    std::int64_t first) const {
-    const double value = crossing.differential, uncertainty = crossing.uncertainty;
-    const std::int64_t before = std::max(first, differential_.first_not_below(value - uncertainty));
-    return {before, std::max(before, differential_.first_above(value + uncertainty))};
   }
 
   /// No boundary passes between these cells: the middle one stands for all.

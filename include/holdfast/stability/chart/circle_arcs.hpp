@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
-#include "holdfast/core/types.hpp"
 #include "holdfast/math/enclosure/complex_enclosure.hpp"
 #include "holdfast/math/enclosure/enclosure.hpp"
 #include "holdfast/stability/chart/proved_chart.hpp"
@@ -51,12 +50,7 @@ class CircleArcs {
       open.pop_back();
       const Reach reach(arcs_[index], gains);
       if (reach.avoids_zero()) continue;
-      if (reach.is_short_enough() || !halve(index)) {
-        met.push_back(index);
-      } else {
-        open.push_back(arcs_[index].first_half + 1);
-        open.push_back(arcs_[index].first_half);
-      }
+      if (reach.is_short_enough() || !add_halves(index, open)) met.push_back(index);
     }
     return met;
   }
@@ -84,9 +78,7 @@ class CircleArcs {
       open.pop_back();
       const int side = Reach(arcs_[index], box).half_plane();
       if (side < 0) {
-        if (count > most_arcs || !halve(index)) return std::nullopt;
-        open.push_back(arcs_[index].first_half + 1);
-        open.push_back(arcs_[index].first_half);
+        if (count > most_arcs || !add_halves(index, open)) return std::nullopt;
         continue;
       }
       const int turn = before < 0 ? 0 : (side - before + 4) % 4;
@@ -228,15 +220,19 @@ class CircleArcs {
             line_of(response.velocity, centre, half_width)};
   }
 
-  /// @return whether the arc has two halves
-  bool halve(std::size_t index) {
-    if (arcs_[index].first_half != 0) return true;
-    const double from = arcs_[index].from, to = arcs_[index].to;
-    const double middle = 0.5 * (from + to);
-    if (!(from < middle && middle < to) || to - from < 1e-14) return false;
-    arcs_[index].first_half = arcs_.size();
-    arcs_.push_back(arc(from, middle));
-    arcs_.push_back(arc(middle, to));
+  /// Appends the halves of an arc to a list, the first one last.
+  /// @return whether it has two
+  bool add_halves(std::size_t index, Arcs& list) {
+    if (arcs_[index].first_half == 0) {
+      const double from = arcs_[index].from, to = arcs_[index].to;
+      const double middle = 0.5 * (from + to);
+      if (!(from < middle && middle < to) || to - from < 1e-14) return false;
+      arcs_[index].first_half = arcs_.size();
+      arcs_.push_back(arc(from, middle));
+      arcs_.push_back(arc(middle, to));
+    }
+    list.push_back(arcs_[index].first_half + 1);
+    list.push_back(arcs_[index].first_half);
     return true;
   }
 

@@ -45,9 +45,4 @@ std::vector<std::uint8_t> stability_chart(const ResolvedCircle<Scalar>& circle,
   return stable;
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template std::vector<std::uint8_t> stability_chart(const ResolvedCircle<double>&,
-                                                          const GainGrid&);
-#endif
-
 }  // namespace holdfast

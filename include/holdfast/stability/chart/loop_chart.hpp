@@ -152,7 +152,14 @@ class ChartPolynomials {
     if (is_gain(chart.slow.parameter) && is_gain(chart.fast.parameter)) {
       common_ = polynomial_of_(chart.point);
     } else if (is_gain(chart.slow.parameter)) {
-      tabulate_columns();
+      column_constants_.resize(columns(), Degree + 1);
+      column_slopes_.resize(columns(), Degree + 1);
+      for (std::int64_t column = 0; column < columns(); ++column) {
+        const OperatingPoint point = chart.cell(0, column);
+        const auto line = along(chart.slow.parameter, polynomial_of(point), point.gains);
+        column_constants_.row(column) = line.constant;
+        column_slopes_.row(column) = line.slope;
+      }
     }
   }
 
@@ -188,17 +195,6 @@ class ChartPolynomials {
   }
 
  private:
-  void tabulate_columns() {
-    column_constants_.resize(columns(), Degree + 1);
-    column_slopes_.resize(columns(), Degree + 1);
-    for (std::int64_t column = 0; column < columns(); ++column) {
-      const OperatingPoint point = chart_.cell(0, column);
-      const auto line = along(chart_.slow.parameter, polynomial_of_(point), point.gains);
-      column_constants_.row(column) = line.constant;
-      column_slopes_.row(column) = line.slope;
-    }
-  }
-
   LoopChart chart_;
   PolynomialOf polynomial_of_;
   Affine common_;

@@ -83,7 +83,8 @@ struct HurwitzConditions {
   static constexpr std::size_t count = Degree == 4 ? 6 : 8;
   static constexpr std::size_t n = Degree;
 
-  static std::array<Number, count> of(const std::array<Number, n + 1>& a) {
+  template <class Coefficients>
+  static std::array<Number, count> of(const Coefficients& a) {
     const Number second = a[n - 1] * a[n - 2] - a[n] * a[n - 3];
     if constexpr (Degree == 4) {
       const Number third = a[1] * second - a[3] * (a[3] * a[0]);
@@ -117,7 +118,7 @@ class GainBoxProof {
   ProvedStability operator()(const GainBox& box) const {
     const Enclosure p(box.proportional_from, box.proportional_to);
     const Enclosure d(box.differential_from, box.differential_to);
-    const auto at_centre = Conditions::of(coefficients(p.middle(), d.middle()));
+    const auto at_centre = Conditions::of(polynomial_.at({p.middle(), d.middle()}));
     const auto over_box = detail::HurwitzConditions<Moving, Degree>::of(moving_coefficients(p, d));
     std::size_t positive = 0;
     for (std::size_t k = 0; k < Conditions::count; ++k) {
@@ -135,21 +136,13 @@ class GainBoxProof {
   using Conditions = detail::HurwitzConditions<Enclosure, Degree>;
   using Moving = Eigen::AutoDiffScalar<Vector<Enclosure, 2>>;
 
-  auto coefficients(const Enclosure& p, const Enclosure& d) const {
-    std::array<Enclosure, Conditions::n + 1> a;
-    for (int k = 0; k <= Degree; ++k)
-      a[static_cast<std::size_t>(k)] =
-          polynomial_.base[k] + p * polynomial_.proportional[k] + d * polynomial_.differential[k];
-    return a;
-  }
-
   auto moving_coefficients(const Enclosure& p, const Enclosure& d) const {
-    const auto values = coefficients(p, d);
+    const Polynomial<Enclosure, Degree> values = polynomial_.at({p, d});
     std::array<Moving, Conditions::n + 1> a;
     for (int k = 0; k <= Degree; ++k)
-      a[static_cast<std::size_t>(k)] =
-          Moving(values[static_cast<std::size_t>(k)],
-                 Vector<Enclosure, 2>(polynomial_.proportional[k], polynomial_.differential[k]));
+      a[static_cast<std::size_t>(k)] = {
+          values[k],
+          Vector<Enclosure, 2>(polynomial_.proportional[k], polynomial_.differential[k])};
     return a;
   }
 
@@ -206,6 +199,31 @@ inline std::vector<GainBox> quarters_of(const GainBox& box) {
   return {{p0, p1, d0, d1}, {p0, p1, d1, d2}, {p1, p2, d0, d1}, {p1, p2, d1, d2}};
 }
 
+/// Quarters boxes until those that are open cover no more than an area, or there are too many, or
+/// they are too small for it.
+/// @param open     things with a box, `gains`; those that stay open are left in it
+/// @param take     (thing, quarter) → adds the quarter to `open`, or to what is decided
+/// @param decided  () → number of boxes that are
+template <class Open, class Take, class Decided>
+void quarter(std::vector<Open>& open, double most_area, std::size_t most_boxes, const Take& take,
+             const Decided& decided) {
+  const auto area = [&] {
+    double sum = 0.0;
+    for (const Open& box : open) sum += box.gains.area();
+    return sum;
+  };
+  bool refined = true;
+  while (refined && area() > most_area && decided() + 4 * open.size() <= most_boxes) {
+    refined = false;
+    for (Open& box : std::exchange(open, {})) {
+      const auto quarters = quarters_of(box.gains);
+      refined = refined || !quarters.empty();
+      for (const GainBox& part : quarters) take(box, part);
+      if (quarters.empty()) open.push_back(std::move(box));
+    }
+  }
+}
+
 }  // namespace detail
 
 /// Proves the cells of a chart: each is decided as a whole, or quartered, until what is undecided
@@ -220,30 +238,18 @@ ProvedChart proved_chart(const Decide& decide, const GainGrid& grid, double unde
                          std::size_t most_boxes = std::size_t{1} << 22) {
   detail::validate_proved(grid, undecided);
   ProvedChart chart;
-  std::vector<GainBox> open = detail::cells_of(grid);
+  std::vector<ProvedBox> open;
+  const auto take = [&](const ProvedBox&, const GainBox& box) {
+    const ProvedStability stability = decide(box);
+    (stability == ProvedStability::undecided ? open : chart.boxes).push_back({box, stability});
+  };
   double whole = 0.0;
-  for (const GainBox& box : open) whole += box.area();
-  while (!open.empty()) {
-    std::vector<GainBox> left;
-    double left_area = 0.0;
-    for (const GainBox& box : open) {
-      const ProvedStability stability = decide(box);
-      if (stability == ProvedStability::undecided) {
-        left.push_back(box);
-        left_area += box.area();
-      } else {
-        chart.boxes.push_back({box, stability});
-      }
-    }
-    const bool ends =
-        left_area <= undecided * whole || chart.boxes.size() + 4 * left.size() > most_boxes;
-    open.clear();
-    for (const GainBox& box : left) {
-      const auto quarters = ends ? std::vector<GainBox>() : detail::quarters_of(box);
-      if (quarters.empty()) chart.boxes.push_back({box, ProvedStability::undecided});
-      open.insert(open.end(), quarters.begin(), quarters.end());
-    }
+  for (const GainBox& cell : detail::cells_of(grid)) {
+    whole += cell.area();
+    take({}, cell);
   }
+  detail::quarter(open, undecided * whole, most_boxes, take, [&] { return chart.boxes.size(); });
+  chart.boxes.insert(chart.boxes.end(), open.begin(), open.end());
   detail::sort_boxes(chart);
   return chart;
 }

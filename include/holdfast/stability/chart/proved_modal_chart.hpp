@@ -1,19 +1,86 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "holdfast/math/enclosure/enclosure.hpp"
 #include "holdfast/stability/chart/chart.hpp"
 #include "holdfast/stability/chart/circle_arcs.hpp"
-#include "holdfast/stability/chart/joined_boxes.hpp"
 #include "holdfast/stability/chart/proved_chart.hpp"
 #include "holdfast/stability/response/enclosed_response.hpp"
 
 namespace holdfast {
+
+namespace detail {
+
+/// Sets that are joined two at a time.
+class JoinedSets {
+ public:
+  explicit JoinedSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t representative(std::size_t of) {
+    while (parent_[of] != of) of = parent_[of] = parent_[parent_[of]];
+    return of;
+  }
+  void join(std::size_t one, std::size_t other) {
+    parent_[representative(one)] = representative(other);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// A side of a box: where it stands, and from where to where it goes.
+struct BoxSide {
+  double at, from, to;
+  std::size_t box;
+};
+
+/// Joins the boxes of each pair of sides, one of either list, that share a piece of some length.
+inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, JoinedSets& sets) {
+  const auto by_place = [](const BoxSide& a, const BoxSide& b) {
+    return std::tie(a.at, a.from) < std::tie(b.at, b.from);
+  };
+  std::sort(ends.begin(), ends.end(), by_place);
+  std::sort(begins.begin(), begins.end(), by_place);
+  auto end = ends.begin();
+  for (auto begin = begins.begin(); begin != begins.end() && end != ends.end();) {
+    if (begin->at == end->at && begin->from < end->to && end->from < begin->to)
+      sets.join(begin->box, end->box);
+    if (std::tie(begin->at, begin->to) < std::tie(end->at, end->to))
+      ++begin;
+    else
+      ++end;
+  }
+}
+
+}  // namespace detail
+
+/// For each of some boxes that do not overlap the number of one box of its region: boxes are of one
+/// region where a way through them leads from one to the other across sides that they share.
+/// @param boxes  whose sides meet where they are the same doubles
+inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) {
+  std::vector<detail::BoxSide> left, right, lower, upper;
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    const auto [p0, p1, d0, d1] = boxes[k];
+    left.push_back({p0, d0, d1, k});
+    right.push_back({p1, d0, d1, k});
+    lower.push_back({d0, p0, p1, k});
+    upper.push_back({d1, p0, p1, k});
+  }
+  detail::JoinedSets sets(boxes.size());
+  detail::join_along(std::move(right), std::move(left), sets);
+  detail::join_along(std::move(upper), std::move(lower), sets);
+  std::vector<std::size_t> regions(boxes.size());
+  for (std::size_t k = 0; k < boxes.size(); ++k) regions[k] = sets.representative(k);
+  return regions;
+}
 
 namespace detail {
 
@@ -26,15 +93,11 @@ struct CrossedBox {
 
 /// Cells of a grid with indices from … to in P and in D.
 struct CellRange {
-  std::int64_t p_from, p_to, d_from, d_to;
+  const GainGrid& grid;
+  std::int64_t p_from = 0, p_to = grid.proportional.count - 1;
+  std::int64_t d_from = 0, d_to = grid.differential.count - 1;
 
-  explicit CellRange(const GainGrid& grid)
-      : p_from(0),
-        p_to(grid.proportional.count - 1),
-        d_from(0),
-        d_to(grid.differential.count - 1) {}
-
-  GainBox box(const GainGrid& grid) const {
+  GainBox box() const {
     return {grid.proportional.at(p_from), grid.proportional.at(p_to), grid.differential.at(d_from),
             grid.differential.at(d_to)};
   }
@@ -56,39 +119,21 @@ template <class Watch>
 class ModalChart {
  public:
   ModalChart(const EnclosedResponse& response, const GainGrid& grid, const Watch& watch)
-      : grid_(grid), watch_(watch) {
+      : watch_(watch) {
     // A root beyond a wider circle is one of an unstable loop, whatever crosses the unit circle.
     for (const double radius : {1.0, 1.0003, 1.005}) circles_.emplace_back(response, radius);
-    CrossedBox whole{CellRange(grid).box(grid), {}};
+    const CellRange all{grid};
+    CrossedBox whole{all.box(), {}};
     for (const CircleArcs& circle : circles_) whole.arcs.emplace_back(circle.all());
-    open_cells(CellRange(grid), whole);
+    open_cells(all, whole);
   }
 
-  /// Of the boxes that are crossed.
-  double open_area() const {
-    double sum = 0.0;
-    for (const CrossedBox& box : open_) sum += box.gains.area();
-    return sum;
-  }
-  /// Boxes there would be with all that are crossed quartered.
-  std::size_t refined_size() const { return unstable_.size() + free_.size() + 4 * open_.size(); }
-
-  /// Quarters the crossed boxes.
-  /// @return whether there was one that could be
-  bool refine() {
-    std::vector<CrossedBox> before;
-    before.swap(open_);
-    bool refined = false;
-    for (CrossedBox& box : before) {
-      const auto quarters = quarters_of(box.gains);
-      if (quarters.empty()) {
-        open_.push_back(std::move(box));
-        continue;
-      }
-      refined = true;
-      for (const GainBox& quarter : quarters) take(part_of(box, quarter));
-    }
-    return refined;
+  /// Quarters the crossed boxes until no more than an area is crossed.
+  void refine(double most_area, std::size_t most_boxes) {
+    quarter(
+        open_, most_area, most_boxes,
+        [this](const CrossedBox& box, const GainBox& part) { take(part_of(box, part)); },
+        [this] { return unstable_.size() + free_.size(); });
   }
 
   /// With the roots of each region counted.
@@ -108,7 +153,7 @@ class ModalChart {
  private:
   /// Down to single cells.
   void open_cells(const CellRange& range, const CrossedBox& around) {
-    CrossedBox box = part_of(around, range.box(grid_));
+    CrossedBox box = part_of(around, range.box());
     if (range.is_cell()) return take(std::move(box));
     const auto [first, second] = range.halves();
     open_cells(first, box);
@@ -155,7 +200,6 @@ class ModalChart {
     return verdicts;
   }
 
-  const GainGrid& grid_;
   const Watch& watch_;
   std::vector<CircleArcs> circles_;  // the unit circle first
   std::vector<CrossedBox> open_;
@@ -187,9 +231,7 @@ ProvedChart proved_chart(const EnclosedResponse& response, const GainGrid& grid,
     return chart;
   }
   detail::ModalChart<Watch> chart(response, grid, watch);
-  const double most_area = undecided * detail::CellRange(grid).box(grid).area();
-  while (chart.open_area() > most_area && chart.refined_size() <= most_boxes)
-    if (!chart.refine()) break;
+  chart.refine(undecided * detail::CellRange{grid}.box().area(), most_boxes);
   return chart.finished();
 }
 

@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
@@ -15,13 +17,17 @@
 #include "holdfast/core/interval_sets.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/math/roots/first_crossing.hpp"
+#include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/design/attenuating_stretch.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
 #include "holdfast/stability/margins/slow_sampling.hpp"
+#include "holdfast/stability/response/modal_response.hpp"
+#include "holdfast/stability/response/modal_steady_response.hpp"
 #include "holdfast/stability/response/response.hpp"
 
 namespace holdfast {
@@ -77,21 +83,35 @@ inline void validate(const MaxDelayOptions& options) {
 namespace detail {
 
 /// The stable D of one sampling period and its response, at the question's P.
-template <class Scalar>
 struct DelayOffer {
-  std::vector<Interval<Scalar>> stable;            ///< D that stabilise
-  std::optional<SteadyResponse<Scalar>> response;  ///< nothing for the criterion `stable`
+  std::vector<Interval<double>> stable;            ///< D that stabilise
+  std::optional<SteadyResponse<double>> response;  ///< nothing for the criterion `stable`
 };
 
 template <class Plant>
-DelayOffer<double> delay_offer(const Plant& plant, const MaxDelayOptions& options,
-                               double sampling_period) {
+DelayOffer delay_offer(const Plant& plant, const MaxDelayOptions& options, double sampling_period) {
   const auto loop = loop_of(plant, options.sampling(sampling_period));
-  DelayOffer<double> offer{
-      stable_gains(loop, FreeGain::differential, {options.proportional_gain, 0.0}), {}};
+  DelayOffer offer{stable_gains(loop, FreeGain::differential, {options.proportional_gain, 0.0}),
+                   {}};
   if (options.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
   offer.response = response_of_loop(plant, loop, options.hold, options.angular_frequency(),
                                     options.relative_to_true_force);
+  return offer;
+}
+
+/// That of a conductor by its modes.
+template <class Scalar = double>
+DelayOffer delay_offer(const ConductorWithAbsorber& plant, const MaxDelayOptions& options,
+                       double sampling_period) {
+  const auto sampling = options.sampling(sampling_period);
+  const ResolvedCircle<Scalar> circle(modal_response<Scalar>(plant, sampling));
+  DelayOffer offer{circle.stable_gains(FreeGain::differential, {options.proportional_gain, 0.0}),
+                   {}};
+  if (options.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
+  const double omega = options.angular_frequency();
+  offer.response = steady_response<Scalar>(plant, sampling, options.hold, omega);
+  if (options.relative_to_true_force)
+    offer.response = offer.response->relative_to(true_amplitude_per_force(plant, omega));
   return offer;
 }
 
@@ -101,17 +121,10 @@ inline bool shows_vibration(const MaxDelayOptions& options, double sampling_peri
          2.0 * options.frequency * sampling_period < 1.0;
 }
 
-/// The longest period (s) of the search whose samples show the vibration, as `attenuates` asks.
-inline double longest_that_shows(const MaxDelayOptions& options) {
-  double nyquist = 0.5 / options.frequency;
-  while (!shows_vibration(options, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
-  return options.longest_period > 0.0 ? std::min(options.longest_period, nyquist) : nyquist;
-}
-
 /// The D of a period's offer that serves best: of minimum amplitude where that is asked, or inside
 /// the first stable interval; nothing where none serves.
 inline std::optional<double> serving_gain(const MaxDelayOptions& options, double period,
-                                          const DelayOffer<double>& offer) {
+                                          const DelayOffer& offer) {
   if (!shows_vibration(options, period) || offer.stable.empty()) return std::nullopt;
   if (!offer.response) return offer.stable.front().representative();
   const auto best = offer.response->best_differential_gain(options.proportional_gain, offer.stable);
@@ -120,7 +133,7 @@ inline std::optional<double> serving_gain(const MaxDelayOptions& options, double
 }
 
 /// The ratio that the best of the stabilising D leaves; NaN where none is asked for or there.
-inline double least_ratio(const MaxDelayOptions& options, const DelayOffer<double>& offer) {
+inline double least_ratio(const MaxDelayOptions& options, const DelayOffer& offer) {
   if (!offer.response) return std::numeric_limits<double>::quiet_NaN();
   return offer.response->best_differential_gain(options.proportional_gain, offer.stable)
       .ratio_to_uncontrolled;
@@ -177,18 +190,8 @@ struct MaxDelay {
 
 namespace detail {
 
-/// The limit that a period is beyond. Where the amplitude jumps past that of no control, the
-/// interval of D that served has vanished.
-/// @param before  the least ratio just below the period, NaN where there is none
-inline MaxDelayLimit lacking(const MaxDelayOptions& options, double period,
-                             const DelayOffer<double>& offer, double before) {
-  if (!shows_vibration(options, period)) return MaxDelayLimit::nyquist;
-  if (offer.stable.empty() || !offer.response) return MaxDelayLimit::stability;
-  return least_ratio(options, offer) - before > 1e-3 ? MaxDelayLimit::stability
-                                                     : MaxDelayLimit::attenuation;
-}
-
-/// Joins feasible periods to one another and finds where that ends.
+/// Joins feasible periods to one another and finds where that ends: by links, each of which one D
+/// is shown to serve all along, or of a conductor by its modes by steps of the search ratio.
 template <class Plant>
 class DelaySearch {
  public:
@@ -213,29 +216,26 @@ class DelaySearch {
       goal = std::max(feasible_, boundary / options_.search_ratio);
       if (goal == feasible_) break;
     }
-    if (is_exhausted())
-      return {MaxDelayOutcome::beyond_search, feasible_, gain_at(feasible_), MaxDelayLimit::none};
-    if (boundary == end && options_.criterion == DelayCriterion::stable) {
-      if (end < certain)
-        return {MaxDelayOutcome::beyond_search, end, gain_at(end), MaxDelayLimit::none};
-      const double infinity = std::numeric_limits<double>::infinity();
+    const auto unknown_beyond = [this](double last) -> MaxDelay {
+      return {MaxDelayOutcome::beyond_search, last, gain_at(last), MaxDelayLimit::none};
+    };
+    if (is_exhausted()) return unknown_beyond(feasible_);
+    if (boundary == end && options_.criterion == DelayCriterion::stable && !(end < certain))
       return {MaxDelayOutcome::unlimited, infinity, gain_at(end), MaxDelayLimit::none};
-    }
     if (boundary == end && shows_vibration(options_, end * (1.0 + 1e-9)))
-      return {MaxDelayOutcome::beyond_search, end, gain_at(end), MaxDelayLimit::none};
+      return unknown_beyond(end);
     return {MaxDelayOutcome::found, boundary, gain_at(boundary),
             limit_at(boundary * (1.0 + 1e-9), least_ratio(options_, offer_at(boundary)))};
   }
 
  private:
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr bool is_walked_ = std::is_same_v<Plant, ConductorWithAbsorber>;
   static constexpr double longest_link_ = 8.0;  // as a ratio of its ends
   static constexpr int most_stretches_ = 2000;  // of a link; a shorter link is tried then
 
-  DelayOffer<double> offer_at(double period) const { return delay_offer(plant_, options_, period); }
-  MaxDelayLimit limit_at(double period, double before) const {
-    return lacking(options_, period, offer_at(period), before);
-  }
+  DelayOffer offer_at(double period) const { return delay_offer(plant_, options_, period); }
   Intervals gains_at(double period) const {
     return feasible_differential_gains(plant_, options_, period);
   }
@@ -243,19 +243,48 @@ class DelaySearch {
     return serving_gain(options_, period, offer_at(period)).value_or(none);
   }
 
-  /// From where on D = 0 stabilises however slow the sampling; infinite where that is not shown.
-  double certain_from() const {
-    return SlowSamplingBound(plant_, {options_.proportional_gain, 0.0}, options_.delay_fraction)
-        .certain_from();
+  /// The limit that a period is beyond. Where the amplitude jumps past that of no control, the
+  /// interval of D that served has vanished.
+  /// @param before  the least ratio just below the period, NaN where there is none
+  MaxDelayLimit limit_at(double period, double before) const {
+    const DelayOffer offer = offer_at(period);
+    if (!shows_vibration(options_, period)) return MaxDelayLimit::nyquist;
+    if (offer.stable.empty() || !offer.response) return MaxDelayLimit::stability;
+    return least_ratio(options_, offer) - before > 1e-3 ? MaxDelayLimit::stability
+                                                        : MaxDelayLimit::attenuation;
   }
 
-  /// The search limit, or the longest period whose samples show the vibration.
+  /// From where on D = 0 stabilises however slow the sampling; infinite where that is not shown.
+  double certain_from() const {
+    if constexpr (is_walked_)
+      return infinity;
+    else
+      return SlowSamplingBound(plant_, {options_.proportional_gain, 0.0}, options_.delay_fraction)
+          .certain_from();
+  }
+
+  /// The search limit, or the longest period of it whose samples show the vibration.
   double longest(double certain) const {
-    if (options_.criterion == DelayCriterion::attenuates) return longest_that_shows(options_);
-    double limit = options_.longest_period;
-    const double slowest = slowest_mode_period(plant_);
-    if (limit == 0.0) limit = certain <= 200.0 * slowest ? certain : 20.0 * slowest;
-    return std::max(limit, feasible_);
+    const double asked = options_.longest_period;
+    if (options_.criterion == DelayCriterion::stable)
+      return std::max(asked > 0.0 ? asked : longest_of_stability(certain), feasible_);
+    double nyquist = 0.5 / options_.frequency;
+    while (!shows_vibration(options_, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
+    return asked > 0.0 ? std::min(asked, nyquist) : nyquist;
+  }
+
+  /// How far stability is looked for where the question does not say it.
+  double longest_of_stability(double certain) const {
+    if constexpr (is_walked_) {
+      const auto slowest = std::min_element(
+          plant_.modes.begin(), plant_.modes.end(), [](const auto& one, const auto& other) {
+            return one.angular_frequency < other.angular_frequency;
+          });
+      return 20.0 * 2.0 * pi<double> / slowest->angular_frequency;
+    } else {
+      const double slowest = slowest_mode_period(plant_);
+      return certain <= 200.0 * slowest ? certain : 20.0 * slowest;
+    }
   }
 
   bool is_exhausted() const { return steps_ >= options_.most_steps; }
@@ -265,20 +294,22 @@ class DelaySearch {
     if (options_.watch) options_.watch();
   }
 
-  /// Moves `feasible_` to the goal by links while there are steps left; @return an infeasible
-  /// period met on the way.
+  /// Moves `feasible_` to the goal while there are steps left; @return an infeasible period met on
+  /// the way.
   std::optional<double> advance(double goal) {
-    double ratio = longest_link_;
+    const double longest_step = is_walked_ ? options_.search_ratio : longest_link_;
+    double ratio = longest_step;
     while (feasible_ < goal && !is_exhausted()) {
       count_step();
       const double next = std::min(goal, feasible_ * ratio);
       Intervals gains = gains_at(next);
       if (gains.empty()) return next;
-      const bool short_enough = next <= feasible_ * options_.search_ratio;
-      if (short_enough || links(next, gains)) {
+      bool joined = next <= feasible_ * options_.search_ratio;
+      if constexpr (!is_walked_) joined = joined || links(next, gains);
+      if (joined) {
         feasible_ = next;
         gains_ = std::move(gains);
-        ratio = longest_link_;
+        ratio = longest_step;
       } else {
         ratio = std::sqrt(next / feasible_);
       }
@@ -330,7 +361,7 @@ class DelaySearch {
 
   /// Positive where some stabilising D attenuates: 1 less the least ratio; −1 where none
   /// stabilises.
-  double attenuation_reserve(double period) const {
+  double attenuation_reserve(double period) {
     const auto offer = offer_at(period);
     return offer.response ? 1.0 - least_ratio(options_, offer) : -1.0;
   }
@@ -339,7 +370,7 @@ class DelaySearch {
   /// whether there is a gain is told much sooner than by how much it is missed; to the end where
   /// the latter is not known in closed form.
   double boundary_between(double feasible, double infeasible) {
-    constexpr double wide = has_closed_forms<Plant> ? 1.01 : 1.0 + 1e-13;
+    constexpr double wide = is_walked_ ? 1.0 + 1e-9 : has_closed_forms<Plant> ? 1.01 : 1.0 + 1e-13;
     while (infeasible > wide * feasible) {
       const double middle = std::sqrt(feasible * infeasible);
       const Intervals gains = gains_at(middle);
@@ -354,21 +385,14 @@ class DelaySearch {
   }
 
   double narrowed_between(double feasible, double infeasible) {
-    if (offer_at(infeasible).stable.empty()) {
-      const auto reserve = [this](double period) { return stability_reserve(period); };
-      infeasible = narrowed(reserve, feasible, infeasible).upper;
-    }
-    if (options_.criterion == DelayCriterion::attenuates) {
-      const auto reserve = [this](double period) { return attenuation_reserve(period); };
-      infeasible = narrowed(reserve, feasible, infeasible).upper;
-    }
+    const auto narrow = [&](double (DelaySearch::*reserve)(double)) {
+      const auto at = [&](double period) { return (this->*reserve)(period); };
+      const SignChange<double> bracket{feasible, infeasible, at(feasible), at(infeasible)};
+      infeasible = bracketing_root(at, bracket, 1e-13 * feasible).upper;
+    };
+    if (offer_at(infeasible).stable.empty()) narrow(&DelaySearch::stability_reserve);
+    if (options_.criterion == DelayCriterion::attenuates) narrow(&DelaySearch::attenuation_reserve);
     return last_feasible_before(feasible, infeasible);
-  }
-
-  template <class Reserve>
-  static SignChange<double> narrowed(const Reserve& reserve, double lower, double upper) {
-    const SignChange<double> bracket{lower, upper, reserve(lower), reserve(upper)};
-    return bracketing_root(reserve, bracket, 1e-13 * lower);
   }
 
   /// Round-off may place the sign change a little beyond the last period with an interval of gains.
@@ -411,9 +435,34 @@ MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options)
   return detail::DelaySearch(plant, options).answer();
 }
 
+/// The largest sampling period of the computer on a conductor by its modes: as
+/// `max_sampling_period` of two masses asks, but walked, each period so many times the one before,
+/// with every interval of stable D at each and the amplitude in closed form; where none serves the
+/// edge is halved to 10⁻⁹. A stretch of periods narrower than a step is missed, and nothing is
+/// shown of what lies in between or beyond.
+/// @tparam Scalar  double; a parameter so that nothing is compiled where this is not called
+/// @param plant    its poles not none and none of its hardware's
+/// @param options  within their ranges; search ratio and most steps do not count
+/// @param ratio    of two neighbouring periods, > 1
+/// @throws InvalidParameter outside these ranges
+template <class Scalar = double>
+MaxDelay modal_max_sampling_period(const ConductorWithAbsorber& plant,
+                                   const MaxDelayOptions& options, double ratio = 1.03) {
+  validate(plant.modes, plant.absorber);
+  validate(options);
+  require_positive("number of poles", static_cast<double>(plant.poles.size()), "");
+  require_positive("ratio of neighbouring periods minus one", ratio - 1.0, "");
+  MaxDelayOptions walked = options;
+  walked.search_ratio = ratio;
+  walked.most_steps = std::numeric_limits<int>::max();
+  return detail::DelaySearch(plant, walked).answer();
+}
+
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template MaxDelay max_sampling_period(const TwoMass<double>&, const MaxDelayOptions&);
 extern template MaxDelay max_sampling_period(const LinearPlant<double>&, const MaxDelayOptions&);
+extern template MaxDelay modal_max_sampling_period<double>(const ConductorWithAbsorber&,
+                                                           const MaxDelayOptions&, double);
 #endif
 
 }  // namespace holdfast

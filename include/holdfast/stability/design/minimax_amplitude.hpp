@@ -53,17 +53,15 @@ struct WorstFrequency {
 /// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
 template <class Plant>
 struct PlantOverBand {
-  Plant plant;                  ///< that of the loop
-  SampledLoop<double> loop;     ///< of `sampled_loop`
-  ForceHold hold;               ///< how the excitation enters a sample
-  bool relative_to_true_force;  ///< as in `AmplitudeOptions`
+  Plant plant;               ///< that of the loop
+  AmplitudeOptions options;  ///< τ, δ, the hold of the force and what ratios are relative to
+  SampledLoop<double> loop = sampled_loop(plant, options.sampling);          ///< of the plant
   AffinePolynomial<double, 5> polynomial = characteristic_polynomial(loop);  ///< of the loop
 
-  /// τ (s).
-  double period() const { return loop.sampling.period; }
   /// The steady response at ω (rad/s).
   SteadyResponse<double> response(double angular_frequency) const {
-    return detail::response_of_loop(plant, loop, hold, angular_frequency, relative_to_true_force);
+    return detail::response_of_loop(plant, loop, options.hold, angular_frequency,
+                                    options.relative_to_true_force);
   }
   /// λ − 1 of the loop's roots.
   std::vector<std::complex<double>> loop_roots(const PdGains<double>& gains) const {
@@ -153,7 +151,7 @@ class AmplitudeBand {
   /// Frequencies about those of roots near the unit circle, spaced by their distance from it.
   void append_about(const std::vector<std::complex<double>>& from_one,
                     std::vector<double>& frequencies) const {
-    const double unit = 2.0 * pi<double> * model_.period();
+    const double unit = 2.0 * pi<double> * model_.options.sampling.period;
     for (const std::complex<double>& mu : from_one) {
       if (mu.imag() < 0.0) continue;  // its conjugate has the same frequency
       const double centre = std::abs(std::arg(1.0 + mu)) / unit;
@@ -199,15 +197,12 @@ enum class MinimaxOutcome {
 struct MinimaxAmplitude {
   MinimaxOutcome outcome;  ///< whether a D is admissible, and whether the two bounds agree
   /// D (N s/m); at the edge of the admissible ones a limit.
-  double differential_gain = std::numeric_limits<double>::quiet_NaN();
-  double worst_ratio =
-      std::numeric_limits<double>::quiet_NaN();  ///< the largest amplitude ratio to no control over
-                                                 ///< the band at this D
-  double worst_frequency = std::numeric_limits<double>::quiet_NaN();  ///< Hz, where
-  double lower_bound = std::numeric_limits<double>::quiet_NaN();  ///< no admissible D has a smaller
-                                                                  ///< worst ratio than this
-  double attenuation =
-      std::numeric_limits<double>::quiet_NaN();  ///< −20 log₁₀ of `worst_ratio` (dB)
+  double differential_gain = std::nan("");
+  /// The largest amplitude ratio to no control over the band at this D.
+  double worst_ratio = std::nan("");
+  double worst_frequency = std::nan("");  ///< Hz, where
+  double lower_bound = std::nan("");      ///< no admissible D has a smaller worst ratio than this
+  double attenuation = std::nan("");      ///< −20 log₁₀ of `worst_ratio` (dB)
 };
 
 namespace detail {
@@ -269,21 +264,29 @@ class WorstOfFrequencies {
   std::vector<double> candidates_;
 };
 
-/// The exchange of frequencies over a band, among some D, of which there is one.
-template <class Model>
-MinimaxAmplitude exchanged(const AmplitudeBand<Model>& amplitudes, const FrequencyBand& band,
-                           const std::vector<Interval<double>>& admissible) {
+/// The exchange of frequencies over a band, among the D that the options admit.
+/// @tparam Model  of the plant, as AmplitudeBand has it
+template <class Model, class Plant>
+MinimaxAmplitude exchanged(const Plant& plant, const AmplitudeOptions& options,
+                           double proportional_gain, const FrequencyBand& band) {
+  validate(options);
+  require_finite("proportional gain P", proportional_gain, "N/m");
+  validate(band, options.sampling.period);
+  const Model model{plant, options};
+  const auto admissible = admissible_differential_gains(model.loop, proportional_gain, options);
+  if (admissible.empty()) return {MinimaxOutcome::none};
+  const AmplitudeBand amplitudes(model, proportional_gain, band);
   WorstOfFrequencies chosen(admissible);
   for (const double frequency : {band.lower, band.upper}) chosen.add(amplitudes.at(frequency));
   MinimaxAmplitude result{MinimaxOutcome::not_converged};
   result.worst_ratio = std::numeric_limits<double>::infinity();
   result.lower_bound = 0.0;
   for (int exchange = 0; exchange < 60; ++exchange) {
-    const auto model = chosen.least();
-    const WorstFrequency worst = amplitudes.worst(model.differential_gain);
-    result.lower_bound = std::max(result.lower_bound, model.ratio);
+    const auto least = chosen.least();
+    const WorstFrequency worst = amplitudes.worst(least.differential_gain);
+    result.lower_bound = std::max(result.lower_bound, least.ratio);
     if (worst.ratio < result.worst_ratio) {
-      result.differential_gain = model.differential_gain;
+      result.differential_gain = least.differential_gain;
       result.worst_ratio = worst.ratio;
       result.worst_frequency = worst.frequency;
     }
@@ -316,14 +319,7 @@ template <class Plant>
 MinimaxAmplitude minimax_amplitude(const Plant& plant, const AmplitudeOptions& options,
                                    double proportional_gain, const FrequencyBand& band) {
   validate(plant);
-  validate(options);
-  require_finite("proportional gain P", proportional_gain, "N/m");
-  validate(band, options.sampling.period);
-  const auto loop = sampled_loop(plant, options.sampling);
-  const auto admissible = admissible_differential_gains(loop, proportional_gain, options);
-  if (admissible.empty()) return {MinimaxOutcome::none};
-  const PlantOverBand<Plant> model{plant, loop, options.hold, options.relative_to_true_force};
-  return detail::exchanged(AmplitudeBand(model, proportional_gain, band), band, admissible);
+  return detail::exchanged<PlantOverBand<Plant>>(plant, options, proportional_gain, band);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "holdfast/control/loop_input.hpp"
@@ -52,12 +51,12 @@ struct AmplitudeOptions {
 
 /// The D of least steady amplitude at one frequency and one P.
 struct MinimumAmplitude {
-  MinimumAmplitudeOutcome outcome;  ///< where D lies, or why there is none
-  double differential_gain = std::numeric_limits<double>::quiet_NaN();  ///< D (N s/m)
+  MinimumAmplitudeOutcome outcome;          ///< where D lies, or why there is none
+  double differential_gain = std::nan("");  ///< D (N s/m)
   /// The amplitude of z₁ it leaves over that without control.
-  double ratio_to_uncontrolled = std::numeric_limits<double>::quiet_NaN();
-  double attenuation = std::numeric_limits<double>::quiet_NaN();  ///< −20 log₁₀ of that ratio (dB),
-                                                                  ///< positive where control helps
+  double ratio_to_uncontrolled = std::nan("");
+  double attenuation =
+      std::nan("");  ///< −20 log₁₀ of that ratio (dB), positive where control helps
 };
 
 /// @throws InvalidParameter outside the ranges that the members of `AmplitudeOptions` state
@@ -72,6 +71,17 @@ inline void validate(const AmplitudeOptions& options) {
 
 namespace detail {
 
+/// What lies in the same of some intervals as one D, no farther from it than `share` of the way to
+/// the end.
+template <class Scalar>
+std::vector<Interval<Scalar>> within_share(const std::vector<Interval<Scalar>>& intervals,
+                                           const Scalar& from, const Scalar& share) {
+  for (const Interval<Scalar>& interval : intervals)
+    if (interval.contains(from))
+      return {{from + share * (interval.lower - from), from + share * (interval.upper - from)}};
+  return {};
+}
+
 /// The gains that `admissible_differential_gains` has, of a ModalResponse too.
 template <class Loop>
 std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proportional_gain,
@@ -82,11 +92,7 @@ std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proporti
   if (!(options.margin > 0.0)) return within(options.largest_radius);
   const MinimumRadius fastest = minimum_radius(loop, proportional_gain);
   if (!(fastest.margin > 0.0)) return {};
-  const double from = fastest.differential_gain, share = 1.0 - options.margin;
-  std::vector<Interval<double>> away;
-  for (const Interval<double>& stable : within(1.0))
-    if (stable.contains(from))
-      away.push_back({from + share * (stable.lower - from), from + share * (stable.upper - from)});
+  const auto away = within_share(within(1.0), fastest.differential_gain, 1.0 - options.margin);
   const double radius = std::exp(options.margin * std::log1p(-fastest.margin));
   return intersection(away, within(std::min(radius, options.largest_radius)));
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -37,9 +36,9 @@ namespace detail {
 constexpr int binomial(int n, int k) { return k == 0 ? 1 : binomial(n - 1, k - 1) * n / k; }
 
 /// Narrows a range to what two values leave of it.
-inline void narrow(double& lower, double& upper, double low, double high) {
-  lower = std::max(lower, std::min(low, high));
-  upper = std::min(upper, std::max(low, high));
+inline void narrow(Interval<double>& range, double low, double high) {
+  range.lower = std::max(range.lower, std::min(low, high));
+  range.upper = std::min(range.upper, std::max(low, high));
 }
 
 /// A rectangle that holds all gains with all |λ′| < 1. The coefficient of λ′^k, an affine function
@@ -47,10 +46,9 @@ inline void narrow(double& lower, double& upper, double low, double high) {
 /// a parallelogram. Infinite where the strips are all parallel.
 template <class Scalar>
 GainWindow window_of_unit_radius(const AffinePolynomial<Scalar, 5>& in_powers_of_mu) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto q = in_powers_of_mu.template transformed<PolynomialVariable::about_centre>(
       [](const Polynomial<Scalar, 5>& p) { return shifted(p, Scalar(-1)); });
-  GainWindow window{{-infinity, infinity}, {-infinity, infinity}};
+  GainWindow window{};  // without ends
   for (int i = 0; i < 5; ++i) {
     for (int j = 0; j < i; ++j) {
       const Scalar pi = q.proportional[i], pj = q.proportional[j];
@@ -64,8 +62,8 @@ GainWindow window_of_unit_radius(const AffinePolynomial<Scalar, 5>& in_powers_of
       const Scalar p_reach = (wi * std::abs(dj) + wj * std::abs(di)) / std::abs(determinant);
       const Scalar d_reach = (wj * std::abs(pi) + wi * std::abs(pj)) / std::abs(determinant);
       if (!std::isfinite(p_reach + d_reach + p + d)) continue;
-      narrow(window.proportional.lower, window.proportional.upper, p - p_reach, p + p_reach);
-      narrow(window.differential.lower, window.differential.upper, d - d_reach, d + d_reach);
+      narrow(window.proportional, p - p_reach, p + p_reach);
+      narrow(window.differential, d - d_reach, d + d_reach);
     }
   }
   return window;
@@ -88,7 +86,8 @@ class MinimumRadiusGainsSearch {
 
   MinimumRadiusGains run() {
     upper_ = loop_.radius_offset(best_);
-    if (!is_bounded(upper_)) return answer_without_pair();
+    const GainWindow all = window_of_unit_radius(loop_.at_radius(upper_));
+    if (!std::isfinite(all.width()) || !std::isfinite(all.height())) return answer_without_pair();
     lower_ = -loop_.centre;
     intervals_ = within(upper_);
     probe_ = closing_step();
@@ -108,11 +107,6 @@ class MinimumRadiusGainsSearch {
     return 1e-9 * std::max(loop_.scale(), std::min(1.0, std::abs(upper_)));
   }
 
-  bool is_bounded(double offset) const {
-    const GainWindow window = window_of_unit_radius(loop_.at_radius(offset));
-    return std::isfinite(window.width()) && std::isfinite(window.height());
-  }
-
   MinimumRadiusGains answer_without_pair() const {
     const auto least = MinimumRadiusSearch(loop_, 0.0).from(0.0);
     return {MinimumRadiusGainsOutcome::idle,
@@ -127,8 +121,12 @@ class MinimumRadiusGainsSearch {
     const double found = descend();
     const double drop = upper_ - found, margin = std::abs((1.0 - loop_.centre) - found);
     accuracy_ = std::clamp(0.02 * drop / margin, 1e-13, accuracy_);
-    if (drop > closing_step()) return accept(found);
+    const bool helps = drop > closing_step();
     upper_ = found;
+    if (helps) {
+      previous_ = std::exchange(intervals_, within(found));
+      return;
+    }
     const double trial = std::max(upper_ - probe_, lower_ + (upper_ - lower_) / 2.0);
     probe_ *= 4.0;
     Intervals below = within(trial);
@@ -137,13 +135,6 @@ class MinimumRadiusGainsSearch {
     } else {
       intervals_ = std::move(below);
     }
-  }
-
-  void accept(double level) {
-    Intervals found = within(level);
-    previous_ = std::move(intervals_);
-    intervals_ = std::move(found);
-    upper_ = level;
   }
 
   /// The P intervals in which some D has a radius below the level.
@@ -174,19 +165,16 @@ class MinimumRadiusGainsSearch {
   /// The minimum radius over D at promising P; keeps the gains if they are the best so far.
   double descend() {
     double best = upper_;
-    consider_promising(intervals_, previous_,
-                       [&](double proportional) { consider(proportional, best); });
+    consider_promising(intervals_, previous_, [&](double proportional) {
+      const auto least =
+          MinimumRadiusSearch(loop_, proportional, accuracy_).from(best_.differential);
+      const PdGains<double> gains{proportional, least.differential_gain};
+      const double offset = loop_.radius_offset(gains);
+      if (!(offset < best)) return;
+      best = offset;
+      best_ = gains;
+    });
     return best;
-  }
-
-  void consider(double proportional_gain, double& best) {
-    const auto least =
-        MinimumRadiusSearch(loop_, proportional_gain, accuracy_).from(best_.differential);
-    const PdGains<double> gains{proportional_gain, least.differential_gain};
-    const double offset = loop_.radius_offset(gains);
-    if (!(offset < best)) return;
-    best = offset;
-    best_ = gains;
   }
 
   Loop loop_;

@@ -117,8 +117,8 @@ class ModulusLevels {
  public:
   ModulusLevels(const ResolvedCircle<Scalar>& circle, const Scalar& proportional_gain)
       : stable_(circle.stable_gains(FreeGain::differential, {proportional_gain, Scalar(0)})) {
-    for (const Scalar& angle : circle.angles()) {
-      const CommandResponse<Scalar> g = circle.response().at_angle(angle);
+    for (const auto& place : circle.places()) {
+      const CommandResponse<Scalar> g = circle.response().at_angle(place.angle);
       const std::complex<Scalar> rest = Scalar(1) - proportional_gain * g.displacement;
       places_.push_back(
           {std::norm(g.velocity), (rest * std::conj(g.velocity)).real(), std::norm(rest)});
@@ -171,13 +171,8 @@ class ModulusLevels {
     return found;
   }
 
-  /// The stable D about one that lie no farther from it than `share` of the way to the boundary.
-  std::vector<Interval<Scalar>> within_share(const Scalar& from, const Scalar& share) const {
-    for (const Interval<Scalar>& interval : stable_)
-      if (interval.contains(from))
-        return {{from + share * (interval.lower - from), from + share * (interval.upper - from)}};
-    return {};
-  }
+  /// The stable D.
+  const std::vector<Interval<Scalar>>& stable() const { return stable_; }
 
  private:
   struct Place {
@@ -215,8 +210,9 @@ std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<
   const auto best = levels.largest();
   if (!(best.modulus > Scalar(0))) return {};
   const Scalar margin(options.margin);
-  const auto away = intersection(levels.beyond(margin * best.modulus),
-                                 levels.within_share(best.gain, Scalar(1) - margin));
+  const auto away =
+      intersection(levels.beyond(margin * best.modulus),
+                   detail::within_share(levels.stable(), best.gain, Scalar(1) - margin));
   if (!(options.largest_radius < 1.0)) return away;
   return intersection(away, differential_gains_within_radius(response, proportional_gain,
                                                              Scalar(options.largest_radius)));
@@ -248,15 +244,13 @@ MinimumAmplitude minimum_amplitude(const ModalResponse<Scalar>& loop,
 template <class Scalar>
 struct ConductorOverBand {
   ConductorWithAbsorber conductor;  ///< with all its poles
-  Sampling<Scalar> sampling;        ///< τ and δ
-  ForceHold hold;                   ///< how the excitation enters a sample
-  ModalResponse<Scalar> loop = modal_response(conductor, sampling);  ///< of the same
+  AmplitudeOptions options;         ///< τ, δ and the hold of the force
+  /// Of the conductor.
+  ModalResponse<Scalar> loop = modal_response<Scalar>(conductor, options.sampling);
 
-  /// τ (s).
-  double period() const { return sampling.period; }
   /// The steady response at ω (rad/s).
   SteadyResponse<Scalar> response(double angular_frequency) const {
-    return steady_response(conductor, sampling, hold, angular_frequency)
+    return steady_response<Scalar>(conductor, options.sampling, options.hold, angular_frequency)
         .relative_to(true_amplitude_per_force(conductor, angular_frequency));
   }
   /// λ − 1 of the loop's roots.
@@ -289,12 +283,12 @@ struct ConductorOverBand {
       std::complex<double> s(0.0,
                              0.5 * (modes[n].angular_frequency + modes[n + 1].angular_frequency));
       for (int step = 0; step < 30; ++step) s -= receptance_step(s);
-      if (std::isfinite(std::abs(s))) found.push_back(complex_expm1(s * sampling.period));
+      if (std::isfinite(std::abs(s))) found.push_back(complex_expm1(s * options.sampling.period));
     }
     const double decay = absorber.damping / (2.0 * absorber.mass);
     const std::complex<double> turn =
         std::sqrt(std::complex<double>(decay * decay - absorber.stiffness / absorber.mass));
-    found.push_back(complex_expm1((turn - decay) * sampling.period));
+    found.push_back(complex_expm1((turn - decay) * options.sampling.period));
     return found;
   }
 };
@@ -314,13 +308,7 @@ MinimaxAmplitude modal_minimax_amplitude(const ConductorWithAbsorber& conductor,
                                          const AmplitudeOptions& options, double proportional_gain,
                                          const FrequencyBand& band) {
   validate(conductor.modes, conductor.absorber);
-  validate(options);
-  require_finite("proportional gain P", proportional_gain, "N/m");
-  validate(band, options.sampling.period);
-  const ConductorOverBand<Scalar> model{conductor, options.sampling, options.hold};
-  const auto admissible = admissible_differential_gains(model.loop, proportional_gain, options);
-  if (admissible.empty()) return {MinimaxOutcome::none};
-  return detail::exchanged(AmplitudeBand(model, proportional_gain, band), band, admissible);
+  return detail::exchanged<ConductorOverBand<Scalar>>(conductor, options, proportional_gain, band);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

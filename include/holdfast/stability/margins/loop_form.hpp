@@ -43,22 +43,15 @@ template <class Scalar>
 LoopMap<Scalar> with_velocity_by_difference(const LoopMap<Scalar>& map) {
   const Eigen::Index n = map.size();
   LoopMap<Scalar> other = map;
-  const auto wider = [n](const auto& row) {
-    RowVector<Scalar, Eigen::Dynamic> result = RowVector<Scalar, Eigen::Dynamic>::Zero(n + 1);
-    result.head(n) = row;
-    return result;
-  };
-  other.open_map = Matrix<Scalar, Eigen::Dynamic>::Zero(n + 1, n + 1);
-  other.open_map.topLeftCorner(n, n) = map.open_map;
-  other.open_map.bottomLeftCorner(1, n) = map.displacement;
-  other.increment = Matrix<Scalar, Eigen::Dynamic>::Zero(n + 1, n + 1);
-  other.increment.topLeftCorner(n, n) = map.increment;
-  other.increment.bottomLeftCorner(1, n) = map.displacement;
+  for (Matrix<Scalar, Eigen::Dynamic>* square : {&other.open_map, &other.increment}) {
+    square->conservativeResizeLike(Matrix<Scalar, Eigen::Dynamic>::Zero(n + 1, n + 1));
+    square->bottomLeftCorner(1, n) = map.displacement;
+  }
   other.increment(n, n) = Scalar(-1);
-  other.command = wider(map.command.transpose()).transpose();
-  other.excitation = wider(map.excitation.transpose()).transpose();
-  other.displacement = wider(map.displacement);
-  other.conductor = wider(map.conductor);
+  for (Vector<Scalar, Eigen::Dynamic>* column : {&other.command, &other.excitation})
+    column->conservativeResizeLike(Vector<Scalar, Eigen::Dynamic>::Zero(n + 1));
+  for (RowVector<Scalar, Eigen::Dynamic>* row : {&other.displacement, &other.conductor})
+    row->conservativeResizeLike(RowVector<Scalar, Eigen::Dynamic>::Zero(n + 1));
   other.velocity = other.displacement / map.sampling.period;
   other.velocity[n] = -Scalar(1) / map.sampling.period;
   return other;

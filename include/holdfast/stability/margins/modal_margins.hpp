@@ -12,7 +12,6 @@
 #include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
-#include "holdfast/stability/margins/loop_margins.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
@@ -23,29 +22,25 @@ namespace detail {
 
 /// The margins of a loop by the poles of its plant.
 template <class Scalar>
-class ModalMargins {
- public:
+struct ModalMargins {
   using Response = ModalResponse<Scalar>;
 
-  ModalMargins(const std::vector<PlantPole>& poles, const Sampling<Scalar>& sampling,
-               const PdGains<Scalar>& gains, bool has_velocity_sensor)
-      : poles_(poles),
-        sampling_(sampling),
-        gains_(gains),
-        has_velocity_sensor_(has_velocity_sensor),
-        response_(response_at(sampling)),
-        reserve_(-loop_excess_or_turn(response_, gains_)) {}
+  const std::vector<PlantPole>& poles;
+  Sampling<Scalar> sampling;
+  PdGains<Scalar> gains;
+  bool has_velocity_sensor;
+  Response response = response_at(sampling);
+  Scalar reserve = -loop_excess_or_turn(response, gains);  // 1 − ρ
 
-  bool is_stable() const { return reserve_ > Scalar(0); }
-  Scalar reserve() const { return reserve_; }
+  bool is_stable() const { return reserve > Scalar(0); }
 
   TwoSidedMargin of_gain(FreeGain free) const {
-    const Scalar value = gain_of(gains_, free);
-    const auto stable = ResolvedCircle<Scalar>(response_).stable_gains(free, gains_);
+    const Scalar value = gain_of(gains, free);
+    const auto stable = ResolvedCircle<Scalar>(response).stable_gains(free, gains);
     return margin_in(stable, value, [&](Scalar position) {
       const Scalar outside = position + Scalar(1e-9) * (position - value);
-      return boundary_at(response_, with_gain(gains_, free, outside), position, value,
-                         sampling_.period);
+      return boundary_at(response, with_gain(gains, free, outside), position, value,
+                         sampling.period);
     });
   }
 
@@ -60,12 +55,13 @@ class ModalMargins {
   /// The least |arg L| where |L| = 1, L = P G_z + D G_v.
   Scalar phase() const {
     const auto loop_gain = [&](const Scalar& angle) {
-      const auto g = response_.at_angle(angle);
-      return gains_.proportional * g.displacement + gains_.differential * g.velocity;
+      const auto g = response.at_angle(angle);
+      return gains.proportional * g.displacement + gains.differential * g.velocity;
     };
     const auto level = [&](const Scalar& angle) { return std::norm(loop_gain(angle)) - Scalar(1); };
     Scalar least = std::numeric_limits<Scalar>::infinity(), before(0), at_before(-1);
-    for (const Scalar& angle : ResolvedCircle<Scalar>(response_).angles()) {
+    const ResolvedCircle<Scalar> circle(response);
+    for (const auto& [angle, g] : circle.places()) {
       const Scalar here = level(angle);
       if ((here > Scalar(0)) != (at_before > Scalar(0))) {
         const auto crossing =
@@ -100,7 +96,7 @@ class ModalMargins {
       const bool down = beyond < inside;
       const Scalar edge = down ? crossing.upper : crossing.lower;
       const Scalar outside = down ? crossing.lower : crossing.upper;
-      return boundary_at(response_at(sampling_at(outside)), gains_, edge, value,
+      return boundary_at(response_at(sampling_at(outside)), gains, edge, value,
                          sampling_at(edge).period);
     }
     return beyond_search(inside, value);
@@ -109,17 +105,17 @@ class ModalMargins {
   /// The end between a place where the loop is stable and one beyond where it is not.
   /// @param of_period  of τ, δ/τ kept; else of δ
   MarginEnd between(Scalar inside, Scalar outside, bool of_period) const {
-    const Scalar value = of_period ? sampling_.period : sampling_.processing_delay;
+    const Scalar value = of_period ? sampling.period : sampling.processing_delay;
     return walk(
         value, outside,
         [&](Scalar x) {
-          return of_period ? with_period(x) : Sampling<Scalar>{sampling_.period, x};
+          return of_period ? with_period(x) : Sampling<Scalar>{sampling.period, x};
         },
         [&](Scalar x) { return x == inside || value == inside ? outside : inside; });
   }
 
   TwoSidedMargin of_period(Scalar ratio) const {
-    const Scalar period = sampling_.period;
+    const Scalar period = sampling.period;
     const auto sampling_at = [&](Scalar tau) { return with_period(tau); };
     return {
         walk(period, period / ratio, sampling_at, [](Scalar tau) { return tau / Scalar(1.05); }),
@@ -127,64 +123,54 @@ class ModalMargins {
   }
 
   TwoSidedMargin of_delay() const {
-    const Scalar period = sampling_.period, delay = sampling_.processing_delay;
+    const Scalar period = sampling.period, delay = sampling.processing_delay;
     const Scalar step = period / Scalar(8);
     const auto sampling_at = [&](Scalar late) { return Sampling<Scalar>{period, late}; };
-    MarginEnd below = no_boundary(0.0);
-    if (delay > Scalar(0)) {
-      below = walk(delay, Scalar(0), sampling_at, [&](Scalar late) { return late - step; });
-      if (below.outcome == MarginEndOutcome::beyond_search && below.position == 0.0)
-        below = no_boundary(0.0);
-    }
+    MarginEnd below = walk(delay, Scalar(0), sampling_at, [&](Scalar late) { return late - step; });
+    if (below.outcome == MarginEndOutcome::beyond_search && below.position == 0.0)
+      below = no_boundary(0.0);
     return {below, walk(delay, delay + Scalar(most_delays) * period, sampling_at,
                         [&](Scalar late) { return late + step; })};
   }
 
  private:
-  Response response_at(const Sampling<Scalar>& sampling) const {
-    return modal_response<Scalar>(poles_, sampling).with_sensor(has_velocity_sensor_);
+  Response response_at(const Sampling<Scalar>& other) const {
+    return modal_response<Scalar>(poles, other).with_sensor(has_velocity_sensor);
   }
 
   /// Whose G_v is P G_z + D G_v of the loop.
   Response loop_response() const {
-    const Scalar p = gains_.proportional, d = gains_.differential;
-    if (!has_velocity_sensor_)
-      return response_.with_velocity_from_displacement({p, d / sampling_.period});
+    const Scalar p = gains.proportional, d = gains.differential;
+    if (!has_velocity_sensor)
+      return response.with_velocity_from_displacement({p, d / sampling.period});
     std::vector<typename Response::Residue> residues;
-    residues.reserve(poles_.size());
-    for (const PlantPole& pole : poles_)
+    residues.reserve(poles.size());
+    for (const PlantPole& pole : poles)
       residues.push_back({pole.s, pole.residue, (p + d * pole.s) * pole.residue});
-    return {residues, sampling_};
+    return {residues, sampling};
   }
 
   Sampling<Scalar> with_period(Scalar period) const {
-    return {period, sampling_.processing_delay / sampling_.period * period};
+    return {period, sampling.processing_delay / sampling.period * period};
   }
 
   /// ρ − 1; where not all roots are found, no more than its sign, by the turn of p.
-  Scalar excess_of(const Response& response) const {
-    const Scalar excess = loop_excess(response, gains_);
+  Scalar excess_of(const Response& other) const {
+    const Scalar excess = loop_excess(other, gains);
     if (std::isfinite(excess)) return excess;
-    const bool stable = ResolvedCircle<Scalar>(response).roots_outside(gains_) == 0;
+    const bool stable = ResolvedCircle<Scalar>(other).roots_outside(gains) == 0;
     return stable ? -std::numeric_limits<Scalar>::min() : std::numeric_limits<Scalar>::min();
   }
 
   /// The end at which a root crosses the unit circle.
-  /// @param response  and gains just outside, where that root is the largest
-  static MarginEnd boundary_at(const Response& response, const PdGains<Scalar>& gains,
-                               Scalar position, Scalar value, Scalar period) {
-    std::complex<Scalar> root = largest_loop_root(response, gains);
+  /// @param there  response and gains just outside, where that root is the largest
+  static MarginEnd boundary_at(const Response& there, const PdGains<Scalar>& with, Scalar position,
+                               Scalar value, Scalar period) {
+    std::complex<Scalar> root = largest_loop_root(there, with);
     if (!std::isfinite(std::abs(root)))
-      root = Scalar(1) + ResolvedCircle<Scalar>(response).roots_nearby(gains).front();
+      root = Scalar(1) + ResolvedCircle<Scalar>(there).roots_nearby(with).front();
     return crossing_end(root, std::abs(root - Scalar(1)), position, value, period);
   }
-
-  const std::vector<PlantPole>& poles_;
-  Sampling<Scalar> sampling_;
-  PdGains<Scalar> gains_;
-  bool has_velocity_sensor_;
-  Response response_;
-  Scalar reserve_;
 };
 
 }  // namespace detail
@@ -211,14 +197,14 @@ StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
                                          bool has_velocity_sensor = true) {
   validate(gains);
   validate(search);
-  const detail::ModalMargins<Scalar> margins(poles, sampling, gains, has_velocity_sensor);
+  const detail::ModalMargins<Scalar> margins{poles, sampling, gains, has_velocity_sensor};
   const TwoSidedMargin by_d = margins.of_gain(FreeGain::differential);
   const TwoSidedMargin by_p = margins.of_gain(FreeGain::proportional);
   const bool stable = margins.is_stable() && by_d.below.outcome != MarginEndOutcome::undefined &&
                       by_p.below.outcome != MarginEndOutcome::undefined;
-  if (!stable) return {MarginOutcome::not_stable, std::min(margins.reserve(), 0.0), {}, {}, {}, {}};
+  if (!stable) return {MarginOutcome::not_stable, std::min(margins.reserve, 0.0), {}, {}, {}, {}};
   return {MarginOutcome::stable,
-          margins.reserve(),
+          margins.reserve,
           by_d,
           by_p,
           margins.of_period(search.longest_period_ratio),
@@ -234,8 +220,8 @@ MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                            const PdGains<detail::Undeduced<Scalar>>& gains,
                            detail::Undeduced<Scalar> inside, detail::Undeduced<Scalar> outside,
                            bool of_period) {
-  return detail::ModalMargins<Scalar>(poles, sampling, gains, true)
-      .between(inside, outside, of_period);
+  return detail::ModalMargins<Scalar>{poles, sampling, gains, true}.between(inside, outside,
+                                                                            of_period);
 }
 
 /// The margins of such a loop as a whole, δ walked, all as above.
@@ -244,14 +230,13 @@ template <class Scalar = double>
 LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,
                                const Sampling<detail::Undeduced<Scalar>>& sampling,
                                const PdGains<detail::Undeduced<Scalar>>& gains,
-                               const MarginSearch& search = {}, bool has_velocity_sensor = true) {
+                               bool has_velocity_sensor = true) {
   validate(gains);
-  validate(search);
-  const detail::ModalMargins<Scalar> margins(poles, sampling, gains, has_velocity_sensor);
-  if (!margins.is_stable()) return {MarginOutcome::not_stable, margins.reserve()};
+  const detail::ModalMargins<Scalar> margins{poles, sampling, gains, has_velocity_sensor};
+  if (!margins.is_stable()) return {MarginOutcome::not_stable, margins.reserve};
   const Interval<Scalar> factors = margins.factors();
-  return {MarginOutcome::stable, margins.reserve(), factors.upper,
-          factors.lower,         margins.phase(),   margins.of_delay().above};
+  return {MarginOutcome::stable, margins.reserve, factors.upper,
+          factors.lower,         margins.phase(), margins.of_delay().above};
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
@@ -261,8 +246,7 @@ extern template StabilityMargins modal_stability_margins<double>(const std::vect
                                                                  const MarginSearch&, bool);
 extern template LoopMargins modal_loop_margins<double>(const std::vector<PlantPole>&,
                                                        const Sampling<double>&,
-                                                       const PdGains<double>&, const MarginSearch&,
-                                                       bool);
+                                                       const PdGains<double>&, bool);
 #endif
 
 }  // namespace holdfast

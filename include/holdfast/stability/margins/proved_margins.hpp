@@ -93,27 +93,18 @@ struct GainPath {
 };
 
 /// The sampling varies.
-class SamplingPath {
- public:
-  SamplingPath(const std::vector<EnclosedPole>& poles, const PdGains<double>& gains,
-               const EnclosedSamplings& line)
-      : poles_(poles),
-        box_(box_of(Enclosure::of_decimal(gains.proportional),
-                    Enclosure::of_decimal(gains.differential))),
-        line_(line),
-        proof_(poles, gains, line) {}
+struct SamplingPath {
+  const std::vector<EnclosedPole>& poles;
+  PdGains<double> gains;
+  EnclosedSamplings line;
+  SamplingProof<double> proof{poles, gains, line};
 
-  bool keeps_stability(double from, double to) const { return proof_.is_stable(from, to); }
+  bool keeps_stability(double from, double to) const { return proof.is_stable(from, to); }
   ProvedStability at(double position) const {
-    CircleArcs arcs({poles_, line_.over(Enclosure::of_decimal(position))});
-    return stability_of(arcs, box_);
+    CircleArcs arcs({poles, line.over(Enclosure::of_decimal(position))});
+    return stability_of(arcs, box_of(Enclosure::of_decimal(gains.proportional),
+                                     Enclosure::of_decimal(gains.differential)));
   }
-
- private:
-  const std::vector<EnclosedPole>& poles_;
-  GainBox box_;
-  EnclosedSamplings line_;
-  SamplingProof<double> proof_;
 };
 
 /// Walks along a path from a value of which the loop is proved to be stable, as long as no root
@@ -157,97 +148,81 @@ ProvedMarginEnd walked_end(const Path& path, double value, double limit,
 /// Where a walk is to end: a little beyond the boundary that doubles have found, or where they
 /// found none at the end of their search.
 inline double limit_beyond(const MarginEnd& end, double value, double otherwise) {
-  switch (end.outcome) {
-    case MarginEndOutcome::boundary:
-      return value + 1.1 * (end.position - value);
-    case MarginEndOutcome::undefined:
-      return value;
-    default:
-      return std::isfinite(end.position) ? end.position : otherwise;
-  }
+  if (end.outcome == MarginEndOutcome::boundary) return value + 1.1 * (end.position - value);
+  if (end.outcome == MarginEndOutcome::undefined) return value;
+  return std::isfinite(end.position) ? end.position : otherwise;
 }
 
 /// Proves all margins of one loop.
 template <class Watch>
-class MarginProver {
- public:
-  MarginProver(const std::vector<EnclosedPole>& poles, const Sampling<double>& sampling,
-               const PdGains<double>& gains, const StabilityMargins& found,
-               const ProvedMarginsOptions& options, const Watch& watch)
-      : poles_(poles),
-        sampling_(sampling),
-        gains_(gains),
-        found_(found),
-        options_(options),
-        watch_(watch),
-        arcs_({poles, sampling}) {}
+struct MarginProver {
+  const std::vector<EnclosedPole>& poles;
+  const Sampling<double>& sampling;
+  const PdGains<double>& gains;
+  const StabilityMargins& found;
+  const ProvedMarginsOptions& options;
+  const Watch& watch;
+  CircleArcs arcs = CircleArcs({poles, sampling});
 
   ProvedMargins prove() {
     ProvedMargins proved;
-    const GainPath along_d{arcs_, FreeGain::differential, gains_};
-    proved.stability = along_d.at(gains_.differential);
+    const GainPath along_d{arcs, FreeGain::differential, gains};
+    proved.stability = along_d.at(gains.differential);
     if (proved.stability != ProvedStability::stable) return proved;
-    proved.differential_gain = both(along_d, gains_.differential, found_.differential_gain, 1e12);
-    proved.proportional_gain = both(GainPath{arcs_, FreeGain::proportional, gains_},
-                                    gains_.proportional, found_.proportional_gain, 1e12);
+    proved.differential_gain = of_gain(along_d, found.differential_gain);
+    proved.proportional_gain =
+        of_gain({arcs, FreeGain::proportional, gains}, found.proportional_gain);
     of_sampling(proved);
     return proved;
   }
   /// Of τ and δ.
-  void of_sampling(ProvedMargins& proved) {
+  void of_sampling(ProvedMargins& proved) const {
     proved.sampling_period = of_period();
-    proved.processing_delay = {of_delay(found_.processing_delay.below, -1),
-                               of_delay(found_.processing_delay.above, +1)};
+    proved.processing_delay = {of_delay(found.processing_delay.below, -1),
+                               of_delay(found.processing_delay.above, +1)};
   }
 
  private:
-  /// @param farthest  where doubles have found no end
-  template <class Path>
-  ProvedMargin both(const Path& path, double value, const TwoSidedMargin& found, double farthest) {
-    return {towards(path, value, limit_beyond(found.below, value, -farthest)),
-            towards(path, value, limit_beyond(found.above, value, farthest))};
+  ProvedMargin of_gain(const GainPath& path, const TwoSidedMargin& by_doubles) const {
+    constexpr double farthest = 1e12;  // where doubles have found no end
+    const double value = gain_of(gains, path.free);
+    return {towards(path, value, limit_beyond(by_doubles.below, value, -farthest)),
+            towards(path, value, limit_beyond(by_doubles.above, value, farthest))};
   }
   template <class Path>
-  ProvedMarginEnd towards(const Path& path, double value, double limit) {
-    return walked_end(path, value, limit, options_, watch_);
+  ProvedMarginEnd towards(const Path& path, double value, double limit) const {
+    return walked_end(path, value, limit, options, watch);
   }
 
-  ProvedMargin of_period() {
-    const double period = sampling_.period;
-    const SamplingPath path(poles_, gains_, EnclosedSamplings::of_period(sampling_));
-    const auto& [below, above] = found_.sampling_period;
+  ProvedMargin of_period() const {
+    const double period = sampling.period;
+    const SamplingPath path{poles, gains, EnclosedSamplings::of_period(sampling)};
+    const auto& [below, above] = found.sampling_period;
     const double shortest = 1e-3 * period, longest = 100.0 * period;
     return {towards(path, period, std::max(limit_beyond(below, period, shortest), shortest)),
             towards(path, period, limit_beyond(above, period, longest))};
   }
 
   /// One stretch (k − 1) τ … k τ after the other; at the seams a root comes or goes at λ = 0.
-  ProvedMarginEnd of_delay(const MarginEnd& found, int direction) {
-    const double delay = sampling_.processing_delay;
-    const double limit = std::max(limit_beyond(found, delay, delay + 10.0 * sampling_.period), 0.0);
+  ProvedMarginEnd of_delay(const MarginEnd& by_doubles, int direction) const {
+    const double delay = sampling.processing_delay;
+    const double limit =
+        std::max(limit_beyond(by_doubles, delay, delay + 10.0 * sampling.period), 0.0);
     ProvedMarginEnd end{delay};
     double from = delay;
-    for (int k = held_commands(sampling_); k >= 1; k += direction) {
+    for (int k = held_commands(sampling); k >= 1; k += direction) {
       // Neighbouring stretches overlap by the rounding of the seam.
       const Enclosure seam = Enclosure(static_cast<double>(direction < 0 ? k - 1 : k)) *
-                             Enclosure::of_decimal(sampling_.period);
+                             Enclosure::of_decimal(sampling.period);
       const double goal =
           direction < 0 ? std::max(seam.lower(), limit) : std::min(seam.upper(), limit);
-      const SamplingPath path(poles_, gains_, EnclosedSamplings::of_delay(sampling_.period, k));
+      const SamplingPath path{poles, gains, EnclosedSamplings::of_delay(sampling.period, k)};
       end = towards(path, from, goal);
       if (end.stable_to != goal || goal == limit) break;
       from = direction < 0 ? seam.upper() : seam.lower();
     }
     return end;
   }
-
-  const std::vector<EnclosedPole>& poles_;
-  Sampling<double> sampling_;
-  PdGains<double> gains_;
-  const StabilityMargins& found_;
-  ProvedMarginsOptions options_;
-  const Watch& watch_;
-  CircleArcs arcs_;
 };
 
 }  // namespace detail
@@ -269,7 +244,7 @@ ProvedMargins proved_margins(const std::vector<EnclosedPole>& poles,
                              const StabilityMargins& found, const ProvedMarginsOptions& options,
                              const Watch& watch) {
   validate(gains);
-  return detail::MarginProver<Watch>(poles, sampling, gains, found, options, watch).prove();
+  return detail::MarginProver<Watch>{poles, sampling, gains, found, options, watch}.prove();
 }
 
 /// The margins of τ and δ alone, of a loop that is stable; of D, P and the loop as it is nothing is
@@ -282,7 +257,7 @@ ProvedMargins proved_sampling_margins(const std::vector<EnclosedPole>& poles,
                                       const ProvedMarginsOptions& options, const Watch& watch) {
   validate(gains);
   ProvedMargins proved;
-  detail::MarginProver<Watch>(poles, sampling, gains, found, options, watch).of_sampling(proved);
+  detail::MarginProver<Watch>{poles, sampling, gains, found, options, watch}.of_sampling(proved);
   return proved;
 }
 

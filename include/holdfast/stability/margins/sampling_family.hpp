@@ -46,18 +46,13 @@ Vector<std::complex<Scalar>, Eigen::Dynamic> roots_from_one(const LoopMap<Scalar
   return balanced_eigenvalues<Scalar, Eigen::Dynamic>(map.closed_increment(gains));
 }
 
-/// |1 + μ| − 1 without cancellation.
-template <class Scalar>
-Scalar excess_from_one(const std::complex<Scalar>& mu) {
-  return (Scalar(2) * mu.real() + std::norm(mu)) / (Scalar(1) + std::abs(Scalar(1) + mu));
-}
-
-/// ρ − 1 of a loop of any order.
+/// ρ − 1 of a loop of any order, |1 + μ| − 1 being taken without cancellation.
 template <class Scalar>
 Scalar loop_excess(const LoopMap<Scalar>& map, const PdGains<Scalar>& gains) {
   Scalar largest(-1);
   for (const std::complex<Scalar>& mu : roots_from_one(map, gains))
-    largest = std::max(largest, excess_from_one(mu));
+    largest = std::max(
+        largest, (Scalar(2) * mu.real() + std::norm(mu)) / (Scalar(1) + std::abs(Scalar(1) + mu)));
   return largest;
 }
 

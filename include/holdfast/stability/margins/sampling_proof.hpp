@@ -152,20 +152,16 @@ class SamplingProof {
     EnclosedCurve over(const EnclosedCurve& node) const { return present * node + past; }
   };
 
+  /// The middles of a part at a node z, and how they move.
   struct PartInDoubles {
-    std::complex<double> pole, pole_moves, past, past_moves, present, present_moves;
+    std::complex<double> pole, pole_moves, present, over, over_moves;
 
-    explicit PartInDoubles(const Part& part)
+    PartInDoubles(const Part& part, const std::complex<double>& z)
         : pole(part.pole.start().middle()),
           pole_moves(part.pole.rate().middle() * pole),
-          past(part.past.value().middle()),
-          past_moves(part.past.slope().middle()),
           present(part.present.value().middle()),
-          present_moves(part.present.slope().middle()) {}
-    std::complex<double> over(const std::complex<double>& z) const { return present * z + past; }
-    std::complex<double> over_moves(const std::complex<double>& z) const {
-      return present_moves * z + past_moves;
-    }
+          over(present * z + part.past.value().middle()),
+          over_moves(part.present.slope().middle() * z + part.past.slope().middle()) {}
   };
 
   /// @param reach  ϱ (s)
@@ -212,16 +208,16 @@ class SamplingProof {
     rest *= z;
     for (std::size_t j = 0; j < parts.size(); ++j) {
       if (j == i) continue;
-      const PartInDoubles part(parts[j]);
-      const Complex inverse = 1.0 / (z - part.pole), quotient = part.over(z) * inverse;
+      const PartInDoubles part(parts[j], z);
+      const Complex inverse = 1.0 / (z - part.pole), quotient = part.over * inverse;
       rest -= quotient;
       by_root -= (part.present - quotient) * inverse;
-      by_time -= (part.over_moves(z) + quotient * part.pole_moves) * inverse;
+      by_time -= (part.over_moves + quotient * part.pole_moves) * inverse;
     }
     if (i < parts.size()) {
-      const PartInDoubles own(parts[i]);
+      const PartInDoubles own(parts[i], z);
       const Complex away = z - own.pole;
-      by_time = away * by_time - own.pole_moves * rest - own.over_moves(z);
+      by_time = away * by_time - own.pole_moves * rest - own.over_moves;
       by_root = away * by_root + rest - own.present;
     }
     const Complex rate = -by_time / (by_root * z);

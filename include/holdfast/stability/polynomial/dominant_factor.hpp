@@ -193,7 +193,7 @@ class DominantFactor {
       if (is_sound[lane] != 0) continue;
 
       Polynomial<Value, Degree> one;
-      for (int k = 0; k <= Degree; ++k) one[k] = get(polynomial[k], lane);
+      for (int k = 0; k <= Degree; ++k) one[k] = detail::lane_of(polynomial[k], lane);
       const QuadraticFactor<Value> factor = dominant_factor(one);
       for (Factor& memory : history_) {
         set(memory.linear, lane, factor.linear);
@@ -201,12 +201,6 @@ class DominantFactor {
       }
       set(result, lane, factor.radius());
     }
-  }
-
-  static Value get(const Scalar& pack, std::size_t lane) {
-    std::array<Value, lanes_> values;
-    Lanes<Scalar>::store(pack, values.data());
-    return values[lane];
   }
 
   static void set(Scalar& pack, std::size_t lane, const Value& value) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 
 namespace holdfast {
@@ -77,8 +78,6 @@ class RootIteration {
   struct Local {
     Complex own, own_slope, rest, rest_slope;
   };
-
-  static Complex inverse(const Complex& z) { return std::conj(z) / std::norm(z); }
 
   /// w and its derivative at λ = 1 + μ, 1/λ being `back`.
   struct WeightThere {

@@ -14,6 +14,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/math/linalg/eigenbasis.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
@@ -176,14 +177,14 @@ class ModalResponse {
     Complex z{0}, v{0}, past_z{0}, past_v{0};
 
     void add_times(const Pole& pole, const Complex& factor) {
-      z += times(pole.displacement, factor);
-      v += times(pole.velocity, factor);
-      past_z += times(pole.past_displacement, factor);
-      past_v += times(pole.past_velocity, factor);
+      z += detail::plain_product(pole.displacement, factor);
+      v += detail::plain_product(pole.velocity, factor);
+      past_z += detail::plain_product(pole.past_displacement, factor);
+      past_v += detail::plain_product(pole.past_velocity, factor);
     }
     void add(const Pole& pole, const Complex& mu) {
       const Complex away = mu - pole.increment;
-      add_times(pole, std::conj(away) / std::norm(away));
+      add_times(pole, detail::inverse(away));
     }
   };
 
@@ -226,11 +227,6 @@ class ModalResponse {
                       residue.velocity * present, residue.displacement * past,
                       residue.velocity * past});
     unstable_ += s.real() > Scalar(0) ? 1 : 0;
-  }
-
-  /// A product without the checks for NaN that std::complex makes.
-  static Complex times(const Complex& a, const Complex& b) {
-    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
   }
 
   static constexpr Scalar undamped{1e-11};  // of −Re s τ
@@ -277,8 +273,10 @@ class ModalResponse<Scalar>::Nearby {
     Sums sums = far_.back();
     for (std::size_t j = far_.size() - 1; j-- > 0;) {
       const Complex way = mu - centre_;
-      sums = {far_[j].z + times(way, sums.z), far_[j].v + times(way, sums.v),
-              far_[j].past_z + times(way, sums.past_z), far_[j].past_v + times(way, sums.past_v)};
+      sums = {far_[j].z + detail::plain_product(way, sums.z),
+              far_[j].v + detail::plain_product(way, sums.v),
+              far_[j].past_z + detail::plain_product(way, sums.past_z),
+              far_[j].past_v + detail::plain_product(way, sums.past_v)};
     }
     for (const Pole& pole : near_) sums.add(pole, mu);
     return response_.finished(sums, mu);
@@ -298,7 +296,7 @@ class ModalResponse<Scalar>::Nearby {
     Complex factor = -ratio;
     for (Sums& term : far_) {
       term.add_times(pole, factor);
-      factor = times(factor, ratio);
+      factor = detail::plain_product(factor, ratio);
     }
   }
 

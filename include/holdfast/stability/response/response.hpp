@@ -35,16 +35,6 @@ struct LoopPhasors {
   std::complex<Scalar> force_velocity;        ///< f_v (m/(N s)): what D multiplies, likewise
   std::complex<Scalar> control_conductor;     ///< t_c (m/N): z to the control force
   std::complex<Scalar> force_conductor;       ///< f_c (m/N): z to the excitation
-
-  /// t_c f_z − f_c t_z, by which P enters the numerator of the controlled amplitude; 0 where z
-  /// itself is measured.
-  std::complex<Scalar> proportional_slope() const {
-    return control_conductor * force_displacement - force_conductor * control_displacement;
-  }
-  /// t_c f_v − f_c t_v, by which D enters it.
-  std::complex<Scalar> differential_slope() const {
-    return control_conductor * force_velocity - force_conductor * control_velocity;
-  }
 };
 
 /// The responses of a sampled loop to unit forces at ω, one a column of Y:
@@ -153,13 +143,15 @@ class SteadyResponse {
       : phasors_(phasors),
         reference_(std::abs(phasors.force_conductor)),
         squared_reference_(std::norm(phasors.force_conductor)),
-        proportional_slope_(phasors.proportional_slope()),
-        numerator_slope_(phasors.differential_slope()) {}
+        proportional_slope_(phasors.control_conductor * phasors.force_displacement -
+                            phasors.force_conductor * phasors.control_displacement),
+        differential_slope_(phasors.control_conductor * phasors.force_velocity -
+                            phasors.force_conductor * phasors.control_velocity) {}
 
   /// |Z₁| / F_m in m/N at the given gains.
   Scalar amplitude_per_force(const PdGains<Scalar>& gains) const {
     return std::abs(without_differential(gains.proportional) +
-                    gains.differential * numerator_slope_) /
+                    gains.differential * differential_slope_) /
            std::abs(Complex(1) - gains.proportional * phasors_.control_displacement -
                     gains.differential * phasors_.control_velocity);
   }
@@ -202,7 +194,7 @@ class SteadyResponse {
   /// with the amplitude that ratios are relative to in place of |f₁| below; or, f₁ above being f_c
   /// + P (t_c f_z − f_c t_z) where z itself is not measured.
   RatioOfQuadratics<Scalar> squared_ratio(const Scalar& proportional_gain) const {
-    return {detail::squared_modulus(without_differential(proportional_gain), numerator_slope_),
+    return {detail::squared_modulus(without_differential(proportional_gain), differential_slope_),
             squared_reference_ * detail::squared_modulus(
                                      Complex(1) - proportional_gain * phasors_.control_displacement,
                                      -phasors_.control_velocity)};
@@ -256,10 +248,11 @@ class SteadyResponse {
   }
 
   LoopPhasors<Scalar> phasors_;
-  Scalar reference_;            // m/N, what ratios are relative to
-  Scalar squared_reference_;    // of it, (m/N)²
+  Scalar reference_;          // m/N, what ratios are relative to
+  Scalar squared_reference_;  // of it, (m/N)²
+  // By which P and D enter the numerator of Z; that of P is 0 where z itself is measured.
   Complex proportional_slope_;  // t_c f_z − f_c t_z
-  Complex numerator_slope_;     // t_c f_v − f_c t_v
+  Complex differential_slope_;  // t_c f_v − f_c t_v
 };
 
 /// The steady response of a plant's loop: in closed form of the two masses with δ ≤ τ, of any other

@@ -10,7 +10,6 @@
 #include "case/model/span/span_of_case.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/span/end_response.hpp"
 #include "holdfast/span/perfect_absorption.hpp"
 #include "jobs/span/aeolian_amplitudes.hpp"

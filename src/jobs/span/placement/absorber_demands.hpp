@@ -1,8 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include "case/case.hpp"
 #include "holdfast/control/gains.hpp"
-#include "jobs/span/placement/placement_levels.hpp"
 
 namespace holdfast::program {
 

@@ -1,4 +1,4 @@
-#include "jobs/span/placement/moved_numbers.hpp"
+#include "jobs/span/placement/placed_device.hpp"
 
 #include <algorithm>
 #include <cmath>

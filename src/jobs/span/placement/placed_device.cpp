@@ -5,7 +5,6 @@
 
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "case/model/span/span_of_case.hpp"
 #include "holdfast/core/types.hpp"
 #include "jobs/span/placement/stable_gains.hpp"
 #include "process/errors.hpp"
@@ -58,7 +57,7 @@ double worst_of(const std::vector<double>& levels) {
 /// @param places  of the grid along each gain
 std::vector<MovedNumber> moved_gains(const Case& the_case, const StableGains& stable,
                                      const PdGains<double>& most, int places) {
-  const GainRectangle around = stable.around(most);
+  const GainWindow around = stable.around(most);
   const PdGains<double> own = gains_of(the_case);
   const PdGains<double> present = stable.admits(own) ? own : PdGains<double>{0.0, 0.0};
   const auto gain = [&](const Interval<double>& range, double now) {

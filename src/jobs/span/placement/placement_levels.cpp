@@ -5,7 +5,6 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/span/end_response.hpp"
 #include "holdfast/span/span_roots.hpp"
-#include "jobs/span/aeolian_amplitudes.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {

@@ -18,12 +18,9 @@ void widen(Interval<double>& interval, const std::vector<Interval<double>>& othe
 }  // namespace
 
 StableGains::StableGains(const Case& the_case, double margin)
-    : judge_(judged_loop_of(the_case)),
-      cut_(cut_loop_of(the_case)),
-      responses_(judge_.circle.responses()),
-      margin_(margin) {
-  const auto others = cut_.circle.responses();
-  responses_.insert(responses_.end(), others.begin(), others.end());
+    : judge_(judged_loop_of(the_case)), cut_(cut_loop_of(the_case)), margin_(margin) {
+  for (const auto* circle : {&judge_.circle, &cut_.circle})
+    for (const auto& place : circle->places()) responses_.push_back(place.g);
 }
 
 bool StableGains::admits(const PdGains<double>& gains) const {
@@ -65,8 +62,8 @@ std::vector<Interval<double>> StableGains::along(FreeGain free, const PdGains<do
   return kept;
 }
 
-GainRectangle StableGains::around(const PdGains<double>& most) const {
-  GainRectangle found{{0.0, 0.0}, {0.0, 0.0}};
+GainWindow StableGains::around(const PdGains<double>& most) const {
+  GainWindow found{{0.0, 0.0}, {0.0, 0.0}};
   for (const int lines : {5, 9}) {
     const auto at = [&](const Interval<double>& range, int k) {
       return range.lower + (range.upper - range.lower) * (k + 0.5) / lines;

@@ -5,17 +5,10 @@
 #include "case/case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/control/gains.hpp"
-#include "holdfast/core/interval.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
 
 namespace holdfast::program {
-
-/// A rectangle of gains.
-struct GainRectangle {
-  Interval<double> proportional;  ///< P (N/m)
-  Interval<double> differential;  ///< D (N s/m)
-};
 
 /// The gains with which the computer's loop of a case is stable on the taut string with all its
 /// devices at a modulus margin: min |1 − P G_z − D G_v| over the unit circle. They are so by the
@@ -44,7 +37,7 @@ class StableGains {
   /// About all that are admitted on lines through the gains without control: by turns the D of some
   /// P and the P of some D, and a tenth beyond.
   /// @param most  bounds of |P| and |D| where there are no others
-  GainRectangle around(const PdGains<double>& most) const;
+  GainWindow around(const PdGains<double>& most) const;
 
  private:
   JudgedLoop judge_, cut_;
