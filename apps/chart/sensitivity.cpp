@@ -127,11 +127,7 @@ double unit_of(const Case& the_case, const std::string& key) {
 AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerValues& here,
                     bool follows) {
   constexpr double step = 1e-4, agreement = 0.01;
-  AnswerValues result;
-  if (follows && key == "control.proportional_gain") {
-    result.fill(0.0);
-    return result;
-  }
+  if (follows && key == "control.proportional_gain") return AnswerValues{};
   const double value = case_value(the_case, key);
   double by = step * (value != 0.0 ? std::abs(value) : unit_of(the_case, key));
   const auto is_there = [&](double share) {
@@ -143,6 +139,7 @@ AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerVa
     }
   };
   const bool above = is_there(1.0), below = is_there(-1.0), one_sided = !(above && below);
+  AnswerValues result;
   result.fill(unknown);
   if (!above && !below) return result;
   if (!above) by = -by;
@@ -177,8 +174,9 @@ struct SensitivityQuestion {
     Table table(context, columns_of("sensitivity"));
     const AnswerValues here = answers_of(the_case);
     const std::vector<std::string> keys = keys_of(the_case);
-    std::vector<AnswerValues> by_key;
-    for (const std::string& key : keys) by_key.push_back(slopes(the_case, key, here, follows));
+    std::vector<AnswerValues> by_key(keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      by_key[i] = slopes(the_case, keys[i], here, follows);
     for (std::size_t k = 0; k < here.size(); ++k) {
       if (!std::isfinite(here[k])) continue;
       for (std::size_t i = 0; i < keys.size(); ++i)

@@ -165,10 +165,10 @@ std::vector<std::complex<typename Coefficients::Scalar>> roots(
   return result;
 }
 
-/// The positive roots of a real polynomial of low degree, ascending.
-///
-/// A pair that is a double root split by round-off, by √ε off the real axis, counts as two of them.
-/// @param split  the largest |Im x/Re x| of such a pair
+/// The positive roots of a real polynomial of low degree, ascending. A pair that is a double root
+/// split by round-off, by √ε off the real axis, counts as two of them.
+/// @param polynomial  coefficients, lowest degree first
+/// @param split       the largest |Im x/Re x| of such a pair
 template <class Coefficients>
 std::vector<typename Coefficients::Scalar> positive_roots(
     const Eigen::MatrixBase<Coefficients>& polynomial, double split = 1e-5) {
