@@ -9,6 +9,7 @@
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "io/file/output.hpp"
 #include "jobs/columns.hpp"
 #include "kernels/pack_kernels.hpp"
 #include "output/row_blocks.hpp"
@@ -187,9 +188,8 @@ ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool ra
 
 ChartRows continuous_chart(const TwoMass<double>& plant, const GainGrid& grid, bool abscissa) {
   const auto abscissa_at = [plant](const PdGains<double>& gains) {
-    const Matrix<double, 4> closed =
-        plant.state_matrix() + plant.control_input() * gains.feedback_row();
-    return spectral_abscissa<double, 4>(closed);
+    return spectral_abscissa<double, 4>(plant.state_matrix() +
+                                        plant.control_input() * gains.feedback_row());
   };
   StabilityRows<4> rows(characteristic_polynomial(plant), grid.differential);
   const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
