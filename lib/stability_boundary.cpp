@@ -2,6 +2,7 @@
 
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
+#include "holdfast/stability/boundary/circle_boundary.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"

@@ -113,7 +113,7 @@ Case moved(const Case& the_case, const std::string& key, double value, bool foll
   return other;
 }
 
-/// What a key that is 0 is moved by: a part of what would be felt.
+/// The step of a key that is 0: a part of what would be felt.
 double unit_of(const Case& the_case, const std::string& key) {
   if (key == "control.processing_delay") return the_case.control.sampling_period;
   if (key == "absorber.clamp_mass") return 0.01;

@@ -37,7 +37,7 @@ KeyAxis admissible_axis(const std::string& text) {
   return axis;
 }
 
-/// What is proved, in tables.
+/// The words for what is proved, in tables.
 constexpr Named<ProvedStability> proved_names[] = {{ProvedStability::stable, "stable"},
                                                    {ProvedStability::unstable, "unstable"},
                                                    {ProvedStability::undecided, "undecided"}};

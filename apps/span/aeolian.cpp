@@ -68,7 +68,7 @@ WindHistory wind_history_of(const Case& the_case, bool controlled, double freque
   return wind_history(setting);
 }
 
-/// What the history says beside the energy balance, in one sentence.
+/// The answer of the history beside the energy balance, in one sentence.
 std::string history_text(const WindHistory& history, const std::vector<AeolianRow>& balance,
                          double diameter) {
   double lowest = balance.front().damped.amplitude.amplitude, highest = lowest;

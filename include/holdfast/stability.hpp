@@ -6,6 +6,7 @@
 #include "holdfast/stability/boundary/boundary_curves.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
+#include "holdfast/stability/boundary/circle_boundary.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/boundary/root_pair_curve.hpp"

@@ -135,7 +135,7 @@ TEST(Orthonormalise, FactorsTheColumns) {
   for (int draw = 0; draw < 200; ++draw) {
     const auto columns = random.matrix<Matrix<double, 5, 4>>();
     TangentBasis<double, 4> basis = columns;
-    Alive<double> alive{true, true, true, true, true};
+    Alive alive{true, true, true, true, true};
     const auto stretches = orthonormalise<double, 4>(basis, alive);
     const Matrix<double, 4> r = basis.transpose() * columns;
     EXPECT_LE((basis.transpose() * basis - Matrix<double, 4>::Identity()).norm(), 1e-12);
@@ -150,7 +150,7 @@ TEST(Orthonormalise, LeavesOutWhatIsNotAliveAndMarksWhatVanishes) {
   test::Random random(503);
   TangentBasis<double, 4> basis = random.matrix<Matrix<double, 5, 4>>();
   basis.col(2).setZero();
-  Alive<double> alive{true, true, true, true, true};
+  Alive alive{true, true, true, true, true};
   auto stretches = orthonormalise<double, 4>(basis, alive);
   EXPECT_TRUE(alive[0] && alive[1]);
   EXPECT_FALSE(alive[2] || alive[3]);

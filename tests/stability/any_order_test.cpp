@@ -3,7 +3,7 @@
 
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/stability/boundary/boundary.hpp"
+#include "holdfast/stability/boundary/circle_boundary.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/chart/circle_chart.hpp"

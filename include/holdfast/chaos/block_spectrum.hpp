@@ -76,7 +76,7 @@ class BlockSpectrum {
       const auto stretches = orthonormalise<Scalar, 5>(basis, alive);
       logarithms = half_logarithms<5>(stretches.squares);
     }
-    Alive<Scalar> alive;
+    Alive alive;
     TangentBasis<Scalar, 5> basis;
     Vector<Scalar, 5> logarithms;
   };
@@ -116,7 +116,7 @@ class BlockSpectrum {
     using Basis = TangentBasis<Scalar, Columns>;
     Basis basis = basis_.template leftCols<Columns>();
     Eigen::Array<Scalar, 1, Columns> sizes = Eigen::Array<Scalar, 1, Columns>::Zero();
-    Alive<Scalar> alive = alive_;
+    Alive alive = alive_;
     for (int k = 0; k < count; ++k) {
       multiply<Reach, Columns>(blocks_->map(blocks[k]), basis);
       for (int row = 0; row < 5; ++row) sizes += basis.row(row).array() * basis.row(row).array();
@@ -160,13 +160,13 @@ class BlockSpectrum {
   }
 
   /// Marks the columns beyond the rank of a block's maps.
-  void mark_null_columns(ItineraryBlock block, Alive<Scalar>& alive) const {
+  void mark_null_columns(ItineraryBlock block, Alive& alive) const {
     for (int i = blocks_->rank(block); i < columns_; ++i)
       alive[static_cast<std::size_t>(i)] = false;
   }
 
   template <int Columns>
-  void commit(const TangentBasis<Scalar, Columns>& basis, const Alive<Scalar>& alive,
+  void commit(const TangentBasis<Scalar, Columns>& basis, const Alive& alive,
               const Vector<Scalar, Columns>& squares) {
     basis_.template leftCols<Columns>() = basis;
     alive_ = alive;
@@ -215,7 +215,7 @@ class BlockSpectrum {
 
   std::shared_ptr<const ItineraryBlocks> blocks_;
   TangentBasis<Scalar, 5> basis_ = TangentBasis<Scalar, 5>::Identity();
-  Alive<Scalar> alive_;
+  Alive alive_;
   int columns_;  // that are carried
   std::array<ItineraryBlock, most_blocks> pending_{};
   int count_ = 0;  // blocks pending

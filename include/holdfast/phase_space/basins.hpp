@@ -219,9 +219,8 @@ struct BatchedMotions<IdealLoop<Scalar>, Travel> {
 }  // namespace detail
 
 /// find_basins() with another way to move the motions on.
-/// @param travel          of an IdealLoop travel(motion) gives what has MotionBatch's run() and can
-///                        be copied; of an ImplementedLoop (event_basins.hpp) travel(loop,
-///                        approaches) runs what EventApproaches hands out
+/// @param travel          travel(motion) gives what runs as a MotionBatch, to be copied; of an
+///                        ImplementedLoop travel(loop, approaches) moves them on
 /// @param loop            with its excitation and backlash; an ImplementedLoop has_event_pack()
 /// @param initial_states  each (m, m/s, m, m/s), finite; may be none
 /// @param limits          of each search for one motion's own orbit
@@ -234,6 +233,7 @@ auto find_basins_by(const Travel& travel, const Loop& loop,
   return detail::basins_by<detail::BatchedMotions<Loop, Travel>>(loop, initial_states, limits,
                                                                  for_tiles, travel);
 }
+
 /// The attractor of each of many initial states [z₁, ż₁, z₂, ż₂].
 ///
 /// Distinct attractors are told apart by their orbits; copies of one that run some common periods

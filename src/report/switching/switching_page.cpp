@@ -303,18 +303,18 @@ ContactStrip strip_with_amplitude(const std::string& name, const StudiedMotion& 
 
 /// The strips of the laws that differ. Exactly taken, the first three are one.
 std::vector<ContactStrip> strips_of_laws(const Motions& of_laws) {
-  constexpr std::array<std::pair<std::size_t, const char*>, 7> shown = {
-      {{0, "kollar, at samples"},
-       {2, "immediate, at samples"},
-       {4, "play, at samples"},
-       {5, "these three, exact"},
-       {6, "dead zone, at samples"},
-       {7, "dead zone, exact"},
-       {8, "no backlash"}}};
+  constexpr std::array<std::tuple<std::size_t, const char*, bool>, 7> shown = {
+      {{0, "kollar, at samples", false},
+       {1, "immediate, at samples", false},
+       {2, "play, at samples", false},
+       {2, "these three, exact", true},
+       {3, "dead zone, at samples", false},
+       {3, "dead zone, exact", true},
+       {4, "no backlash", false}}};
   std::vector<ContactStrip> strips;
   strips.reserve(shown.size());
-  for (const auto& [motion, how] : shown)
-    strips.push_back(strip_with_amplitude(how, of_laws[motion]));
+  for (const auto& [law, how, exact] : shown)
+    strips.push_back(strip_with_amplitude(how, of_laws[2 * law + (exact ? 1 : 0)]));
   return strips;
 }
 

@@ -316,7 +316,7 @@ TEST(SamplingProof, IsOfNoStretchAcrossAnEndOfRandomMasses) {
       if (end.outcome != MarginEndOutcome::boundary) return;
       const SamplingProof<double> proof(loop.poles, loop.gains, line);
       const double beyond = end.position + 1e-6 * (end.position - value);
-      for (double share = 1.0; share > 1e-3; share *= 0.5) {
+      for (double share = 1.0; share > 1e-3; share *= 0.7) {
         const auto [from, to] = std::minmax(beyond, end.position + share * (value - end.position));
         EXPECT_FALSE(proof.is_stable(from, to)) << from << " " << to;
         ++asked;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <utility>
 
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
@@ -135,9 +136,9 @@ EigenBasis<Scalar>::EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix) {
   factors_ = similar.factors;
   const Scalar scale =
       std::max(similar.balanced.cwiseAbs().maxCoeff(), std::numeric_limits<Scalar>::min());
-  const detail::TriangularForm<Scalar> schur(similar.balanced, scale);
-  triangle_ = schur.triangle;
-  basis_ = schur.basis;
+  detail::TriangularForm<Scalar> schur(similar.balanced, scale);
+  triangle_ = std::move(schur.triangle);
+  basis_ = std::move(schur.basis);
   converged_ = schur.converged;
   find_vectors();
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "holdfast/core/select.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
@@ -16,8 +15,7 @@ using TangentBasis =
     Eigen::Matrix<Number, 5, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
 
 /// For each tangent vector whether it still has a length; false where a map has taken it to zero.
-template <class Number>
-using Alive = std::array<Mask<Number>, 5>;
+using Alive = std::array<bool, 5>;
 
 /// What B = Q R says of R.
 template <class Number, int Columns>
@@ -57,26 +55,22 @@ Number inverse_square_norm(const Number (&unit_upper)[Columns][Columns],
 /// @param alive  columns that are not are replaced by zeros; from the first one on that vanishes
 ///               they are no more
 template <class Number, int Columns>
-Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis,
-                                          Alive<Number>& alive) {
-  using std::sqrt;
-  const Number zero(0), one(1);
+Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, Alive& alive) {
   Stretches<Number, Columns> result;
   constexpr auto count = static_cast<std::size_t>(Columns);
   Number inverse_squares[count], unit_upper[count][count];
   for (int i = 0; i < Columns; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Number square = basis.col(i).squaredNorm();
-    result.squares[i] = select(alive[k], square, one);
-    const Mask<Number> before = i > 0 ? alive[k - 1] : alive[k], was = alive[k];
-    alive[k] = before & was & (square > zero);
-    inverse_squares[i] = select(alive[k], Number(one / square), zero);
+    result.squares[i] = alive[k] ? square : Number(1);
+    alive[k] = alive[k] && (i == 0 || alive[k - 1]) && square > Number(0);
+    inverse_squares[i] = alive[k] ? Number(1) / square : Number(0);
     for (int j = i + 1; j < Columns; ++j) {
       unit_upper[i][j] = basis.col(i).dot(basis.col(j)) * inverse_squares[i];
       basis.col(j) -= unit_upper[i][j] * basis.col(i);
     }
   }
-  for (int i = 0; i < Columns; ++i) basis.col(i) *= sqrt(inverse_squares[i]);
+  for (int i = 0; i < Columns; ++i) basis.col(i) *= std::sqrt(inverse_squares[i]);
   result.inverse = detail::inverse_square_norm(unit_upper, inverse_squares);
   return result;
 }

@@ -81,7 +81,7 @@ class EventOrbitProver {
     if (!linearise(largest_miss, maps)) return proof_;
     proof_.outcome = OrbitProofOutcome::not_contracting;
     if (!make_axes(maps, log_modulus)) return proof_;
-    // What a point misses, carried around once, tells how small an ellipsoid may be.
+    // The miss of a point, carried around once, tells how small an ellipsoid may be.
     const auto look_away = [](std::size_t, const Set&, const Passage&) {};
     Passage points(modes_, path_, delay_);
     const Turn once = turn(0.0, points, look_away);
@@ -194,7 +194,7 @@ class EventOrbitProver {
     return true;
   }
 
-  /// What the centre misses the next sample's proposal by.
+  /// The miss of the next sample's proposal by the centre.
   Six missed(std::size_t sample, const Set& set) const {
     const Passage passage(modes_, path_, delay_);
     const Vector<double, 6> proposed = passage.proposed(after(sample));

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/interval.hpp"
-#include "holdfast/core/types.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/boundary/root_pair_curve.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
-#include "holdfast/stability/response/modal_response.hpp"
 
 namespace holdfast {
 
@@ -176,110 +173,11 @@ std::vector<BoundaryPoint<Scalar>> stability_boundary(
   return points;
 }
 
-namespace detail {
-
-/// The boundary of a loop of any order, angle by angle.
-template <class Scalar>
-class CircleBoundary {
- public:
-  CircleBoundary(const ModalResponse<Scalar>& response, const Interval<double>& range)
-      : response_(response), range_(range) {
-    for (const std::complex<Scalar>& increment : response.pole_increments())
-      if (increment.imag() > Scalar(0)) pole_angles_.push_back(std::arg(Scalar(1) + increment));
-  }
-
-  /// The gains with a root pair e^{±iθ}: P = Im G_v / Im(Ḡ_z G_v), D = −Im G_z / Im(Ḡ_z G_v).
-  PdGains<Scalar> gains(const Scalar& angle) const {
-    const CommandResponse<Scalar> g = response_.at_angle(angle);
-    const Scalar determinant = std::imag(std::conj(g.displacement) * g.velocity);
-    return {g.velocity.imag() / determinant, -g.displacement.imag() / determinant};
-  }
-
-  static Scalar between(const Scalar& lower, const Scalar& upper) {
-    return lower + (upper - lower) / Scalar(2);
-  }
-  static Scalar angle(const Scalar& angle) { return angle; }
-  static BoundaryCurve pair_kind() { return BoundaryCurve::complex_pair; }
-
-  /// The line of gains with the root 1 or −1, by its two ends within the range.
-  void append_line(BoundaryCurve curve, std::vector<BoundaryPoint<Scalar>>& points) const {
-    const Scalar angle = curve == BoundaryCurve::plus_one ? Scalar(0) : pi<Scalar>;
-    const CommandResponse<Scalar> g = response_.at_angle(angle);
-    const Scalar by_p = g.displacement.real(), by_d = g.velocity.real();
-    const bool idle = !(std::abs(by_d) > Scalar(1e-9) * response_size());
-    detail::append_line(
-        points, BoundaryLine<Scalar>{curve, angle, Scalar(1), -by_p, idle ? Scalar(0) : -by_d},
-        range_);
-  }
-
-  /// The curve of root pairs within the range, by ascending angle.
-  void append_curve(std::vector<BoundaryPoint<Scalar>>& points) const {
-    const CurveTracer<Scalar, CircleBoundary> tracer(*this, range_, 14);
-    std::vector<CurvePlace<Scalar>> places;
-    for (const Scalar& angle : starting_angles()) places.push_back(tracer.at(angle));
-    tracer.trace(places, points);
-  }
-
- private:
-  /// max |G_v| at the poles' angles: what a value of G_v is small against.
-  Scalar response_size() const {
-    Scalar largest = std::abs(response_.at_angle(pi<Scalar> / Scalar(2)).velocity);
-    for (const Scalar& angle : pole_angles_)
-      largest = std::max(largest, std::abs(response_.at_angle(angle).velocity));
-    return largest;
-  }
-
-  /// Close together about each pole, towards 0 and towards π, where the curve moves fast.
-  std::vector<Scalar> starting_angles() const {
-    std::vector<Scalar> angles;
-    std::vector<Scalar> centres = pole_angles_;
-    centres.push_back(Scalar(0));
-    centres.push_back(pi<Scalar>);
-    for (const Scalar& centre : centres) {
-      for (Scalar offset = Scalar(1e-6); offset < pi<Scalar>; offset *= Scalar(1.2)) {
-        for (const Scalar angle : {centre - offset, centre + offset})
-          if (angle > Scalar(0) && angle < pi<Scalar>) angles.push_back(angle);
-      }
-    }
-    std::sort(angles.begin(), angles.end());
-    return angles;
-  }
-
-  const ModalResponse<Scalar>& response_;
-  Interval<double> range_;
-  std::vector<Scalar> pole_angles_;
-};
-
-}  // namespace detail
-
-/// The boundary of stability of a loop of any order over a range of P: the lines of the roots 1 and
-/// −1 (their two ends), then the curve of root pairs e^{±iθ} by ascending angle.
-///
-/// 1 − P G_z(λ) − D G_v(λ) = 0 at λ = e^{iθ} are two real linear equations in P and D
-/// (`ModalResponse`). The points lie as close together as the curve's bends need; its crossings
-/// with a line of constant P or D are in `circle_crossings`.
-/// @param response  of the loop
-/// @param range     P (N/m), its ends included
-/// @throws InvalidParameter unless range.lower < range.upper, both finite
-template <class Scalar>
-std::vector<BoundaryPoint<Scalar>> stability_boundary(const ModalResponse<Scalar>& response,
-                                                      const Interval<double>& range) {
-  validate_proportional(range);
-  const detail::CircleBoundary<Scalar> boundary(response, range);
-  std::vector<BoundaryPoint<Scalar>> points;
-  boundary.append_line(BoundaryCurve::plus_one, points);
-  boundary.append_line(BoundaryCurve::minus_one, points);
-  boundary.append_curve(points);
-  return points;
-}
-
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template std::vector<BoundaryPoint<double>> stability_boundary(
     const AffinePolynomial<double, 4>&, const Interval<double>&);
 extern template std::vector<BoundaryPoint<double>> stability_boundary(
     const AffinePolynomial<double, 5>&, const Interval<double>&);
-extern template std::vector<BoundaryPoint<double>> stability_boundary(const ModalResponse<double>&,
-                                                                      const Interval<double>&);
 #endif
 
 }  // namespace holdfast

@@ -84,15 +84,14 @@ namespace detail {
 
 /// The stable D of one sampling period and its response, at the question's P.
 struct DelayOffer {
-  std::vector<Interval<double>> stable;            ///< D that stabilise
-  std::optional<SteadyResponse<double>> response;  ///< nothing for the criterion `stable`
+  std::vector<Interval<double>> stable;                 ///< D that stabilise
+  std::optional<SteadyResponse<double>> response = {};  ///< nothing for the criterion `stable`
 };
 
 template <class Plant>
 DelayOffer delay_offer(const Plant& plant, const MaxDelayOptions& options, double sampling_period) {
   const auto loop = loop_of(plant, options.sampling(sampling_period));
-  DelayOffer offer{stable_gains(loop, FreeGain::differential, {options.proportional_gain, 0.0}),
-                   {}};
+  DelayOffer offer{stable_gains(loop, FreeGain::differential, {options.proportional_gain, 0.0})};
   if (options.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
   offer.response = response_of_loop(plant, loop, options.hold, options.angular_frequency(),
                                     options.relative_to_true_force);
@@ -105,8 +104,7 @@ DelayOffer delay_offer(const ConductorWithAbsorber& plant, const MaxDelayOptions
                        double sampling_period) {
   const auto sampling = options.sampling(sampling_period);
   const ResolvedCircle<Scalar> circle(modal_response<Scalar>(plant, sampling));
-  DelayOffer offer{circle.stable_gains(FreeGain::differential, {options.proportional_gain, 0.0}),
-                   {}};
+  DelayOffer offer{circle.stable_gains(FreeGain::differential, {options.proportional_gain, 0.0})};
   if (options.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
   const double omega = options.angular_frequency();
   offer.response = steady_response<Scalar>(plant, sampling, options.hold, omega);
@@ -190,6 +188,28 @@ struct MaxDelay {
 
 namespace detail {
 
+/// From where on D = 0 stabilises however slow the sampling; infinite where that is not shown.
+template <class Plant>
+double certain_from(const Plant& plant, const MaxDelayOptions& options) {
+  return SlowSamplingBound(plant, {options.proportional_gain, 0.0}, options.delay_fraction)
+      .certain_from();
+}
+inline double certain_from(const ConductorWithAbsorber& /*plant*/, const MaxDelayOptions&) {
+  return std::numeric_limits<double>::infinity();
+}
+
+/// How far stability is looked for where the question does not say it.
+template <class Plant>
+double longest_of_stability(const Plant& plant, double certain) {
+  const double slowest = slowest_mode_period(plant);
+  return certain <= 200.0 * slowest ? certain : 20.0 * slowest;
+}
+inline double longest_of_stability(const ConductorWithAbsorber& plant, double /*certain*/) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const auto& mode : plant.modes) slowest = std::min(slowest, mode.angular_frequency);
+  return 20.0 * 2.0 * pi<double> / slowest;
+}
+
 /// Joins feasible periods to one another and finds where that ends: by links, each of which one D
 /// is shown to serve all along, or of a conductor by its modes by steps of the search ratio.
 template <class Plant>
@@ -200,7 +220,6 @@ class DelaySearch {
   DelaySearch(const Plant& plant, const MaxDelayOptions& options)
       : plant_(plant),
         options_(options),
-        family_(SamplingFamily<Plant>::of_period(plant, options.delay_fraction)),
         reference_(options.relative_to_true_force
                        ? true_amplitude_per_force(plant, options.angular_frequency())
                        : std::numeric_limits<double>::quiet_NaN()) {}
@@ -209,7 +228,7 @@ class DelaySearch {
     feasible_ = std::min(options_.shortest_period, 1e-3 / options_.frequency);
     gains_ = gains_at(feasible_);
     if (gains_.empty()) return {MaxDelayOutcome::never, 0.0, none, limit_at(feasible_, none)};
-    const double certain = certain_from(), end = longest(certain);
+    const double certain = certain_from(plant_, options_), end = longest(certain);
     double goal = end, boundary = end;
     while (const std::optional<double> infeasible = advance(goal)) {
       boundary = boundary_between(feasible_, *infeasible);
@@ -254,37 +273,14 @@ class DelaySearch {
                                                         : MaxDelayLimit::attenuation;
   }
 
-  /// From where on D = 0 stabilises however slow the sampling; infinite where that is not shown.
-  double certain_from() const {
-    if constexpr (is_walked_)
-      return infinity;
-    else
-      return SlowSamplingBound(plant_, {options_.proportional_gain, 0.0}, options_.delay_fraction)
-          .certain_from();
-  }
-
   /// The search limit, or the longest period of it whose samples show the vibration.
   double longest(double certain) const {
     const double asked = options_.longest_period;
     if (options_.criterion == DelayCriterion::stable)
-      return std::max(asked > 0.0 ? asked : longest_of_stability(certain), feasible_);
+      return std::max(asked > 0.0 ? asked : longest_of_stability(plant_, certain), feasible_);
     double nyquist = 0.5 / options_.frequency;
     while (!shows_vibration(options_, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
     return asked > 0.0 ? std::min(asked, nyquist) : nyquist;
-  }
-
-  /// How far stability is looked for where the question does not say it.
-  double longest_of_stability(double certain) const {
-    if constexpr (is_walked_) {
-      const auto slowest = std::min_element(
-          plant_.modes.begin(), plant_.modes.end(), [](const auto& one, const auto& other) {
-            return one.angular_frequency < other.angular_frequency;
-          });
-      return 20.0 * 2.0 * pi<double> / slowest->angular_frequency;
-    } else {
-      const double slowest = slowest_mode_period(plant_);
-      return certain <= 200.0 * slowest ? certain : 20.0 * slowest;
-    }
   }
 
   bool is_exhausted() const { return steps_ >= options_.most_steps; }
@@ -329,10 +325,11 @@ class DelaySearch {
 
   bool serves(double differential_gain, double next) {
     const PdGains<double> gains{options_.proportional_gain, differential_gain};
+    const auto family = SamplingFamily<Plant>::of_period(plant_, options_.delay_fraction);
     const auto shown = [&](double period, double radius) {
       return options_.criterion == DelayCriterion::stable
-                 ? family_.stability(gains, period, radius)
-                 : attenuation(plant_, family_, gains, options_.hold, options_.angular_frequency(),
+                 ? family.stability(gains, period, radius)
+                 : attenuation(plant_, family, gains, options_.hold, options_.angular_frequency(),
                                period, radius, reference_);
     };
     const auto edge = [](double, double failing) { return failing; };
@@ -377,11 +374,10 @@ class DelaySearch {
       if (!gains.empty()) start_ = gains.front().representative();
       (gains.empty() ? infeasible : feasible) = middle;
     }
-    if constexpr (has_closed_forms<Plant>) {
+    if constexpr (has_closed_forms<Plant>)
       return narrowed_between(feasible, infeasible);
-    } else {
+    else
       return feasible;
-    }
   }
 
   double narrowed_between(double feasible, double infeasible) {
@@ -397,15 +393,13 @@ class DelaySearch {
 
   /// Round-off may place the sign change a little beyond the last period with an interval of gains.
   double last_feasible_before(double feasible, double infeasible) const {
-    for (double step = 1e-13 * infeasible; infeasible - step > feasible; step *= 2.0) {
+    for (double step = 1e-13 * infeasible; infeasible - step > feasible; step *= 2.0)
       if (!gains_at(infeasible - step).empty()) return infeasible - step;
-    }
     return feasible;
   }
 
   Plant plant_;
   MaxDelayOptions options_;
-  SamplingFamily<Plant> family_;
   double feasible_ = 0.0;  // every period up to it is feasible
   Intervals gains_;        // that serve there
   int steps_ = 0;          // of the search so far
