@@ -250,7 +250,6 @@ inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer
 /// @throws InvalidParameter where conductor, absorber or hardware are not admissible
 inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& conductor) {
   validate(conductor.modes, conductor.absorber);
-  if (conductor.poles.empty()) return {};
   return detail::enclosed_poles(detail::EnclosedTransfer(conductor),
                                 with_hardware(conductor.poles, conductor.hardware));
 }

@@ -140,11 +140,12 @@ inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles,
 /// @param poles     `plant_poles`, all of them
 /// @param hardware  its lags; poles of it that are equal are taken apart by a part in 10⁵ (three of
 ///                  them by one in 10³), which moves the response by a part in 10¹⁰ (10⁶)
-/// @return nothing where a pole of the plant is one of the hardware's
+/// @return nothing where the plant has no poles of its own, or one of them is one of the hardware's
 /// @throws InvalidParameter where the hardware is not admissible
 inline std::vector<PlantPole> with_hardware(const std::vector<PlantPole>& poles,
                                             const LoopHardware& hardware) {
   validate(hardware);
+  if (poles.empty()) return {};
   const detail::HardwarePoles lags(hardware);
   auto all = detail::lagged(detail::lagged(poles, lags.drive), lags.filter);
   for (const auto* of : {&lags.drive, &lags.filter})

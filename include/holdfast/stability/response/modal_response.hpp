@@ -349,7 +349,7 @@ template <class Scalar = double>
 ModalResponse<Scalar> modal_response(const ConductorWithAbsorber& conductor,
                                      const Sampling<detail::Undeduced<Scalar>>& sampling) {
   const auto poles = with_hardware(conductor.poles, conductor.hardware);
-  const auto response = poles.empty() || conductor.poles.empty()
+  const auto response = poles.empty()
                             ? ModalResponse<Scalar>(linear_plant<Scalar>(conductor), sampling)
                             : modal_response<Scalar>(poles, sampling);
   return response.with_sensor(conductor.hardware.has_velocity_sensor);
