@@ -15,7 +15,7 @@
 #include "jobs/support.hpp"
 #include "process/group/process_group.hpp"
 #include "process/worker_threads.hpp"
-#include "report/page/picture.hpp"
+#include "report/page/report.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -6,12 +6,11 @@
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
 #include "holdfast/chaos/modal_classification.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
-#include "holdfast/chaos/switching_complexity.hpp"
-#include "holdfast/chaos/zero_one_test.hpp"
 
 namespace holdfast {
 
 template class BlockSpectrum<double>;
+template ItineraryBlocks::ItineraryBlocks(const Matrix<double, 5>&, const Matrix<double, 5>&);
 
 template EventClassification classify_motion(const ImplementedLoop&, const Vector<double, 4>&,
                                              const OrbitLimits&);
@@ -29,8 +28,6 @@ template EventClassificationOf<Eigen::Dynamic> classify_motion(
 template LyapunovResult run_event_lyapunov(EventMotion<DriveContact<ControlledPlant>>&,
                                            const LyapunovRun&, const std::function<void()>&);
 
-template ItineraryBlocks::ItineraryBlocks(const Matrix<double, 5>&, const Matrix<double, 5>&);
-
 template class LyapunovSpectrum<double, 5>;
 template class LyapunovSpectrum<double, 7>;
 template class LyapunovSpectrum<double, Eigen::Dynamic>;
@@ -40,9 +37,5 @@ template SampledClassification classify_motion(const IdealLoop<double>&, const V
 
 template SampledClassification classify_motion(const ModalLoop&, const ModalMotion::Full&,
                                                const OrbitLimits&);
-
-template SwitchingComplexity switching_complexity(const std::vector<bool>&);
-
-template double zero_one_test(const std::vector<double>&, int);
 
 }  // namespace holdfast

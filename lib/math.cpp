@@ -1,7 +1,7 @@
-// Explicit instantiations of math/poly and math/signal for double.
+// Explicit instantiations of math/poly, math/roots and math/signal for double.
 
 #include "holdfast/math/poly/polynomial.hpp"
-#include "holdfast/math/signal/spectrum.hpp"
+#include "holdfast/math/roots/pole_sum_roots.hpp"
 
 namespace holdfast {
 
@@ -12,6 +12,6 @@ template std::vector<std::complex<double>> roots(const Eigen::MatrixBase<Polynom
 template std::vector<std::complex<double>> roots(const Eigen::MatrixBase<Polynomial<double, 5>>&,
                                                  double);
 
-template std::vector<SpectralLine> amplitude_spectrum(std::vector<double>, double, SpectralWindow);
+template std::vector<std::complex<double>> pole_sum_roots(PoleSum<double>, bool);
 
 }  // namespace holdfast

@@ -7,7 +7,6 @@
 #include "holdfast/motion/next_event.hpp"
 #include "holdfast/motion/subinterval_step.hpp"
 #include "holdfast/motion/variational_flow.hpp"
-#include "holdfast/plant/decaying_norm.hpp"
 
 namespace holdfast {
 
@@ -21,7 +20,6 @@ template NextEvent<4> next_event(const AffineDynamicsOf<4>&, const GuardsOf<4>&,
 template NextEvent<Eigen::Dynamic> next_event(const AffineDynamicsOf<Eigen::Dynamic>&,
                                               const GuardsOf<Eigen::Dynamic>&,
                                               const ModeStretch<Eigen::Dynamic>&);
-template DecayingNorm<Eigen::Dynamic>::DecayingNorm(const Matrix<double, Eigen::Dynamic>&);
 template HeldStep<double, 4, 1> VariationalFlow<DriveContact<>>::exponential(int, double) const;
 template EventMotion<DriveContact<>> event_motion(const ImplementedLoop&,
                                                   const StateOf<TwoMass<double>>&);

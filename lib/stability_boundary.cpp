@@ -6,7 +6,6 @@
 #include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
-#include "holdfast/stability/boundary/stable_regions.hpp"
 
 namespace holdfast {
 
@@ -22,10 +21,6 @@ template std::vector<Interval<double>> stable_intervals(const Vector<double, 5>&
                                                         const Vector<double, 5>&);
 template std::vector<Interval<double>> stable_intervals(const Vector<double, 6>&,
                                                         const Vector<double, 6>&);
-template std::vector<GainRegion<double>> gain_regions(const AffinePolynomial<double, 4>&,
-                                                      const GainWindow&);
-template std::vector<GainRegion<double>> gain_regions(const AffinePolynomial<double, 5>&,
-                                                      const GainWindow&);
 template std::vector<GainCrossing> circle_crossings(const LoopMap<double>&, FreeGain,
                                                     const PdGains<double>&);
 template std::vector<Interval<double>> stable_gains(const LoopMap<double>&, FreeGain,

@@ -1,7 +1,6 @@
 // Explicit instantiations of stability/margins for double.
 
 #include "holdfast/stability/margins/margins.hpp"
-#include "holdfast/stability/margins/modal_margins.hpp"
 #include "holdfast/stability/margins/sampling_family.hpp"
 #include "holdfast/stability/margins/sampling_proof.hpp"
 
@@ -15,13 +14,6 @@ template StabilityMargins stability_margins(const LinearPlant<double>&, const Sa
                                             const PdGains<double>&, const MarginSearch&);
 template LoopMargins loop_margins(const TwoMass<double>&, const Sampling<double>&,
                                   const PdGains<double>&, const MarginSearch&);
-template StabilityMargins modal_stability_margins<double>(const std::vector<PlantPole>&,
-                                                          const Sampling<double>&,
-                                                          const PdGains<double>&,
-                                                          const MarginSearch&, bool);
-template LoopMargins modal_loop_margins<double>(const std::vector<PlantPole>&,
-                                                const Sampling<double>&, const PdGains<double>&,
-                                                bool);
 
 }  // namespace holdfast
 

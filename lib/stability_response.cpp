@@ -1,7 +1,6 @@
 // Explicit instantiations of stability/response for double.
 
 #include "holdfast/stability/response/loop_response.hpp"
-#include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_damping.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
@@ -21,8 +20,6 @@ template ModalResponse<double> modal_response<double>(const ConductorWithAbsorbe
                                                       const Sampling<double>&);
 template ModalResponse<double> modal_response<double>(const std::vector<PlantPole>&,
                                                       const Sampling<double>&);
-template std::vector<std::complex<double>> loop_roots(const ModalResponse<double>&,
-                                                      const PdGains<double>&);
 template SteadyResponse<double> steady_response<double>(const ConductorWithAbsorber&,
                                                         const Sampling<double>&, ForceHold, double);
 template std::vector<ModeDamping> modal_damping<double>(const std::vector<PlaceMode<double>>&,

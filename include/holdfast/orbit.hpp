@@ -9,7 +9,6 @@
 #include "holdfast/orbit/event/return_map.hpp"
 #include "holdfast/orbit/itinerary_maps.hpp"
 #include "holdfast/orbit/loop_orbit.hpp"
-#include "holdfast/orbit/modal/modal_attraction.hpp"
 #include "holdfast/orbit/modal/modal_itinerary_maps.hpp"
 #include "holdfast/orbit/modal/modal_orbit_search.hpp"
 #include "holdfast/orbit/motion_border.hpp"

@@ -36,7 +36,6 @@
 #include "holdfast/stability/polynomial/loop_polynomial.hpp"
 #include "holdfast/stability/response/enclosed_response.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
-#include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_damping.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"

@@ -174,8 +174,4 @@ CablePlaceModes cable_place_modes(const BasicBarChain<Real>& chain, const HungMa
   return found;
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template CablePlaceModes cable_place_modes(const BarChain&, const HungMass&, int, BarMass);
-#endif
-
 }  // namespace holdfast

@@ -71,8 +71,4 @@ ElementsModes elements_modes(const Conductor<Real>& conductor, int elements, int
   return result;
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template ElementsModes elements_modes(const Conductor<double>&, int, int);
-#endif
-
 }  // namespace holdfast

@@ -233,10 +233,4 @@ double conductor_stiffness(const Statics& statics, StiffnessReading reading,
   return detail::least_squares_slope(statics, 0.5 * (range.below - range.above), 0.5 * width);
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template class StaticsFromRest<CatenaryPointLoad<double>>;
-extern template StaticsFromRest<CatenaryPointLoad<double>> exact_statics(const Conductor<double>&,
-                                                                         double, double);
-#endif
-
 }  // namespace holdfast

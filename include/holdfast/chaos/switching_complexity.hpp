@@ -63,8 +63,4 @@ SwitchingComplexity switching_complexity(const Sequence& sequence) {
   return result;
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template SwitchingComplexity switching_complexity(const std::vector<bool>&);
-#endif
-
 }  // namespace holdfast

@@ -142,8 +142,4 @@ double zero_one_test(const Series& series, int frequencies = 100) {
   return detail::median_of_sorted(correlations);
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template double zero_one_test(const std::vector<double>&, int);
-#endif
-
 }  // namespace holdfast

@@ -77,8 +77,4 @@ DecayingNorm<States>::DecayingNorm(const Matrix<double, States>& a) {
   exists_ = true;
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template DecayingNorm<Eigen::Dynamic>::DecayingNorm(const Matrix<double, Eigen::Dynamic>&);
-#endif
-
 }  // namespace holdfast

@@ -116,8 +116,4 @@ std::optional<RelativeDecay<Scalar>> relative_decay(const TwoMass<Scalar>& plant
   return decay;
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template DecayEvents free_decay_events(const TwoMass<double>&);
-#endif
-
 }  // namespace holdfast

@@ -169,8 +169,4 @@ ReductionResult reduce_to_frequencies(const FrequencyReduction<Scalar>& asked) {
   return result;
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template ReductionResult reduce_to_frequencies(const FrequencyReduction<double>&);
-#endif
-
 }  // namespace holdfast

@@ -101,9 +101,4 @@ MotionMetrics event_metrics(const ImplementedLoopOf<Plant>& loop,
   return detail::metrics_of_motion(motion, span, pause);
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template MotionMetrics event_metrics(const ImplementedLoop&, const Vector<double, 4>&,
-                                            double, const std::function<void()>&);
-#endif
-
 }  // namespace holdfast

@@ -8,7 +8,7 @@
 #include "case/model/conditioning.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/rational.hpp"
-#include "holdfast/orbit/modal/modal_attraction.hpp"
+#include "holdfast/orbit/modal/modal_orbit_search.hpp"
 #include "holdfast/orbit/modal/modal_itinerary_maps.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
 #include "holdfast/plant/plant_poles.hpp"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -7,6 +9,8 @@
 #include "case/case.hpp"
 #include "case/job_context.hpp"
 #include "holdfast/core/axis.hpp"
+#include "io/text/csv.hpp"
+#include "report/picture/picture_panels.hpp"
 #include "text/compiled_texts.hpp"
 
 namespace holdfast::program {
@@ -142,5 +146,33 @@ std::string label_of(const std::string& key);
 
 /// So many times an axis of that label shows the key's value.
 double scale_of(const std::string& key);
+
+/// The largest finite |value| (m) of the columns of a table whose unit is the metre; 0 for none.
+double largest_length(const CsvTable& table);
+
+/// What the texts leave open of the panels of a table over axes, one for each column behind those:
+/// its label, its values, what its shades or, over one axis, its ordinate span, how it is drawn. A
+/// column of words is drawn with a shade, or a height, a word.
+std::vector<Values> panels_of(const CsvTable& table, std::size_t axes, const LengthUnit& unit);
+
+/// Whether a gnuplot can be started here (Debian package gnuplot-nox).
+bool gnuplot_available();
+
+/// The whole gnuplot script of a figure: style, axes, tables. It is run in the report's folder and
+/// reads data/NAME.csv.
+/// @param ending  of the picture: ".svg", ".png" or ".pdf"
+std::string gnuplot_script(const Figure& figure, const std::string& ending = ".svg");
+
+/// A picture in bytes, and its panels.
+struct Drawing {
+  std::string bytes;
+  std::vector<PicturePanel> panels;
+};
+
+/// Draws pictures/NAME.svg in the report's folder, or with another ending, and leaves the script
+/// beside it as NAME.gp; or neither, where they are not kept. The picture appears whole or not at
+/// all. Throws OutputError when gnuplot fails, in its words.
+Drawing draw(const Figure& figure, const std::filesystem::path& folder,
+             const std::string& ending = ".svg", bool kept = true);
 
 }  // namespace holdfast::program

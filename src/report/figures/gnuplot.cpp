@@ -1,4 +1,4 @@
-#include "report/figures/gnuplot.hpp"
+#include "report/figures/figure.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "report/figures/table_panels.hpp"
+#include "report/figures/figure.hpp"
 
 #include <algorithm>
 #include <array>

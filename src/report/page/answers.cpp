@@ -22,7 +22,6 @@
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "report/page/html.hpp"
-#include "report/page/motions.hpp"
 #include "report/switching/switching_study.hpp"
 #include "text/text.hpp"
 

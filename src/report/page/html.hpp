@@ -6,8 +6,7 @@
 #include "report/comparison/comparison.hpp"
 #include "report/figures/figure.hpp"
 #include "report/page/answers.hpp"
-#include "report/page/motions.hpp"
-#include "report/picture/page_picture.hpp"
+#include "report/picture/picture_panels.hpp"
 
 namespace holdfast::program {
 

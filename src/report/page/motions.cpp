@@ -1,4 +1,4 @@
-#include "report/page/motions.hpp"
+#include "report/page/answers.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "report/page/picture.hpp"
+#include "report/page/report.hpp"
 
 #include <unistd.h>
 
@@ -15,8 +15,6 @@
 #include "process/errors.hpp"
 #include "process/group/process_group.hpp"
 #include "report/figures/figure.hpp"
-#include "report/figures/gnuplot.hpp"
-#include "report/figures/table_panels.hpp"
 #include "store/work_store.hpp"
 #include "text/text.hpp"
 

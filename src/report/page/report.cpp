@@ -20,7 +20,6 @@
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"
 #include "report/figures/figure.hpp"
-#include "report/figures/gnuplot.hpp"
 #include "report/page/answers.hpp"
 #include "report/page/html.hpp"
 #include "report/switching/switching_page.hpp"

@@ -1,10 +1,13 @@
-#include "report/picture/page_picture.hpp"
+#include "report/picture/picture_panels.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <sstream>
+#include <string_view>
 
-#include "report/figures/gnuplot.hpp"
-#include "report/picture/compact_svg.hpp"
+#include "report/figures/figure.hpp"
 #include "text/text.hpp"
 
 namespace holdfast::program {
@@ -29,6 +32,53 @@ std::string base64(const std::string& bytes) {
   return result;
 }
 
+/// 14 tenths are "1.4", −4 "-.4".
+std::string of_tenths(long tenths) {
+  const long size = std::labs(tenths);
+  const std::string whole = size < 10 && size != 0 ? "" : std::to_string(size / 10);
+  return (tenths < 0 ? "-" : "") + whole + (size % 10 == 0 ? "" : "." + std::to_string(size % 10));
+}
+
+/// The curve "M60.45,278.47 L70.20,278.47 …" of gnuplot by steps in tenths of a point, which are
+/// shorter than places; as it is where it is another.
+std::string by_steps(const std::string& curve) {
+  std::istringstream words(curve);
+  std::string text;
+  long x = 0, y = 0;
+  for (std::string word; words >> word;) {
+    const std::size_t comma = std::min(word.find(','), word.size());
+    const auto right = parse_number(std::string_view(word).substr(1, comma - 1));
+    const auto down = parse_number(std::string_view(word).substr(std::min(comma + 1, word.size())));
+    if ((word[0] != 'M' && word[0] != 'L') || !right || !down) return curve;
+    const long to_x = std::lround(10.0 * *right), to_y = std::lround(10.0 * *down);
+    const bool draws = word[0] == 'L';
+    if (draws && to_x == x && to_y == y) continue;
+    const std::string second = of_tenths(draws ? to_y - y : to_y);
+    text += (draws ? "l" : "M") + of_tenths(draws ? to_x - x : to_x);
+    text += (second[0] == '-' ? "" : " ") + second;
+    x = to_x;
+    y = to_y;
+  }
+  return text;
+}
+
+/// The drawing without indents, its blue in few words and long curves by steps; shapes of points
+/// are short and of any size.
+std::string shortened(const std::string& svg) {
+  constexpr std::size_t longest_shape = 100;
+  const std::string before = " d='";
+  std::string text;
+  std::size_t done = 0;
+  for (std::size_t at = svg.find(before); at != std::string::npos; at = svg.find(before, done)) {
+    const std::size_t begin = at + before.size(), end = std::min(svg.find('\'', begin), svg.size());
+    const std::string curve = svg.substr(begin, end - begin);
+    text +=
+        svg.substr(done, begin - done) + (curve.size() > longest_shape ? by_steps(curve) : curve);
+    done = end;
+  }
+  return replaced(replaced(text + svg.substr(done), "\t", ""), "rgb(  0, 114, 178)", "#0072b2");
+}
+
 }  // namespace
 
 std::string svg_url(const std::string& svg) {
@@ -45,7 +95,7 @@ std::string png_url(const std::string& png) { return "data:image/png;base64," + 
 PagePicture page_picture(const Figure& figure, const std::filesystem::path& folder) {
   constexpr std::size_t short_enough = 60000;
   const Drawing drawing = draw(figure, folder);
-  PagePicture vector{svg_url(compact_svg(drawing.bytes)), drawing.panels};
+  PagePicture vector{svg_url(shortened(drawing.bytes)), drawing.panels};
   if (vector.url.size() <= short_enough) return vector;
   const Drawing dots = draw(figure, folder, ".png", false);
   PagePicture raster{png_url(dots.bytes), dots.panels};

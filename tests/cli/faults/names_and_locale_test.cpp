@@ -5,7 +5,6 @@
 #include "cli/every_job.hpp"
 #include "cli/running_program.hpp"
 #include "report/figures/figure.hpp"
-#include "report/figures/gnuplot.hpp"
 
 namespace holdfast::tests {
 namespace {

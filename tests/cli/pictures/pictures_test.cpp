@@ -4,7 +4,6 @@
 #include "cli/running_program.hpp"
 #include "io/file/folder_lock.hpp"
 #include "report/figures/figure.hpp"
-#include "report/figures/gnuplot.hpp"
 #include "support/other_gnuplot.hpp"
 
 namespace holdfast::tests {

@@ -1,6 +1,5 @@
 #include "cli/program.hpp"
 #include "report/figures/figure.hpp"
-#include "report/figures/gnuplot.hpp"
 
 namespace holdfast::tests {
 namespace {

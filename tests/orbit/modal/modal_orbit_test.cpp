@@ -3,7 +3,6 @@
 #include "holdfast/cable/taut_string.hpp"
 #include "holdfast/control/controlled_plant.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
-#include "holdfast/orbit/modal/modal_attraction.hpp"
 #include "holdfast/orbit/modal/modal_orbit_search.hpp"
 #include "support/move_samples.hpp"
 #include "support/string_case.hpp"
@@ -72,7 +71,10 @@ TEST(ModalOrbit, IsWhereTheMotionComesTo) {
 }
 
 TEST(ModalOrbit, IsThatOfTheDensePlant) {
-  for (const ModalLoop& loop : loops_with_orbits()) {
+  std::vector<ModalLoop> loops = loops_with_orbits();
+  loops.push_back(loop_of(6, {0.005, 0.0025}, -4.0, 0.0, ForceHold::exact));
+  loops.push_back(loop_of(6, {0.005, 0.0}, -4.0, 0.0, ForceHold::sampled));
+  for (const ModalLoop& loop : loops) {
     const PeriodicOrbit orbit = certified_orbit(loop);
     const DigitalLoop digital{
         loop.sampling, {0.0, 0.0}, multi_harmonic_force(loop.excitation), loop.hold};

@@ -1,7 +1,7 @@
 // All roots of a loop at once, against the eigenvalues of its map; and what bundled modes say of
 // the lowest stable gain, against the closed limit of an infinite string.
 
-#include "holdfast/stability/response/loop_roots.hpp"
+#include "holdfast/stability/response/modal_response.hpp"
 
 #include <Eigen/Eigenvalues>
 

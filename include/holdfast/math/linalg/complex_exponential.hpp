@@ -1,7 +1,11 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <cstddef>
+#include <vector>
 
 #include "holdfast/core/compiler.hpp"
 
@@ -29,5 +33,97 @@ template <class Scalar>
 std::complex<Scalar> exponential_integral(const std::complex<Scalar>& s, const Scalar& t) {
   return s == std::complex<Scalar>(0) ? std::complex<Scalar>(t) : complex_expm1(s * t) / s;
 }
+
+namespace detail {
+
+/// Complex numbers side by side in vectors of the processor, for sums over many poles.
+/// @tparam Scalar  double
+template <class Scalar>
+struct ComplexLanes {
+  static constexpr int size = EIGEN_MAX_STATIC_ALIGN_BYTES > 16  ///< how many of them
+                                  ? EIGEN_MAX_STATIC_ALIGN_BYTES / sizeof(Scalar)
+                                  : 2;
+  using Reals = Eigen::Array<Scalar, size, 1>;  ///< a real number in each lane
+
+  Reals re = Reals::Zero(), im = Reals::Zero();
+
+  /// Sets one lane.
+  void set(Eigen::Index lane, const std::complex<Scalar>& value) {
+    re[lane] = value.real();
+    im[lane] = value.imag();
+  }
+  /// The number in one lane.
+  std::complex<Scalar> operator[](Eigen::Index lane) const { return {re[lane], im[lane]}; }
+  /// Of all lanes.
+  std::complex<Scalar> sum() const { return {re.sum(), im.sum()}; }
+  /// 1/z.
+  ComplexLanes inverse() const {
+    const Reals scale = (re * re + im * im).inverse();
+    return {re * scale, -im * scale};
+  }
+  ComplexLanes& operator+=(const ComplexLanes& other) {
+    re += other.re;
+    im += other.im;
+    return *this;
+  }
+  friend ComplexLanes operator-(const ComplexLanes& a, const ComplexLanes& b) {
+    return {a.re - b.re, a.im - b.im};
+  }
+  friend ComplexLanes operator*(const ComplexLanes& a, const ComplexLanes& b) {
+    return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+  }
+  friend ComplexLanes operator-(const std::complex<Scalar>& a, const ComplexLanes& b) {
+    return {a.real() - b.re, a.imag() - b.im};
+  }
+  friend ComplexLanes operator+(const ComplexLanes& a, const std::complex<Scalar>& b) {
+    return {a.re + b.real(), a.im + b.imag()};
+  }
+};
+
+/// Rows of complex numbers, several of which fill a vector of the processor.
+/// @tparam Scalar  double
+template <class Scalar, std::size_t Columns>
+class ComplexRows {
+ public:
+  using Row = std::array<std::complex<Scalar>, Columns>;    ///< a row
+  using Block = std::array<ComplexLanes<Scalar>, Columns>;  ///< several of them
+
+  /// @param first  what the last block, which is filled up with zeros, has in the first column
+  explicit ComplexRows(const Scalar& first = Scalar(0)) : first_(first) {}
+
+  /// Adds a row.
+  void push_back(const Row& row) {
+    if (size_ % lanes == 0) {
+      blocks_.emplace_back();
+      blocks_.back().front().re = first_;
+    }
+    set(size_++, row);
+  }
+  /// Sets the k-th row.
+  void set(std::size_t k, const Row& row) {
+    for (std::size_t c = 0; c < Columns; ++c) blocks_[k / lanes][c].set(lane_of(k), row[c]);
+  }
+  /// The k-th row.
+  Row operator[](std::size_t k) const {
+    Row row;
+    for (std::size_t c = 0; c < Columns; ++c) row[c] = blocks_[k / lanes][c][lane_of(k)];
+    return row;
+  }
+  /// How many rows there are.
+  std::size_t size() const { return size_; }
+  /// All rows.
+  std::vector<Block>& blocks() { return blocks_; }
+  const std::vector<Block>& blocks() const { return blocks_; }  ///< likewise
+
+ private:
+  static constexpr std::size_t lanes = ComplexLanes<Scalar>::size;
+  static Eigen::Index lane_of(std::size_t k) { return static_cast<Eigen::Index>(k % lanes); }
+
+  Scalar first_;
+  std::vector<Block> blocks_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace detail
 
 }  // namespace holdfast

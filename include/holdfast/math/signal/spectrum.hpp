@@ -86,9 +86,4 @@ inline std::int64_t whole_period_samples(std::int64_t available, double frequenc
   return available - available % common;
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template std::vector<SpectralLine> amplitude_spectrum(std::vector<double>, double,
-                                                             SpectralWindow);
-#endif
-
 }  // namespace holdfast

@@ -10,6 +10,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/forcing.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/motion/modal/natural_motions.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/plant/plant_poles.hpp"
@@ -45,11 +46,11 @@ class ModalMotion {
     Full unit = Full::Zero(state.size());
     unit.head(state.size() - 2)(Eigen::seq(0, Eigen::last, 2)) = bent_conductor(loop.modes);
     for (std::size_t k = 0; k < natural.size(); ++k) {
-      if (k % lanes == 0) blocks_.emplace_back();
-      blocks_.back().fill(static_cast<Eigen::Index>(k % lanes), natural[k],
-                          natural.amplitude(k, state), natural.amplitude(k, unit));
+      const NaturalMotion& of = natural[k];
+      motions_.push_back({natural.amplitude(k, state), of.decay, of.present, of.past, of.cosine,
+                          of.sine, std::conj(of.z), std::conj(of.v), std::conj(of.z2),
+                          std::conj(of.v2), natural.amplitude(k, unit)});
     }
-    motions_ = natural.size();
     read();
   }
 
@@ -66,12 +67,14 @@ class ModalMotion {
     const double u = present_force_, before = previous_force_;
     const Vector<double, 2> force = phases_.next();
     Seen seen;
-    for (Block& b : blocks_) {
-      const Lanes re = b.decay.re * b.state.re - b.decay.im * b.state.im + b.present.re * u +
-                       b.past.re * before + b.cosine.re * force[0] + b.sine.re * force[1];
-      const Lanes im = b.decay.re * b.state.im + b.decay.im * b.state.re + b.present.im * u +
-                       b.past.im * before + b.cosine.im * force[0] + b.sine.im * force[1];
-      b.state = {re, im};
+    for (Block& b : motions_.blocks()) {
+      const Part &state = b[0], &decay = b[1], &present = b[2], &past = b[3];
+      const Part &cosine = b[4], &sine = b[5];
+      const Lanes re = decay.re * state.re - decay.im * state.im + present.re * u +
+                       past.re * before + cosine.re * force[0] + sine.re * force[1];
+      const Lanes im = decay.re * state.im + decay.im * state.re + present.im * u +
+                       past.im * before + cosine.im * force[0] + sine.im * force[1];
+      b[0] = {re, im};
       seen.add(b);
     }
     seen_ = seen.sums();
@@ -82,9 +85,9 @@ class ModalMotion {
   /// Bends the conductor by that much (m) at the absorber, as a force there would; call before
   /// `sense()`.
   void displace_conductor(double by) {
-    for (Block& b : blocks_) {
-      b.state.re += by * b.bent.re;
-      b.state.im += by * b.bent.im;
+    for (Block& b : motions_.blocks()) {
+      b[0].re += by * b[10].re;
+      b[0].im += by * b[10].im;
     }
     read();
   }
@@ -101,71 +104,37 @@ class ModalMotion {
   Memory memory() const { return {seen_, previous_force_, law_.memory()}; }
   /// ξ of every natural motion, in the order of NaturalMotions.
   Eigen::VectorXcd amplitudes() const {
-    Eigen::VectorXcd all(static_cast<Eigen::Index>(motions_));
-    for (std::size_t k = 0; k < motions_; ++k) {
-      const Part& state = blocks_[k / lanes].state;
-      const auto lane = static_cast<Eigen::Index>(k % lanes);
-      all[static_cast<Eigen::Index>(k)] = {state.re[lane], state.im[lane]};
-    }
+    Eigen::VectorXcd all(static_cast<Eigen::Index>(motions_.size()));
+    for (std::size_t k = 0; k < motions_.size(); ++k)
+      all[static_cast<Eigen::Index>(k)] = motions_[k][0];
     return all;
   }
 
  private:
-  // Natural motions that one turn of the loop takes care of: a vector of the processor's.
-  static constexpr std::size_t lanes = EIGEN_MAX_STATIC_ALIGN_BYTES > 16
-                                           ? EIGEN_MAX_STATIC_ALIGN_BYTES / sizeof(double)
-                                           : 2;
-  using Lanes = Eigen::Array<double, static_cast<int>(lanes), 1>;
-  using Complex = std::complex<double>;
-
-  /// A complex number of each of some natural motions.
-  struct Part {
-    Lanes re = Lanes::Zero(), im = Lanes::Zero();
-    void set(Eigen::Index k, const Complex& value) {
-      re[k] = value.real();
-      im[k] = value.imag();
-    }
-  };
-
-  /// Some natural motions.
-  struct Block {
-    Part state, decay, present, past, cosine, sine;
-    Part z, v, z2, v2;  // conjugates: Re(w ξ) = Re w̄ Re ξ + Im w̄ Im ξ
-    Part bent;
-
-    void fill(Eigen::Index k, const NaturalMotion& of, const Complex& amplitude,
-              const Complex& bend) {
-      state.set(k, amplitude);
-      bent.set(k, bend);
-      decay.set(k, of.decay);
-      present.set(k, of.present);
-      past.set(k, of.past);
-      cosine.set(k, of.cosine);
-      sine.set(k, of.sine);
-      z.set(k, std::conj(of.z));
-      v.set(k, std::conj(of.v));
-      z2.set(k, std::conj(of.z2));
-      v2.set(k, std::conj(of.v2));
-    }
-  };
+  /// Of natural motions: ξ, what it is after a sample, what forces add, the conjugates of what is
+  /// read, Re(w ξ) = Re w̄ Re ξ + Im w̄ Im ξ, and ξ of the bent conductor.
+  using Motions = detail::ComplexRows<double, 11>;
+  using Block = Motions::Block;
+  using Part = detail::ComplexLanes<double>;
+  using Lanes = Part::Reals;
 
   /// [z, ż, z₂, ż₂] of the blocks that were added, lane by lane.
   struct Seen {
     Lanes z = Lanes::Zero(), v = z, z2 = z, v2 = z;
 
     void add(const Block& of) {
-      const Lanes &re = of.state.re, &im = of.state.im;
-      z += of.z.re * re + of.z.im * im;
-      v += of.v.re * re + of.v.im * im;
-      z2 += of.z2.re * re + of.z2.im * im;
-      v2 += of.v2.re * re + of.v2.im * im;
+      const Lanes &re = of[0].re, &im = of[0].im;
+      z += of[6].re * re + of[6].im * im;
+      v += of[7].re * re + of[7].im * im;
+      z2 += of[8].re * re + of[8].im * im;
+      v2 += of[9].re * re + of[9].im * im;
     }
     State sums() const { return {z.sum(), v.sum(), z2.sum(), v2.sum()}; }
   };
 
   void read() {
     Seen seen;
-    for (const Block& block : blocks_) seen.add(block);
+    for (const Block& block : motions_.blocks()) seen.add(block);
     seen_ = seen.sums();
   }
 
@@ -173,8 +142,7 @@ class ModalMotion {
   Readings readings_;
   Backlash<double> law_;
   HarmonicForcing<double, 2> phases_;
-  std::vector<Block> blocks_;  // of natural motions, the last filled up with nothing
-  std::size_t motions_ = 0;
+  Motions motions_;
   State seen_;
   double previous_force_ = 0.0, present_force_ = 0.0;
   std::int64_t index_ = 0;

@@ -13,6 +13,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/gram_schmidt.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
+#include "holdfast/math/roots/pole_sum_roots.hpp"
 #include "holdfast/motion/modal/modal_deviations.hpp"
 #include "holdfast/motion/modal/natural_motions.hpp"
 #include "holdfast/orbit/cyclic_system.hpp"
@@ -61,6 +62,48 @@ class ModalItineraryMaps {
     return read;
   }
 
+  /// The first state of the steady motion of a drive that always transmits, ξ_j = A e^{iωτj} +
+  /// B e^{−iωτj}; not finite where the loop has a root there.
+  State steady() const {
+    using Phasors = Eigen::ArrayXcd;
+    const std::complex<double> i(0.0, 1.0), back = std::conj(turn_);
+    const double force = phases_.front().real();
+    const Phasors a_per = 0.5 / (turn_ - decay_.array()), b_per = 0.5 / (back - decay_.array());
+    const Phasors a_driven = a_per * (present_ + past_ * back).array();
+    const Phasors b_driven = b_per * (present_ + past_ * turn_).array();
+    const Phasors a_forced = force * a_per * (cosine_ - i * sine_).array();
+    const Phasors b_forced = force * b_per * (cosine_ + i * sine_).array();
+    const Phasors command =
+        (gains_.proportional * read_.row(0) + gains_.differential * read_.row(1)).transpose();
+    const auto phasor = [&](const Phasors& a, const Phasors& b) {
+      return (command * a).sum() + std::conj((command * b).sum());
+    };
+    // Of the force, u_j = Re(U e^{iωτj}).
+    const std::complex<double> u = phasor(a_forced, b_forced) / (1.0 - phasor(a_driven, b_driven));
+    const Phasors first = a_driven * u + a_forced + b_driven * std::conj(u) + b_forced;
+    State state(units().size());
+    state << first.real(), first.head(pairs_).imag(), (u * back).real();
+    return state;
+  }
+
+  /// The multipliers of a sample of a drive that always transmits; none where they are not told
+  /// apart.
+  std::vector<std::complex<double>> roots() const {
+    PoleSum<double> loop;
+    for (Eigen::Index k = 0; k < decay_.size(); ++k) {
+      const std::complex<double> read =
+          gains_.proportional * read_(0, k) + gains_.differential * read_(1, k);
+      const double share = k < pairs_ ? 0.5 : 1.0;  // the read of a pair counts for both
+      const PoleSum<double>::Part part{decay_[k] - 1.0, share * read * present_[k],
+                                       share * read * past_[k]};
+      loop.parts.push_back(part);
+      if (k < pairs_)
+        loop.parts.push_back(
+            {std::conj(part.increment), std::conj(part.present), std::conj(part.past)});
+    }
+    return pole_sum_roots(loop, past_.cwiseAbs().maxCoeff() > 0.0);
+  }
+
   /// What is seen at all samples of an itinerary from a given first state, and the state after its
   /// last sample.
   /// @param first      the state
@@ -97,6 +140,8 @@ class ModalItineraryMaps {
       read_.col(k) << of.z, of.v, of.z2, of.v2;
     }
     phases_.resize(static_cast<std::size_t>(ratio.denominator));
+    turn_ = std::polar(1.0, 2.0 * pi<double> * static_cast<double>(ratio.numerator) /
+                                static_cast<double>(ratio.denominator));
     std::int64_t turned = 0;  // p k modulo q
     for (std::complex<double>& force : phases_) {
       force = std::polar(loop.excitation.amplitude, 2.0 * pi<double> * static_cast<double>(turned) /
@@ -125,6 +170,7 @@ class ModalItineraryMaps {
   Eigen::VectorXcd decay_, present_, past_, cosine_, sine_;
   Eigen::Matrix<std::complex<double>, 4, Eigen::Dynamic> read_;
   std::vector<std::complex<double>> phases_;
+  std::complex<double> turn_;  // e^{iωτ}
   std::function<void()> watch_;
 };
 

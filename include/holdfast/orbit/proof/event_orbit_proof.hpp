@@ -347,9 +347,4 @@ EventOrbitProof prove_event_orbit(const IdealLoop<Scalar>& loop, const EventOrbi
                        largest_miss);
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template EventOrbitProof prove_event_orbit(const IdealLoop<double>&, const EventOrbit&,
-                                                  const StroboscopicState<DriveContact<>>&, double);
-#endif
-
 }  // namespace holdfast

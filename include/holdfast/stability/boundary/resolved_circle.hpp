@@ -15,7 +15,6 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
-#include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 
 namespace holdfast {
@@ -86,13 +85,17 @@ class ResolvedCircle {
   /// The number of roots of the loop outside the unit circle; −1 where round-off hides it: a root
   /// lies on the circle, or the gains are so large or so little finite that p is noise.
   int roots_outside(const PdGains<Scalar>& gains) const {
-    Scalar turned(0);
-    auto budget = static_cast<std::int64_t>(20 * places_.size());
-    for (std::size_t i = 0; i + 1 < places_.size(); ++i)
-      turned += turn_between(places_[i], places_[i + 1], gains, budget);
-    if (budget < 0) return -1;
-    const Scalar half_turns = turned / pi<Scalar>;
-    if (!(std::abs(half_turns - std::round(half_turns)) < Scalar(0.05))) return -1;
+    Turn turn{gains, static_cast<std::int64_t>(20 * places_.size())};
+    std::vector<std::complex<Scalar>> p;
+    p.reserve(places_.size());
+    for (const Place& place : places_)  // −0 counts as 0
+      p.push_back(characteristic(place.g, gains) + std::complex<Scalar>(0));
+    for (std::size_t i = 1; i < p.size(); ++i)
+      if (!turn.takes(p[i - 1], p[i]) && !turn.takes(p[i - 1], p[i], Scalar(4) * bend_of(p, i)))
+        halve(turn, {places_[i - 1].angle, p[i - 1]}, {places_[i].angle, p[i]});
+    const Scalar half_turns =
+        (std::arg(p.back()) - std::arg(p.front())) / pi<Scalar> + Scalar(2 * turn.crossings);
+    if (turn.budget < 0 || !(std::abs(half_turns - std::round(half_turns)) < 0.05)) return -1;
     return response_.unstable_poles() - static_cast<int>(std::lround(half_turns));
   }
 
@@ -193,19 +196,50 @@ class ResolvedCircle {
     return Scalar(1) - gains.proportional * g.displacement - gains.differential * g.velocity;
   }
 
-  /// The turn of p between two angles, which are halved while it is not small.
-  /// @param budget  values of G that may still be taken
-  Scalar turn_between(const Place& from, const Place& to, const PdGains<Scalar>& gains,
-                      std::int64_t& budget) const {
-    const auto a = characteristic(from.g, gains), b = characteristic(to.g, gains);
-    const Scalar along = a.real() * b.real() + a.imag() * b.imag();
-    const Scalar across = a.real() * b.imag() - a.imag() * b.real();
-    if (std::abs(across) <= along) return std::atan2(across, along);
-    const Scalar middle = (from.angle + to.angle) / Scalar(2);
-    if (!std::isfinite(across) || !(from.angle < middle && middle < to.angle)) budget = 0;
-    if (--budget < 0) return Scalar(0);
-    const Place between{middle, response_.at_angle(middle)};
-    return turn_between(from, between, gains, budget) + turn_between(between, to, gains, budget);
+  /// The turn of p along the circle, by how often it crosses the negative real line.
+  struct Turn {
+    PdGains<Scalar> gains;
+    std::int64_t budget;  ///< values of G that may still be taken
+    int crossings = 0;    ///< counterclockwise ones less the others
+
+    /// Takes a step of p that turns by no more than 45°, or whose chord passes 0 at a distance.
+    bool takes(const std::complex<Scalar>& a, const std::complex<Scalar>& b,
+               const Scalar& distance = std::numeric_limits<Scalar>::infinity()) {
+      const Scalar along = a.real() * b.real() + a.imag() * b.imag();
+      const Scalar across = a.real() * b.imag() - a.imag() * b.real();
+      if (!(std::abs(across) <= along || std::abs(across) > distance * std::abs(b - a)))
+        return false;
+      const bool below = a.imag() < Scalar(0);
+      if (below != (b.imag() < Scalar(0)) && (below ? across < Scalar(0) : across > Scalar(0)))
+        crossings += below ? -1 : 1;
+      return true;
+    }
+  };
+
+  /// How far p is from its chord at most between place i − 1 and i, by its second differences.
+  Scalar bend_of(const std::vector<std::complex<Scalar>>& p, std::size_t i) const {
+    if (i < 2 || i + 1 == p.size()) return std::numeric_limits<Scalar>::infinity();
+    const Scalar step = places_[i].angle - places_[i - 1].angle;
+    const auto from = [&](std::size_t j) {
+      const Scalar other = places_[j].angle - places_[j - 1].angle;
+      const auto expected = (p[j] - p[j - 1]) * (step / other);
+      return std::abs(p[i] - p[i - 1] - expected) * step / (Scalar(4) * (step + other));
+    };
+    return std::max(from(i - 1), from(i + 1));
+  }
+
+  /// Takes the turn of p between two angles by halves, each of which bends by about a quarter of
+  /// what the whole does: its chord tells the turn unless it passes 0 within four times that.
+  void halve(Turn& turn, const std::pair<Scalar, std::complex<Scalar>>& from,
+             const std::pair<Scalar, std::complex<Scalar>>& to) const {
+    const Scalar middle = (from.first + to.first) / Scalar(2);
+    if (!(from.first < middle && middle < to.first)) turn.budget = 0;
+    if (--turn.budget < 0) return;
+    const std::pair between{middle, characteristic(response_.at_angle(middle), turn.gains)};
+    const Scalar bend = std::abs(between.second - (from.second + to.second) / Scalar(2));
+    if (!std::isfinite(bend)) turn.budget = -1;
+    if (!turn.takes(from.second, between.second, bend)) halve(turn, from, between);
+    if (!turn.takes(between.second, to.second, bend)) halve(turn, between, to);
   }
 
   /// A root pair where Im X changes its sign.
@@ -248,6 +282,12 @@ class ResolvedCircle {
       return;
     const Scalar sign = here > Scalar(0) ? Scalar(1) : Scalar(-1);
     Scalar lower = places_[i - 1].angle, upper = places_[i + 1].angle;
+    // A parabola through the three that stays well away from zero says enough.
+    const Scalar way = places_[i].angle - lower, on = upper - places_[i].angle;
+    const Scalar curvature = ((after - here) / on - (here - before) / way) / (way + on);
+    const Scalar at_here = (here - before) / way + curvature * way;
+    const Scalar vertex = sign * (here - at_here * at_here / (Scalar(4) * curvature));
+    if (vertex > Scalar(0.1) * std::max(std::abs(before), std::abs(after))) return;
     const Scalar golden(0.3819660112501051);
     for (int step = 0; step < 40; ++step) {
       const Scalar left = lower + golden * (upper - lower),

@@ -300,11 +300,4 @@ std::vector<GainRegion<Scalar>> gain_regions(const AffinePolynomial<Scalar, Degr
   return detail::RegionBuilder<Scalar, Degree>(curves, window).regions();
 }
 
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template std::vector<GainRegion<double>> gain_regions(const AffinePolynomial<double, 4>&,
-                                                             const GainWindow&);
-extern template std::vector<GainRegion<double>> gain_regions(const AffinePolynomial<double, 5>&,
-                                                             const GainWindow&);
-#endif
-
 }  // namespace holdfast

@@ -98,18 +98,26 @@ DelayOffer delay_offer(const Plant& plant, const MaxDelayOptions& options, doubl
   return offer;
 }
 
-/// That of a conductor by its modes.
+/// The steady response of a conductor by its modes at one sampling period.
+template <class Scalar = double>
+SteadyResponse<Scalar> delay_response(const ConductorWithAbsorber& plant,
+                                      const MaxDelayOptions& options, double sampling_period) {
+  const double omega = options.angular_frequency();
+  const auto response =
+      steady_response<Scalar>(plant, options.sampling(sampling_period), options.hold, omega);
+  if (!options.relative_to_true_force) return response;
+  return response.relative_to(true_amplitude_per_force(plant, omega));
+}
+
+/// The offer of a conductor by its modes.
 template <class Scalar = double>
 DelayOffer delay_offer(const ConductorWithAbsorber& plant, const MaxDelayOptions& options,
                        double sampling_period) {
-  const auto sampling = options.sampling(sampling_period);
-  const ResolvedCircle<Scalar> circle(modal_response<Scalar>(plant, sampling));
+  const ResolvedCircle<Scalar> circle(
+      modal_response<Scalar>(plant, options.sampling(sampling_period)));
   DelayOffer offer{circle.stable_gains(FreeGain::differential, {options.proportional_gain, 0.0})};
-  if (options.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
-  const double omega = options.angular_frequency();
-  offer.response = steady_response<Scalar>(plant, sampling, options.hold, omega);
-  if (options.relative_to_true_force)
-    offer.response = offer.response->relative_to(true_amplitude_per_force(plant, omega));
+  if (options.criterion != DelayCriterion::stable && !offer.stable.empty())
+    offer.response = delay_response<Scalar>(plant, options, sampling_period);
   return offer;
 }
 
@@ -298,6 +306,11 @@ class DelaySearch {
     while (feasible_ < goal && !is_exhausted()) {
       count_step();
       const double next = std::min(goal, feasible_ * ratio);
+      if constexpr (is_walked_) {
+        if (!is_served(next)) return next;
+        feasible_ = next;
+        continue;
+      }
       Intervals gains = gains_at(next);
       if (gains.empty()) return next;
       bool joined = next <= feasible_ * options_.search_ratio;
@@ -311,6 +324,24 @@ class DelaySearch {
       }
     }
     return std::nullopt;
+  }
+
+  /// Whether the D that served last does so at another period, by all roots of its loop.
+  bool still_serves(double period) const {
+    const PdGains<double> gains{options_.proportional_gain, last_};
+    return shows_vibration(options_, period) &&
+           loop_excess(modal_response<double>(plant_, options_.sampling(period)), gains) < 0.0 &&
+           (options_.criterion == DelayCriterion::stable ||
+            delay_response(plant_, options_, period).ratio_to_uncontrolled(gains) < 1.0);
+  }
+
+  /// Whether that D serves a conductor by its modes, or another one, which is kept.
+  bool is_served(double period) {
+    if (still_serves(period)) return true;
+    const double gain = gain_at(period);
+    if (std::isnan(gain)) return false;
+    last_ = gain;
+    return true;
   }
 
   /// True where one D that serves at both ends serves in between.
@@ -370,6 +401,10 @@ class DelaySearch {
     constexpr double wide = is_walked_ ? 1.0 + 1e-9 : has_closed_forms<Plant> ? 1.01 : 1.0 + 1e-13;
     while (infeasible > wide * feasible) {
       const double middle = std::sqrt(feasible * infeasible);
+      if constexpr (is_walked_) {
+        (is_served(middle) ? feasible : infeasible) = middle;
+        continue;
+      }
       const Intervals gains = gains_at(middle);
       if (!gains.empty()) start_ = gains.front().representative();
       (gains.empty() ? infeasible : feasible) = middle;
@@ -404,6 +439,7 @@ class DelaySearch {
   Intervals gains_;        // that serve there
   int steps_ = 0;          // of the search so far
   double start_ = 0.0;     // D of minimum radius at a neighbouring period
+  double last_ = none;     // D that served last, of a conductor by its modes
   double reference_;       // m/N, of the true force; NaN where the held one is it
 };
 

@@ -15,7 +15,6 @@
 #include "holdfast/stability/design/minimax_amplitude.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
-#include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
 #include "holdfast/stability/response/response.hpp"

@@ -13,7 +13,6 @@
 #include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/margins/margins.hpp"
-#include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 
 namespace holdfast {
@@ -80,7 +79,9 @@ struct ModalMargins {
   template <class SamplingAt, class Next>
   MarginEnd walk(Scalar value, Scalar limit, const SamplingAt& sampling_at,
                  const Next& next) const {
-    const auto excess = [&](const Scalar& x) { return excess_of(response_at(sampling_at(x))); };
+    const auto excess = [&](const Scalar& x) {
+      return loop_excess_or_turn(response_at(sampling_at(x)), gains);
+    };
     Scalar inside = value;
     while (inside != limit) {
       const Scalar beyond =
@@ -152,14 +153,6 @@ struct ModalMargins {
 
   Sampling<Scalar> with_period(Scalar period) const {
     return {period, sampling.processing_delay / sampling.period * period};
-  }
-
-  /// ρ − 1; where not all roots are found, no more than its sign, by the turn of p.
-  Scalar excess_of(const Response& other) const {
-    const Scalar excess = loop_excess(other, gains);
-    if (std::isfinite(excess)) return excess;
-    const bool stable = ResolvedCircle<Scalar>(other).roots_outside(gains) == 0;
-    return stable ? -std::numeric_limits<Scalar>::min() : std::numeric_limits<Scalar>::min();
   }
 
   /// The end at which a root crosses the unit circle.
@@ -238,15 +231,5 @@ LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,
   return {MarginOutcome::stable, margins.reserve, factors.upper,
           factors.lower,         margins.phase(), margins.of_delay().above};
 }
-
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template StabilityMargins modal_stability_margins<double>(const std::vector<PlantPole>&,
-                                                                 const Sampling<double>&,
-                                                                 const PdGains<double>&,
-                                                                 const MarginSearch&, bool);
-extern template LoopMargins modal_loop_margins<double>(const std::vector<PlantPole>&,
-                                                       const Sampling<double>&,
-                                                       const PdGains<double>&, bool);
-#endif
 
 }  // namespace holdfast

@@ -12,7 +12,6 @@
 #include "holdfast/math/enclosure/enclosure.hpp"
 #include "holdfast/plant/enclosed_poles.hpp"
 #include "holdfast/stability/response/enclosed_response.hpp"
-#include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 
 namespace holdfast {

@@ -9,7 +9,6 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/math/linalg/eigenvalue_derivative.hpp"
 #include "holdfast/math/linalg/elimination.hpp"
 #include "holdfast/math/linalg/resolvent.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"

@@ -15,6 +15,7 @@
 #include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/math/linalg/eigenbasis.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
+#include "holdfast/math/roots/pole_sum_roots.hpp"
 #include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
@@ -59,9 +60,7 @@ class ModalResponse {
   /// G_z and G_v at λ = 1 + μ, given by μ so that nothing is lost where sampling is fast.
   CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const {
     if (dense_) return weighted(dense_->at_distance_from_one(mu), mu);
-    Sums sums;
-    for (const Pole& pole : poles_) sums.add(pole, mu);
-    return finished(sums, mu);
+    return finished(poles_.sums_at(mu), mu);
   }
 
   class Nearby;
@@ -83,7 +82,8 @@ class ModalResponse {
     Scalar factor(1);
     for (int k = 0; k < commands_; ++k) factor /= radius;
     scaled.unstable_ = 0;
-    for (Pole& pole : scaled.poles_) {
+    scaled.poles_ = {};
+    for (Pole pole : poles_.all()) {
       pole.increment = (pole.increment - offset) / radius;
       pole.displacement *= factor;
       pole.velocity *= factor;
@@ -92,16 +92,14 @@ class ModalResponse {
       const bool outside =
           Scalar(2) * pole.increment.real() + std::norm(pole.increment) > Scalar(0);
       scaled.unstable_ += outside ? 1 : 0;
+      scaled.poles_.add(pole);
     }
     return scaled;
   }
 
   /// What D multiplies as a filter of the displacements that are read: G_v = w(λ) G_z,
-  /// w(λ) = constant + change (1 − 1/λ).
-  struct Weight {
-    Scalar constant;  ///< of the reading; 1/s, or N/m where it stands for both gains
-    Scalar change;    ///< of its change within a sample
-  };
+  /// w(λ) = constant + change (1 − 1/λ); 1/s, or N/m where it stands for both gains.
+  using Weight = typename PoleSum<Scalar>::Weight;
 
   /// The response of a computer that has no sensor of the velocity.
   /// @param weight  of the readings
@@ -121,30 +119,17 @@ class ModalResponse {
   /// e^{s_k τ} − 1 of the plant's eigenvalues.
   std::vector<Complex> pole_increments() const {
     std::vector<Complex> increments;
-    for (const Pole& pole : poles_) increments.push_back(pole.increment);
+    for (const Pole& pole : poles_.all()) increments.push_back(pole.increment);
     return increments;
   }
 
   /// k, the commands on their way.
   int held_commands() const { return commands_; }
 
-  /// A pole's part in P G_z + D G_v.
-  struct LoopPart {
-    Complex increment;  ///< e^{s_k τ} − 1
-    Complex present;    ///< P and D times a_k
-    Complex past;       ///< P and D times b_k
-  };
-
-  /// P G_z + D G_v = λ^{1−k} w(λ) Σ (present + past/λ)/(λ − 1 − increment).
-  struct LoopParts {
-    std::vector<LoopPart> parts;  ///< of all poles; none where LoopResponse gives the values
-    Weight weight{Scalar(1), Scalar(0)};  ///< w, common to all
-    Scalar radius{1};  ///< r, λ being that of the loop divided by it: w(rλ) above
-  };
-
-  /// The loop as a sum over its poles.
-  LoopParts loop_parts(const PdGains<Scalar>& gains) const {
-    LoopParts loop;
+  /// 1 − P G_z − D G_v as a sum over all poles; without parts where LoopResponse gives the values.
+  PoleSum<Scalar> loop_parts(const PdGains<Scalar>& gains) const {
+    PoleSum<Scalar> loop;
+    loop.power = commands_ - 1;
     if (dense_) return loop;
     Scalar p = gains.proportional, d = gains.differential;
     if (weight_) {
@@ -153,7 +138,7 @@ class ModalResponse {
       p = Scalar(1);
       d = Scalar(0);
     }
-    for (const Pole& pole : poles_)
+    for (const Pole& pole : poles_.all())
       loop.parts.push_back({pole.increment, p * pole.displacement + d * pole.velocity,
                             p * pole.past_displacement + d * pole.past_velocity});
     return loop;
@@ -182,9 +167,34 @@ class ModalResponse {
       past_z += detail::plain_product(pole.past_displacement, factor);
       past_v += detail::plain_product(pole.past_velocity, factor);
     }
-    void add(const Pole& pole, const Complex& mu) {
-      const Complex away = mu - pole.increment;
-      add_times(pole, detail::inverse(away));
+  };
+
+  /// Poles, of which no e^{iθ} is as far as those that fill up the last vector of the processor.
+  struct Poles : detail::ComplexRows<Scalar, 5> {
+    Poles() : detail::ComplexRows<Scalar, 5>(Scalar(-8)) {}
+
+    void add(const Pole& of) {
+      this->push_back(
+          {of.increment, of.displacement, of.velocity, of.past_displacement, of.past_velocity});
+    }
+    std::vector<Pole> all() const {
+      std::vector<Pole> poles;
+      for (std::size_t k = 0; k < this->size(); ++k) {
+        const auto row = (*this)[k];
+        poles.push_back({row[0], row[1], row[2], row[3], row[4]});
+      }
+      return poles;
+    }
+    Sums sums_at(const Complex& mu) const {
+      detail::ComplexLanes<Scalar> z, v, past_z, past_v;
+      for (const auto& [increment, of_z, of_v, of_past_z, of_past_v] : this->blocks()) {
+        const auto factor = (mu - increment).inverse();
+        z += of_z * factor;
+        v += of_v * factor;
+        past_z += of_past_z * factor;
+        past_v += of_past_v * factor;
+      }
+      return {z.sum(), v.sum(), past_z.sum(), past_v.sum()};
     }
   };
 
@@ -223,15 +233,14 @@ class ModalResponse {
     if (std::abs(s.real()) * period_ < undamped && !creeps) s.real(-undamped / period_);
     const Complex present = exponential_integral(s, period_ - late_);
     const Complex past = std::exp(s * (period_ - late_)) * exponential_integral(s, late_);
-    poles_.push_back({complex_expm1(s * period_), residue.displacement * present,
-                      residue.velocity * present, residue.displacement * past,
-                      residue.velocity * past});
+    poles_.add({complex_expm1(s * period_), residue.displacement * present,
+                residue.velocity * present, residue.displacement * past, residue.velocity * past});
     unstable_ += s.real() > Scalar(0) ? 1 : 0;
   }
 
   static constexpr Scalar undamped{1e-11};  // of −Re s τ
 
-  std::vector<Pole> poles_;
+  Poles poles_;
   std::optional<LoopResponse<Scalar>> dense_;  // where the sums are not to be trusted
   int commands_ = 1, unstable_ = 0;
   Scalar period_, late_{0};       // τ and δ′
@@ -249,9 +258,10 @@ class ModalResponse<Scalar>::Nearby {
   /// @param centre    μ of the place
   Nearby(const ModalResponse& response, const Complex& centre)
       : response_(response), centre_(centre) {
+    const std::vector<Pole> all = response.poles_.all();
     std::vector<std::pair<Scalar, const Pole*>> poles;
-    for (const Pole& pole : response.poles_)
-      poles.emplace_back(std::norm(centre - pole.increment), &pole);
+    poles.reserve(all.size());
+    for (const Pole& pole : all) poles.emplace_back(std::norm(centre - pole.increment), &pole);
     const auto wanted = static_cast<std::size_t>(
         Scalar(8) + Scalar(3) * std::sqrt(static_cast<Scalar>(poles.size())));
     const std::size_t count = std::min(wanted, poles.size());
@@ -261,7 +271,7 @@ class ModalResponse<Scalar>::Nearby {
       reach_ = std::sqrt(poles[count].first);
     }
     for (std::size_t k = 0; k < poles.size(); ++k)
-      k < count ? near_.push_back(*poles[k].second) : add_far(*poles[k].second);
+      k < count ? add_near(*poles[k].second) : add_far(*poles[k].second);
   }
 
   /// Whether the series holds at μ: within an eighth of the way to the poles that are in it.
@@ -278,18 +288,25 @@ class ModalResponse<Scalar>::Nearby {
               far_[j].past_z + detail::plain_product(way, sums.past_z),
               far_[j].past_v + detail::plain_product(way, sums.past_v)};
     }
-    for (const Pole& pole : near_) sums.add(pole, mu);
-    return response_.finished(sums, mu);
+    const Sums near = near_.sums_at(mu);
+    return response_.finished(
+        {sums.z + near.z, sums.v + near.v, sums.past_z + near.past_z, sums.past_v + near.past_v},
+        mu);
   }
 
   /// The distance from μ to the nearest pole, or a little less where none is near.
   Scalar nearest(const Complex& mu) const {
     Scalar least = std::min(Scalar(2), reach_ - std::abs(mu - centre_));
-    for (const Pole& pole : near_) least = std::min(least, std::abs(mu - pole.increment));
+    for (const Complex& pole : near_increments_) least = std::min(least, std::abs(mu - pole));
     return least;
   }
 
  private:
+  void add_near(const Pole& pole) {
+    near_.add(pole);
+    near_increments_.push_back(pole.increment);
+  }
+
   /// 1/(μ − e) = Σ (−1)^j (μ − μ₀)^j/(μ₀ − e)^{j+1}.
   void add_far(const Pole& pole) {
     const Complex ratio = -Scalar(1) / (centre_ - pole.increment);
@@ -303,7 +320,8 @@ class ModalResponse<Scalar>::Nearby {
   const ModalResponse& response_;
   Complex centre_;
   Scalar reach_ = std::numeric_limits<Scalar>::infinity();
-  std::vector<Pole> near_;
+  Poles near_;
+  std::vector<Complex> near_increments_;
   std::array<Sums, 17> far_{};  // 8^−17 is round-off
 };
 
@@ -363,6 +381,44 @@ ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduc
                                      const Sampling<detail::Undeduced<Scalar>>& sampling) {
   return modal_response<Scalar>(
       ConductorWithAbsorber{modes, absorber, plant_poles(modes, absorber)}, sampling);
+}
+
+/// The roots λ of the loop 1 = P G_z(λ) + D G_v(λ), all of them: as many as the plant has states
+/// and commands are on their way, by `pole_sum_roots`. A velocity by difference adds the memory of
+/// one reading, and a root; with D = 0 that root is 0 and not among them.
+/// @param response  of the plant by its poles
+/// @param gains     P and D
+/// @return nothing where they are not found, the response has no sum over poles, or more than 20
+///         commands are on their way
+template <class Scalar>
+std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& response,
+                                             const PdGains<Scalar>& gains) {
+  return pole_sum_roots(response.loop_parts(gains), response.is_late_within_sample());
+}
+
+/// The root of a loop of largest modulus.
+/// @param response  of the plant by its poles
+/// @param gains     P and D
+/// @return NaN where `loop_roots` finds none
+template <class Scalar>
+std::complex<Scalar> largest_loop_root(const ModalResponse<Scalar>& response,
+                                       const PdGains<Scalar>& gains) {
+  const auto roots = loop_roots(response, gains);
+  const auto largest = std::max_element(
+      roots.begin(), roots.end(),
+      [](const auto& one, const auto& other) { return std::norm(one) < std::norm(other); });
+  if (largest == roots.end()) return {std::numeric_limits<Scalar>::quiet_NaN(), Scalar(0)};
+  return *largest;
+}
+
+/// ρ − 1 of a loop, ρ the largest modulus of its roots; NaN where `loop_roots` finds none.
+/// @param response  of the plant by its poles
+/// @param gains     P and D
+template <class Scalar>
+Scalar loop_excess(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains) {
+  const std::complex<Scalar> mu = largest_loop_root(response, gains) - Scalar(1);
+  const Scalar squared = Scalar(2) * mu.real() + std::norm(mu);  // |λ|² − 1
+  return squared / (Scalar(1) + std::sqrt(Scalar(1) + squared));
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -11,7 +11,7 @@
 #include "holdfast/control/late_controller.hpp"
 #include "holdfast/plant/loop_hardware.hpp"
 #include "holdfast/plant/modal_plant.hpp"
-#include "holdfast/stability/response/loop_roots.hpp"
+#include "holdfast/stability/response/modal_response.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
@@ -157,10 +157,7 @@ bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {
   constexpr int enough = 60;
   const ModalResponse<double> response =
       response_of(changed, all_conductor_modes_of(changed, enough));
-  const PdGains<double> gains = gains_of(changed);
-  const double radius = std::abs(largest_loop_root(response, gains));
-  if (std::isfinite(radius)) return radius < 1.0;
-  return ResolvedCircle<double>(response).roots_outside(gains) == 0;
+  return loop_excess_or_turn(response, gains_of(changed)) < 0.0;
 }
 
 OtherModes other_modes_of(const Case& the_case) {

@@ -1,0 +1,321 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
+
+namespace holdfast {
+
+/// A characteristic function whose poles are known, those of a sampled plant in a loop:
+///
+///     p(λ) = 1 − λ^{−n} w(rλ) Σ (a_k + b_k/λ)/(λ − 1 − ε_k),   w(λ) = c + d (1 − 1/λ)
+template <class Scalar>
+struct PoleSum {
+  using Complex = std::complex<Scalar>;  ///< of poles and residues
+
+  /// The part of one pole.
+  struct Part {
+    Complex increment;  ///< ε, so that nothing is lost where sampling is fast
+    Complex present;    ///< a
+    Complex past;       ///< b
+  };
+
+  /// A filter of what is read.
+  struct Weight {
+    Scalar constant;  ///< c, of the reading
+    Scalar change;    ///< d, of its change within a sample
+  };
+
+  std::vector<Part> parts;              ///< of all poles
+  Weight weight{Scalar(1), Scalar(0)};  ///< w, common to all
+  Scalar radius{1};                     ///< r, λ being that of the loop divided by it
+  int power = 0;                        ///< n ≥ 0
+};
+
+namespace detail {
+
+/// The roots of a PoleSum, all at once (Ehrlich 1967, Aberth 1973): each is improved by Newton's
+/// step for what is left of the polynomial when all others are divided out. Each root but the extra
+/// ones is kept as its distance d from a pole, in which nothing cancels where the sum hardly moves
+/// it.
+template <class Scalar>
+class RootIteration {
+ public:
+  using Complex = std::complex<Scalar>;
+
+  /// @param extra     roots beyond those of the poles: the order of the pole at λ = 0
+  /// @param mirrored  the roots of two conjugate poles are conjugate, too, at first
+  RootIteration(const PoleSum<Scalar>& sum, int extra, bool mirrored)
+      : weight_(sum.weight),
+        radius_(sum.radius),
+        power_(sum.power),
+        poles_(sum.parts.size()),
+        steps_(poles_ + static_cast<std::size_t>(extra)) {
+    for (const auto& part : sum.parts)
+      parts_.push_back({part.increment, part.present, part.past, Complex(0)});
+    find_mirrors(mirrored);
+    std::vector<Complex> first(poles_);
+    for (std::size_t i = 0; i < poles_; ++i)
+      if (mirrors_[i] >= i) first[i] = first_of(i);
+    for (std::size_t i = 0; i < poles_; ++i)
+      set_distance(i, mirrors_[i] < i ? std::conj(first[mirrors_[i]]) : first[i]);
+    for (int j = 0; j < extra; ++j)
+      extras_.push_back(std::polar(
+          Scalar(0.3), Scalar(0.7) + Scalar(2) * pi<Scalar> * Scalar(j) / Scalar(extra)));
+  }
+
+  /// @return whether all of them settled, and their sum is what the polynomial says
+  bool settle() {
+    std::vector<char> settled(steps_.size(), 0);
+    for (std::size_t i = 0; i < poles_; ++i) settled[i] = mirrors_[i] < i ? 1 : 0;
+    for (int sweep = 0; sweep < 200; ++sweep) {
+      bool all = true;
+      for (std::size_t i = 0; i < settled.size(); ++i) {
+        if (settled[i] == 0) settled[i] = improve(i) ? 1 : 0;
+        all = all && settled[i] != 0;
+      }
+      if (all) return has_their_sum();
+      if (sweep == 20) part_mirrors(settled);
+      // Round-off of roots close to each other, or to 0, hides the last digits.
+      if (sweep != 40) continue;
+      tolerance_ = Scalar(1e-12);
+      floor_ = Scalar(1e-15);
+    }
+    return false;
+  }
+
+  /// λ of all roots.
+  std::vector<Complex> roots() const {
+    std::vector<Complex> found = extras_;
+    for (std::size_t i = 0; i < poles_; ++i)
+      found.push_back(Complex(1) + (parts_[i][0] + parts_[i][3]));
+    return found;
+  }
+
+ private:
+  using Row = typename ComplexRows<Scalar, 4>::Row;  // e − 1, a, b and d
+  static constexpr Scalar parked{-8};                // an e − 1 that no root is near
+
+  /// Sums over all poles at λ = e + d, and their slopes.
+  struct Sums {
+    Complex a, b, slope_a, slope_b;  ///< Σ a/(λ − e) and Σ b/(λ − e)
+    Complex divided_out;             ///< Σ (1/(λ − e) − 1/(λ − z)), z being the roots
+  };
+
+  /// λ^{−n} w and λ^{−n−1} w, which stand before these, and their slopes.
+  struct Factors {
+    Complex a, b, slope_a, slope_b;
+
+    Complex of(const Complex& in_a, const Complex& in_b) const { return a * in_a + b * in_b; }
+    Complex slope_of(const Complex& in_a, const Complex& in_b) const {
+      return slope_a * in_a + slope_b * in_b;
+    }
+  };
+
+  /// p and its slope.
+  struct Value {
+    Complex value, slope;
+  };
+
+  /// For each pole that of which it is the conjugate, or itself: at first their roots are
+  /// conjugate.
+  void find_mirrors(bool mirrored) {
+    for (std::size_t i = 0; i < poles_; ++i) mirrors_.push_back(i);
+    std::size_t begin = 0;  // both kinds mostly come in the same order
+    for (std::size_t i = 0; mirrored && i < poles_; ++i) {
+      const Complex wanted = std::conj(parts_[i][0]);
+      for (std::size_t j = 0; j < poles_ && wanted.imag() > 0; ++j) {
+        const std::size_t other = (begin + j) % poles_;
+        if (mirrors_[other] != other || parts_[other][0] != wanted) continue;
+        mirrors_[i] = other;
+        mirrors_[other] = i;
+        begin = other + 1;
+        break;
+      }
+    }
+  }
+
+  /// Where a root begins: off the axis of symmetry, on which a pair could not leave the real line.
+  Complex first_of(std::size_t i) {
+    const Row own{parts_[i][0], parts_[i][1], parts_[i][2], Complex(0)};
+    const Factors at = factors_at(own[0]);
+    const Complex first = std::polar(Scalar(1), Scalar(0.1)) * at.of(own[1], own[2]) /
+                          rest(at, without(i, own)).value;
+    return std::isfinite(std::abs(first)) ? first : Complex(1e-3, 1e-3);
+  }
+
+  /// The roots of two conjugate poles that have not settled may be real: each begins anew by
+  /// itself.
+  void part_mirrors(std::vector<char>& settled) {
+    for (std::size_t i = 0; i < poles_; ++i) {
+      const std::size_t other = std::exchange(mirrors_[i], i);
+      if (other <= i || settled[i] != 0) continue;
+      settled[other] = 0;
+      for (const std::size_t k : {i, other}) set_distance(k, first_of(k));
+    }
+  }
+
+  void set_distance(std::size_t i, const Complex& d) {
+    Row row = parts_[i];
+    row[3] = d;
+    parts_.set(i, row);
+  }
+
+  Sums sums_at(const Complex& e, const Complex& d) const {
+    ComplexLanes<Scalar> a, b, slope_a, slope_b, divided_out;
+    for (const auto& [increment, present, past, distance] : parts_.blocks()) {
+      const auto from_pole = (e - increment) + d, away = from_pole.inverse();
+      const auto of_a = present * away, of_b = past * away;
+      a += of_a;
+      b += of_b;
+      slope_a += of_a * away;
+      slope_b += of_b * away;
+      divided_out += distance * (from_pole * (from_pole - distance)).inverse();
+    }
+    return {a.sum(), b.sum(), -slope_a.sum(), -slope_b.sum(), -divided_out.sum()};
+  }
+
+  /// The sums over all other poles at the root of one.
+  Sums without(std::size_t i, const Row& own) {
+    parts_.set(i, {Complex(parked), Complex(0), Complex(0), Complex(0)});
+    const Sums others = sums_at(own[0], own[3]);
+    parts_.set(i, own);
+    return others;
+  }
+
+  /// At λ = 1 + μ.
+  Factors factors_at(const Complex& mu) const {
+    const Complex back = inverse(Complex(1) + mu);
+    Complex before(1);
+    for (int j = 0; j < power_; ++j) before *= back;
+    const Complex change = ((radius_ - Scalar(1)) / radius_ + mu) * back;  // 1 − 1/(rλ)
+    const Complex a = (weight_.constant + weight_.change * change) * before;
+    const Complex slope =
+        weight_.change / radius_ * back * back * before - Scalar(power_) * a * back;
+    return {a, a * back, slope, (slope - a * back) * back};
+  }
+
+  static Value rest(const Factors& at, const Sums& sums) {
+    return {Complex(1) - at.of(sums.a, sums.b),
+            -at.slope_of(sums.a, sums.b) - at.of(sums.slope_a, sums.slope_b)};
+  }
+
+  /// Σ (1/λ − 1/(λ − z)) over the extra roots but the i-th of all.
+  Complex extras_divided_out(std::size_t i, const Complex& lambda) const {
+    Complex sum(0);
+    for (std::size_t j = 0; j < extras_.size(); ++j) {
+      sum += inverse(lambda);
+      if (poles_ + j != i) sum -= inverse(lambda - extras_[j]);
+    }
+    return sum;
+  }
+
+  /// @return whether it has settled
+  bool improve(std::size_t i) {
+    if (i >= poles_) {
+      Complex& root = extras_[i - poles_];
+      const Sums all = sums_at(root - Complex(1), Complex(0));
+      return take(i, root, rest(factors_at(root - Complex(1)), all), all, root);
+    }
+    const Row own = parts_[i];
+    Complex d = own[3];
+    const Sums others = without(i, own);
+    const Factors at = factors_at(own[0] + d);
+    const Value other = rest(at, others);
+    // Of d p(λ), whose pole is gone.
+    const Value left{d * other.value - at.of(own[1], own[2]),
+                     other.value + d * other.slope - at.slope_of(own[1], own[2])};
+    const bool settled = take(i, d, left, others, Complex(1) + (own[0] + d));
+    set_distance(i, d);
+    if (mirrors_[i] != i) set_distance(mirrors_[i], std::conj(d));
+    return settled;
+  }
+
+  /// Takes a step from a root λ, of which one at 0 has none.
+  /// @return whether the root has settled: the step, or the next one as they shrink, is nothing
+  bool take(std::size_t i, Complex& unknown, const Value& p, const Sums& others,
+            const Complex& lambda) {
+    const Complex divided_out = others.divided_out + extras_divided_out(i, lambda);
+    const Complex step = p.value / (p.slope + p.value * divided_out);
+    const Scalar size = std::abs(step);
+    if (!std::isfinite(size)) return std::abs(lambda) < Scalar(1e-15);
+    unknown -= step;
+    const Scalar shrinking = std::min(Scalar(1), size / std::exchange(steps_[i], size));
+    return size * shrinking <= tolerance_ * std::abs(unknown) + floor_;
+  }
+
+  /// Σ z = Σ e + w(∞) Σ a, or Σ e where n > 0.
+  bool has_their_sum() const {
+    const Scalar weight = weight_.constant + weight_.change;
+    Complex sum(0);
+    Scalar size(0);
+    for (std::size_t i = 0; i < poles_; ++i) {
+      const Row row = parts_[i];
+      sum += row[3];
+      size += std::abs(row[3]);
+      if (power_ == 0) sum -= weight * row[1];
+    }
+    for (const Complex& root : extras_) {
+      sum += root;
+      size += std::abs(root);
+    }
+    return std::abs(sum) <= Scalar(1e-9) * size + Scalar(1e-14) * Scalar(poles_);
+  }
+
+  typename PoleSum<Scalar>::Weight weight_;
+  Scalar radius_;
+  int power_;
+  Scalar tolerance_{1e-14}, floor_{1e-17};
+  std::size_t poles_;
+  std::vector<std::size_t> mirrors_;
+  ComplexRows<Scalar, 4> parts_{parked};
+  std::vector<Complex> extras_;
+  std::vector<Scalar> steps_;  // how far each root went last
+};
+
+}  // namespace detail
+
+/// The roots λ of a PoleSum, all of them. Some 3 to 30 sweeps of N² operations, where the
+/// eigenvalues of a matrix take N³.
+/// @param sum   its complex poles in conjugate pairs, as of what is real
+/// @param late  whether there are b
+/// @return nothing where they do not settle or their sum is not that of the polynomial: where roots
+///         coincide, or n > 19
+template <class Scalar>
+std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late) {
+  using Complex = std::complex<Scalar>;
+  const auto all = std::exchange(sum.parts, {});
+  // What has died out within a sample has one pole together, λ = 0, and else roots there.
+  typename PoleSum<Scalar>::Part dead{Complex(-1), Complex(0), Complex(0)};
+  std::size_t of_dead = 0;
+  for (const auto& part : all) {
+    if (std::abs(Complex(1) + part.increment) > Scalar(1e-14)) {
+      sum.parts.push_back(part);
+      continue;
+    }
+    ++of_dead;
+    dead.present += part.present;
+    dead.past += part.past;
+  }
+  const int extra = sum.power + (late ? 1 : 0) + (sum.weight.change != Scalar(0) ? 1 : 0);
+  if (of_dead > 0) sum.parts.push_back(dead);
+  if (sum.parts.empty() || sum.power > 19) return {};
+  detail::RootIteration<Scalar> iteration(sum, extra, true);
+  if (!iteration.settle() && !(iteration = {sum, extra, false}).settle()) return {};
+  auto roots = iteration.roots();
+  for (; of_dead > 1; --of_dead) roots.emplace_back(0);
+  return roots;
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<std::complex<double>> pole_sum_roots(PoleSum<double>, bool);
+#endif
+
+}  // namespace holdfast
