@@ -279,8 +279,8 @@ class EnclosedModes {
       };
       add(ContactMode::engaged, ContactSurface::reversal, sign * velocity());
       // The end at which the drive reversed is g itself.
-      const Row upper = -travelled, lower = travelled;
-      add(ContactMode::gap, ContactSurface::gap_upper, positive ? upper : Row(upper + wide));
+      const Row& lower = travelled;
+      add(ContactMode::gap, ContactSurface::gap_upper, positive ? Row(-lower) : Row(wide - lower));
       add(ContactMode::gap, ContactSurface::gap_lower, positive ? Row(lower + wide) : lower);
       add(ContactMode::stick, ContactSurface::free_acceleration, sign * free_acceleration());
       add(ContactMode::stick, ContactSurface::driven_acceleration, -sign * driven);
