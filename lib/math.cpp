@@ -1,4 +1,4 @@
-// Explicit instantiations of math/poly, math/roots and math/signal for double.
+// Explicit instantiations of math/poly and math/roots for double.
 
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/math/roots/pole_sum_roots.hpp"
