@@ -268,7 +268,7 @@ class EnclosedModes {
 
   void make_guards(const Number& width) {
     if (!(width.upper() > 0.0)) return;  // a drive without backlash stays engaged
-    const Row travelled = displacement() - unit(FlowPlace::gap),
+    const Row lower = displacement() - unit(FlowPlace::gap), upper = -lower,
               wide = width * unit(FlowPlace::one);
     const Row driven = velocity() * rate(ContactMode::engaged);
     for (const bool positive : {false, true}) {
@@ -279,8 +279,7 @@ class EnclosedModes {
       };
       add(ContactMode::engaged, ContactSurface::reversal, sign * velocity());
       // The end at which the drive reversed is g itself.
-      const Row& lower = travelled;
-      add(ContactMode::gap, ContactSurface::gap_upper, positive ? Row(-lower) : Row(wide - lower));
+      add(ContactMode::gap, ContactSurface::gap_upper, positive ? upper : Row(upper + wide));
       add(ContactMode::gap, ContactSurface::gap_lower, positive ? Row(lower + wide) : lower);
       add(ContactMode::stick, ContactSurface::free_acceleration, sign * free_acceleration());
       add(ContactMode::stick, ContactSurface::driven_acceleration, -sign * driven);
