@@ -39,12 +39,12 @@ std::string of_tenths(long tenths) {
   return (tenths < 0 ? "-" : "") + whole + (size % 10 == 0 ? "" : "." + std::to_string(size % 10));
 }
 
-/// The curve "M60.45,278.47 L70.20,278.47 …" of gnuplot by steps in tenths of a point, which are
-/// shorter than places; as it is where it is another.
+/// gnuplot's curve "M60.45,278.47 L70.20,278.47 …" by steps in tenths of a point; another as it is.
 std::string by_steps(const std::string& curve) {
   std::istringstream words(curve);
   std::string text;
   long x = 0, y = 0;
+  bool drawn = false;  // a curve of no length may be a dot
   for (std::string word; words >> word;) {
     const std::size_t comma = std::min(word.find(','), word.size());
     const auto right = parse_number(std::string_view(word).substr(1, comma - 1));
@@ -52,10 +52,10 @@ std::string by_steps(const std::string& curve) {
     if ((word[0] != 'M' && word[0] != 'L') || !right || !down) return curve;
     const long to_x = std::lround(10.0 * *right), to_y = std::lround(10.0 * *down);
     const bool draws = word[0] == 'L';
-    if (draws && to_x == x && to_y == y) continue;
-    const std::string second = of_tenths(draws ? to_y - y : to_y);
-    text += (draws ? "l" : "M") + of_tenths(draws ? to_x - x : to_x);
-    text += (second[0] == '-' ? "" : " ") + second;
+    const long by_x = draws ? to_x - x : to_x, by_y = draws ? to_y - y : to_y;
+    if (draws && drawn && by_x == 0 && by_y == 0) continue;
+    text += (draws ? "l" : "M") + of_tenths(by_x) + (by_y < 0 ? "" : " ") + of_tenths(by_y);
+    drawn = draws;
     x = to_x;
     y = to_y;
   }
@@ -82,7 +82,7 @@ std::string shortened(const std::string& svg) {
 }  // namespace
 
 std::string svg_url(const std::string& svg) {
-  std::string text = svg;
+  std::string text = shortened(svg);
   // A URL has no line ends; browsers leave them out.
   for (const auto& [character, escape] :
        {std::pair{"%", "%25"}, {"#", "%23"}, {"\"", "%22"}, {"\n", " "}})
@@ -95,7 +95,7 @@ std::string png_url(const std::string& png) { return "data:image/png;base64," + 
 PagePicture page_picture(const Figure& figure, const std::filesystem::path& folder) {
   constexpr std::size_t short_enough = 60000;
   const Drawing drawing = draw(figure, folder);
-  PagePicture vector{svg_url(shortened(drawing.bytes)), drawing.panels};
+  PagePicture vector{svg_url(drawing.bytes), drawing.panels};
   if (vector.url.size() <= short_enough) return vector;
   const Drawing dots = draw(figure, folder, ".png", false);
   PagePicture raster{png_url(dots.bytes), dots.panels};

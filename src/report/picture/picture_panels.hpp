@@ -55,8 +55,8 @@ struct PagePicture {
 /// shorter. Curves of ten thousand points and clouds of them are so. Throws what draw() throws.
 PagePicture page_picture(const Figure& figure, const std::filesystem::path& folder);
 
-/// An SVG text as a URL that holds it (RFC 2397). Its quotes, "#" and "%" are escaped: between
-/// double quotes of HTML "&" alone is left to escape.
+/// An SVG text as a URL that holds it (RFC 2397), long curves of gnuplot's by steps. Its quotes,
+/// "#" and "%" are escaped: between double quotes of HTML "&" alone is left to escape.
 std::string svg_url(const std::string& svg);
 
 /// The same of the bytes of a PNG.

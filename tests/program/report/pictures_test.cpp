@@ -19,10 +19,7 @@ using tests::write_text;
 
 void draw_line(const fs::path& folder) {
   fs::create_directory(folder / "pictures");
-  Figure figure;
-  figure.name = "line";
-  figure.plot = "plot [0:1] 0.25 * x notitle\n";
-  draw(figure, folder);
+  draw({"line", "", "", {}, "plot [0:1] 0.25 * x notitle\n"}, folder);
 }
 
 TEST(Gnuplot, APictureThatIsCutOffIsNone) {
@@ -67,11 +64,14 @@ TEST(Gnuplot, FindsItsTablesInTheReportAlone) {
   write_text(library / "data/line.csv", "x,y\n0,0\n1,1\n");
   fs::create_directory(folder / "pictures");
   const Variable path("GNUPLOT_LIB", library.path().string());
-  Figure figure;
-  figure.name = "line";
-  figure.tables = {{"line", {}}};
-  figure.plot = "plot @@ using 1:2 notitle\n";
+  const Figure figure{"line", "", "", {{"line", {}}}, "plot @@ using 1:2 notitle\n"};
   EXPECT_THROW(draw(figure, folder.path()), OutputError);
+}
+
+TEST(DataUrl, GoesAlongLongCurvesBySteps) {
+  std::string places = "M1.00,2.00 L1.00,2.00 M60.45,278.47 L70.20,278.47 L69.00,270.02";
+  for (int k = 0; k < 20; ++k) places += " L69.00,270.02";
+  EXPECT_EQ(svg_url(" d='" + places + "'"), svg_url(" d='M1 2l0 0M60.5 278.5l9.7 0l-1.2-8.5'"));
 }
 
 TEST(DataUrl, HoldsADrawingThatNothingCutsShort) {

@@ -54,7 +54,7 @@ struct ComplexLanes {
   }
   /// The number in one lane.
   std::complex<Scalar> operator[](Eigen::Index lane) const { return {re[lane], im[lane]}; }
-  /// Of all lanes.
+  /// The sum of all lanes.
   std::complex<Scalar> sum() const { return {re.sum(), im.sum()}; }
   /// 1/z.
   ComplexLanes inverse() const {

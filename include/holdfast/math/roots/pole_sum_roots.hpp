@@ -51,7 +51,7 @@ class RootIteration {
   using Complex = std::complex<Scalar>;
 
   /// @param extra     roots beyond those of the poles: the order of the pole at λ = 0
-  /// @param mirrored  the roots of two conjugate poles are conjugate, too, at first
+  /// @param mirrored  the roots of two conjugate poles are taken to be conjugate, too, at first
   RootIteration(const PoleSum<Scalar>& sum, int extra, bool mirrored)
       : weight_(sum.weight),
         radius_(sum.radius),
@@ -124,8 +124,7 @@ class RootIteration {
     Complex value, slope;
   };
 
-  /// For each pole that of which it is the conjugate, or itself: at first their roots are
-  /// conjugate.
+  /// For each pole that of which it is the conjugate, or itself.
   void find_mirrors(bool mirrored) {
     for (std::size_t i = 0; i < poles_; ++i) mirrors_.push_back(i);
     std::size_t begin = 0;  // both kinds mostly come in the same order
@@ -144,15 +143,15 @@ class RootIteration {
 
   /// Where a root begins: off the axis of symmetry, on which a pair could not leave the real line.
   Complex first_of(std::size_t i) {
-    const Row own{parts_[i][0], parts_[i][1], parts_[i][2], Complex(0)};
+    Row own = parts_[i];
+    own[3] = Complex(0);
     const Factors at = factors_at(own[0]);
     const Complex first = std::polar(Scalar(1), Scalar(0.1)) * at.of(own[1], own[2]) /
                           rest(at, without(i, own)).value;
     return std::isfinite(std::abs(first)) ? first : Complex(1e-3, 1e-3);
   }
 
-  /// The roots of two conjugate poles that have not settled may be real: each begins anew by
-  /// itself.
+  /// Lets the roots of conjugate poles that have not settled, and may be real, begin anew singly.
   void part_mirrors(std::vector<char>& settled) {
     for (std::size_t i = 0; i < poles_; ++i) {
       const std::size_t other = std::exchange(mirrors_[i], i);
@@ -229,7 +228,7 @@ class RootIteration {
     const Sums others = without(i, own);
     const Factors at = factors_at(own[0] + d);
     const Value other = rest(at, others);
-    // Of d p(λ), whose pole is gone.
+    // The value and slope of d p(λ), whose pole is gone.
     const Value left{d * other.value - at.of(own[1], own[2]),
                      other.value + d * other.slope - at.slope_of(own[1], own[2])};
     const bool settled = take(i, d, left, others, Complex(1) + (own[0] + d));
@@ -292,7 +291,7 @@ template <class Scalar>
 std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late) {
   using Complex = std::complex<Scalar>;
   const auto all = std::exchange(sum.parts, {});
-  // What has died out within a sample has one pole together, λ = 0, and else roots there.
+  // Poles that have died out within a sample are one together, λ = 0, and else roots there.
   typename PoleSum<Scalar>::Part dead{Complex(-1), Complex(0), Complex(0)};
   std::size_t of_dead = 0;
   for (const auto& part : all) {
@@ -308,6 +307,7 @@ std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late)
   if (of_dead > 0) sum.parts.push_back(dead);
   if (sum.parts.empty() || sum.power > 19) return {};
   detail::RootIteration<Scalar> iteration(sum, extra, true);
+  // Where two have settled on one real root, or an extra one on one of a pair, all begin anew.
   if (!iteration.settle() && !(iteration = {sum, extra, false}).settle()) return {};
   auto roots = iteration.roots();
   for (; of_dead > 1; --of_dead) roots.emplace_back(0);

@@ -67,15 +67,14 @@ class ModalMotion {
     const double u = present_force_, before = previous_force_;
     const Vector<double, 2> force = phases_.next();
     Seen seen;
-    for (Block& b : motions_.blocks()) {
-      const Part &state = b[0], &decay = b[1], &present = b[2], &past = b[3];
-      const Part &cosine = b[4], &sine = b[5];
+    for (Block& block : motions_.blocks()) {
+      auto& [state, decay, present, past, cosine, sine, z, v, z2, v2, bent] = block;
       const Lanes re = decay.re * state.re - decay.im * state.im + present.re * u +
                        past.re * before + cosine.re * force[0] + sine.re * force[1];
       const Lanes im = decay.re * state.im + decay.im * state.re + present.im * u +
                        past.im * before + cosine.im * force[0] + sine.im * force[1];
-      b[0] = {re, im};
-      seen.add(b);
+      state = {re, im};
+      seen.add(block);
     }
     seen_ = seen.sums();
     previous_force_ = u;
@@ -85,9 +84,10 @@ class ModalMotion {
   /// Bends the conductor by that much (m) at the absorber, as a force there would; call before
   /// `sense()`.
   void displace_conductor(double by) {
-    for (Block& b : motions_.blocks()) {
-      b[0].re += by * b[10].re;
-      b[0].im += by * b[10].im;
+    for (Block& block : motions_.blocks()) {
+      Part &state = block.front(), &bent = block.back();
+      state.re += by * bent.re;
+      state.im += by * bent.im;
     }
     read();
   }
@@ -106,12 +106,12 @@ class ModalMotion {
   Eigen::VectorXcd amplitudes() const {
     Eigen::VectorXcd all(static_cast<Eigen::Index>(motions_.size()));
     for (std::size_t k = 0; k < motions_.size(); ++k)
-      all[static_cast<Eigen::Index>(k)] = motions_[k][0];
+      all[static_cast<Eigen::Index>(k)] = motions_[k].front();
     return all;
   }
 
  private:
-  /// Of natural motions: ξ, what it is after a sample, what forces add, the conjugates of what is
+  /// Natural motions: ξ, what it is after a sample, what forces add, the conjugates of what is
   /// read, Re(w ξ) = Re w̄ Re ξ + Im w̄ Im ξ, and ξ of the bent conductor.
   using Motions = detail::ComplexRows<double, 11>;
   using Block = Motions::Block;
@@ -123,11 +123,11 @@ class ModalMotion {
     Lanes z = Lanes::Zero(), v = z, z2 = z, v2 = z;
 
     void add(const Block& of) {
-      const Lanes &re = of[0].re, &im = of[0].im;
-      z += of[6].re * re + of[6].im * im;
-      v += of[7].re * re + of[7].im * im;
-      z2 += of[8].re * re + of[8].im * im;
-      v2 += of[9].re * re + of[9].im * im;
+      const auto& [state, decay, present, past, cosine, sine, of_z, of_v, of_z2, of_v2, bent] = of;
+      z += of_z.re * state.re + of_z.im * state.im;
+      v += of_v.re * state.re + of_v.im * state.im;
+      z2 += of_z2.re * state.re + of_z2.im * state.im;
+      v2 += of_v2.re * state.re + of_v2.im * state.im;
     }
     State sums() const { return {z.sum(), v.sum(), z2.sum(), v2.sum()}; }
   };

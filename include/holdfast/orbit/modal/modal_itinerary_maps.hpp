@@ -78,7 +78,7 @@ class ModalItineraryMaps {
     const auto phasor = [&](const Phasors& a, const Phasors& b) {
       return (command * a).sum() + std::conj((command * b).sum());
     };
-    // Of the force, u_j = Re(U e^{iωτj}).
+    // The phasor of the force, u_j = Re(U e^{iωτj}).
     const std::complex<double> u = phasor(a_forced, b_forced) / (1.0 - phasor(a_driven, b_driven));
     const Phasors first = a_driven * u + a_forced + b_driven * std::conj(u) + b_forced;
     State state(units().size());

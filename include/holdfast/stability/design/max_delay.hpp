@@ -309,18 +309,16 @@ class DelaySearch {
       if constexpr (is_walked_) {
         if (!is_served(next)) return next;
         feasible_ = next;
-        continue;
-      }
-      Intervals gains = gains_at(next);
-      if (gains.empty()) return next;
-      bool joined = next <= feasible_ * options_.search_ratio;
-      if constexpr (!is_walked_) joined = joined || links(next, gains);
-      if (joined) {
-        feasible_ = next;
-        gains_ = std::move(gains);
-        ratio = longest_step;
       } else {
-        ratio = std::sqrt(next / feasible_);
+        Intervals gains = gains_at(next);
+        if (gains.empty()) return next;
+        if (next <= feasible_ * options_.search_ratio || links(next, gains)) {
+          feasible_ = next;
+          gains_ = std::move(gains);
+          ratio = longest_step;
+        } else {
+          ratio = std::sqrt(next / feasible_);
+        }
       }
     }
     return std::nullopt;
@@ -335,13 +333,19 @@ class DelaySearch {
             delay_response(plant_, options_, period).ratio_to_uncontrolled(gains) < 1.0);
   }
 
-  /// Whether that D serves a conductor by its modes, or another one, which is kept.
+  /// Whether some D serves at a period, one of which is kept; of a conductor by its modes the one
+  /// that served last is asked first.
   bool is_served(double period) {
-    if (still_serves(period)) return true;
-    const double gain = gain_at(period);
-    if (std::isnan(gain)) return false;
-    last_ = gain;
-    return true;
+    if constexpr (is_walked_) {
+      if (still_serves(period)) return true;
+      const double gain = gain_at(period);
+      if (!std::isnan(gain)) last_ = gain;
+      return !std::isnan(gain);
+    } else {
+      const Intervals gains = gains_at(period);
+      if (!gains.empty()) start_ = gains.front().representative();
+      return !gains.empty();
+    }
   }
 
   /// True where one D that serves at both ends serves in between.
@@ -401,13 +405,7 @@ class DelaySearch {
     constexpr double wide = is_walked_ ? 1.0 + 1e-9 : has_closed_forms<Plant> ? 1.01 : 1.0 + 1e-13;
     while (infeasible > wide * feasible) {
       const double middle = std::sqrt(feasible * infeasible);
-      if constexpr (is_walked_) {
-        (is_served(middle) ? feasible : infeasible) = middle;
-        continue;
-      }
-      const Intervals gains = gains_at(middle);
-      if (!gains.empty()) start_ = gains.front().representative();
-      (gains.empty() ? infeasible : feasible) = middle;
+      (is_served(middle) ? feasible : infeasible) = middle;
     }
     if constexpr (has_closed_forms<Plant>)
       return narrowed_between(feasible, infeasible);

@@ -79,9 +79,7 @@ struct ModalMargins {
   template <class SamplingAt, class Next>
   MarginEnd walk(Scalar value, Scalar limit, const SamplingAt& sampling_at,
                  const Next& next) const {
-    const auto excess = [&](const Scalar& x) {
-      return loop_excess_or_turn(response_at(sampling_at(x)), gains);
-    };
+    const auto excess = [&](const Scalar& x) { return excess_of(response_at(sampling_at(x))); };
     Scalar inside = value;
     while (inside != limit) {
       const Scalar beyond =
@@ -153,6 +151,14 @@ struct ModalMargins {
 
   Sampling<Scalar> with_period(Scalar period) const {
     return {period, sampling.processing_delay / sampling.period * period};
+  }
+
+  /// ρ − 1; where not all roots are found, no more than its sign, by the turn of p.
+  Scalar excess_of(const Response& other) const {
+    const Scalar excess = loop_excess(other, gains);
+    if (std::isfinite(excess)) return excess;
+    const bool stable = ResolvedCircle<Scalar>(other).roots_outside(gains) == 0;
+    return stable ? -std::numeric_limits<Scalar>::min() : std::numeric_limits<Scalar>::min();
   }
 
   /// The end at which a root crosses the unit circle.

@@ -271,7 +271,7 @@ class ModalResponse<Scalar>::Nearby {
       reach_ = std::sqrt(poles[count].first);
     }
     for (std::size_t k = 0; k < poles.size(); ++k)
-      k < count ? add_near(*poles[k].second) : add_far(*poles[k].second);
+      k < count ? near_.add(*poles[k].second) : add_far(*poles[k].second);
   }
 
   /// Whether the series holds at μ: within an eighth of the way to the poles that are in it.
@@ -297,16 +297,12 @@ class ModalResponse<Scalar>::Nearby {
   /// The distance from μ to the nearest pole, or a little less where none is near.
   Scalar nearest(const Complex& mu) const {
     Scalar least = std::min(Scalar(2), reach_ - std::abs(mu - centre_));
-    for (const Complex& pole : near_increments_) least = std::min(least, std::abs(mu - pole));
+    for (std::size_t k = 0; k < near_.size(); ++k)
+      least = std::min(least, std::abs(mu - near_[k].front()));
     return least;
   }
 
  private:
-  void add_near(const Pole& pole) {
-    near_.add(pole);
-    near_increments_.push_back(pole.increment);
-  }
-
   /// 1/(μ − e) = Σ (−1)^j (μ − μ₀)^j/(μ₀ − e)^{j+1}.
   void add_far(const Pole& pole) {
     const Complex ratio = -Scalar(1) / (centre_ - pole.increment);
@@ -321,7 +317,6 @@ class ModalResponse<Scalar>::Nearby {
   Complex centre_;
   Scalar reach_ = std::numeric_limits<Scalar>::infinity();
   Poles near_;
-  std::vector<Complex> near_increments_;
   std::array<Sums, 17> far_{};  // 8^−17 is round-off
 };
 
