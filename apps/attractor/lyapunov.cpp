@@ -54,8 +54,7 @@ void require_bearable_modes(const Case& the_case, const MovingLoop& moving,
   if (!options.largest &&
       the_case.control.processing_delay >= bearable * the_case.control.sampling_period)
     throw WrongInput(
-        "with so many commands on their way the largest exponent alone is computed: "
-        "add --largest");
+        "with so many commands on their way only the largest exponent is computed: add --largest");
   report_warning(dense_work_warning(the_case, options.switching), quiet);
 }
 

@@ -26,17 +26,16 @@ struct MaxDelayQuestion {
 
   void run(const JobContext& context) {
     const Case& the_case = context.case_data;
-    if (prove) {
-      if (criterion != "stable")
-        throw WrongInput("--prove is of stability alone: give --criterion stable");
-      poles_ = proved_poles_of(the_case);
-    }
+    if (prove && criterion != "stable")
+      throw WrongInput("--prove is of stability alone: give --criterion stable");
+    if (prove) poles_ = proved_poles_of(the_case);
     const LinearLoop loop(the_case);
     answer(context, loop);
     if (loop.walks() && !prove)
       report_warning(
-          "the period is walked by 3 %, with the plant of the case's own: a "
-          "stretch of instability narrower than a step is missed",
+          "the period is walked by 3 %, a short one by up to 30 %, with the plant of the case's "
+          "own: "
+          "a stretch of instability narrower than a step is missed",
           context.quiet);
   }
 

@@ -41,8 +41,7 @@ struct DeviationQuestion {
     require_completed(outcome, first.time());
     if (told_until < 0.0)
       throw NoAnswer(
-          "the neighbour is nearer to the motion than the rounding of their states: take a larger "
-          "--offset");
+          "the neighbour is nearer to the motion than rounding tells: take a larger --offset");
     table.note("above_rounding_until_s", format_number(told_until));
     tell_of_end(context, end_of(first));
     const TrustedDigits trusted =

@@ -1,5 +1,7 @@
 #include "report/page/answers.hpp"
 
+#include <unistd.h>
+
 #include "case/model/modal/modes_warning.hpp"
 #include "job.hpp"
 #include "report/figures/figure.hpp"
@@ -17,13 +19,14 @@ struct AnswersQuestion {
     report_warning(drift_warning(context.case_data), context.quiet);
     report_warning(dense_work_warning(context.case_data, Switching::sampled), context.quiet);
     Table table(context, columns_of(detailed ? "detailed answers" : "answers"));
-    for (const Answer& answer : answers_of(context)) {
+    answer(context, [&](const Answer& known) {
       if (detailed)
-        table.row(answer.question, answer.answer, answer.detail,
-                  shell_text(answer.arguments, job.case_arguments()));
+        table.row(known.question, known.answer, known.detail,
+                  shell_text(known.arguments, job.case_arguments()));
       else
-        table.row(answer.question, answer.answer);
-    }
+        table.row(known.question, known.answer);
+      if (isatty(STDOUT_FILENO) == 1) table.writer().flush();  // a pipe gets them together
+    });
     table.commit();
   }
 };

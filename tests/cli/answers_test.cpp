@@ -29,6 +29,7 @@ std::string help_of_doubtful(const std::string& settings) {
   return answers.text(1, "answer");
 }
 
+const std::string idle = " --set control.proportional_gain=0 --set control.differential_gain=0";
 constexpr std::size_t help = 0, gain = 1, slow = 2, play = 3, motion = 4, cable = 5;
 
 /// The paper's gains are stable on two masses and not on its conductor, unless some of the absorber
@@ -150,9 +151,9 @@ TEST(Answers, CallNoPlayHelpfulWhereTheVibrationIsTheSame) {
 TEST(Answers, SayWhichGainsAndWhichPlayAreNotOfTheUsersCase) {
   const TextFile file("[plant]\nabsorber_damping = 5\n[control]\nproportional_gain = -500\n");
   const auto answers = table_of("answers --details" + file.as_case());
-  const std::string detail = answers.text(help, "detail");
-  expect_holds(detail, {"does not give control.differential_gain, control.sampling_period, "
-                        "backlash.width: the built-in value stands in"});
+  expect_holds(answers.text(help, "detail"),
+               {"does not give control.differential_gain, control.sampling_period, "
+                "backlash.width: the built-in value stands in"});
   EXPECT_FALSE(holds(table_of("answers --details").text(help, "detail"), "stands in"));
 }
 
@@ -192,6 +193,12 @@ TEST(Answers, NameAPlayThatTheDriveNeverLeaves) {
   EXPECT_FALSE(holds(text, "%")) << text;
 }
 
+TEST(Answers, CallNoForceNoHelp) {
+  const auto answers = table_of("answers" + idle);
+  for (const std::size_t row : {help, play})
+    expect_holds(answers.text(row, "answer"), {"both gains are 0"});
+}
+
 TEST(Answers, SayThatALoopLivesOnItsPlay) {
   const auto answers =
       table_of("answers --set control.differential_gain=-40 --set backlash.width=0.001");
@@ -203,23 +210,18 @@ TEST(Answers, SayThatALoopLivesOnItsPlay) {
 
 TEST(Answers, CompareWithThePlantWithoutAComputer) {
   // The force held over a sample of 30 ms would shake the plant less than the one that acts on it.
-  const auto slow_one = table_of(
-      "answers --details --set control.sampling_period=0.03 --set "
-      "control.differential_gain=-3");
+  const std::string held = " --set control.sampling_period=0.03 --set control.differential_gain=-3";
+  const auto slow_one = table_of("answers --details" + held);
   const double shaken = number_behind(slow_one.text(help, "detail"), "shown is the true ");
-  const auto fine = table_of(
-      "sweep --axis control.sampling_period=0.0002:0.0002:1 --set control.proportional_gain=0 "
-      "--set "
-      "control.differential_gain=0 --set excitation.hold=exact --metric steady_peak --duration 20");
+  const auto fine = table_of("sweep --axis control.sampling_period=0.0002:0.0002:1" + idle +
+                             " --set excitation.hold=exact --metric steady_peak --duration 20");
   EXPECT_NEAR(shaken, 1e3 * fine.number(0, "steady_peak"), 0.006);
   EXPECT_FALSE(holds(table_of("answers --details").text(help, "detail"), "held over a sample"));
 }
 
 TEST(Answers, DoNotTakeTheForceOfFewSamplesForTheVibration) {
-  for (const char* blind : {"control.sampling_period=10", "excitation.frequency=10000"}) {
-    const std::string text = help_of_doubtful(blind);
-    expect_holds(text, {"fewer than two samples"});
-  }
+  for (const char* blind : {"control.sampling_period=10", "excitation.frequency=10000"})
+    expect_holds(help_of_doubtful(blind), {"fewer than two samples"});
 }
 
 TEST(Classification, SaysItInWordsWhereProgressIsShown) {

@@ -201,8 +201,7 @@ TEST(CaseJob, ABegunCaseMakesNothingOfTheBuiltInOneTheUsers) {
   const auto vibration = table_of("aeolian --frequency 20:20:1 --case '" + file + "'");
   const auto by_options = table_of(
       "aeolian --quiet --frequency 20:20:1 --set conductor.name=Drake --set conductor.span=300 "
-      "--set "
-      "conductor.tension=28020");
+      "--set conductor.tension=28020");
   EXPECT_EQ(vibration.text(0, "amplitude_bare_m"), by_options.text(0, "amplitude_bare_m"));
   EXPECT_EQ(vibration.text(0, "amplitude_m"), vibration.text(0, "amplitude_bare_m"));
   expect_refused("margins --case '" + file + "'", {"absorber.mass (kg)"});

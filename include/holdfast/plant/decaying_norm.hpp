@@ -25,7 +25,19 @@ template <int States>
 class DecayingNorm {
  public:
   /// @param a  A, N × N (1/s), finite
-  explicit DecayingNorm(const Matrix<double, States>& a);
+  explicit DecayingNorm(const Matrix<double, States>& a) {
+    const BalancedMatrix<double, States> similar(a);
+    const Matrix<double, States> identity = Matrix<double, States>::Identity(a.rows(), a.cols());
+    const Matrix<double, States> weight = solution_of(similar.balanced, identity);
+    const Matrix<double, States> left =
+        similar.balanced.transpose() * weight + weight * similar.balanced + identity;
+    if (!(left.cwiseAbs().rowwise().sum().maxCoeff() < 0.5)) return;
+    const Eigen::LLT<Matrix<double, States>> factor(weight);
+    if (factor.info() != Eigen::Success) return;
+    const Matrix<double, States> lower = factor.matrixL();
+    factor_ = similar.factors.cwiseInverse().asDiagonal() * lower;
+    exists_ = true;
+  }
 
   /// Whether A is stable, so that there is such a norm.
   bool exists() const { return exists_; }
@@ -61,20 +73,5 @@ class DecayingNorm {
   Matrix<double, States> factor_;  // L with W = L Lᵀ, lower triangular
   bool exists_ = false;
 };
-
-template <int States>
-DecayingNorm<States>::DecayingNorm(const Matrix<double, States>& a) {
-  const BalancedMatrix<double, States> similar(a);
-  const Matrix<double, States> identity = Matrix<double, States>::Identity(a.rows(), a.cols());
-  const Matrix<double, States> weight = solution_of(similar.balanced, identity);
-  const Matrix<double, States> left =
-      similar.balanced.transpose() * weight + weight * similar.balanced + identity;
-  if (!(left.cwiseAbs().rowwise().sum().maxCoeff() < 0.5)) return;
-  const Eigen::LLT<Matrix<double, States>> factor(weight);
-  if (factor.info() != Eigen::Success) return;
-  const Matrix<double, States> lower = factor.matrixL();
-  factor_ = similar.factors.cwiseInverse().asDiagonal() * lower;
-  exists_ = true;
-}
 
 }  // namespace holdfast

@@ -236,22 +236,17 @@ inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& 
     const bool met = !(std::abs(first.s.imag()) > 1e-9 * std::abs(first.s));
     return met ? finder.from(begin) : PlantPole{std::conj(first.s), std::conj(first.residue)};
   };
-  std::vector<PlantPole> poles;
-  poles.reserve(2 * modes.size() + 2);
-  std::vector<Complex> begins;
-  begins.reserve(2 * modes.size() + 2);
+  std::vector<PlantPole> poles(2 * modes.size());
+  std::vector<Complex> begins(poles.size());
   double mobility = 0.0;
-  for (std::size_t n = 0; n < modes.size(); ++n) {
+  for (std::size_t n = 0, other = modes.size(); n < modes.size(); ++n, ++other) {
     mobility += modes[n].shape * modes[n].shape / modes[n].mass;
     const auto begin = detail::PoleFinder::bare(modes[n]);
-    begins.push_back(begin.s);
-    poles.push_back(finder.of_mode(n, begin));
-  }
-  for (std::size_t n = 0; n < modes.size(); ++n) {
-    const auto begin = detail::PoleFinder::bare(modes[n]);
-    begins.push_back(begin.partner);
-    poles.push_back(modes[n].damping_ratio < 1.0 ? partner(poles[n], begin.partner)
-                                                 : finder.of_mode(n, begin.other()));
+    begins[n] = begin.s;
+    begins[other] = begin.partner;
+    poles[n] = finder.of_mode(n, begin);
+    poles[other] = modes[n].damping_ratio < 1.0 ? partner(poles[n], begin.partner)
+                                                : finder.of_mode(n, begin.other());
   }
   const double decay = absorber.damping / (2.0 * absorber.mass);
   const Complex turn = std::sqrt(Complex(decay * decay - absorber.stiffness / absorber.mass));
@@ -265,6 +260,14 @@ inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& 
   detail::separate(poles, begins, finder);
   if (!detail::are_all_poles(poles, acceleration)) return {};
   return poles;
+}
+
+/// The longest sampling period (s) that shows every one of some natural motions: π over their
+/// largest |s|.
+inline double period_that_shows(const std::vector<PlantPole>& poles) {
+  double fastest = 0.0;
+  for (const PlantPole& pole : poles) fastest = std::max(fastest, std::abs(pole.s));
+  return pi<double> / fastest;
 }
 
 }  // namespace holdfast

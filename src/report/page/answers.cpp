@@ -13,13 +13,11 @@
 #include "case/model/plant_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "holdfast/control/gains.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "jobs/design/gain_margins.hpp"
 #include "jobs/motion/cell_motion.hpp"
-#include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "report/page/html.hpp"
 #include "report/switching/switching_study.hpp"
@@ -46,8 +44,7 @@ constexpr double negligible = 0.005;
 
 /// Largest |z₁| of the steady motion with control and without it, and what the drive does for it.
 struct LoopVibration {
-  double controlled, free;
-  double force;  ///< N, the largest that the computer asks for
+  double controlled, free, force;  ///< m, m; N, the largest that the computer asks for
 
   double ratio() const { return controlled / free; }
 };
@@ -61,6 +58,10 @@ struct Question {
   double radius_without_play;  ///< spectral radius of the loop without play
 
   bool is_unstable_without_play() const { return !(radius_without_play < 1.0); }
+  bool asks_for_no_force() const {
+    const PdGains<double> gains = gains_of(the_case);
+    return gains.proportional == 0.0 && gains.differential == 0.0;
+  }
 };
 
 /// Seconds of a motion: 20, or as long as the case's force lasts.
@@ -135,20 +136,13 @@ std::string force_text(const LoopVibration& vibration) {
 
 /// What is left where the drive switches when it happens and not at samples.
 std::string exact_switching_text(const Question& question) {
-  // Between the samples a conductor by its modes is followed state by state: too slow for an
-  // answer.
+  // A conductor by its modes is followed state by state between samples: too slow for an answer.
   if (!(question.the_case.backlash.width > 0.0) ||
       !is_of_masses(motion_kind_of(question.the_case, Switching::exact)))
     return "";
-  const LoopVibration exact =
-      vibrations_of({question.the_case}, question, Switching::exact).front();
+  const auto exact = vibrations_of({question.the_case}, question, Switching::exact).front();
   if (!std::isfinite(exact.ratio())) return "";
   return page_text("left by exact switching", {{"ratio", percent(exact.ratio())}});
-}
-
-std::string borrowed_text(const Case& the_case) {
-  const std::string names = borrowed_control(the_case);
-  return names.empty() ? "" : page_text("not given", {{"names", names}});
 }
 
 Answer what_is_doubtful(const std::vector<std::string>& doubts) {
@@ -170,11 +164,15 @@ Answer does_it_help(const Question& question) {
     answer.answer = page_text("unseen");
   } else if (!(vibration.free > 0.0)) {
     answer.answer = page_text("nothing to reduce");
+  } else if (question.asks_for_no_force()) {
+    answer.answer = page_text("no gains", {{"free", millimetres(vibration.free)}});
   } else {
     answer.answer = help_text(question, vibration);
     answer.detail += force_text(vibration) + exact_switching_text(question);
   }
-  answer.detail += held_force_text(question) + borrowed_text(the_case);
+  const std::string names = borrowed_control(the_case);
+  answer.detail +=
+      held_force_text(question) + (names.empty() ? "" : page_text("not given", {{"names", names}}));
   return answer;
 }
 
@@ -185,8 +183,10 @@ std::string stretch_text(const TwoSidedMargin& margin, double unit, const std::s
   const std::string below = text(margin.below), above = text(margin.above);
   if (is_end(margin.below) && is_end(margin.above))
     return range_text(below, above, "from ") + " " + name;
+  const bool walked = margin.above.outcome == MarginEndOutcome::beyond_search;
   if (is_end(margin.above)) return "up to " + above + " " + name;
-  return is_end(margin.below) ? "from " + below + " " + name + " on" : "of any size";
+  return (is_end(margin.below) ? "from " + below + " " + name + " on" : "of any size") +
+         (walked ? " as far as was looked, " + above + " " + name : "");
 }
 
 std::string margins_text(const Case& the_case, const PdGains<double>& gains) {
@@ -244,15 +244,14 @@ Answer which_gain(const Question& question) {
   const Case& the_case = question.the_case;
   const double duration = duration_of(the_case);
   const MinimumAmplitude best = BestGains(duration).of(the_case);
-  const double largest_radius = std::exp(-10.0 * the_case.control.sampling_period / duration);
   const PdGains<double> gains{gains_of(the_case).proportional, best.differential_gain};
-  const bool is_found = std::isfinite(best.differential_gain);
-  const Values values = {{"settled", rounded(0.5 * duration, 3)},
-                         {"margins", is_found ? gain_margins_text(the_case, gains) : ""},
-                         {"D", damping(best.differential_gain)},
-                         {"ratio", percent(best.ratio_to_uncontrolled)},
-                         {"radius", format_number(largest_radius)},
-                         {"margin", format_number(usual_margin)}};
+  const Values values = {
+      {"settled", rounded(0.5 * duration, 3)},
+      {"margins", std::isfinite(gains.differential) ? gain_margins_text(the_case, gains) : ""},
+      {"D", damping(best.differential_gain)},
+      {"ratio", percent(best.ratio_to_uncontrolled)},
+      {"radius", format_number(std::exp(-10.0 * the_case.control.sampling_period / duration))},
+      {"margin", format_number(usual_margin)}};
   const bool must_settle = is_two_masses(the_case);
   Answer answer = asked(must_settle ? "gain" : "gain of modes", values);
   if (best.outcome == MinimumAmplitudeOutcome::none) {
@@ -260,8 +259,8 @@ Answer which_gain(const Question& question) {
   } else if (best.outcome == MinimumAmplitudeOutcome::aliased) {
     answer.answer = page_text("aliased");
   } else {
-    const bool is_worthwhile = best.ratio_to_uncontrolled < worthwhile;
-    answer.answer = page_text(is_worthwhile ? "best gain" : "no gain worth it", values);
+    const char* text = best.ratio_to_uncontrolled < worthwhile ? "best gain" : "no gain worth it";
+    answer.answer = page_text(text, values);
     answer.detail = page_text(must_settle ? "best of settling" : "best of stable", values) +
                     margins_text(the_case, gains);
     add_play(answer, question, best.differential_gain, best.ratio_to_uncontrolled);
@@ -274,19 +273,16 @@ Answer which_gain(const Question& question) {
 std::string own_period_text(const Case& the_case) {
   const StabilityMargins margins = stability_margins_of(the_case, gains_of(the_case)).margins;
   const MarginEnd& longest = margins.sampling_period.above;
-  const char* limit = "no limit";
-  if (margins.outcome == MarginOutcome::not_stable)
-    limit = "not stable even now";
-  else if (longest.outcome == MarginEndOutcome::boundary)
-    limit = "stable up to";
+  const char* limit = margins.outcome == MarginOutcome::not_stable    ? "not stable even now"
+                      : longest.outcome == MarginEndOutcome::boundary ? "stable up to"
+                                                                      : "no limit";
   return page_text("own period",
                    {{"limit", page_text(limit, {{"longest", milliseconds(longest.position)}})},
                     {"own", milliseconds(the_case.control.sampling_period)}});
 }
 
 Answer how_slow(const Case& the_case) {
-  const MaxDelayOptions question =
-      tuned_delay_question(the_case, excitation_of(the_case).frequency);
+  const auto question = tuned_delay_question(the_case, excitation_of(the_case).frequency);
   const MaxDelay longest = LinearLoop(the_case).longest_period(question);
   Answer answer = asked("slow", {{"range", range_of(question.frequency)}});
   if (longest.sampling_period > 0.0 && std::isfinite(longest.sampling_period)) {
@@ -388,7 +384,9 @@ Answer how_much_play(const Question& question) {
   const double own = question.the_case.backlash.width;
   const auto place = std::lower_bound(widths.begin(), widths.end(), own);
   if (place != widths.end() && *place != own) widths.insert(place, own);
-  answer.answer = question.free > 0.0 ? play_text(question, widths) : page_text("any play");
+  answer.answer = !(question.free > 0.0)         ? page_text("any play")
+                  : question.asks_for_no_force() ? page_text("no force to lose")
+                                                 : play_text(question, widths);
   return answer;
 }
 
@@ -405,21 +403,21 @@ Answer asked(const std::string& name, const Values& values) {
           words_of(page_text(name + " command", values))};
 }
 
-std::vector<Answer> answers_of(const JobContext& context) {
+void answer(const JobContext& context, const std::function<void(const Answer&)>& take) {
   const Case& the_case = context.case_data;
-  if (!has_active_absorber(the_case)) return span_answers(context);
+  if (!has_active_absorber(the_case)) return span_answers(context, take);
   const Question question = question_about(the_case, context.instructions);
-  std::vector<Answer> answers;
-  if (!context.doubts.empty()) answers.push_back(what_is_doubtful(context.doubts));
+  if (!context.doubts.empty()) take(what_is_doubtful(context.doubts));
   Answer help = does_it_help(question);
   if (!context.plant_remark.empty())
     help.detail += page_text("plant remark", {{"remark", context.plant_remark}});
-  answers.insert(answers.end(), {help, which_gain(question), how_slow(the_case)});
+  take(help);
+  take(which_gain(question));
+  take(how_slow(the_case));
   throw_if_interrupted();
-  answers.push_back(how_much_play(question));
-  answers.push_back(what_motion(question.motion));
-  if (!is_cable(the_case)) answers.push_back(does_it_hold_on_the_cable(the_case));
-  return answers;
+  take(how_much_play(question));
+  take(what_motion(question.motion));
+  if (!is_cable(the_case)) take(does_it_hold_on_the_cable(the_case));
 }
 
 }  // namespace holdfast::program

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,8 @@ Answer asked(const std::string& name, const Values& values = {});
 /// What is doubtful of the case, where something is; does control help, which D, how slow a
 /// computer, how much play, what motion, does it hold on the conductor itself: for the case as it
 /// is, switching at samples; of a span without an absorber span_answers(). A question that the case
-/// does not let be answered says why. Throws Interrupted.
-std::vector<Answer> answers_of(const JobContext& context);
+/// does not let be answered says why. Each is handed over once it is known. Throws Interrupted.
+void answer(const JobContext& context, const std::function<void(const Answer&)>& take);
 
 /// Whether what two masses say of a case holds on its conductor as a hanging cable: whether its
 /// gains are stable there, what of the absorber would have to move with the clamp if they are not,
@@ -35,7 +36,7 @@ Answer does_it_hold_on_the_cable(const Case& the_case);
 /// conductor lives, which frequency is worst, what the devices take, how its modes are damped,
 /// whether the absorber's loop is stable. A question that the case does not let be answered says
 /// what to give. Throws Interrupted.
-std::vector<Answer> span_answers(const JobContext& context);
+void span_answers(const JobContext& context, const std::function<void(const Answer&)>& take);
 
 /// What one motion is, in the words of the page; a number that there is not is "–".
 struct MotionRow {

@@ -208,7 +208,7 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   page.motions =
       builtin ? paper_motions(the_case) : std::vector<MotionRow>{motion_of_the_case(the_case)};
   Progress progress(figures.size() + 2, "report", progress_wanted(context));
-  page.answers = answers_of(context);
+  answer(context, [&](const Answer& known) { page.answers.push_back(known); });
   progress.advance();
   // The study of switching is of two masses, which it runs by the thousand.
   if (is_of_masses(motion_kind_of(the_case, Switching::exact)))
@@ -226,7 +226,7 @@ void write_span_report(const JobContext& context, const Arguments& case_argument
   work.page.introduction = introduction_of_span(context.case_data);
   Progress progress(figures.size() + 1, "report", progress_wanted(context));
   work.add_figures(figures, progress);
-  work.page.answers = span_answers(context);
+  span_answers(context, [&](const Answer& known) { work.page.answers.push_back(known); });
   progress.advance();
   work.finish();
 }

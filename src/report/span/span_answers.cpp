@@ -251,17 +251,18 @@ Answer is_loop_stable(const Case& the_case) {
 
 }  // namespace
 
-std::vector<Answer> span_answers(const JobContext& context) {
+void span_answers(const JobContext& context, const std::function<void(const Answer&)>& take) {
   const Case& the_case = context.case_data;
   const Axis axis = aeolian_frequencies(the_case);
   const std::string frequencies = frequencies_text(axis);
   const Values range = {{"range", frequencies.substr(0, frequencies.rfind(':'))}};
-  std::vector<Answer> answers = {
-      what_vibrates(the_case, axis, false),     what_vibrates(the_case, axis, true),
-      how_long_it_lives(the_case, axis, range), which_frequency(the_case, axis, range),
-      what_devices_take(the_case, axis),        how_modes_are_damped(the_case)};
-  answers.push_back(is_loop_stable(the_case));
-  return answers;
+  take(what_vibrates(the_case, axis, false));
+  take(what_vibrates(the_case, axis, true));
+  take(how_long_it_lives(the_case, axis, range));
+  take(which_frequency(the_case, axis, range));
+  take(what_devices_take(the_case, axis));
+  take(how_modes_are_damped(the_case));
+  take(is_loop_stable(the_case));
 }
 
 }  // namespace holdfast::program

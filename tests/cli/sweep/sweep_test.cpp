@@ -105,8 +105,7 @@ TEST(SweepJob, MemoryDoesNotGrowWithTheNumberOfCells) {
 TEST(SweepJob, SaysOfEachCellThatDivergesThatItDoes) {
   const Outcome outcome = run_holdfast(
       "sweep --axis control.differential_gain=-200:-50:4 --axis backlash.width=0.0005:0.003:3 "
-      "--metric "
-      "verdict --metric steady_peak --metric outcome --duration 20");
+      "--metric verdict --metric steady_peak --metric outcome --duration 20");
   const CsvTable table = program::parse_csv(outcome.output, "sweep");
   int diverging = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {

@@ -106,13 +106,13 @@ TEST(MaxDelay, TheGainThatItNamesServes) {
   for (const double period : {0.001, 0.01, 0.02}) {
     const auto gain =
         detail::serving_gain(options, period, detail::delay_offer(plant, options, period));
-    ASSERT_TRUE(gain);
+    ASSERT_FALSE(std::isnan(gain));
     const auto loop = sampled_loop(plant, Sampling<double>{period});
     const double omega = 2.0 * pi<double> * 10.0;
     const SteadyResponse<double> response(loop, held_harmonic(loop), omega);
-    EXPECT_LT(response.ratio_to_uncontrolled({options.proportional_gain, *gain}), 1.0);
+    EXPECT_LT(response.ratio_to_uncontrolled({options.proportional_gain, gain}), 1.0);
     // The best gain may be the end of a stable interval, the limit of stable gains.
-    EXPECT_LE((spectral_radius<double, 5>(loop.engaged_map({options.proportional_gain, *gain}))),
+    EXPECT_LE((spectral_radius<double, 5>(loop.engaged_map({options.proportional_gain, gain}))),
               1.0 + 1e-9);
   }
 }

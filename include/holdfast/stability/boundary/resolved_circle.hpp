@@ -51,13 +51,15 @@ class ResolvedCircle {
 
   /// @param response  of the loop; kept
   explicit ResolvedCircle(ModalResponse<Scalar> response) : response_(std::move(response)) {
+    using Nearby = typename ModalResponse<Scalar>::Nearby;
     const Scalar close(0.12);
-    const auto poles = response_.pole_increments();
     // Nearer to the real axis than that Im X is round-off.
-    const Scalar from_ends(1e-4);
-    Scalar angle = from_ends * nearest(poles, Scalar(0));
-    const Scalar last = pi<Scalar> - from_ends * nearest(poles, pi<Scalar>);
-    std::optional<typename ModalResponse<Scalar>::Nearby> nearby;
+    const auto from = [&](const std::complex<Scalar>& end) {
+      return Scalar(1e-4) * Nearby(response_, end).nearest(end);
+    };
+    Scalar angle = from(Scalar(0));
+    const Scalar last = pi<Scalar> - from(Scalar(-2));
+    std::optional<Nearby> nearby;
     while (angle < last) {
       const std::complex<Scalar> mu = circle_increment(angle);
       if (!nearby || !nearby->holds(mu)) nearby.emplace(response_, mu);
@@ -183,14 +185,6 @@ class ResolvedCircle {
     Scalar gain(const CommandResponse<Scalar>& g) const { return (rest(g) / of_free(g)).real(); }
   };
 
-  /// min |e^{iθ} − e^{sτ}| over the poles.
-  static Scalar nearest(const std::vector<std::complex<Scalar>>& poles, const Scalar& angle) {
-    const std::complex<Scalar> mu = circle_increment(angle);
-    Scalar least(4);
-    for (const auto& pole : poles) least = std::min(least, std::norm(mu - pole));
-    return std::sqrt(least);
-  }
-
   static std::complex<Scalar> characteristic(const CommandResponse<Scalar>& g,
                                              const PdGains<Scalar>& gains) {
     return Scalar(1) - gains.proportional * g.displacement - gains.differential * g.velocity;
@@ -313,11 +307,13 @@ class ResolvedCircle {
     std::vector<Interval<Scalar>> gaps(found.size() + 1);  // unbounded at first
     for (std::size_t k = 0; k < found.size(); ++k)
       gaps[k].upper = gaps[k + 1].lower = found[k].gain;
-    // The count begins in the widest bounded gap.
+    // The count begins in the gap that is widest beside its ends: round-off turns a huge p.
+    const auto width = [](const Interval<Scalar>& gap) {
+      return (gap.upper - gap.lower) / (std::abs(gap.lower) + std::abs(gap.upper));
+    };
     std::size_t first = 0;
     for (std::size_t k = 1; k + 1 < gaps.size(); ++k)
-      if (first == 0 || gaps[k].upper - gaps[k].lower > gaps[first].upper - gaps[first].lower)
-        first = k;
+      if (first == 0 || width(gaps[k]) > width(gaps[first])) first = k;
     std::vector<int> roots(gaps.size());
     roots[first] = outside(gaps[first]);
     for (std::size_t k = first; k + 1 < gaps.size(); ++k)
@@ -327,8 +323,11 @@ class ResolvedCircle {
     const int doubtful = gaps.size() <= 12 ? std::numeric_limits<int>::max() : std::max(4, fewest);
     bool agree = fewest >= 0;
     for (std::size_t k = 0; k < gaps.size() && agree; ++k)
-      if (k != first && roots[k] <= doubtful && gaps[k].lower < gaps[k].upper)
-        agree = outside(gaps[k]) == roots[k];
+      if (k != first && roots[k] <= doubtful && gaps[k].lower < gaps[k].upper) {
+        const int counted = outside(gaps[k]);
+        agree = counted == roots[k] || counted < 0;
+        roots[k] = counted;
+      }
     std::vector<Interval<Scalar>> stable;
     for (std::size_t k = 0; k < gaps.size(); ++k)
       if (gaps[k].lower < gaps[k].upper && (agree ? roots[k] : outside(gaps[k])) == 0)

@@ -128,14 +128,12 @@ inline bool shows_vibration(const MaxDelayOptions& options, double sampling_peri
 }
 
 /// The D of a period's offer that serves best: of minimum amplitude where that is asked, or inside
-/// the first stable interval; nothing where none serves.
-inline std::optional<double> serving_gain(const MaxDelayOptions& options, double period,
-                                          const DelayOffer& offer) {
-  if (!shows_vibration(options, period) || offer.stable.empty()) return std::nullopt;
+/// the first stable interval; NaN where none serves.
+inline double serving_gain(const MaxDelayOptions& options, double period, const DelayOffer& offer) {
+  if (!shows_vibration(options, period) || offer.stable.empty()) return std::nan("");
   if (!offer.response) return offer.stable.front().representative();
   const auto best = offer.response->best_differential_gain(options.proportional_gain, offer.stable);
-  if (!(best.ratio_to_uncontrolled < 1.0)) return std::nullopt;
-  return best.differential_gain;
+  return best.ratio_to_uncontrolled < 1.0 ? best.differential_gain : std::nan("");
 }
 
 /// The ratio that the best of the stabilising D leaves; NaN where none is asked for or there.
@@ -230,7 +228,11 @@ class DelaySearch {
         options_(options),
         reference_(options.relative_to_true_force
                        ? true_amplitude_per_force(plant, options.angular_frequency())
-                       : std::numeric_limits<double>::quiet_NaN()) {}
+                       : std::numeric_limits<double>::quiet_NaN()) {
+    if constexpr (is_walked_)
+      shown_ = std::min(period_that_shows(with_hardware(plant.poles, plant.hardware)),
+                        0.5 / options.frequency);
+  }
 
   MaxDelay answer() {
     feasible_ = std::min(options_.shortest_period, 1e-3 / options_.frequency);
@@ -266,9 +268,7 @@ class DelaySearch {
   Intervals gains_at(double period) const {
     return feasible_differential_gains(plant_, options_, period);
   }
-  double gain_at(double period) const {
-    return serving_gain(options_, period, offer_at(period)).value_or(none);
-  }
+  double gain_at(double period) const { return serving_gain(options_, period, offer_at(period)); }
 
   /// The limit that a period is beyond. Where the amplitude jumps past that of no control, the
   /// interval of D that served has vanished.
@@ -305,7 +305,8 @@ class DelaySearch {
     double ratio = longest_step;
     while (feasible_ < goal && !is_exhausted()) {
       count_step();
-      const double next = std::min(goal, feasible_ * ratio);
+      const double part = std::clamp(shown_, feasible_, 10.0 * feasible_);
+      const double next = std::min(goal, feasible_ + (ratio - 1.0) * part);
       if constexpr (is_walked_) {
         if (!is_served(next)) return next;
         feasible_ = next;
@@ -324,28 +325,24 @@ class DelaySearch {
     return std::nullopt;
   }
 
-  /// Whether the D that served last does so at another period, by all roots of its loop.
-  bool still_serves(double period) const {
-    const PdGains<double> gains{options_.proportional_gain, last_};
-    return shows_vibration(options_, period) &&
-           loop_excess(modal_response<double>(plant_, options_.sampling(period)), gains) < 0.0 &&
-           (options_.criterion == DelayCriterion::stable ||
-            delay_response(plant_, options_, period).ratio_to_uncontrolled(gains) < 1.0);
-  }
-
-  /// Whether some D serves at a period, one of which is kept; of a conductor by its modes the one
-  /// that served last is asked first.
+  /// Whether some D serves at a period, one of which is kept. Of a conductor by its modes all roots
+  /// of a loop cost less than all its stable D: the D that served last is asked first.
   bool is_served(double period) {
     if constexpr (is_walked_) {
-      if (still_serves(period)) return true;
-      const double gain = gain_at(period);
-      if (!std::isnan(gain)) last_ = gain;
-      return !std::isnan(gain);
-    } else {
-      const Intervals gains = gains_at(period);
-      if (!gains.empty()) start_ = gains.front().representative();
-      return !gains.empty();
+      const PdGains<double> gains{options_.proportional_gain, start_};
+      double ratio = 0.0;
+      if (!shows_vibration(options_, period)) return false;
+      if (options_.criterion == DelayCriterion::attenuates) {
+        const auto response = delay_response(plant_, options_, period);
+        if (response.differential_gains_below(gains.proportional).empty()) return false;
+        ratio = response.ratio_to_uncontrolled(gains);
+      }
+      const auto loop = modal_response<double>(plant_, options_.sampling(period));
+      if (ratio < 1.0 && loop_excess(loop, gains) < 0.0) return true;
     }
+    const Intervals gains = gains_at(period);
+    if (!gains.empty()) start_ = gains.front().representative();
+    return !gains.empty();
   }
 
   /// True where one D that serves at both ends serves in between.
@@ -436,9 +433,9 @@ class DelaySearch {
   double feasible_ = 0.0;  // every period up to it is feasible
   Intervals gains_;        // that serve there
   int steps_ = 0;          // of the search so far
-  double start_ = 0.0;     // D of minimum radius at a neighbouring period
-  double last_ = none;     // D that served last, of a conductor by its modes
+  double start_ = 0.0;     // D of minimum radius, or inside what serves, at a neighbouring period
   double reference_;       // m/N, of the true force; NaN where the held one is it
+  double shown_ = 0.0;     // s; the longest period that shows all, by parts of which it is walked
 };
 
 }  // namespace detail
@@ -465,9 +462,10 @@ MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options)
 
 /// The largest sampling period of the computer on a conductor by its modes: as
 /// `max_sampling_period` of two masses asks, but walked, each period so many times the one before,
-/// with every interval of stable D at each and the amplitude in closed form; where none serves the
-/// edge is halved to 10⁻⁹. A stretch of periods narrower than a step is missed, and nothing is
-/// shown of what lies in between or beyond.
+/// a short one up to ten times that step, by as much of the longest that shows every natural motion
+/// and the excitation: by all roots with the D that served last, or else by all intervals of stable
+/// D. Where none serves the edge is halved to 10⁻⁹. A stretch of periods narrower than a step is
+/// missed, and nothing is shown of what lies in between or beyond.
 /// @tparam Scalar  double; a parameter so that nothing is compiled where this is not called
 /// @param plant    its poles not none and none of its hardware's
 /// @param options  within their ranges; search ratio and most steps do not count

@@ -296,10 +296,13 @@ class ModalResponse<Scalar>::Nearby {
 
   /// The distance from μ to the nearest pole, or a little less where none is near.
   Scalar nearest(const Complex& mu) const {
-    Scalar least = std::min(Scalar(2), reach_ - std::abs(mu - centre_));
-    for (std::size_t k = 0; k < near_.size(); ++k)
-      least = std::min(least, std::abs(mu - near_[k].front()));
-    return least;
+    const Scalar far = std::min(Scalar(2), reach_ - std::abs(mu - centre_));
+    Scalar least = std::numeric_limits<Scalar>::infinity();
+    for (const auto& block : near_.blocks()) {
+      const auto away = mu - block.front();
+      least = std::min(least, (away.re * away.re + away.im * away.im).minCoeff());
+    }
+    return std::min(far, std::sqrt(least));
   }
 
  private:
