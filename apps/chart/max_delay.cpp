@@ -34,8 +34,7 @@ struct MaxDelayQuestion {
     if (loop.walks() && !prove)
       report_warning(
           "the period is walked by 3 %, a short one by up to 30 %, with the plant of the case's "
-          "own: "
-          "a stretch of instability narrower than a step is missed",
+          "own: a stretch of instability narrower than a step is missed",
           context.quiet);
   }
 
