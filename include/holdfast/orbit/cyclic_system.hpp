@@ -66,7 +66,7 @@ class CyclicSystem {
     return !(smallest_pivot > rounding * closed_.maxPivot());
   }
 
-  /// What x₀ is to be in addition for the motion to close: (I − M)⁻¹ open.
+  /// Correction of x₀ with which the motion closes: (I − M)⁻¹ open.
   /// @param open  x_K − x₀ of the motion
   Vector<Scalar, Size> correction(const Vector<Scalar, Size>& open) const {
     return closed_.solve(last_ * open);

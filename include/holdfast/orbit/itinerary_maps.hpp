@@ -55,7 +55,7 @@ class ItineraryMaps {
   /// q.
   std::size_t samples_of_forcing() const { return forcing_.samples(); }
 
-  /// What the excitation adds to z in each of the q samples, 4 × 1.
+  /// The excitation's addition to z in each of the q samples, 4 × 1.
   const std::vector<Vector<Scalar, 4>>& additions() const { return forcing_.additions(); }
 
   /// z̃_{j+1} from z̃_j, phase j of the forcing, 0 ≤ phase < q.

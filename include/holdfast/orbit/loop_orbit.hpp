@@ -19,14 +19,14 @@ namespace holdfast {
 /// which an orbit is near a switching surface: a change of the loop in its fourth digit may end it.
 inline constexpr double near_border = 1e-4;
 
-/// What the periodic motions of the sampled loop have in common, wherever their contact switches.
+/// Common part of the periodic orbits of the sampled loop, wherever their contact switches.
 /// @tparam Size  of a state: 4 for z_j, 5 for z̃_j = [z_j; u_{j−1}]
 template <int Size>
 struct LoopOrbit {
   Rational ratio;                            ///< f τ = p/q
   double sampling_period;                    ///< τ (s)
   std::vector<Vector<double, Size>> states;  ///< N of them, the first one at phase 0 of the force
-  /// Of one period, largest first, five, or of many modes ten; −∞ for a null direction.
+  /// Multipliers of one period, largest first, five, or of many modes ten; −∞ for a null direction.
   std::vector<Multiplier> multipliers;
   double closure_error;  ///< ‖z_N − z₀‖, SI numbers of m and m/s
 
@@ -72,7 +72,7 @@ enum class OrbitOutcome {
                    ///< state named a leak, leave it out, or take its value from the start as given
 };
 
-/// What a search for a periodic orbit found, or one solution of it.
+/// Result of a search for a periodic orbit, or of solving for one.
 /// @tparam Orbit  PeriodicOrbit or EventOrbitOf<N>
 template <class Orbit>
 struct OrbitResultOf {
@@ -81,8 +81,8 @@ struct OrbitResultOf {
                                ///< one of a family
   std::int64_t samples = 0;    ///< of the motion that was looked at
   int candidates = 0;          ///< periods that were solved for
-  /// Of `neutral`: the number, from 0, of the state by which the orbits of the family differ most,
-  /// a controller's where one of these is moved; they stand behind the plant's.
+  /// Number, from 0, of the state by which the orbits of the family differ most, where the outcome
+  /// is `neutral`; a controller's states stand behind the plant's.
   std::optional<std::int64_t> neutral_state = {};
 };
 
@@ -134,7 +134,7 @@ inline bool touches_surface(const StateScale& extent, double error, double displ
   return displacement <= rounding(extent.displacement) || velocity <= rounding(extent.velocity);
 }
 
-/// What one solution is.
+/// Outcome of one solution.
 inline OrbitOutcome outcome_of(bool touches, bool switches_alike) {
   if (touches) return OrbitOutcome::on_surface;
   return switches_alike ? OrbitOutcome::certified : OrbitOutcome::not_reproduced;

@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// What ends a periodic motion at the border of the region of parameters where it is and attracts.
+/// Causes that end a periodic motion at the border of its region of parameters.
 enum class BorderKind {
   fold,              ///< a multiplier reaches 1
   flip,              ///< a multiplier reaches −1
@@ -30,13 +30,13 @@ enum class BorderKind {
 /// A piece of that border, and the largest multiplier at a point of it.
 struct MotionBorder {
   BorderKind kind = BorderKind::window;  ///< what ends the motion there
-  /// Of a collision or grazing: `reversal`, or an end of the gap; exactly switched ends of a gap
-  /// are not told apart.
+  /// Surface of a collision or grazing: `reversal`, or an end of the gap; exactly switched ends of
+  /// a gap are not told apart.
   SwitchingSurface surface = SwitchingSurface::reversal;
   std::int64_t sample = -1;  ///< of a collision; of a motion that is its own mirror image in the
                              ///< first half of the period; else −1
-  /// Of a pair at angle θ the sector between strong resonances: 0 below π/2, 1, 2 above 2π/3; of
-  /// the window its side.
+  /// Sector of a pair at angle θ between strong resonances: 0 below π/2, 1, 2 above 2π/3; of the
+  /// window its side.
   int part = 0;
   Multiplier multiplier{};  ///< not compared
 };
@@ -70,7 +70,7 @@ struct ParameterWindow {
   double y_from;  ///< least y
   double y_to;    ///< largest y, above y_from
 
-  /// Of shares 0 … 1.
+  /// The point at some shares, 0 … 1, of the window.
   PlanePoint at(const PlanePoint& shares) const {
     return {x_from + shares.x * (x_to - x_from), y_from + shares.y * (y_to - y_from)};
   }
@@ -80,8 +80,8 @@ struct ParameterWindow {
   }
 };
 
-/// Of two pieces of the border that meet: k of the strong resonance 1:k, at which they do, that is
-/// where a pair of multipliers comes to 1, −1, e^{±2πi/3} or ±i.
+/// The number k of the strong resonance 1:k at which two pieces of the border meet: a pair of
+/// multipliers comes to 1, −1, e^{±2πi/3} or ±i.
 /// @return nothing where the point has another reason
 inline std::optional<int> strong_resonance(const MotionBorder& a, const MotionBorder& b) {
   const auto pair = BorderKind::neimark_sacker;

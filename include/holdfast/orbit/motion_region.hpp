@@ -26,7 +26,7 @@ inline bool mirrors_itself(const PeriodicOrbit& orbit) {
   return true;
 }
 
-/// What a solved itinerary says of the border nearby.
+/// The nearest border of a solved itinerary, and the margin from it.
 /// @param half  half a period of a motion that mirrors itself, in samples; else 0
 inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t half) {
   if (point.by_multiplier == point.margin())
@@ -50,9 +50,9 @@ inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t h
 /// attracts, by its border: where its itinerary is solved, every sample keeps its side of the
 /// switching surfaces and every multiplier lies inside the unit circle.
 ///
-/// Of maps that are affine between switches a fold has no motion beside it: with a multiplier
-/// at 1 the solution grows beyond bounds, so that it meets a switching surface before, but where
-/// a symmetry breaks.
+/// A fold of maps that are affine between switches has no motion beside it: with a multiplier at 1
+/// the solution grows beyond bounds, so that it meets a switching surface before, but where a
+/// symmetry breaks.
 ///
 ///     const auto family = [&](double width, double gain) { … return other; };
 ///     const MotionRegion region = motion_region(family, orbit, window, {0.002, -13.0});

@@ -87,8 +87,8 @@ class OrbitContinuation {
   int solutions() const { return solutions_; }
 
  private:
-  /// Of an orbit that stays in the gap: it is there in every gap that holds it, so the one counts
-  /// that holds it best.
+  /// Borders of an orbit that stays in the gap, measured in the gap that holds it best: it is there
+  /// in every gap that holds it.
   static Borders borders_in_best_gap(const std::vector<Vector<double, 5>>& states, double width) {
     const auto less = [](const auto& a, const auto& b) {
       return relative_displacement(a) < relative_displacement(b);

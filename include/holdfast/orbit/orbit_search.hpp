@@ -86,7 +86,7 @@ class SampledSearchModel {
     return found.outcome == OrbitOutcome::on_surface || attraction_.holds(motion_);
   }
 
-  /// The same orbit with its shortest period.
+  /// An orbit with its shortest period.
   PeriodicOrbit shortened(const PeriodicOrbit& orbit) const {
     const auto step = static_cast<std::size_t>(ratio_.denominator);
     const auto period = static_cast<std::ptrdiff_t>(
@@ -161,7 +161,7 @@ OrbitResult orbit_by_returns(const Loop& loop, const Rational& ratio, const Orbi
   return found;
 }
 
-/// The same of an IdealLoop.
+/// The orbit of a motion of an IdealLoop that stands at a stroboscopic instant.
 template <class Scalar>
 OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio,
                             const OrbitLimits& limits,
@@ -198,7 +198,7 @@ OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
   return detail::orbit_of_motion(loop, *ratio, limits,
                                  periodically_forced_motion(loop, *ratio, initial_state));
 }
-/// The same from any column of Eigen's.
+/// The periodic orbit that a motion comes to, from any column of Eigen's.
 template <class Scalar, class Column>
 OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
                                 const Eigen::MatrixBase<Column>& initial_state,

@@ -42,7 +42,7 @@ struct PeriodicOrbit : LoopOrbit<5> {
   }
 };
 
-/// What a search for a periodic orbit of an IdealLoop found.
+/// Result of a search for a periodic orbit of an IdealLoop.
 using OrbitResult = OrbitResultOf<PeriodicOrbit>;
 
 /// The states of a motion that repeats a given itinerary for ever.
@@ -56,7 +56,7 @@ struct PeriodicSolution {
   std::vector<Seen> states;    ///< z̃_j = [z_j; u_{j−1}], one for each sample
   /// ‖z_N − z₀‖ (SI numbers of m and m/s) after one period from z₀.
   typename Seen::Scalar closure_error;
-  /// What that means for z₀ itself, (I − M)⁻¹ (z̃_N − z̃₀), as a share of the states' extent.
+  /// Error of z₀ that this means, (I − M)⁻¹ (z̃_N − z̃₀), as a share of the states' extent.
   double state_error;
 };
 
@@ -87,7 +87,7 @@ std::optional<PeriodicSolution<Maps>> periodic_solution(
   return solution;
 }
 
-/// Of one period, five.
+/// Multipliers of one period, five.
 template <class Scalar>
 std::vector<Multiplier> multipliers_of(const ItineraryMaps<Scalar>&, const Itinerary&,
                                        const std::vector<Matrix<Scalar, 5>>& blocks) {

@@ -74,7 +74,7 @@ bool attracts(const AttractionBall& point, const Memory& motion, const Vector<do
 
 namespace detail {
 
-/// What becomes of a deviation over some samples: the largest first deviation for which no decision
+/// Bounds of a deviation over some samples: the largest first deviation for which no decision
 /// changes within them, and by how much it may have grown at their end.
 struct DeviationSegment {
   double radius = std::numeric_limits<double>::infinity();  // m
@@ -136,7 +136,7 @@ class DeviationFlow {
                     });
   }
 
-  /// Of e.
+  /// Order of e.
   Eigen::Index order() const { return deviations_.order() + 1; }
 
   /// The segment of the next `samples` samples.
@@ -152,7 +152,7 @@ class DeviationFlow {
     return follow(unit(), samples, segment);
   }
 
-  /// What becomes of some deviations over the next `samples` samples.
+  /// Carries some deviations over the next `samples` samples.
   /// @param segment  takes the largest norm for which no combination of them changes a decision
   Columns follow(const Columns& deviations, std::int64_t samples, DeviationSegment& segment) {
     deviations_.begin(deviations.topRows(deviations.rows() - 1));
@@ -167,8 +167,8 @@ class DeviationFlow {
   }
 
  private:
-  /// Of a sample from the surfaces that its decision rests on (m, m/s); of an orbit that stays
-  /// inside 1, for a metre of clearance.
+  /// Distances of a sample from the surfaces that its decision rests on (m, m/s); of an orbit that
+  /// stays inside 1, for a metre of clearance.
   struct Distances {
     double displacement = std::numeric_limits<double>::infinity();
     double velocity = std::numeric_limits<double>::infinity();

@@ -16,7 +16,7 @@ namespace holdfast {
 /// How long and how far to look for an orbit.
 struct OrbitLimits {
   std::int64_t largest_period = 1'000'000;  ///< samples, 1 … 10⁸
-  /// Of the motion; 0: eight times the largest period.
+  /// Most samples of the motion; 0: eight times the largest period.
   std::int64_t most_samples = 0;
   /// Called at every stroboscopic instant; may throw to end the search.
   std::function<void()> watch = {};
@@ -30,7 +30,7 @@ inline void validate(const OrbitLimits& limits) {
 
 namespace detail {
 
-/// What a search has seen of a motion.
+/// Motion as a search has seen it so far.
 /// @tparam Symbol  of the itinerary, one a sample
 template <class Symbol, class Plant>
 struct SeenMotion {

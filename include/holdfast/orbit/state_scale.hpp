@@ -21,7 +21,7 @@ struct StateScale {
   /// Nothing yet.
   StateScale() = default;
 
-  /// That of states that begin with [z₁, ż₁, z₂, ż₂].
+  /// The extent of states that begin with [z₁, ż₁, z₂, ż₂].
   template <class Scalar, int Size>
   explicit StateScale(const std::vector<Vector<Scalar, Size>>& states) {
     for (const auto& state : states) include(state);
@@ -60,7 +60,7 @@ class StateScaleOf {
  public:
   using State = StateOf<Plant>;  ///< x, N × 1
 
-  /// That of some states, perhaps none yet.
+  /// The extent of some states, perhaps none yet.
   explicit StateScaleOf(const PortReadings<Plant>& readings, const std::vector<State>& states = {})
       : readings_(readings) {
     for (const State& state : states) include(state);
@@ -77,7 +77,7 @@ class StateScaleOf {
     }
   }
 
-  /// Of both sides of the gap: |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s).
+  /// Extent of both sides of the gap: |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s).
   const StateScale& sides() const { return sides_; }
 
   /// A state, most often the difference of two: max_i |x_i| / largest()_i; infinite where a
@@ -89,7 +89,7 @@ class StateScaleOf {
     return share;
   }
 
-  /// Of each coordinate, N × 1.
+  /// Largest |x_i| of each coordinate, N × 1.
   const State& largest() const { return largest_; }
 
   /// Takes each coordinate of another plant than the two masses for no less than a share of its

@@ -27,7 +27,7 @@ struct Border {
   std::int64_t sample = -1;  ///< counted from the orbit's first sample; −1 where there is none
 };
 
-/// What one sample's decision about the contact rests on.
+/// Decision of one sample about the contact, and what it rests on.
 struct ContactDecision {
   bool was_inside;  ///< before the sample
   bool engaged;     ///< after it

@@ -80,7 +80,7 @@ bool mirrors_itself(const EventOrbitOf<States>& orbit) {
   return (open.array() <= rounding * largest.array()).all();
 }
 
-/// What is least of a motion between the samples: its margins as shares of its size.
+/// Least margin of a motion, as a share of its size, and the border that it leads to.
 template <int States>
 RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
   const SwitchingMargins& margins = orbit.margins;
@@ -181,9 +181,9 @@ class EventContinuation {
 /// attracts, by its border: where it keeps its period and the order of its modes, with all
 /// multipliers, saltation included, inside the unit circle.
 ///
-/// What ends it is read off the margins of EventOrbit, of which the least names the piece. A
-/// switch may pass a sample: the motion goes on, its multipliers jump. A motion that is its own
-/// mirror image half a period later is followed as far as it is that.
+/// The least of the margins of EventOrbit names the piece of the border. A switch may pass a
+/// sample: the motion goes on, its multipliers jump. A motion that is its own mirror image half a
+/// period later is followed as far as it is that.
 /// @param family  (x, y) ↦ ImplementedLoop, with the same f τ everywhere
 /// @param orbit   certified, its drive engaged now and then
 /// @param window  around `at`

@@ -24,14 +24,14 @@ namespace holdfast {
 
 /// How far an orbit is from switching otherwise than it does; +∞ for what it never comes to.
 ///
-/// Of a margin of zero the motion grazes: its neighbours do not switch alike, and multipliers do
-/// not describe them. They are those of the guards of the contact between the samples; what a law
-/// decides at the samples alone has none here.
+/// At a margin of zero the motion grazes: its neighbours do not switch alike, and multipliers do
+/// not describe them. The margins belong to the guards of the contact between the samples; a law's
+/// decisions at the samples alone have none here.
 struct SwitchingMargins {
   /// The margin of what the motion never comes to.
   static constexpr double none = std::numeric_limits<double>::infinity();
 
-  /// Of Δz from an end of its gap, where it turns before it has come there (m).
+  /// Distance of Δz from an end of its gap, where it turns before it has come there (m).
   double border_distance = none;
   /// Way of Δz from where it left a gap to where it reverses (m).
   double shortest_travel = none;
@@ -48,8 +48,8 @@ struct SwitchingMargins {
 /// A periodic motion of the sampled loop whose contact switches between the samples, with its
 /// numerical certificate.
 ///
-/// What is certified, in double precision: that the motion of EventMotion closes upon itself after
-/// N samples, to the error stated; that it switches alike in three successive periods; that all its
+/// Certified, in double precision: that the motion of EventMotion closes upon itself after N
+/// samples, to the error stated; that it switches alike in three successive periods; that all its
 /// multipliers, with the saltation at every switch, lie inside the unit circle; and how far it is
 /// from switching otherwise. Not certified is what interval arithmetic would: that a true orbit
 /// lies within a bound of the computed one.
@@ -100,7 +100,7 @@ struct EventOrbitOf : LoopOrbit<States> {
   }
 };
 
-/// That of the two masses.
+/// The orbit of the two masses.
 using EventOrbit = EventOrbitOf<4>;
 
 namespace detail {

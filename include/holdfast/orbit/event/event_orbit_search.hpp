@@ -23,7 +23,7 @@
 
 namespace holdfast {
 
-/// What a search for the periodic orbit of an EventMotion found.
+/// Result of a search for the periodic orbit of an EventMotion.
 template <class Contact>
 struct EventOrbitResult : OrbitResultOf<EventOrbitOf<EventMotion<Contact>::states>> {
   std::optional<StroboscopicState<Contact>> point;  ///< of the orbit, at its first sample
@@ -81,8 +81,7 @@ struct FarSample {
   double distance = 0.0;     ///< s
 };
 
-/// Of the samples at which the contact is in a mode, that which is farthest from any switch in
-/// time.
+/// The sample in a contact mode that is farthest in time from any switch.
 template <int States>
 FarSample sample_far_from_switches(const EventOrbitOf<States>& orbit, ContactMode mode) {
   FarSample best;

@@ -80,7 +80,7 @@ class RepeatingMotion {
   typename EventMotion<Contact>::Sample sense() { return motion_.sense(); }
   /// Moves to the next sample.
   void advance() { advance(IgnoreFlow()); }
-  /// The same past an observer as that of EventMotion::advance.
+  /// Moves to the next sample past an observer, as in EventMotion::advance.
   template <class Observer>
   void advance(Observer&& observer) {
     motion_.advance(observer);
@@ -294,7 +294,7 @@ class ReturnMap {
     return size;
   }
 
-  /// Those of X that any of the blocks depends on.
+  /// Coordinates of X that any of the blocks depends on.
   std::vector<int> counting_coordinates(const Blocks& blocks) const {
     std::vector<int> counting;
     for (int i = 0; i < static_cast<int>(units_.size()); ++i)

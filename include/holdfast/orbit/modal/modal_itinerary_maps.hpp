@@ -45,9 +45,9 @@ class ModalItineraryMaps {
     if (watch_) watch_();
   }
 
-  /// Of the units, at no deviation.
+  /// The deviations in their units, none of them begun yet.
   const ModalDeviations& deviations() const { return deviations_; }
-  /// Those of `deviations`.
+  /// Units of the deviations.
   const Eigen::VectorXd& units() const { return deviations_.units(); }
   /// At rest.
   State rest() const { return State::Zero(units().size()); }
@@ -104,11 +104,11 @@ class ModalItineraryMaps {
     return pole_sum_roots(loop, past_.cwiseAbs().maxCoeff() > 0.0);
   }
 
-  /// What is seen at all samples of an itinerary from a given first state, and the state after its
-  /// last sample.
+  /// Walks an itinerary from a first state and notes what is seen at all its samples.
   /// @param first      the state
   /// @param itinerary  its first sample at phase 0 of the forcing
   /// @param states     takes [z_j; u_{j−1}], one a sample
+  /// @return the state after its last sample
   State follow(const State& first, const Itinerary& itinerary,
                std::vector<Vector<double, 5>>& states) const {
     State state = first;

@@ -34,9 +34,9 @@ struct RowWithError {
   }
 };
 
-/// What becomes, along an orbit, of the deviations that begin as the six unit vectors [z̃; gap] of a
-/// weighted norm: in doubles, with a bound of all that these are wrong by, carried in the norms in
-/// which the orbit's maps contract.
+/// Deviations along an orbit that begin as the six unit vectors [z̃; gap] of a weighted norm: in
+/// doubles, with a bound of all that these are wrong by, carried in the norms in which the orbit's
+/// maps contract.
 /// @tparam Number  Enclosure; a template so that only who asks compiles it
 template <class Number>
 class EnclosedDeviations {
@@ -64,7 +64,7 @@ class EnclosedDeviations {
     const Number error = error_ * Number(norms_.reading(sample, relative_row(of_velocity)));
     return RowWithError{columns_.row(2 + first), error} - RowWithError{columns_.row(first), {}};
   }
-  /// Of the gap that the drive is in (m).
+  /// Deviation of the gap that the drive is in (m).
   const RowWithError& gap() const { return gap_; }
 
   /// Takes a sample's decision and goes to the next one.

@@ -21,7 +21,7 @@
 
 namespace holdfast {
 
-/// What a change of contact between the samples, or its not happening, is decided by.
+/// Surfaces that decide a change of contact between the samples, or that there is none.
 enum class ContactSurface {
   reversal,             ///< Δż = 0 of an engaged drive (m/s)
   gap_lower,            ///< Δz at the lower end of the gap (m)
@@ -170,7 +170,7 @@ class EnclosedModes {
   const std::pair<Number, Number>& force(std::size_t sample) const {
     return forces_[sample % forces_.size()];
   }
-  /// Of [z₁, ż₁, z₂, ż₂, u].
+  /// Units of [z₁, ż₁, z₂, ż₂, u].
   const Vector<double, 5>& units() const { return in_doubles_; }
 
   /// The coordinate itself.

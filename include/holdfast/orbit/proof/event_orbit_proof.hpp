@@ -106,7 +106,7 @@ class EventOrbitProver {
     return proof_;
   }
 
-  /// The same with the ball, as large as is proved.
+  /// Proves the motion and its ball, as large as can be proved.
   /// @param weights  deviation_weights(), of which the last one is 1
   EventOrbitProof prove_with_ball(double log_modulus, const Vector<double, 6>& weights,
                                   double largest_miss) {
@@ -204,7 +204,7 @@ class EventOrbitProver {
     return miss;
   }
 
-  /// Of displacements and velocities, as a share of those of the states.
+  /// Miss of displacements and velocities, as a share of the extent of the states.
   double share_of_extent(const Six& miss) const {
     StateScale extent;
     for (const RecordedSample& sample : path_.samples) extent.include(sample.state);
@@ -290,7 +290,7 @@ class EventOrbitProver {
     return (Number(spectral_norm_bound<6>(lengths)) * Number(first_radius_)).upper();
   }
 
-  /// That of a coordinate in its unit.
+  /// Weight of a coordinate in its unit.
   Number weight(Eigen::Index coordinate, const Vector<double, 6>& weights) const {
     const double unit = coordinate < 5 ? modes_.units()[coordinate] : 1.0;
     return Number(weights[coordinate]) * Number(unit);

@@ -54,7 +54,7 @@ class EventPassage {
   EventPassage(const Modes& modes, const RecordedContacts& path, double delay)
       : modes_(modes), path_(path), delay_(delay), moves_gap_(path.switches()) {}
 
-  /// What a sample is proposed to begin with, in the units.
+  /// Proposed state at the beginning of a sample, in the units.
   Vector<double, 6> proposed(std::size_t sample) const {
     Vector<double, 6> state = path_.samples[sample].state;
     for (Eigen::Index i = 0; i < 5; ++i) state[i] /= modes_.units()[i];
@@ -73,7 +73,7 @@ class EventPassage {
     settle(path_.samples[sample].before.mode, set);
     return set;
   }
-  /// Of [z₁, ż₁, z₂, ż₂, u_{j−1}, g]: the coordinate's place in w.
+  /// Place in w of a coordinate of [z₁, ż₁, z₂, ż₂, u_{j−1}, g].
   static Eigen::Index place(Eigen::Index coordinate) {
     return coordinate == 5 ? FlowPlace::gap : coordinate;
   }
@@ -137,7 +137,7 @@ class EventPassage {
     witness_.reset();
   }
 
-  /// What a contact keeps, exactly: Δż = 0 and Δz = g in stick, no g while engaged.
+  /// Imposes what a contact keeps exactly: Δż = 0 and Δz = g in stick, no g while engaged.
   void hold(ContactMode mode, Set& set) const {
     if (mode == ContactMode::stick) {
       set.assign(3, Modes::unit(1));
@@ -237,7 +237,7 @@ class EventPassage {
     const double near = recorded.after - now(set);
     const std::optional<Number> length = all.falls_through_zero(near);
     std::optional<Number> exact = Series(guard, single, terms).falls_through_zero(near);
-    // Of the centre's motion the zero that all motions meet first, not a later one.
+    // The centre's zero has to be the one that all motions meet first, not a later one.
     const bool is_that =
         length && exact && length->lower() <= exact->lower() && exact->upper() <= length->upper();
     if (exact && !is_that) exact = length;

@@ -19,7 +19,7 @@
 
 namespace holdfast {
 
-/// What became of the proof of an orbit.
+/// Outcome of the proof of an orbit.
 enum class OrbitProofOutcome {
   proved,           ///< all that is said of it is a theorem
   not_contracting,  ///< no norms were found in which its maps contract: a multiplier may be ≥ 1
@@ -117,7 +117,7 @@ class OrbitProver {
     return proof_;
   }
 
-  /// The same of a single loop, with the ball that it attracts.
+  /// Proves the orbit of a single loop and the ball that it attracts.
   /// @param weights  deviation_weights(), of which the last one is 1
   OrbitProof prove_with_ball(const Vector<double, 6>& weights, double largest_miss) {
     if (prove(largest_miss).outcome == OrbitProofOutcome::proved && !attract(weights))
@@ -135,8 +135,8 @@ class OrbitProver {
     return static_cast<std::size_t>((sample % count + count) % count);
   }
 
-  /// What the proposal at the next sample misses the image of that at this one by, on the whole
-  /// segment: linear maps times linear states are quadratic in the position.
+  /// Miss between the proposal at the next sample and the image of the one at this sample, on the
+  /// whole segment: linear maps times linear states are quadratic in the position.
   State missed_at(std::size_t sample) const {
     const auto& map = loops_.map(orbit_.itinerary[sample]);
     const auto addition = loops_.addition(sample);
@@ -206,7 +206,7 @@ class OrbitProver {
   }
   static Number around_zero(double error) { return {-error, error}; }
 
-  /// What a test says is positive (m, or units of velocity), with so much of r₀.
+  /// Value that a test requires to be positive (m, or units of velocity), with so much of r₀.
   Number value_of(const SwitchingTest& test, const AlongSegment<Number>& width) const {
     const std::size_t here = wrapped(test.sample), entry = wrapped(test.entry);
     const Number sign(test.sign), widths(test.widths);
@@ -312,7 +312,7 @@ class OrbitProver {
            Number(errors_[entry].displacement);
   }
 
-  /// What one more period allows a deviation to be at the beginning.
+  /// Largest deviation at the beginning of one more period for which all its tests hold.
   double limit_over_period(EnclosedDeviations<Number>& deviations) const {
     double limit = std::numeric_limits<double>::infinity();
     auto test = tests_.begin();

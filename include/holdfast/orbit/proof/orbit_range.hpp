@@ -23,7 +23,7 @@ struct ProvedOrbitRange {
 
 namespace detail {
 
-/// Of two neighbouring ranges of one outcome: what holds of both.
+/// Joins two neighbouring ranges of one outcome to what holds of both.
 inline OrbitProof joined(const OrbitProof& a, const OrbitProof& b) {
   OrbitProof both = b.decided_by < a.decided_by ? b : a;
   both.multiplier_bound = std::max(a.multiplier_bound, b.multiplier_bound);

@@ -10,7 +10,7 @@
 
 namespace holdfast::detail {
 
-/// What the drive is in, and the sign σ of Δż that it last had.
+/// Contact mode of the drive, and the sign σ of Δż that it last had.
 struct RecordedContact {
   ContactMode mode;
   double sign;

@@ -65,7 +65,7 @@ class SegmentOfLoops {
   const std::vector<std::array<Map, 2>>& ends() const { return ends_; }
   /// S or S*.
   const AlongSegment<Map>& map(std::uint8_t engaged) const { return maps_.at(engaged); }
-  /// What the excitation adds in sample j.
+  /// The excitation's addition in sample j.
   AlongSegment<State> addition(std::size_t sample) const {
     return additions_[sample % additions_.size()];
   }
@@ -75,7 +75,7 @@ class SegmentOfLoops {
   bool has_backlash() const {
     return widths_.centre.upper() > 0.0 || widths_.slope.magnitude() > 0.0;
   }
-  /// Of [z₁, ż₁, z₂, ż₂, u].
+  /// Units of [z₁, ż₁, z₂, ż₂, u].
   const Vector<double, 5>& units() const { return units_; }
 
  private:

@@ -51,7 +51,7 @@ struct SetOfStates {
     assign_where_met(coordinate, row);
     if (is_apart) at_once.row(coordinate) = (row * at_once).eval();
   }
-  /// The same of the motions on the surface alone.
+  /// Assigns a row to a coordinate on the motions that are on the surface alone.
   void assign_where_met(Eigen::Index coordinate, const Row& row) {
     const Number value = at_centre(row);
     const RowVector<Number, 6> change = row * spread;
