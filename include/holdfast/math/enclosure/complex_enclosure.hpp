@@ -31,8 +31,8 @@ inline double rounded_modulus(const std::complex<double>& z) {
 /// A complex number that is proved to lie within a radius of a centre: a disc, as its products do
 /// not widen when they turn.
 ///
-/// Every operation gives a disc that holds its result on all numbers that its arguments may be.
-/// What divides by 0, or overflows, has an infinite radius.
+/// Every operation gives a disc that holds its result on all numbers that its arguments may be;
+/// after a division by 0 or an overflow its radius is infinite.
 class ComplexEnclosure {
  public:
   /// 0.

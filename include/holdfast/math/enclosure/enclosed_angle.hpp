@@ -25,7 +25,7 @@ inline Enclosure nested_series(const Enclosure& squared, double a, int factors =
   return sum;
 }
 
-/// Of a double, |x| < 10⁶: x − k π/2, the series of what is left, and a turn by k quarters.
+/// Phasor of a double, |x| < 10⁶: x − k π/2, the series of what is left, and a turn by k quarters.
 inline EnclosedPhasor phasor_at(double x) {
   const double quarters = std::nearbyint(x * (2.0 / pi<double>));
   const Enclosure rest = Enclosure(x) - Enclosure(0.5 * quarters) * pi<Enclosure>;

@@ -94,7 +94,7 @@ class EnclosedSpiral {
   /// At least |z − c| everywhere.
   double way() const { return detail::above_roundings(turn_ * most_); }
 
-  /// The same as a curve.
+  /// This spiral as a curve.
   EnclosedCurve curve() const { return {start_, start_ * rate_, bend()}; }
   /// cⁿ e^{nσt}.
   EnclosedSpiral to_the(int n) const {

@@ -117,7 +117,7 @@ class Enclosure {
     return hull_of(a.lower_ / b.lower_, a.lower_ / b.upper_, a.upper_ / b.lower_,
                    a.upper_ / b.upper_);
   }
-  /// The same bounds; two enclosures that are equal may be of different numbers.
+  /// Whether the bounds are the same; two equal enclosures may be of different numbers.
   friend bool operator==(const Enclosure& a, const Enclosure& b) {
     return a.lower_ == b.lower_ && a.upper_ == b.upper_;
   }

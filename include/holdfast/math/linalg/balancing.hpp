@@ -71,7 +71,7 @@ struct BalancedMatrix {
       : factors(balancing(original)),
         balanced(factors.cwiseInverse().asDiagonal() * original * factors.asDiagonal()) {}
 
-  /// What a function of the balanced matrix is for the original: diag(factors) · f ·
+  /// Carries a function of the balanced matrix back to the original: diag(factors) · f ·
   /// diag(factors)⁻¹.
   Matrix<Scalar, Size> restored(const Matrix<Scalar, Size>& function) const {
     return factors.asDiagonal() * function * factors.cwiseInverse().asDiagonal();

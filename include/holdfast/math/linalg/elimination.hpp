@@ -12,7 +12,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// What the size of a pivot is judged by, for numbers that compare: |x|.
+/// Size by which a pivot is judged, for numbers that compare: |x|.
 template <class Scalar>
 Scalar pivot_size(const Scalar& x) {
   return x < Scalar(0) ? Scalar(-x) : x;

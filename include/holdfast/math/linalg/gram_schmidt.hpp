@@ -17,7 +17,7 @@ using TangentBasis =
 /// For each tangent vector whether it still has a length; false where a map has taken it to zero.
 using Alive = std::array<bool, 5>;
 
-/// What B = Q R says of R.
+/// Sizes of R in B = Q R.
 template <class Number, int Columns>
 struct Stretches {
   Vector<Number, Columns> squares;  ///< R_ii²; 0 where a column vanishes, 1 where one is not alive
@@ -75,7 +75,7 @@ Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, 
   return result;
 }
 
-/// The same of columns of any length, by the classical process, twice for the last digits.
+/// Orthonormalises columns of any length by the classical process, twice for the last digits.
 /// @param basis  B, replaced by Q; a column that vanishes stays 0
 /// @return R
 inline Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& basis) {

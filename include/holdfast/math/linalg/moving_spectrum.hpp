@@ -113,7 +113,7 @@ class MovingSpectrum {
     terms_[0].template triangularView<Eigen::StrictlyLower>().setZero();
   }
 
-  /// What a sum of as many products as there are here loses to round-off, as a share.
+  /// Round-off, as a share, of a sum of as many products as there are here.
   Scalar rounding() const {
     return Scalar(4) * static_cast<Scalar>(static_cast<std::size_t>(size()) + terms_.size()) *
            std::numeric_limits<Scalar>::epsilon();

@@ -7,7 +7,7 @@
 
 namespace holdfast {
 
-/// What a loop carries along beside the state z of its plant, unchanged until it acts.
+/// Numbers that a loop carries beside the state z of its plant, unchanged until it acts.
 enum class Carried : unsigned {
   in_force = 1,  ///< the command in force
   pending = 2,   ///< the command decided, which is not in force yet

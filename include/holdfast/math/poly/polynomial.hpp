@@ -220,9 +220,9 @@ Scalar mean_root_modulus(const Vector<Scalar, Size>& a) {
   return std::isfinite(modulus) && modulus > Scalar(0) ? modulus : Scalar(1);
 }
 
-/// The same polynomial with zeros for coefficients that are only round-off, w being measured in
-/// `unit`: first and last below 1e−12 of the largest, which are small differences of large numbers
-/// when sampling is fast, others below 1e−14.
+/// Replaces coefficients that are only round-off by zeros, w being measured in `unit`: first and
+/// last below 1e−12 of the largest, which are small differences of large numbers when sampling is
+/// fast, others below 1e−14.
 template <class Scalar, int Size>
 Vector<Scalar, Size> without_round_off(Vector<Scalar, Size> a, const Scalar& unit) {
   const Vector<Scalar, Size> size = rescaled(a, unit).cwiseAbs();

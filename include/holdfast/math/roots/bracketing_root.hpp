@@ -46,8 +46,8 @@ Scalar chandrupatla_share(const Ordinate<Scalar>& near, const Ordinate<Scalar>& 
 /// Chandrupatla's method: inverse quadratic interpolation where three points say that it can be
 /// trusted, bisection elsewhere.
 ///
-/// Of order about 1.8 at a simple zero; on a jump it bisects. Where the function is exactly zero it
-/// ends with that argument at both ends.
+/// Its order is about 1.8 at a simple zero; on a jump it bisects. Where the function is exactly
+/// zero it ends with that argument at both ends.
 /// @param function   Scalar → Scalar; a value that is not positive, NaN too, counts as negative
 /// @param bracket    lower < upper, values of opposite sign; returned as it is where they are not
 /// @param tolerance  ≥ 0, in the unit of the argument

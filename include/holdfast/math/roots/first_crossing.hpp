@@ -8,7 +8,7 @@
 
 namespace holdfast {
 
-/// What is known of a stretch |x − centre| ≤ radius.
+/// Outcome of a test on a stretch |x − centre| ≤ radius.
 enum class Stretch {
   holds,  ///< the condition is shown to hold all over it
   fails,  ///< it fails at the centre

@@ -17,7 +17,7 @@ struct PlanePoint {
   double y = 0.0;  ///< upward
 };
 
-/// What a point of a plane tells of a region.
+/// Margin of a point of a plane inside a region, and the condition nearest to failing.
 /// @tparam Label  what ends the region nearby; compared by ==
 template <class Label>
 struct RegionLook {

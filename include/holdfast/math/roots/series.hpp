@@ -31,7 +31,7 @@ ValueAndSlope value_and_slope(const Eigen::MatrixBase<Coefficients>& polynomial,
   return result;
 }
 
-/// What is left of p(x), 0 ≤ x ≤ 1, from some x on: the coefficients of p(from + y (1 − from)).
+/// Rest of p(x), 0 ≤ x ≤ 1, from some x on: the coefficients of p(from + y (1 − from)).
 inline Series rest_of(const Series& p, double from) {
   return rescaled(shifted(p, from), 1.0 - from);
 }

@@ -16,7 +16,7 @@ struct DecayRecord {
   std::vector<double> displacements;  ///< m, from the equilibrium, downward positive
 };
 
-/// What describes the decay after a load is removed. NaN where the record is too short for it.
+/// Measures of the decay after a load is removed. NaN where the record is too short for it.
 struct DecayMeasures {
   double first_peak;       ///< m, the opposite peak: extreme between the first two crossings
   double first_peak_time;  ///< t₁ (s)

@@ -36,7 +36,7 @@ struct SubharmonicShares {
   int division = 0;            ///< the smallest m that carries the asked share, 0 where none does
 };
 
-/// What to ask of the lines.
+/// Options of a search for subharmonic lines.
 struct SubharmonicOptions {
   double base_frequency;      ///< f (Hz), > 0
   int largest_division = 16;  ///< of m, ≥ 1

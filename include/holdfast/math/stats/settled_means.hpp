@@ -22,7 +22,7 @@ struct SettledMeans {
 
 namespace detail {
 
-/// What settled_means() reads off the batches of some series.
+/// Batches of some series, as settled_means() reads them.
 template <int Series, std::size_t Batches>
 class SettledBatches {
   using Means = Vector<double, Series>;

@@ -47,7 +47,7 @@ inline double trusted_digits(double value, long double reference, long double sc
   return detail::digits_of(std::abs(wide - reference), scale);
 }
 
-/// The same relative to the reference itself: a reference of 0 is met exactly or not at all.
+/// Trusted digits relative to the reference itself: a reference of 0 is met exactly or not at all.
 inline double trusted_digits(double value, long double reference) {
   return trusted_digits(value, reference, std::abs(reference));
 }
