@@ -109,7 +109,7 @@ inline std::vector<double> every(const std::vector<double>& series, std::int64_t
   return thinned;
 }
 
-/// What the states show by their returns.
+/// Sets the indicators that rest on returns of the states.
 /// @param sizes  largest |x_i| since the start
 template <int Size>
 void weigh_returns(const std::vector<Vector<double, Size>>& states,

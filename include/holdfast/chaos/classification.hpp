@@ -14,7 +14,7 @@
 
 namespace holdfast {
 
-/// What a motion of a discrete system is.
+/// Kinds of motion of a discrete system.
 enum class AttractorType {
   periodic,               ///< the same after N samples
   quasi_periodic,         ///< two or more frequencies without a common period, neighbours stay near
@@ -61,7 +61,7 @@ struct SpectralIndicators {
   double continuous;          ///< share of the power between the lines
 };
 
-/// What is known of a motion; what was not looked at stays empty.
+/// Indicators of the kind of a motion; those that were not computed stay empty.
 struct ChaosIndicators {
   std::optional<std::int64_t> diverged_at;       ///< sample at which the motion had left all bounds
   std::optional<std::int64_t> certified_period;  ///< of an orbit that was proved (samples)
@@ -156,8 +156,8 @@ class Classifier {
     return comes_together() ? contracting() : neutral();
   }
 
-  /// The same under a recorded force, or with samples that jitter: its spectrum, 0–1 test and
-  /// repetitions are those of the forcing as much as the motion's own. So nothing is called
+  /// Classifies a motion under a recorded force, or with samples that jitter: its spectrum, 0–1
+  /// test and repetitions are those of the forcing as much as its own. So nothing is called
   /// quasi-periodic, and where the samples jitter nothing periodic but rest. Divergence stands, and
   /// chaos, by an exponent above zero. Else one below zero decides: neighbours come together under
   /// one and the same forcing, so that the motion follows it.

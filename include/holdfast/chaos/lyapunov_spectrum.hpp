@@ -41,7 +41,7 @@ Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
 template <class Scalar, int Size>
 class LyapunovSpectrum {
  public:
-  /// What was added up over the steps so far, and where it stands.
+  /// Sums over the steps so far, and where they stand.
   struct State {
     Matrix<Scalar, Size> basis;      ///< Q_n
     BatchSums<Scalar, Size> sums;    ///< of ln |R_ii|

@@ -20,8 +20,8 @@ namespace holdfast {
 /// The five leading Lyapunov exponents of a conductor by its modes along a sequence of contacts, as
 /// LyapunovSpectrum has them of maps, by five deviations that are orthonormalised at every sample.
 ///
-/// Those that are exactly −∞ are not among them, but of a single mode, which has four where there
-/// is no processing delay, and once the drive has been in its backlash. Work per sample: 130
+/// Exponents that are exactly −∞ are left out, but for a single mode, which has four where there is
+/// no processing delay, and once the drive has been in its backlash. Work per sample: 130
 /// multiply-adds a natural motion.
 /// @tparam Scalar  double; a parameter so that who does not ask compiles none of it
 template <class Scalar = double>

@@ -28,7 +28,7 @@
 
 namespace holdfast {
 
-/// What a motion of a loop with backlash is, with its certificate or the indicators.
+/// Kind of a motion of a loop with backlash, with its certificate or the indicators.
 /// @tparam Search  OrbitResultOf the model's orbit
 template <class Search>
 struct ClassifiedMotion {
@@ -39,12 +39,12 @@ struct ClassifiedMotion {
   ChaosIndicators indicators;  ///< of a certified orbit its period and its exponent alone
 };
 
-/// That of an IdealLoop.
+/// Classification of a motion of an IdealLoop.
 using SampledClassification = ClassifiedMotion<OrbitResult>;
-/// That of an ImplementedLoop. @tparam States  N, the order of the plant
+/// Classification of a motion of an ImplementedLoop. @tparam States  N, the order of the plant
 template <int States>
 using EventClassificationOf = ClassifiedMotion<OrbitResultOf<EventOrbitOf<States>>>;
-/// That of the two masses.
+/// Classification of a motion of the two masses.
 using EventClassification = EventClassificationOf<4>;
 
 namespace detail {
@@ -200,7 +200,7 @@ class TrajectoryWithTangent {
   std::int64_t last_engaged_ = 0;
 };
 
-/// What the samples of a motion show.
+/// Indicators of a motion from its samples.
 /// @return nothing where its changes of contact accumulate
 template <class Contact>
 std::optional<ChaosIndicators> indicators_of_motion(const EventMotion<Contact>& start,
@@ -360,7 +360,7 @@ SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
                                     return detail::indicators_of_motion(loop, motion, plan);
                                   });
 }
-/// The same from any column of Eigen's.
+/// Classifies a motion of an IdealLoop that begins at any column of Eigen's.
 template <class Scalar, class Column>
 SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
                                       const Eigen::MatrixBase<Column>& initial_state,
@@ -369,7 +369,7 @@ SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
   return classify_motion(loop, state, limits);
 }
 
-/// The same of an implemented loop, with the saltation at every change of contact in the tangent.
+/// Classifies a motion of an implemented loop, with the saltation at each change of contact.
 ///
 /// The rules are those of `classify`. Three things are beyond an IdealLoop:
 ///  - a recorded force or a clock that jitters: no orbit is looked for, and nothing is called
@@ -404,7 +404,7 @@ EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<
                                      " (from 0), so that the motion is one of a family.";
   return found;
 }
-/// The same from any column of Eigen's.
+/// Classifies a motion of an implemented loop that begins at any column of Eigen's.
 template <class Plant, class Column>
 EventClassificationOf<states_of<Plant>> classify_motion(
     const ImplementedLoopOf<Plant>& loop, const Eigen::MatrixBase<Column>& initial_state,

@@ -67,7 +67,7 @@ double closest_return(const std::vector<Vector<double, Size>>& states) {
   return closest;
 }
 
-/// What a search for repetition found and how far it looked.
+/// Result of a search for repetition, and how far it looked.
 struct RepeatSearch {
   std::size_t lag;          ///< the smallest lag that repeats, 0 where none does
   std::size_t largest_lag;  ///< the largest lag that was tried

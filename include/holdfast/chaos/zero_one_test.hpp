@@ -113,8 +113,8 @@ inline double median_of_sorted(const std::vector<double>& sorted) {
 /// run. At the few that meet a frequency of the series K_c is 1 without chaos; the median does not
 /// see them.
 ///
-/// Of a motion sampled much faster than it moves the test says 0 whatever it is, and of fewer than
-/// about 500 samples with several frequencies it may say anything. A constant series has K = 0.
+/// The test says 0 of any motion sampled much faster than it moves, and of fewer than about 500
+/// samples with several frequencies it may say anything. A constant series has K = 0.
 ///
 /// Work: at most 500 lags from 5000 evenly spaced j for each c, and one cosine and sine a sample.
 /// Source: G. A. Gottwald, I. Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009), 129–145.
