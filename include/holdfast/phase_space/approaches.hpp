@@ -12,7 +12,7 @@
 
 namespace holdfast {
 
-/// Who hands motions of one loop out to the lanes of a pack and tells how long each goes on.
+/// Assigns motions of one loop to the lanes of a SIMD pack and decides when each ends.
 class LaneApproaches {
  public:
   LaneApproaches() = default;

@@ -41,9 +41,9 @@ double orbit_distance(const Orbit& one, const Orbit& other) {
 
 /// Gives the attractors of successive loops numbers by which they are recognised.
 ///
-/// Of all pairs of an attractor and one of the loop before, the nearest is matched first, then the
-/// nearest of those that are left, up to a largest distance. What is left gets a new number; a
-/// number that has gone is not given again.
+/// The nearest pair of an attractor and one of the loop before is matched first, then the nearest
+/// of those that are left, up to a largest distance. What is left gets a new number; a number that
+/// has gone is not given again.
 /// Source: G. Datseris, K. Luiz Rossi, A. Wagemakers, Framework for global stability analysis of
 /// dynamical systems, Chaos 33 (2023).
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
@@ -80,7 +80,7 @@ class AttractorMatching {
     return numbers;
   }
 
-  /// Those of the last loop.
+  /// Orbits of the last loop.
   const std::vector<Orbit>& orbits() const { return known_; }
   /// How many numbers were given.
   int count() const { return count_; }

@@ -64,7 +64,7 @@ namespace detail {
 template <class Loop>
 struct Neighbourhoods;
 
-/// Those from which a motion surely tends to the orbit.
+/// Neighbourhoods from which a motion surely tends to the orbit.
 template <class Scalar>
 struct Neighbourhoods<IdealLoop<Scalar>> {
   using Orbit = PeriodicOrbit;

@@ -18,7 +18,7 @@
 
 namespace holdfast {
 
-/// What one initial state comes to.
+/// Attractor that one initial state comes to.
 struct BasinLabel {
   OrbitOutcome outcome = OrbitOutcome::none_found;  ///< `certified`, or why it has no attractor
   int attractor = -1;  ///< index into the attractors of its BasinsOf; −1 unless certified
@@ -42,7 +42,7 @@ struct BasinsOf {
   std::vector<AttractorOf<Orbit>> attractors;  ///< in the order in which the states first meet them
 };
 
-/// That of an IdealLoop.
+/// Basins of an IdealLoop.
 using BasinMap = BasinsOf<PeriodicOrbit>;
 
 namespace detail {
@@ -76,7 +76,7 @@ BasinsOf<Orbit> numbered_basins(std::vector<BasinLabel> labels, const std::vecto
   return basins;
 }
 
-/// What a search for the orbit of one motion found.
+/// Result of a search for the orbit of one motion.
 template <class Orbit>
 struct FoundOrbit {
   BasinLabel label;            ///< its attractor is the number of an orbit that was known
@@ -181,7 +181,7 @@ auto basins_by(const typename Model::Loop& loop,
 template <class LoopModel, class Travel>
 struct BatchedMotions;
 
-/// Those of an IdealLoop, each searched from where it stands.
+/// Motions of an IdealLoop in a batch, each searched from where it stands.
 template <class Scalar, class Travel>
 struct BatchedMotions<IdealLoop<Scalar>, Travel> {
   using Loop = IdealLoop<Scalar>;

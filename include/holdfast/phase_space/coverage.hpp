@@ -82,7 +82,7 @@ class CoverageOf {
   std::vector<bool> visited_cells_;
 };
 
-/// That of the two masses.
+/// Coverage of the plane by motions of the two masses.
 using Coverage = CoverageOf<TwoMass<double>>;
 
 }  // namespace holdfast

@@ -30,7 +30,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// Those within a millionth of how far an orbit reaches (`StateScaleOf`).
+/// Neighbourhoods within a millionth of how far an orbit reaches (`StateScaleOf`).
 template <class Plant>
 struct Neighbourhoods<ImplementedLoopOf<Plant>> {
   using Orbit = EventOrbitOf<states_of<Plant>>;
@@ -257,7 +257,7 @@ struct SingleMotions {
   void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
 };
 
-/// Those of an ImplementedLoop of which has_event_pack(): all that are left go past the orbits that
+/// Motions of an ImplementedLoop that has_event_pack(): all that are left go past the orbits that
 /// are known by now side by side, from their begins.
 template <class Plant, class Travel>
 struct BatchedMotions<ImplementedLoopOf<Plant>, Travel> {
@@ -312,7 +312,7 @@ BasinsOf<EventOrbitOf<states_of<Plant>>> find_basins(
   return detail::basins_by<detail::SingleMotions<ImplementedLoopOf<Plant>, Begin>>(
       loop, initial_states, limits, for_tiles, begin);
 }
-/// The same of two masses, which begin with the states as they are.
+/// Finds the basins of two masses, whose initial states are taken as they are.
 template <class Tiles>
 BasinsOf<EventOrbit> find_basins(const ImplementedLoop& loop,
                                  const std::vector<Vector<double, 4>>& initial_states,

@@ -16,7 +16,7 @@
 
 namespace holdfast {
 
-/// What a motion of the sampled loop with backlash remembers.
+/// Memory of a motion of the sampled loop with backlash.
 template <class Scalar>
 using ForcedMotionMemory = MotionMemory<Scalar, BacklashMemory<Scalar>>;
 
@@ -51,7 +51,7 @@ ForcedMotionMemory<Scalar> packed_memory(const OfLane& of_lane) {
            number([](const Memory& of) { return of.backlash.previous_velocity; })}};
 }
 
-/// That of one lane.
+/// The memory of one lane.
 template <class Scalar>
 ForcedMotionMemory<double> memory_of_lane(const ForcedMotionMemory<Scalar>& memory,
                                           std::size_t lane) {

@@ -41,13 +41,13 @@ struct MappedMotion {
   MotionOrigin origin;           ///< how it was found
 };
 
-/// What was found at one cell of a map.
+/// One cell of a map and the motions found there.
 struct MapCell {
-  /// Of the motion from the initial state: `certified`, or why it has no orbit.
+  /// Outcome of the motion from the initial state: `certified`, or why it has no orbit.
   OrbitOutcome outcome = OrbitOutcome::none_found;
   std::vector<MappedMotion> motions;  ///< different ones; that from the initial state is the first
 
-  /// That of the initial state; null where it comes to none.
+  /// The motion from the initial state; null where it comes to none.
   const MappedMotion* from_start() const {
     return outcome == OrbitOutcome::certified ? &motions.front() : nullptr;
   }
@@ -132,7 +132,7 @@ struct SampledMapModel {
   }
 };
 
-/// The same of loops whose contact switches between the samples.
+/// Map model of loops whose contact switches between the samples.
 template <class Plant>
 struct EventMapModel {
   using Loop = ImplementedLoopOf<Plant>;
@@ -202,7 +202,7 @@ class MotionMapSearch {
     });
   }
 
-  /// What a round has found becomes known to the neighbours. @return whether there is any
+  /// Makes the finds of a round known to the neighbours. @return whether there are any
   bool take_over() {
     bool any = false;
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
@@ -280,7 +280,7 @@ class MotionMapSearch {
 
 /// How a map is searched.
 struct MotionMapOptions {
-  /// Of each search; motions of longer periods are not found.
+  /// Limits of each search; motions of longer periods are not found.
   OrbitLimits limits{10000, 0, {}};
   int most_rounds = 1000;  ///< after the first one; 0: from the initial states alone
   std::vector<Vector<double, 4>> more_starts =

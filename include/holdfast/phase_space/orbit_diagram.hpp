@@ -28,7 +28,7 @@
 
 namespace holdfast {
 
-/// What an orbit diagram shows at each value of its parameter.
+/// Options of an orbit diagram: what it shows at each value of its parameter.
 struct DiagramOptions {
   double transient = 30.0;           ///< s, ≥ 0: left out at each value
   int strobes = 50;                  ///< 1 … 10⁶: forcing periods that are shown
@@ -70,7 +70,7 @@ template <class Plant>
 bool may_begin_with(const ImplementedLoopOf<Plant>& loop, const StateOf<Plant>& state) {
   return loop.plant.state_matrix().rows() == state.size();
 }
-/// That of a conductor with more or fewer modes keeps the slow ones (`show_strobes`).
+/// Always so of a conductor: with more or fewer modes it keeps the slow ones (`show_strobes`).
 inline bool may_begin_with(const ModalLoop&, const ModalMotion::Full&) { return true; }
 
 /// Shows both sides of the gap once every forcing period after the transient; leaves the last state
@@ -133,7 +133,7 @@ inline Eigen::VectorXcd amplitudes_after(const NaturalMotions& motions, const Mo
   return amplitudes;
 }
 
-/// The same of a conductor by its modes.
+/// Shows the strobes of a conductor by its modes.
 /// @throws InvalidParameter where its natural motions are not all found
 template <class Observer>
 bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMotion::Full& state,

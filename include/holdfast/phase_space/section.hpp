@@ -31,12 +31,12 @@ struct SectionPointOf {
   bool engaged;                  ///< the drive transmits from here on
 };
 
-/// That of the two masses, [z₁, ż₁, z₂, ż₂] with ż₂ = ż₁.
+/// Point of the section of the two masses, [z₁, ż₁, z₂, ż₂] with ż₂ = ż₁.
 using SectionPoint = SectionPointOf<4>;
 
 namespace detail {
 
-/// What the contact tells of Δż over the part of a sampling period that begins now.
+/// Sign and zeros of Δż that the contact tells for the part of a sampling period that begins now.
 struct KnownVelocity {
   int zeros = 0;      ///< how many of Δż, Δz̈, … are zero at its beginning
   double sign = 0.0;  ///< the sign that Δż keeps all through it, ±1; 0: not told
