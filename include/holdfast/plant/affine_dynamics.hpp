@@ -17,7 +17,7 @@ struct AffineDynamicsOf {
   Vector<double, States> drift = Vector<double, States>::Zero(States < 0 ? 0 : States);
 };
 
-/// That of the two masses.
+/// The affine dynamics of the two masses.
 using AffineDynamics = AffineDynamicsOf<4>;
 
 /// ‖A‖ in the balanced coordinates (1/s, largest row sum): the size of A that the powers of A h

@@ -50,7 +50,7 @@ class EnclosedTransfer {
            square(shape) / Enclosure(mode.mass)});
     }
   }
-  /// Of two masses all numbers are decimals.
+  /// Transfer of two masses, all of whose numbers are decimals.
   EnclosedTransfer(const TwoMass<double>& masses, const LoopHardware& hardware)
       : EnclosedTransfer(Absorber<double>{masses.absorber_mass, masses.absorber_stiffness,
                                           masses.absorber_damping},
@@ -254,7 +254,7 @@ inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& con
                                 with_hardware(conductor.poles, conductor.hardware));
 }
 
-/// The same of two masses with hardware, of the decimals of all their numbers.
+/// Encloses the poles of two masses with hardware, all of whose numbers are decimals.
 /// @throws InvalidParameter where masses or hardware are not admissible
 inline std::vector<EnclosedPole> enclosed_poles(const TwoMass<double>& masses,
                                                 const LoopHardware& hardware = {}) {

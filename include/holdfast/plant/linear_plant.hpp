@@ -48,7 +48,7 @@ struct LinearPlant {
     require_one_order();
     return excitation;
   }
-  /// What is measured, and what the gap sees.
+  /// Rows of the measurement and of the relative motion at the gap.
   const Ports<Number, States>& ports() const {
     require_one_order();
     return connections;
@@ -218,7 +218,7 @@ void validate(const LinearPlant<double, States>& plant) {
                            "unlike zero");
 }
 
-/// The same numbers in another number type, for instance `long double`.
+/// Converts a plant to another number type, for instance `long double`.
 template <class To, class From, int States>
 LinearPlant<To, States> converted(const LinearPlant<From, States>& plant) {
   const Ports<From, States>& ports = plant.connections;

@@ -14,8 +14,8 @@
 
 namespace holdfast {
 
-/// What stands between plant and computer: a measurement filter of first order, a drive that
-/// follows its command with a lag, and whether there is a sensor of the velocity,
+/// Hardware between plant and computer: a measurement filter of first order, a drive that follows
+/// its command with a lag, and whether there is a sensor of the velocity,
 ///
 ///     F(s) = ω_f/(s + ω_f),   D(s) = ω_d/(s + ω_d)  or  ω_d²/(s² + 2 ζ_d ω_d s + ω_d²)
 ///

@@ -89,7 +89,7 @@ std::complex<Scalar> passive_stiffness(const Absorber<Scalar>& absorber,
 
 }  // namespace detail
 
-/// What the conductor answers at the absorber's place to a force there, and to the drive.
+/// Responses of the conductor at the absorber's place to a force there, and to the drive.
 template <class Scalar>
 struct PlaceResponse {
   std::complex<Scalar> to_force;  ///< z/F (m/N)
@@ -117,7 +117,7 @@ PlaceResponse<Scalar> place_response(const std::complex<Scalar>& bare,
 
 namespace detail {
 
-/// What modes take part with, N × 1, scaled so that the place itself has 1.
+/// Participation of modes, N × 1, scaled so that the place itself has 1.
 /// @param share  of a mode
 template <class Scalar, class Share>
 Vector<Scalar, Eigen::Dynamic> scaled_at_place(const std::vector<PlaceMode<Scalar>>& modes,

@@ -101,8 +101,8 @@ class PoleFinder {
     return weak_of_pole(modes_[n].damping_ratio < 1.0 ? n : k).has_value();
   }
 
-  /// What one of the n-th mode's two natural motions becomes; of a weak mode by its own residue,
-  /// s = s_n − ρK/(1 + bK).
+  /// Pole that one of the n-th mode's two natural motions becomes; of a weak mode by its own
+  /// residue, s = s_n − ρK/(1 + bK).
   /// @param begin  one of `bare`
   PlantPole of_mode(std::size_t n, const BarePair& begin) const {
     const Complex s = begin.s;
@@ -146,7 +146,7 @@ class PoleFinder {
     return sum;
   }
 
-  /// What begins at s, where the conductor alone or the absorber on a fixed one moves by itself.
+  /// Pole that begins at s, a pole of the conductor alone or of the absorber on a fixed one.
   PlantPole from(const Complex& begin) const {
     const Complex s = root_from_pole(
         [&](const Complex& at) {
@@ -230,8 +230,8 @@ inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& 
   using Complex = std::complex<double>;
   validate(modes, absorber);
   const detail::PoleFinder finder(modes, absorber);
-  // Of what begins as a pair, the second: the conjugate, or where the pair has met on the real axis
-  // what the conjugate has become.
+  // The second pole of what begins as a pair: the conjugate, or where the pair has met on the real
+  // axis what the conjugate has become.
   const auto partner = [&](const PlantPole& first, const Complex& begin) {
     const bool met = !(std::abs(first.s.imag()) > 1e-9 * std::abs(first.s));
     return met ? finder.from(begin) : PlantPole{std::conj(first.s), std::conj(first.residue)};

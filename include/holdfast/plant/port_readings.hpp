@@ -27,9 +27,9 @@ class PortReadings {
     return {displacement, velocity, displacement + relative_displacement(x),
             velocity + relative_velocity(x)};
   }
-  /// What P multiplies (m).
+  /// Measured displacement, which P multiplies (m).
   Scalar measured_displacement(const State& x) const { return ports_.measured_displacement.dot(x); }
-  /// What D multiplies (m/s).
+  /// Measured velocity, which D multiplies (m/s).
   Scalar measured_velocity(const State& x) const { return ports_.measured_velocity.dot(x); }
   /// Δz (m).
   Scalar relative_displacement(const State& x) const { return ports_.relative_displacement.dot(x); }
@@ -59,12 +59,12 @@ class PortReadings {
   auto velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.velocity * x);
   }
-  /// What P multiplies, of deviations of the state as columns of a matrix, N × M. @return 1 × M
+  /// Measured displacements of deviations, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto measured_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.measured_displacement * x);
   }
-  /// What D multiplies, of deviations likewise.
+  /// Measured velocities of deviations likewise.
   template <class Columns>
   auto measured_velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.measured_velocity * x);
@@ -89,7 +89,7 @@ class PortReadings {
   Ports<Scalar, states_of<Plant>> ports_;
 };
 
-/// Those of the two masses.
+/// Readings of the two masses.
 template <class Number>
 class PortReadings<TwoMass<Number>> {
  public:

@@ -11,7 +11,7 @@
 
 namespace holdfast {
 
-/// What a pair of natural frequencies is asked of the two-mass plant.
+/// Natural frequencies that the two-mass plant is to have, and the numbers that are given.
 template <class Scalar>
 struct FrequencyReduction {
   Scalar conductor_stiffness;  ///< k₁ (N/m), > 0

@@ -84,7 +84,7 @@ Scalar relative_velocity(const Vector<Scalar, Size>& state) {
   return state[3] - state[1];
 }
 
-/// The same numbers in another number type, for instance `long double`.
+/// Converts the masses to another number type, for instance `long double`.
 template <class To, class From>
 TwoMass<To> converted(const TwoMass<From>& plant) {
   return {To(plant.conductor_mass), To(plant.conductor_stiffness), To(plant.conductor_damping),
