@@ -115,8 +115,8 @@ class OwnController {
     return result;
   }
 
-  /// Of the last sample, (M + 1) × (M + 2). Differences are central, over 2⁻¹⁶ of the largest that
-  /// each number has been: of a smooth law to some ten digits.
+  /// Derivative at the last sample, (M + 1) × (M + 2). Differences are central, over 2⁻¹⁶ of the
+  /// largest that each number has been: of a smooth law to some ten digits.
   template <class Result = Derivative>
   Result derivative() const {
     if (derivative_) return derivative_(at_, elapsed_);

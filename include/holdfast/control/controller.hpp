@@ -16,7 +16,7 @@ enum class VelocitySensing {
   difference,  ///< the backward difference of the displacements as read
 };
 
-/// What keeps a real controller from u = P z₁ + D ż₁. As it stands, nothing does.
+/// Limits that keep a real controller from u = P z₁ + D ż₁; by default there are none.
 struct ControllerLimits {
   double displacement_quantum = 0;  ///< q_z (m), ≥ 0: resolution of the displacement; 0: exact
   double velocity_quantum = 0;  ///< q_v (m/s), ≥ 0: resolution of a measured velocity; 0: exact;
@@ -43,7 +43,7 @@ inline void validate(const ControllerLimits& limits) {
   }
 }
 
-/// What a controller remembers of the past samples.
+/// Memory of a controller of the past samples.
 struct ControllerMemory {
   double previous_displacement = 0;  ///< ẑ_{j−1} (m), as read; meaningful once it has sampled
   bool has_sampled = false;          ///< there has been a sample

@@ -18,7 +18,7 @@ inline TwoMass<Enclosure> enclosed(const TwoMass<double>& plant) {
           decimal(plant.absorber_stiffness), decimal(plant.absorber_damping)};
 }
 
-/// The same of τ and δ.
+/// Encloses τ and δ.
 /// @throws InvalidParameter where they are not admissible
 inline Sampling<Enclosure> enclosed(const Sampling<double>& sampling) {
   validate(sampling);

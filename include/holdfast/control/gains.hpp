@@ -7,7 +7,7 @@
 
 namespace holdfast {
 
-/// What a controller is given at sample j.
+/// Readings that a controller is given at sample j.
 struct ControlSample {
   double displacement;  ///< z₁ (m), or what the plant's ports measure in its place
   double velocity;      ///< ż₁ (m/s), likewise

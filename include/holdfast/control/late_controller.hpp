@@ -42,7 +42,7 @@ struct LateController {
     return next;
   }
 
-  /// Of u_j and the next state by readings and state; a step of the readings has the slope 0.
+  /// Derivative of u_j and next state by readings and state; steps of the readings have slope 0.
   Derivative derivative(const ControlSample& sample, const State& state) const {
     const ControllerSlope slope = sensed(sample, state).second.slope();
     Derivative result = Derivative::Zero(order() + 1, order() + 2);
@@ -67,7 +67,7 @@ struct LateController {
   }
 };
 
-/// What of a delay comes within a sample, (k − 1) τ being the controller's: τ, and δ less them.
+/// Part of a delay within a sample, (k − 1) τ being the controller's: τ, and δ less them.
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @throws InvalidParameter for another sampling
 inline Sampling<double> within_sample(const Sampling<double>& sampling) {

@@ -34,7 +34,7 @@ HarmonicInput<Scalar, states_of<Plant>> harmonic_input(
              : exact_harmonic(plant, loop.sampling.period, angular_frequency);
 }
 
-/// The same of a loop of any order and delay, (N + k) × 1: the force moves no command.
+/// Harmonic input of a loop of any order and delay, (N + k) × 1: the force moves no command.
 template <class Plant, class Scalar = ScalarOf<Plant>>
 HarmonicInput<Scalar, Eigen::Dynamic> harmonic_input(
     const Plant& plant, const LoopMap<Scalar>& map, ForceHold hold,

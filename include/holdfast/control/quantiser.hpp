@@ -7,7 +7,7 @@
 
 namespace holdfast {
 
-/// What a sensor of finite resolution reads: the multiple of its quantum that is nearest to the
+/// Reading of a sensor of finite resolution: the multiple of its quantum that is nearest to the
 /// value (a mid-tread quantiser).
 ///
 ///     ẑ = q · round(z / q),   |ẑ − z| ≤ q / 2 up to round-off;   q = 0: ẑ = z

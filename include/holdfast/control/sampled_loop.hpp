@@ -68,7 +68,7 @@ struct SampledLoop {
   }
 };
 
-/// The same numbers in another number type, for instance in every lane of a pack.
+/// Converts a loop to another number type, for instance to every lane of a pack.
 template <class To, class From, int States>
 SampledLoop<To, States> converted(const SampledLoop<From, States>& loop) {
   return {{To(loop.sampling.period), To(loop.sampling.processing_delay)},
