@@ -102,7 +102,7 @@ class DriveContact {
     if (kind_ == Kind::at_samples || mode == 0) return engaged_dynamics(plant_);
     return mode == gap ? released_dynamics(plant_) : locked_dynamics(plant_);
   }
-  /// What the drive moves.
+  /// The plant that the drive moves.
   const Plant& plant() const { return plant_; }
   /// The two masses whose energy bounds the motion in one of the modes; a stop is part of it.
   Plant plant(int mode) const {
@@ -115,7 +115,7 @@ class DriveContact {
 
   /// Number of the present mode, 0 … `modes` − 1.
   int mode() const { return mode_; }
-  /// What the drive does in the present mode; of a law at samples `engaged` before the first one.
+  /// Contact mode of the drive at present; of a law at samples `engaged` before the first one.
   ContactMode word() const { return word_; }
   /// Whether the command of the present sample takes effect: unless a law at samples found it not
   /// transmitted.
@@ -124,7 +124,7 @@ class DriveContact {
   }
   /// u_j (N) as it goes to the drive, of a sample's command.
   double commanded(double command) const { return transmits_command() ? command : 0.0; }
-  /// What the drive transmits (N); a stop's own force is not in it.
+  /// Force that the drive transmits (N); a stop's own force is not in it.
   double transmitted(const Instant& now) const {
     if (kind_ == Kind::at_samples) return now.command;
     if (word_ == ContactMode::engaged) return engaged_force(plant_, now);
@@ -133,7 +133,7 @@ class DriveContact {
 
   /// Whether it may change between the samples: of an exact law but play of r₀ = 0.
   bool changes_between_samples() const { return changes_between_samples_; }
-  /// What ends the present mode between the samples: Δż while play is engaged; the way (m) to
+  /// Guards that end the present mode between the samples: Δż while play is engaged; the way (m) to
   /// either end of the gap, or on a stop how far Δz is beyond it; in stick the accelerations that
   /// keep the sides together.
   ModeGuards guards() const {
@@ -155,7 +155,7 @@ class DriveContact {
   void jumped(const Instant& now) {
     if (kind_ != Kind::play) return;
     if (word_ == ContactMode::stick) return leave_stick(now, 1);
-    // What else is zero at a change of contact is so by the force and the command before the jump.
+    // Further zeros at a change of contact are those of the force and the command before the jump.
     zeros_ = std::min(zeros_, mode_ == gap ? 2 : 1);
   }
   /// The absorber was displaced against the conductor: stick ends, and a stop that was passed is
@@ -165,7 +165,7 @@ class DriveContact {
     zeros_ = 0;
     displaced_ = true;
   }
-  /// What the mode keeps, without rounding: Δż = 0 and Δz in stick.
+  /// Restores what the mode keeps, without rounding: Δż = 0 and Δz in stick.
   void keep(const State& before, State& after) const {
     if (word_ == ContactMode::stick) readings_.hold_relative_position(before, after);
   }

@@ -37,11 +37,11 @@ struct GuardsOf {
   int count = 0;                         ///< 0: the contact stays as it is, for any motion
 };
 
-/// Those of the two masses.
+/// Instant of the two masses.
 using ContactInstant = ContactInstantOf<4>;
-/// That of the two masses.
+/// Guard of the two masses.
 using Guard = GuardOf<4>;
-/// Those of the two masses.
+/// Guards of the two masses.
 using Guards = GuardsOf<4>;
 
 /// Δz = z₂ − z₁ as a functional of the state, 4 × 1.

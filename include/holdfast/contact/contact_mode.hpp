@@ -6,7 +6,7 @@
 
 namespace holdfast {
 
-/// What the drive does at an instant, when its backlash switches between the samples.
+/// Contact modes of the drive, when its backlash switches between the samples.
 enum class ContactMode : std::uint8_t {
   engaged,  ///< it transmits the command u
   gap,      ///< it crosses its gap and transmits nothing

@@ -5,7 +5,7 @@
 
 namespace holdfast {
 
-/// What the drive remembers of the past samples.
+/// Memory of the drive of the past samples.
 template <class Scalar>
 struct BacklashMemory {
   Mask<Scalar> inside;       ///< in its gap since the last sample
@@ -86,7 +86,7 @@ class Backlash {
   BacklashMemory<Scalar> memory_;
 };
 
-/// The same backlash read so that entry is tested at the exit sample too.
+/// Backlash with entry tested at the exit sample too.
 ///
 /// Rule 2 ends otherwise: a sample j that leaves the gap is tested by rule 3 at once, so that with
 /// Δż_{j−1} ≠ 0 and Δż_{j−1} Δż_j ≤ 0 the drive passes from its gap straight into the next one and

@@ -81,7 +81,7 @@ AffineDynamicsOf<States> dynamics_on_stop(const LinearPlant<double, States>& pla
   pressed.drift = plant.force_input * (-stiffness * at);
   return pressed;
 }
-/// That of the two masses.
+/// The dynamics of the two masses on a stop.
 template <class Scalar>
 AffineDynamicsOf<4> dynamics_on_stop(const TwoMass<Scalar>& plant, double stiffness, double damping,
                                      double at) {
