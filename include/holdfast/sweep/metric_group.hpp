@@ -25,7 +25,7 @@
 
 namespace holdfast::detail {
 
-/// What is looked at in a stretch of samples; what no lane needs is left out.
+/// Conditions watched in a stretch of samples; those that no lane needs are left out.
 struct Watch {
   bool extremum;    ///< some first extremum is still to come
   bool steady;      ///< some lane is steady

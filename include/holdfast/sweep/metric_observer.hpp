@@ -23,9 +23,9 @@ Mask<Scalar> is_reversal(const Scalar& before, const Scalar& now) {
   return ((before > zero) & (now <= zero)) | ((before < zero) & (now >= zero));
 }
 
-/// What the metrics of a motion, or of as many as a pack has lanes, need of its samples. Its
-/// drivers, MetricTrack of the sampled map and event_metrics() of the event-driven flow, decide
-/// which samples it is shown.
+/// Sums and peaks behind the metrics of a motion, or of as many as a pack has lanes. Its drivers,
+/// MetricTrack of the sampled map and event_metrics() of the event-driven flow, decide which
+/// samples it is shown.
 template <class Scalar>
 struct MetricObserver {
   static constexpr double infinity = std::numeric_limits<double>::infinity();  ///< ∞
@@ -94,7 +94,7 @@ struct MetricObserver {
     reversals = select(lanes, select(reverses, Scalar(-1), zero), reversals);
   }
 
-  /// What one lane has kept.
+  /// The observations of one lane.
   MetricObserver<double> lane(std::size_t lane) const {
     MetricObserver<double> kept;
     kept.first_peak = detail::lane_of(first_peak, lane);

@@ -14,13 +14,13 @@ enum class MotionEnd {
   accumulates,  ///< its changes of contact do (motion/event_motion.hpp): it cannot be followed
 };
 
-/// What a sweep keeps of one motion of the sampled loop with backlash.
+/// Metrics of one motion of the sampled loop with backlash, as a sweep keeps them.
 ///
 /// t_j = j τ for j = 0, 1, … up to the last sample not after the duration. The steady samples are
 /// those with t_j not before half the duration, round-off apart; where there are none, what is
-/// taken of them is NaN. Of a motion that diverged everything is infinite but `engaged_fraction`
-/// and `reversals_per_s`, which are NaN, and `first_peak`, which stays what it was. Of one whose
-/// changes of contact accumulate everything is NaN but the samples up to there.
+/// taken of them is NaN. Everything of a motion that diverged is infinite but `engaged_fraction`
+/// and `reversals_per_s`, which are NaN, and `first_peak`, which stays what it was. Where changes
+/// of contact accumulate everything is NaN but the samples up to there.
 struct MotionMetrics {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///< NaN
 

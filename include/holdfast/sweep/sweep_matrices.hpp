@@ -50,7 +50,7 @@ class SweepMatrices {
   void pause() const {}
 
  private:
-  /// Of no loop yet, but copied with the rest.
+  /// Zero matrices, of no loop, which are copied with the rest.
   static Matrices of_no_loop() {
     const Matrix<double, 4> square = Matrix<double, 4>::Zero();
     const Vector<double, 4> column = Vector<double, 4>::Zero();
