@@ -4,7 +4,7 @@
 
 #include "holdfast/plant/two_mass.hpp"
 
-/// What is asked of a fit to a decay record and what it answers; this header needs no Ceres.
+/// Options and results of a fit to a decay record; this header needs no Ceres.
 namespace holdfast::fit {
 
 /// A parameter of the plant that a decay can determine; m₂ is the absorber's design.
@@ -25,7 +25,7 @@ inline double parameter_of(const TwoMass<double>& plant, PlantParameter paramete
   return plant.*members[static_cast<int>(parameter)];
 }
 
-/// What of the record is to be met.
+/// Measures of the record that a fit is to meet.
 enum class DecayTarget {
   first_peak_and_period,            ///< each relative to itself
   first_peak_period_and_decrement,  ///< and the logarithmic decrement
@@ -35,7 +35,7 @@ enum class DecayTarget {
 /// Whether a target is a few measures of the record.
 inline bool is_measured(DecayTarget target) { return target != DecayTarget::time_history; }
 
-/// What is asked of a fit.
+/// Options of a fit.
 struct DecayFitOptions {
   std::vector<PlantParameter> free = {PlantParameter::absorber_damping};  ///< none twice
   DecayTarget target = DecayTarget::time_history;  ///< what the misfit is measured in

@@ -12,7 +12,7 @@
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
-/// What a plant misses of a decay record, as Ceres Solver asks for it.
+/// Residuals of a plant against a decay record, as Ceres Solver asks for them.
 namespace holdfast::fit::detail {
 
 inline double value_of(double number) { return number; }
@@ -58,7 +58,7 @@ struct DecayResiduals {
   DecayMeasures measures;
   DecayTarget target;
   TwoMass<double> reference;
-  // Of the history's residuals, in |z(0)|; ∞ for plain least squares.
+  // Scale of the history's residuals, in |z(0)|; ∞ for plain least squares.
   double huber_scale = std::numeric_limits<double>::infinity();
 
   /// |z(0)| (m): the fit does not know the unit of length.

@@ -7,8 +7,8 @@
 
 #include "holdfast/core/compiler.hpp"
 
-/// What is asked of the search for a device's best place and strength, and what it answers; this
-/// header needs no Ceres.
+/// Options and results of the search for a device's best place and strength; this header needs no
+/// Ceres.
 namespace holdfast::placement {
 
 /// One number of a device that may be moved: its place, a damping, a gain.
@@ -21,8 +21,8 @@ struct MovableValue {
   int places = 9;         ///< of the first grid along it, 2 … 1000, its ends among them
 };
 
-/// What is to be made small with some values: one level (> 0) for each frequency of a band, or each
-/// mode, always as many. None, or one that is not finite: the values are not admissible.
+/// Levels to be made small with some values: one (> 0) for each frequency of a band, or each mode,
+/// always as many. None, or one that is not finite: the values are not admissible.
 using Levels = std::function<std::vector<double>(const std::vector<double>&)>;
 
 /// How the search goes.
