@@ -89,7 +89,7 @@ class Integrator : public detail::Session {
   /// That instant (s).
   double time() const { return time_; }
 
-  /// Of the integration so far, since it last began anew.
+  /// Cost of the integration so far, since it last began anew.
   IntegrationCost cost() const {
     IntegrationCost cost;
     cost.steps = count(&CVodeGetNumSteps);

@@ -68,7 +68,7 @@ inline std::string name_of_flag(int flag) {
   return name ? std::string(name.get()) : "flag " + std::to_string(flag);
 }
 
-/// What the integration cost.
+/// Cost of an integration.
 struct IntegrationCost {
   long steps = 0;                 ///< of the integrator, not of the instants asked for
   long rate_evaluations = 0;      ///< calls of the right-hand side
@@ -92,7 +92,7 @@ struct FreeBy {
     Free(handle);
   }
 };
-/// Those of which SUNDIALS takes the address, to set them to null.
+/// Deleter of handles of which SUNDIALS takes the address, to set them to null.
 template <auto Free>
 struct FreeByAddress {
   template <class Handle>
@@ -121,7 +121,7 @@ inline SUNContext make_context() {
   return context;
 }
 
-/// What every integration by CVODE holds and how it fails: the handles, the outcome, the words.
+/// Base of every integration by CVODE: the handles, the outcome and the words of a failure.
 class Session {
  public:
   Session(const Session&) = delete;

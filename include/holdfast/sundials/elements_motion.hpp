@@ -93,7 +93,7 @@ class ElementsMotion {
   IntegrationOutcome outcome() const { return integrator_.outcome(); }
   /// CVODE's own words on a failure.
   const std::string& words() const { return integrator_.words(); }
-  /// What the motion has cost so far, since the last jump of a force.
+  /// Cost of the motion so far, since the last jump of a force.
   IntegrationCost cost() const { return integrator_.cost(); }
 
  private:
