@@ -87,11 +87,10 @@ class BoundaryCurves {
 
   /// The curve of root pairs, parametrised by Y.
   const RootPairCurve<Scalar>& pairs() const { return pairs_; }
-  /// Those lines that a gain moves, λ = +1 (s = 0) before λ = −1: none, one or two.
+  /// Boundary lines that a gain moves, λ = +1 (s = 0) before λ = −1: none, one or two.
   const std::vector<BoundaryLine<Scalar>>& lines() const { return lines_; }
 
-  /// What a point of `pairs()` is called: `complex_pair`, or `imaginary_pair` in the continuous
-  /// loop.
+  /// Kind of a point of `pairs()`: `complex_pair`, or `imaginary_pair` in the continuous loop.
   BoundaryCurve pair_kind() const {
     return sampled ? BoundaryCurve::complex_pair : BoundaryCurve::imaginary_pair;
   }

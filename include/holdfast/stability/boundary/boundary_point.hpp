@@ -91,7 +91,7 @@ inline void validate(const GainWindow& window) {
   require_positive("width of the range of differential gains", window.height(), "N s/m");
 }
 
-/// What is special about a point of the boundary in the plane of P (across) and D (up).
+/// Special points of the boundary in the plane of P (across) and D (up).
 enum class BoundaryFeatureKind {
   vertical_tangent,    ///< dP/dθ = 0: a stable interval of D opens or closes here
   horizontal_tangent,  ///< dD/dθ = 0: a stable interval of P opens or closes here
@@ -115,7 +115,7 @@ struct BoundaryFeature {
   BoundaryRoot<Scalar> second;  ///< the line, or the faster pair; of two lines λ = −1
   PdGains<Scalar> gains;        ///< P (N/m) and D (N s/m), finite
   Scalar residual;  ///< larger |p(x)| of the two roots, over the sum of the moduli of its terms
-  /// Of a tangent: one of the other kind lies so near that the two are nearly a cusp, where a small
+  /// Whether a tangent of the other kind lies so near that the two are nearly a cusp, where a small
   /// change of the loop swaps them, and stable intervals appear or vanish.
   bool nearly_cusp = false;
 };

@@ -27,7 +27,7 @@ struct GainPassage {
   int leaving;   ///< how many leave the circle's inside as the gain grows: ±2, or ±1 at λ = ±1
 };
 
-/// What a loop of any order does on the unit circle, at angles so close together that G_z and G_v
+/// Response of a loop of any order on the unit circle, at angles so close together that G_z and G_v
 /// of `ModalResponse` are smooth between them: the step is a fraction of the distance to the
 /// nearest pole, and of what a delay of many samples turns. From it the gains at which roots pass
 /// through the circle, and the number of roots outside for any gains:
@@ -176,7 +176,7 @@ class ResolvedCircle {
       return Scalar(1) - (free == FreeGain::differential ? gains.proportional * g.displacement
                                                          : gains.differential * g.velocity);
     }
-    /// Of the sign of Im X, and smooth.
+    /// A smooth number with the sign of Im X.
     Scalar imaginary(const CommandResponse<Scalar>& g) const {
       const std::complex<Scalar> a = rest(g), b = of_free(g);
       return a.imag() * b.real() - a.real() * b.imag();
@@ -299,8 +299,7 @@ class ResolvedCircle {
     }
   }
 
-  /// Of the gaps between passages those without a root outside; one that the winding cannot decide
-  /// is none of them.
+  /// Gaps between passages without a root outside; one that the winding cannot decide is left out.
   template <class Outside>
   static std::vector<Interval<Scalar>> without_roots_outside(
       const std::vector<GainPassage<Scalar>>& found, const Outside& outside) {

@@ -131,8 +131,8 @@ class RootPairCurve {
     return {square, at.denominator / at.slope};
   }
 
-  /// The same without a guess; the nearer end of an arc that does not take the gain. Y = 0 and ∞
-  /// are put off to where all powers of Y are still numbers.
+  /// Y on an arc at a P, without a guess; the nearer end of an arc that does not take the gain.
+  /// Y = 0 and ∞ are put off to where all powers of Y are still numbers.
   Scalar square(MonotoneArc<Scalar> arc, const Scalar& proportional_gain) const {
     const Scalar largest = std::pow(std::numeric_limits<Scalar>::max(), Scalar(0.125));
     arc.start.square = std::max(arc.start.square, Scalar(1) / largest);
@@ -158,14 +158,14 @@ class RootPairCurve {
     return {-evaluate(sum, square) / slope, rounding * evaluate(sizes, square) / std::abs(slope)};
   }
 
-  /// What round-off may move a sum by, as a share of the sum of the moduli of its terms.
+  /// Round-off of a sum, as a share of the sum of the moduli of its terms.
   static constexpr Scalar rounding = Scalar(32) * std::numeric_limits<Scalar>::epsilon();
 
   /// Even and odd part of the polynomial without control, w in `unit()`.
   const ParityParts<Scalar>& base() const { return base_; }
-  /// Those of its change per N/m of P.
+  /// Even and odd part of its change per N/m of P.
   const ParityParts<Scalar>& proportional() const { return proportional_; }
-  /// Those of its change per N s/m of D.
+  /// Even and odd part of its change per N s/m of D.
   const ParityParts<Scalar>& differential() const { return differential_; }
 
   /// One part of the polynomial at some gains, and the sum of the moduli of its terms, by which

@@ -38,9 +38,8 @@ class CircleArcs {
   /// Every arc: the one that is all of the half circle.
   Arcs all() const { return {0}; }
 
-  /// Of some arcs those, or parts of them, on which a root of a loop of the box may lie; the loops
-  /// of the box have no root on the others. Parts are as short as they need to be for that to be a
-  /// question of the box's size.
+  /// Arcs among some, or parts of them, on which a root of a loop of the box may lie; the loops of
+  /// the box have no root on the others. Parts are as short as the size of the box asks for.
   Arcs meeting(const GainBox& box, const Arcs& among) {
     const Gains gains(box);
     if (!gains.are_finite()) return among;

@@ -135,7 +135,7 @@ AffineLine<Degree> along(LoopParameter gain,
 template <int Degree, PolynomialVariable Variable>
 class ChartPolynomials {
  public:
-  /// What the chart is computed from, for any gains.
+  /// Characteristic polynomial at any gains, from which the chart is computed.
   using Affine = AffinePolynomial<double, Degree, Variable>;
   /// From a loop to it.
   using PolynomialOf = Affine (*)(const OperatingPoint&);

@@ -22,7 +22,7 @@
 
 namespace holdfast {
 
-/// What is proved of all gains in a box.
+/// Verdict that is proved for all gains in a box.
 enum class ProvedStability {
   stable,    ///< every loop is asymptotically stable
   unstable,  ///< every loop has a root beyond the unit circle, or right of the imaginary axis
@@ -53,7 +53,7 @@ struct ProvedBox {
 struct ProvedChart {
   std::vector<ProvedBox> boxes;  ///< at least one
 
-  /// Of all boxes (N²·s/m²).
+  /// Area of all boxes (N²·s/m²).
   double area() const {
     double sum = 0.0;
     for (const ProvedBox& box : boxes) sum += box.gains.area();
@@ -114,7 +114,7 @@ class GainBoxProof {
   explicit GainBoxProof(HalfPlanePolynomial<Enclosure, Degree> polynomial)
       : polynomial_(std::move(polynomial)) {}
 
-  /// What is proved of a box.
+  /// The verdict on a box.
   ProvedStability operator()(const GainBox& box) const {
     const Enclosure p(box.proportional_from, box.proportional_to);
     const Enclosure d(box.differential_from, box.differential_to);
@@ -261,7 +261,7 @@ inline GainBoxProof<4> gain_box_proof(const TwoMass<double>& plant) {
   return GainBoxProof<4>(characteristic_polynomial(enclosed(plant)));
 }
 
-/// The same for the sampled loop.
+/// Proof for boxes of gains of the sampled loop.
 /// @throws InvalidParameter where the two masses or the sampling are not admissible
 inline GainBoxProof<5> gain_box_proof(const TwoMass<double>& plant,
                                       const Sampling<double>& sampling) {

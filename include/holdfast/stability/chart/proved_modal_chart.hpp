@@ -160,7 +160,7 @@ class ModalChart {
     open_cells(second, box);
   }
 
-  /// What is left of a box's arcs for a part of it.
+  /// A part of a box, with those of the box's arcs that it still meets.
   CrossedBox part_of(const CrossedBox& box, const GainBox& part) {
     watch_();
     CrossedBox result{part, {}};
@@ -182,7 +182,7 @@ class ModalChart {
     open_.push_back(std::move(box));
   }
 
-  /// Of each region, at the number that it has.
+  /// Verdicts on the regions, each at the number of its region.
   std::vector<ProvedStability> verdicts_on(const std::vector<std::size_t>& regions) {
     std::vector<std::optional<GainBox>> largest(free_.size());
     for (std::size_t k = 0; k < free_.size(); ++k) {

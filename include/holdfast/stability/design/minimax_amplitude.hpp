@@ -140,7 +140,7 @@ class AmplitudeBand {
     for (const double frequency : near_roots) points.push_back(at(frequency));
     std::sort(points.begin(), points.end(),
               [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
-    // Of two points an ulp apart only one is a local maximum, and looks to one side alone.
+    // Only one of two points an ulp apart is a local maximum, and looks to one side alone.
     const auto same = [this](const auto& a, const auto& b) {
       return b.frequency - a.frequency < 1e-12 * band_.upper;
     };

@@ -45,7 +45,7 @@ struct AmplitudeOptions {
   /// (`true_amplitude_per_force`); else to the same with the force held as with control, as in
   /// Kollár 2022, Fig. 5.
   bool relative_to_true_force = false;
-  /// Of a ModalResponse: whether its margin too is about the D of minimum radius, as of two masses.
+  /// Whether the margin of a ModalResponse too is about the D of minimum radius, as of two masses.
   bool by_decay = false;
 };
 
@@ -71,8 +71,7 @@ inline void validate(const AmplitudeOptions& options) {
 
 namespace detail {
 
-/// What lies in the same of some intervals as one D, no farther from it than `share` of the way to
-/// the end.
+/// Part of the interval that holds one D, no farther from it than `share` of the way to the end.
 template <class Scalar>
 std::vector<Interval<Scalar>> within_share(const std::vector<Interval<Scalar>>& intervals,
                                            const Scalar& from, const Scalar& share) {

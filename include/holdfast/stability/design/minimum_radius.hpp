@@ -14,7 +14,7 @@
 
 namespace holdfast {
 
-/// What kind of answer the D of minimum spectral radius is.
+/// Outcomes of the search for the D of minimum spectral radius.
 enum class MinimumRadiusOutcome {
   point,       ///< one D has the minimum radius
   plateau,     ///< a root that D does not move sets the radius over the whole `interval`
@@ -163,7 +163,7 @@ struct RadiusLevels {
   const Loop& loop;     ///< kept outside
   double centre = 1.0;  ///< from which radii are counted
 
-  /// What round-off of a root is a share of: the commands on their way have entries of 1.
+  /// Number of which round-off of a root is a share: the commands on their way have entries of 1.
   double scale() const { return 1.0; }
   /// ρ(P, D) − 1.
   double radius_offset(const PdGains<double>& gains) const { return loop_excess(loop, gains); }

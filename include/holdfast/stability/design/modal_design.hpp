@@ -244,7 +244,7 @@ template <class Scalar>
 struct ConductorOverBand {
   ConductorWithAbsorber conductor;  ///< with all its poles
   AmplitudeOptions options;         ///< τ, δ and the hold of the force
-  /// Of the conductor.
+  /// Response of the conductor.
   ModalResponse<Scalar> loop = modal_response<Scalar>(conductor, options.sampling);
 
   /// The steady response at ω (rad/s).

@@ -56,7 +56,7 @@ struct TwoSidedMargin {
   MarginEnd above;  ///< towards larger values
 };
 
-/// What the loop can bear before it loses its stability, one quantity moving at a time.
+/// Changes that the loop can bear before it loses its stability, one quantity moving at a time.
 struct StabilityMargins {
   MarginOutcome outcome;             ///< whether the loop is stable as it is
   double unit_circle;                ///< 1 − ρ, not positive where the loop is not stable
@@ -171,7 +171,7 @@ TwoSidedMargin period_margin(const Plant& plant, const Sampling<double>& samplin
   const double shortest = 1e-6 * period;
   const double longest =
       std::max(search.longest_period_ratio * period, 20.0 * slowest_mode_period(plant));
-  // What the delay exceeds whole samples by, of which the bound on slow sampling is free.
+  // Part of the delay beyond whole samples, of which the bound on slow sampling is free.
   const double share = std::clamp(fraction - (held_commands({1.0, fraction}) - 1), 0.0, 1.0);
   const double certain = SlowSamplingBound(plant, gains, share).certain_from();
   const auto roots = continuous_roots(plant, gains);  // of τ → 0
@@ -274,8 +274,7 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
           detail::delay_margin(general, sampling, gains, search)};
 }
 
-/// What the loop of the two masses can bear as a whole: its gain, its phase and a further delay,
-/// one at a time.
+/// Margins of the loop of the two masses as a whole: gain, phase or a further delay alone.
 ///
 /// The characteristic polynomial is a + x b, x = 1 being a common factor of both gains, so that the
 /// loop opened at the drive is L = −b/a and closes where L = 1.

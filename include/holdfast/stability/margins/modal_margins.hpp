@@ -43,7 +43,7 @@ struct ModalMargins {
     });
   }
 
-  /// Of a common factor of both gains, about 1.
+  /// Stable interval of a common factor of both gains, about 1.
   Interval<Scalar> factors() const {
     const ResolvedCircle<Scalar> circle(loop_response());
     for (const Interval<Scalar>& interval : circle.stable_gains(FreeGain::differential, {}))

@@ -25,7 +25,7 @@ enum class ProofStop {
   undecided,  ///< a root is so near the circle that enclosures do not tell it from one on it
 };
 
-/// What is proved of one direction from a value.
+/// Proved margin in one direction from a value.
 struct ProvedMarginEnd {
   /// The loop is stable at every position from the value to this one, both included; NaN where it
   /// is not proved to be stable at the value.
@@ -68,7 +68,7 @@ inline bool is_off_circle(CircleArcs& arcs, const GainBox& box) {
   return arcs.meeting(box, arcs.all()).empty();
 }
 
-/// What is proved of the loops of a box together.
+/// Verdict on the loops of a box together.
 inline ProvedStability stability_of(CircleArcs& arcs, const GainBox& box) {
   if (!is_off_circle(arcs, box)) return ProvedStability::undecided;
   const auto outside = arcs.roots_outside(middle_of(box));
@@ -175,7 +175,7 @@ struct MarginProver {
     of_sampling(proved);
     return proved;
   }
-  /// Of τ and δ.
+  /// Proves the margins of τ and δ.
   void of_sampling(ProvedMargins& proved) const {
     proved.sampling_period = of_period();
     proved.processing_delay = {of_delay(found.processing_delay.below, -1),

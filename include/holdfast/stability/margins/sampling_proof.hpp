@@ -126,7 +126,7 @@ class SamplingProof {
     double correction;    ///< at least |W_i(t)| everywhere
   };
 
-  /// What a proof for all positions from … to (s) would rest on; empty where the roots in the
+  /// Nodes that a proof for all positions from … to (s) would rest on; empty where the roots in the
   /// middle are not found.
   std::vector<Node> nodes_over(double from, double to) const;
 
@@ -147,7 +147,7 @@ class SamplingProof {
     EnclosedSpiral pole;  // e^{sτ}
     EnclosedCurve past, present;
 
-    /// What is over λ − e^{sτ}.
+    /// Numerator over λ − e^{sτ}.
     EnclosedCurve over(const EnclosedCurve& node) const { return present * node + past; }
   };
 
@@ -235,7 +235,7 @@ class SamplingProof {
     bool is_near(double room) const {
       return std::abs(away) < std::min(room, std::max(2.5 * std::abs(drift), 1e-3 * room));
     }
-    /// Of length 1, across the drift and inwards from a point; without a drift anywhere.
+    /// Direction of length 1, across the drift and inwards from a point; without a drift anywhere.
     std::complex<double> aside_from(const std::complex<double>& point, std::size_t i) const {
       if (!(std::abs(drift) > 0.0)) return std::polar(1.0, static_cast<double>(i));
       const std::complex<double> across = drift / std::abs(drift) * std::complex<double>(0.0, 1.0);

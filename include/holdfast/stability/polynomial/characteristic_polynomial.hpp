@@ -37,7 +37,7 @@ struct AffinePolynomial {
     return base + gains.proportional * proportional + gains.differential * differential;
   }
 
-  /// The same linear change of variable applied to all three parts.
+  /// Applies one linear change of variable to all three parts.
   /// @tparam To  the variable after it
   template <PolynomialVariable To, class LinearMap>
   AffinePolynomial<Scalar, Degree, To> transformed(const LinearMap& map) const {

@@ -21,7 +21,7 @@ struct EnclosedExpansion {
   double rest = 0.0;       ///< of r; infinite where f may have a pole that near
 };
 
-/// What P and what D multiply, F_z and F_v of `EnclosedResponse`, about a point.
+/// Enclosed factors of P and D, F_z and F_v of `EnclosedResponse`, about a point.
 struct EnclosedCommandResponse {
   EnclosedExpansion displacement;  ///< F_z (m/N)
   EnclosedExpansion velocity;      ///< F_v (m/(N s))
@@ -48,7 +48,7 @@ struct EnclosedSampling {
     return of_delay(Enclosure::of_decimal(sampling.period),
                     Enclosure::of_decimal(sampling.processing_delay), held_commands(sampling));
   }
-  /// Of all δ of a range that lie within (k − 1) τ … k τ.
+  /// Sampling with all δ of a range that lie within (k − 1) τ … k τ.
   static EnclosedSampling of_delay(const Enclosure& period, const Enclosure& delay, int commands) {
     const auto within_sample = [&](const Enclosure& time) {
       return Enclosure(std::clamp(time.lower(), 0.0, period.lower()),
@@ -117,7 +117,7 @@ class EnclosedResponse {
   std::optional<int> poles_outside(double radius) const {
     int count = 0;
     for (const Section& section : sections_) {
-      // Of the unit circle Re s tells more than e^{sτ}.
+      // On the unit circle Re s tells more than e^{sτ}.
       const bool outside =
           radius == 1.0 ? section.growth.is_positive() : section.pole.least_modulus() > radius;
       const bool inside =

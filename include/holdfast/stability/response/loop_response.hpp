@@ -11,7 +11,7 @@
 
 namespace holdfast {
 
-/// What a loop's computer measures per newton of its own command, at one λ.
+/// Measurements of a loop's computer per newton of its own command, at one λ.
 template <class Scalar>
 struct CommandResponse {
   std::complex<Scalar> displacement;  ///< G_z(λ) (m/N)

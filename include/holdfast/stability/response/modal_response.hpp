@@ -97,7 +97,7 @@ class ModalResponse {
     return scaled;
   }
 
-  /// What D multiplies as a filter of the displacements that are read: G_v = w(λ) G_z,
+  /// Filter of the displacements that are read, whose output D multiplies: G_v = w(λ) G_z,
   /// w(λ) = constant + change (1 − 1/λ); 1/s, or N/m where it stands for both gains.
   using Weight = typename PoleSum<Scalar>::Weight;
 
@@ -227,8 +227,8 @@ class ModalResponse {
 
   void add(const Residue& residue) {
     Complex s = residue.s;
-    // What nothing damps lies on the circle but for round-off: here just within it. What creeps
-    // back does so however slowly.
+    // An undamped motion lies on the circle but for round-off: here just within it. A creeping one
+    // comes back however slowly.
     const bool creeps = s.imag() == Scalar(0) && s.real() < Scalar(0);
     if (std::abs(s.real()) * period_ < undamped && !creeps) s.real(-undamped / period_);
     const Complex present = exponential_integral(s, period_ - late_);

@@ -159,8 +159,8 @@ class SteadyResponse {
   /// |Z₁| / F_m without control, m/N, with the same hold of the force.
   Scalar uncontrolled_amplitude_per_force() const { return std::abs(phasors_.force_conductor); }
 
-  /// The same response, whose ratios are relative to another amplitude without control, as that
-  /// under the true force (`true_amplitude_per_force`).
+  /// This response with ratios relative to another amplitude without control, as that under the
+  /// true force (`true_amplitude_per_force`).
   /// @param amplitude_per_force  m/N, > 0
   SteadyResponse relative_to(const Scalar& amplitude_per_force) const {
     SteadyResponse response = *this;
