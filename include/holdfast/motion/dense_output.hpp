@@ -11,7 +11,7 @@
 
 namespace holdfast {
 
-/// What an EventMotion does between two samples, to be asked for at any instant.
+/// Motion of an EventMotion between two samples, at any instant.
 ///
 ///     DenseOutput<Contact> trace(motion);
 ///     motion.sense();

@@ -47,7 +47,7 @@ double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plan
   return 1e12 * std::max(scale, 1e-100);
 }
 
-/// The same of a conductor by its modes: all that the force bends it statically counts.
+/// Bound of divergence of a conductor by its modes, with all that the force bends it statically.
 /// @param loop   admissible
 /// @param state  the initial one, of `modal_plant`
 inline double divergence_bound(const ModalLoop& loop, const NaturalMotions::Full& state) {

@@ -28,17 +28,17 @@
 
 namespace holdfast {
 
-/// What is known of a motion at one sample, with the mode of its contact from then on.
+/// Sample of a motion, with the mode of its contact from then on.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct EventSampleOf : MotionSample<double, States> {
   ContactMode mode;  ///< from t_j on; `engaged` of the sample is mode == ContactMode::engaged
 };
 
-/// That of the two masses.
+/// Sample of the two masses.
 using EventSample = EventSampleOf<4>;
 
-/// What a motion has met with.
+/// Counts of the contact changes that a motion has met with.
 struct SwitchCounts {
   std::array<std::int64_t, 3> entered{};  ///< how often each ContactMode began
   std::int64_t grazing = 0;  ///< changes of contact that rounding decides: a guard touches zero
@@ -75,7 +75,7 @@ struct IgnoreFlow {
 template <class Contact = DriveContact<>>
 class EventMotion {
  public:
-  /// What the contact drives.
+  /// The plant that the contact drives.
   using Plant = typename Contact::Plant;
   /// N, the order of the plant.
   static constexpr int states = states_of<Plant>;
@@ -132,7 +132,7 @@ class EventMotion {
   /// Moves from t_j to t_{j+1} under the command that the last `sense()` decided.
   void advance() { advance(IgnoreFlow()); }
 
-  /// The same past an observer, for what depends on the way (motion/variational_flow.hpp):
+  /// Moves to the next sample past an observer of the way (motion/variational_flow.hpp):
   ///
   ///     flowed(mode, begin, length)             a part of the period, s from the sample, in a mode
   ///     commanded()                             at t_j + δ: u_j takes the place of u_{j−1}
@@ -174,7 +174,7 @@ class EventMotion {
   const auto& controller() const { return controller_; }
   /// The digital side and the excitation, as given.
   const DigitalLoop& loop() const { return loop_; }
-  /// What the motion has met with since it began or since `restart_counts()`.
+  /// Counts of contact changes since the motion began or since `restart_counts()`.
   const SwitchCounts& counts() const { return counts_; }
   /// The excitation, at the present sample from `sense()` on.
   const ForceOverSamples& force() const { return force_; }

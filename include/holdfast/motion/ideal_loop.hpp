@@ -47,7 +47,7 @@ void validate(const IdealLoop<double, Plant>& loop) {
   validate_backlash_width(loop.backlash_width);
 }
 
-/// The same numbers in another number type, for instance `long double`.
+/// Converts a loop to another number type, for instance `long double`.
 template <class To, class From, class Plant>
 auto converted(const IdealLoop<From, Plant>& loop) {
   const auto plant = converted<To>(loop.plant);
@@ -117,7 +117,7 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
   return detail::forced_motion<PeriodicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation.amplitude, ratio);
 }
-/// The same from any column of Eigen's.
+/// A periodically forced motion from any column of Eigen's.
 template <class Scalar, class Plant, class Column>
 PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Rational& ratio,
@@ -135,7 +135,7 @@ HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
   return detail::forced_motion<HarmonicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation, loop.sampling.period);
 }
-/// The same from any column of Eigen's.
+/// A harmonically forced motion from any column of Eigen's.
 template <class Scalar, class Plant, class Column>
 HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Eigen::MatrixBase<Column>& initial_state) {

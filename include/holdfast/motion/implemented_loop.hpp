@@ -31,7 +31,7 @@ struct ImplementedLoopOf {
   Switching switching = Switching::sampled;  ///< when the drive enters and leaves its backlash
 };
 
-/// That of the two masses.
+/// Implemented loop of the two masses.
 using ImplementedLoop = ImplementedLoopOf<TwoMass<double>>;
 
 /// @throws InvalidParameter where any part is not admissible, or where there are gains or limits
@@ -61,7 +61,7 @@ ImplementedLoopOf<Plant> implemented_loop(const IdealLoop<double, Plant>& loop) 
           Switching::sampled};
 }
 
-/// The same loop in the paper's model, where that says all of it: switching at samples, the paper's
+/// The loop in the paper's model, where that says all of it: switching at samples, the paper's
 /// backlash or none, one harmonic that begins at phase 0, an ideal computer and clock. Its motion
 /// is then one of SampledMotion, its orbits and exponents are those of a piecewise affine map.
 /// @return nothing of any other loop
@@ -97,7 +97,7 @@ EventMotion<DriveContact<Plant>> event_motion(const ImplementedLoopOf<Plant>& lo
           DriveContact<Plant>(loop.plant, loop.backlash, loop.switching, initial_state),
           initial_state};
 }
-/// The same from any column of Eigen's.
+/// Motion of an implemented loop from any column of Eigen's.
 template <class Plant, class Column>
 EventMotion<DriveContact<Plant>> event_motion(const ImplementedLoopOf<Plant>& loop,
                                               const Eigen::MatrixBase<Column>& initial_state) {

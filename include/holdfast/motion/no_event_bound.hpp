@@ -47,7 +47,7 @@ class NoEventBoundOf {
                 std::abs(guard.force) * force.second_rate;
   }
 
-  /// What `drop_below_chord` is over one length: by_norm ‖z‖ + by_command |u| + constant.
+  /// Parts of `drop_below_chord` over one length: by_norm ‖z‖ + by_command |u| + constant.
   struct Drop {
     double by_norm;     ///< of the norm of the state at the begin
     double by_command;  ///< per newton of |u|

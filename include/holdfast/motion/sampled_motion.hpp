@@ -18,7 +18,7 @@
 
 namespace holdfast {
 
-/// What is known of the motion at one sample.
+/// The motion at one sample.
 /// @tparam States  N, the order of the plant
 template <class Scalar, int States = 4>
 struct MotionSample {
@@ -126,7 +126,7 @@ class SampledMotion {
   const Law& law() const { return law_; }
   /// The excitation, at the phase that the next `advance()` will use.
   const Forcing& forcing() const { return forcing_; }
-  /// What the motion remembers at t_j; ask before `sense()`.
+  /// Memory of the motion at t_j; ask before `sense()`.
   auto memory() const {
     return MotionMemory<Scalar, std::decay_t<decltype(law_.memory())>, states>{
         state_, previous_force_, law_.memory()};
@@ -142,7 +142,7 @@ class SampledMotion {
   }
 
  private:
-  /// Of four states the order of the sums is the same for every number type.
+  /// Moves to the next sample; the order of the sums over four states is one for all number types.
   /// @param addition  of the forcing, N × 1
   template <class Addition>
   void move(const Addition& addition) {

@@ -55,7 +55,7 @@ class VariationalFlow {
   static constexpr int states = EventMotion<Contact>::states;
   /// N + 3.
   static constexpr int size = larger_size(states, 3);
-  /// Of deviations of X, (N + 3) × (N + 3).
+  /// Map of deviations of X, (N + 3) × (N + 3).
   using Map = Matrix<double, size>;
 
   /// Goes on from the sample that the motion has come to.
@@ -169,7 +169,7 @@ class VariationalFlow {
                                            : readings_.velocity_row();
   }
 
-  /// What the command depends on, and whether the displacement is remembered as read.
+  /// Numbers that the command depends on, and whether the displacement is remembered as read.
   struct Reading {
     bool state, previous, remembered;
   };

@@ -41,7 +41,7 @@ class EventPack {
  public:
   static constexpr std::size_t lanes = Lane::count;  ///< motions at a time
 
-  /// What `sense` takes of all lanes, beside their state().
+  /// Sample of all lanes as `sense` takes it, beside their state().
   struct Sample {
     Scalar control_force;  ///< what the drive transmits (N)
     LaneMask engaged;      ///< it transmits the command
@@ -78,7 +78,7 @@ class EventPack {
     return sample;
   }
 
-  /// What `advance` does without an observer.
+  /// Observer of `advance` that does nothing.
   struct IgnoreFlowOfLanes {
     /// The contact of a lane changed, s after the sample: the numbers of its modes, and that of the
     /// guard, −1 for a jump.
@@ -87,7 +87,7 @@ class EventPack {
 
   /// Moves all lanes from t_j to t_{j+1} under the commands that the last `sense()` decided.
   void advance() { advance(IgnoreFlowOfLanes()); }
-  /// The same past an observer as IgnoreFlowOfLanes is one.
+  /// Moves to the next sample past an observer with the members of IgnoreFlowOfLanes.
   template <class Observer>
   void advance(Observer&& observer) {
     const Scalar delay = delay_.all(), period = period_.all(), zero(0);
@@ -235,7 +235,7 @@ class EventPack {
     const LaneMask none_falls = no_guard_falls(part, step, before, after);
     const LaneMask unguarded = modes_.unguarded();
     const LaneMask through = which & (none_falls | unguarded);
-    // What comes next need not wait for the bound where all lanes are through.
+    // The next step need not wait for the bound where all lanes are through.
     const bool whole = all(through);
     for (std::size_t i = 0; i < 4; ++i)
       state_[i].set(whole ? after[i] : select(through, after[i], before[i]));

@@ -51,8 +51,8 @@ double rate_of_powers(const Matrix<double, States>& a) {
   return rate * size;
 }
 
-/// What the motions of loops that differ in their gains, and under play in their backlash, have in
-/// common: how the two masses move in each mode of the contact.
+/// Common part of the motions of loops that differ in their gains, and under play in their
+/// backlash: how the two masses move in each mode of the contact.
 class EventTable {
  public:
   using Motion = ModeMotion<TwoMass<double>>;  ///< in one mode

@@ -105,9 +105,9 @@ class LaneModes {
     enter(lane);
   }
 
-  /// That of a lane. Where it changes, `enter` or `refresh_guards` must follow.
+  /// Contact of a lane. Where it changes, `enter` or `refresh_guards` must follow.
   DriveContact<>& contact(std::size_t lane) { return contacts_[lane]; }
-  /// That of a lane.
+  /// Contact of a lane.
   const DriveContact<>& contact(std::size_t lane) const { return contacts_[lane]; }
 
   /// Takes the mode of a lane's contact, after it has changed; the steps follow when they are next

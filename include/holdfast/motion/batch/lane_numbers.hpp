@@ -17,9 +17,9 @@ class LaneNumbers {
   Scalar all() const { return Lanes<Scalar>::load(numbers_.data()); }
   /// Writes all of them.
   void set(const Scalar& numbers) { Lanes<Scalar>::store(numbers, numbers_.data()); }
-  /// That of one lane.
+  /// The number of one lane.
   double& operator[](std::size_t lane) { return numbers_[lane]; }
-  /// That of one lane.
+  /// The number of one lane.
   double operator[](std::size_t lane) const { return numbers_[lane]; }
 
  private:

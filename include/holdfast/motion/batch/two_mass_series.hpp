@@ -200,7 +200,7 @@ struct TwoMassSeries {
     }
   }
 
-  /// What was computed last comes in last.
+  /// Adds the number that was computed last as the last one.
   static Scalar rate(const LaneAcceleration<Scalar>& row, const std::array<Scalar, 4>& now,
                      const Scalar& constant, const Scalar& force) {
     const Scalar early =

@@ -76,9 +76,9 @@ class ModalDeviations {
     return units_.cwiseInverse().asDiagonal() * all;
   }
 
-  /// Of Δz (m), each in its column.
+  /// Deviations of Δz (m), each in its column.
   Row relative_displacement() const { return read(relative_z_); }
-  /// Of Δż (m/s).
+  /// Deviations of Δż (m/s).
   Row relative_velocity() const { return read(relative_v_); }
 
   /// Over one sampling period, in which the drive transmits or not.

@@ -39,7 +39,7 @@ inline void validate(const ModalLoop& loop) {
   validate_backlash_width(loop.backlash_width);
 }
 
-/// What a natural motion e^{st} of conductor and absorber does over one sampling period,
+/// Natural motion e^{st} of conductor and absorber over one sampling period,
 ///
 ///     ξ_{j+1} = e^{sτ} ξ_j + γ₁ u_{j−1} + γ₀ u_j + g_c F_m cos ωt_j + g_s F_m sin ωt_j ,
 ///
