@@ -65,7 +65,7 @@ class ForceOverSamples {
     return hold_ == ForceHold::sampled ? held_ : force_.at(time_ + after);
   }
 
-  /// What `at` needs of the instant `after` (s) past every sample: a cosine and a sine for each
+  /// Instant `after` (s) past every sample, as `at` needs it: a cosine and a sine for each
   /// harmonic.
   PeriodInstant instant(double after) const {
     PeriodInstant instant{after, {}};

@@ -16,7 +16,7 @@
 
 namespace holdfast {
 
-/// What the excitation adds to the state over each sampling period, one period after the other:
+/// Additions of the excitation to the state over each sampling period, one period after the other:
 ///
 ///     F_m (g_c cos ω t_j + g_s sin ω t_j),   j = 0, 1, 2, …
 ///
@@ -46,8 +46,8 @@ class HarmonicForcing {
   std::int64_t index_ = 0;
 };
 
-/// The same from a table that outlives it and is turned by the motion's driver, so that no sample
-/// asks whether it is to be turned.
+/// Harmonic forcing from a table that outlives it and is turned by the motion's driver, so that no
+/// sample asks whether it is to be turned.
 template <class Scalar>
 class PhasorForcing {
  public:
@@ -62,7 +62,7 @@ class PhasorForcing {
   std::size_t index_ = 0;
 };
 
-/// The same where sampling and excitation coincide every q samples, f τ = p/q: a table of q
+/// Harmonic forcing where sampling and excitation coincide every q samples, f τ = p/q: a table of q
 /// additions, repeated for ever. Copies share the table.
 /// @tparam States  N, the order of the plant
 template <class Value, int States = 4>

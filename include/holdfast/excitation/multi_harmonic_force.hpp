@@ -100,7 +100,7 @@ struct MultiHarmonicForce {
   }
 };
 
-/// The same force as one harmonic of phase 0 and no record.
+/// A harmonic excitation as a force of one harmonic of phase 0 and no record.
 inline MultiHarmonicForce multi_harmonic_force(const HarmonicExcitation<double>& excitation) {
   return {{Harmonic{excitation.amplitude, excitation.frequency}}, nullptr};
 }

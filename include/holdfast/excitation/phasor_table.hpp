@@ -85,7 +85,7 @@ class RotatingPhasor {
     base_ = {amplitude_ * turn.cosine, amplitude_ * turn.sine};
   }
 
-  /// Of the period `k` (< block) after the last prepared one: 4 multiply-adds.
+  /// Phasor of the period `k` (< block) after the last prepared one: 4 multiply-adds.
   ExcitationSample<Scalar> at(std::size_t k) const {
     const ExcitationSample<Scalar>& turn = turns_[k];
     return {turn.cosine * base_.cosine - turn.sine * base_.sine,

@@ -11,7 +11,7 @@
 
 namespace holdfast {
 
-/// What a recorded force is between its rows.
+/// Interpolations of a recorded force between its rows.
 enum class RecordInterpolation : std::uint8_t {
   linear,  ///< the straight line between the two rows
   held     ///< the force of the earlier row
@@ -57,7 +57,7 @@ class RecordedForce {
   double first_time() const { return times_.front(); }
   /// t_{n−1} (s).
   double last_time() const { return times_.back(); }
-  /// What the force is between the rows.
+  /// Interpolation between the rows.
   RecordInterpolation interpolation() const { return interpolation_; }
   /// t_k (s), strictly increasing.
   const std::vector<double>& times() const { return times_; }
