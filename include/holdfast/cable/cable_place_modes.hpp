@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// What hangs on a cable at the absorber's place.
+/// Mass that hangs on a cable at the absorber's place.
 struct HungMass {
   double weight;          ///< kg, ≥ 0: under its weight the cable is at rest
   double sideways = 0.0;  ///< kg, ≥ 0: what of it has to go along the span with the cable
@@ -77,7 +77,7 @@ class FlexibilityLanczos {
 
   /// m/N, under a unit force.
   Real deflection() const { return deflection_; }
-  /// What T leaves out: the entry beside its last.
+  /// Remainder of T: the entry beside its last.
   Real remainder() const { return beside_[count_ - 1]; }
   /// The eigenvalues 1/ω² (s²) and eigenvectors of T.
   Eigen::SelfAdjointEigenSolver<Square> eigen() const {

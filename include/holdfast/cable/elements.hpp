@@ -129,7 +129,7 @@ class BasicCableElements {
     return start;
   }
 
-  /// What the absorber's place and the absorber do: [z, ż, a, ȧ] (m, m/s, m, m/s), of the
+  /// Motion of the absorber's place and of the absorber: [z, ż, a, ȧ] (m, m/s, m, m/s), of the
   /// spring–mass.
   Vector<Real, 4> at_absorber(const Real* state) const {
     const int own = first_state(chain_.loaded_node());

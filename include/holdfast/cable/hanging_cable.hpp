@@ -9,7 +9,7 @@
 
 namespace holdfast {
 
-/// What a segment of an elastic catenary spans, as a function of the forces at its left end.
+/// Extent of a segment of an elastic catenary, as a function of the forces at its left end.
 template <class Scalar>
 struct CatenaryExtent {
   Scalar horizontal;             ///< m
@@ -148,7 +148,7 @@ class HangingCable {
     return {none, none, EquilibriumOutcome::not_converged};
   }
 
-  /// What the two catenaries span from the left to the right support, and its derivative by (H, V).
+  /// Extent of the two catenaries from left to right support, and its derivative by (H, V).
   CatenaryExtent<Scalar> whole(const LoadedCable<Scalar>& cable, const Scalar& load,
                                const Scalar& place) const {
     const auto left = extent(cable, place);
@@ -164,7 +164,7 @@ class HangingCable {
     return catenary_extent<Scalar>(weight_, stiffness_, cable.tension, cable.vertical_force, s);
   }
 
-  /// The same for any s, with the load P at s_p.
+  /// The point at any s, with the load P at s_p.
   Vector<Scalar, 2> point(const LoadedCable<Scalar>& cable, const Scalar& load, const Scalar& place,
                           const Scalar& s) const {
     const auto left = extent(cable, s < place ? s : place);

@@ -99,10 +99,10 @@ std::vector<PlaceMode<Scalar>> string_modes(const TautString<Scalar>& string, co
 /// A string without ends as a conductor of one mode: 1/H = 2 Z_c s + M s² + k, Z_c = √(T μ), whose
 /// waves do not come back, with what moves there.
 ///
-/// What is not of a string keeps it within the range of modes and is felt in the thirteenth digit:
-/// a bed k = 10⁻¹³ · 2 Z_c/τ that brings it back after 10¹³ samples, and where nothing is clamped
-/// to it M = 10⁻¹³ · 2 Z_c τ, which is at rest again long before the next sample: the computer then
-/// reads the velocity just before its own force changes.
+/// Two parts that no string has keep it within the range of modes and are felt in the thirteenth
+/// digit: a bed k = 10⁻¹³ · 2 Z_c/τ that brings it back after 10¹³ samples, and where nothing is
+/// clamped to it M = 10⁻¹³ · 2 Z_c τ, which is at rest again long before the next sample: the
+/// computer then reads the velocity just before its own force changes.
 /// @param wave_impedance   Z_c (N s/m), > 0
 /// @param clamp_mass       M (kg), ≥ 0
 /// @param sampling_period  τ (s), > 0
