@@ -12,8 +12,8 @@
 
 namespace holdfast {
 
-/// What an end of a span with its devices does to the waves of one frequency that come to it. What
-/// moves is given for a free span that vibrates with 1 m at its antinodes.
+/// Response of an end of a span with its devices to the waves of one frequency that come to it.
+/// Motions are given for a free span that vibrates with 1 m at its antinodes.
 struct EndResponse {
   std::complex<double> reflection;  ///< r of the displacement, at the outermost device
   /// Z of the end as the outermost device's place sees it (N s/m), Z_c (1 − r)/(1 + r); without

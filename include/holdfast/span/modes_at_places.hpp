@@ -32,7 +32,7 @@ inline std::vector<ModeAtPlaces> string_modes_at(const TautString<double>& strin
     const auto seen = bundled_string_modes(string, places[j], count, highest);
     for (std::size_t n = 0; n < seen.size(); ++n) {
       const bool is_sine = n < static_cast<std::size_t>(count);
-      // Of bundles that began at one pole it would be a matter of chance which is whose.
+      // Bundles that began at one pole would be told apart by chance alone.
       const double apart = is_sine ? 1.0 : 1.0 + 1e-3 * static_cast<double>(j);
       if (!is_sine || j == 0)
         modes.push_back({seen[n].angular_frequency * apart, seen[n].damping_ratio, seen[n].mass,

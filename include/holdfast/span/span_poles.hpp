@@ -85,7 +85,7 @@ class SpanPoles {
     return found;
   }
 
-  /// Of each pair the s with Im s > 0; in the order of the modes, then of what was attached.
+  /// The s with Im s > 0 of each pair; in the order of the modes, then of what was attached.
   std::vector<Complex> roots() const {
     std::vector<Complex> found;
     for (const Pole& pole : poles_) found.push_back(pole.s);
@@ -184,7 +184,7 @@ class SpanPoles {
   Moved moved_alone(const Pole& pole, const Stiffness& stiffness, std::size_t place) const {
     const Complex s = pole.s, own = pole.shapes[place], pressed = stiffness(s).value;
     std::vector<Complex> others(pole.shapes.size());
-    // What has a node there feels nothing, though another may have its very s.
+    // A motion with a node there feels nothing, though another may have its very s.
     if (own == 0.0) return {0.0, true, pressed, 1.0, own, std::move(others)};
     for (const Pole& other : poles_)
       for (std::size_t i = 0; i < others.size(); ++i) {
@@ -238,7 +238,7 @@ class SpanPoles {
     found.push_back({std::conj(begin), other, false, std::nullopt});
   }
 
-  /// Of a pair the one that stands for it.
+  /// The root that stands for its pair.
   static Complex upper(const Complex& s) { return s.imag() < 0.0 ? std::conj(s) : s; }
 
   /// Σ 1/(s − s_k) over motions, pairs counted twice.
@@ -252,9 +252,9 @@ class SpanPoles {
     return sum;
   }
 
-  /// Those that came to one motion or to none: each that is not apart from one before it begins
-  /// anew, and goes by Newton's steps for what is left of the polynomial of all motions when the
-  /// others are divided out (Ehrlich 1967, Aberth 1973).
+  /// Separates motions that came to one or to none: each that is not apart from one before it
+  /// begins anew, and goes by Newton's steps for what is left of the polynomial of all motions when
+  /// the others are divided out (Ehrlich 1967, Aberth 1973).
   template <class Stiffness>
   void separate(std::vector<Followed>& found, const std::vector<Complex>& own,
                 const Stiffness& stiffness, std::size_t place) const {

@@ -80,7 +80,7 @@ struct SpanRoot {
   double frequency() const { return std::abs(root) / (2.0 * pi<double>); }  ///< |s|/2π (Hz)
 };
 
-/// What the two laws of few or near devices make of mode n of a taut string, without its root.
+/// Laws of few or near devices for mode n of a taut string, without its root.
 /// @param string   its bending stiffness does not count; its damping is that of mode n
 /// @param devices  inside the span (unchecked)
 /// @param n        number of half-waves, ≥ 1
@@ -102,7 +102,7 @@ inline SpanRoot span_root_laws(const TautString<double>& string,
   return found;
 }
 
-/// What mode n of a taut string becomes with devices, as `span_roots` has it.
+/// Root of mode n of a taut string with devices, as `span_roots` has it.
 /// @param string   its bending stiffness does not count; its damping is that of mode n
 /// @param devices  `in_order` (unchecked)
 /// @param n        number of half-waves, ≥ 1

@@ -8,7 +8,7 @@
 
 namespace holdfast {
 
-/// What a device presses back with for a displacement, K = s Z (N/m), and how K changes with s.
+/// Dynamic stiffness of a device, K = s Z (N/m), and how K changes with s.
 struct DynamicStiffness {
   std::complex<double> value;  ///< K
   std::complex<double> slope;  ///< dK/ds
@@ -49,7 +49,7 @@ inline std::vector<std::complex<double>> own_motions(const LumpedDevice& device)
     }
     const double larger = decay + std::sqrt(square);
     if (larger > 0.0) motions.emplace_back(-larger, 0.0);
-    // Of a weight on a dashpot alone nothing brings it back.
+    // A weight on a dashpot alone is brought back by nothing.
     if (larger > 0.0 && branch.stiffness != 0.0)
       motions.emplace_back(-branch.stiffness / mass / larger, 0.0);
   }

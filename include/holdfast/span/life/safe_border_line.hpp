@@ -36,7 +36,7 @@ struct SafeBorderLine {
 
 /// The line of conductors of several layers of aluminium.
 inline constexpr SafeBorderLine several_layers{450.0, 0.20, 263.0, 0.17, 1.56e7};
-/// That of conductors of a single layer.
+/// Safe border line of conductors of a single layer.
 inline constexpr SafeBorderLine single_layer{730.0, 0.20, 430.0, 0.17, 2.0e7};
 
 }  // namespace holdfast

@@ -28,7 +28,7 @@ inline void validate(const StrandedConductor& conductor) {
     throw InvalidParameter("tension", conductor.tension, "N", "below the rated strength");
 }
 
-/// What the wires of a stranded conductor take by rubbing, as a power a length:
+/// Self-damping of a stranded conductor, whose wires rub, as a power a length:
 ///
 ///     P_self = k (y/d)^l f^m/T^n  (mW/m),   k = d/√(RTS m)
 ///
@@ -56,7 +56,7 @@ inline constexpr std::array<SelfDampingLaw, 3> self_damping_laws = {
     SelfDampingLaw{"noiseux", 2.44, 5.63, 2.76}, SelfDampingLaw{"kraus_hagedorn", 2.47, 5.38, 2.80},
     SelfDampingLaw{"seppa", 2.5, 5.75, 2.8}};
 
-/// What a mode's damping ratio ζ takes, as a power a length: ½ ζ μ ω³ y² (W/m).
+/// Power a length that a mode's damping ratio ζ takes: ½ ζ μ ω³ y² (W/m).
 /// @param mass_per_length    μ (kg/m)
 /// @param damping_ratio      ζ
 /// @param angular_frequency  ω (rad/s)

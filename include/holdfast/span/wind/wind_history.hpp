@@ -195,7 +195,7 @@ class WindRun {
     return shapes;
   }
 
-  /// What does not depend on the amplitude, and self-damping at an amplitude of a diameter.
+  /// Sets damping that does not depend on the amplitude, and self-damping at one of a diameter.
   void set_damping() {
     const std::vector<double> omega(motion_.frequencies().begin(), motion_.frequencies().end());
     const std::vector<double> devices = device_damping(setting_.string, setting_.devices, omega);

@@ -9,8 +9,8 @@
 
 namespace holdfast {
 
-/// What a steady wind gives a cylinder that vibrates across it at the frequency at which it sheds
-/// vortices, measured in a wind tunnel, as a power a length (W/m):
+/// Power a length (W/m) that a steady wind gives a cylinder vibrating across it at the frequency at
+/// which it sheds vortices, measured in a wind tunnel:
 ///
 ///     P_wind = f³ d⁴ F(y/d),   F(x) = x Σ a_k x^k,   k = 0 … 7
 ///
