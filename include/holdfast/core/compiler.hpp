@@ -1,7 +1,6 @@
 #pragma once
 
-// What a compiler must be told, or not be told, to compile the library; every header reads this
-// one.
+// Requirements on the compiler and its options; every header reads this one.
 
 // NaN and infinity are refused by comparisons, proofs and exponentials rest on sums in their order.
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) || \

@@ -36,7 +36,7 @@ class InvalidParameter : public std::invalid_argument {
   double value() const noexcept { return value_; }
   /// SI unit of the value; empty for a pure number.
   const std::string& unit() const noexcept { return unit_; }
-  /// What would have been accepted, to be read after "must be".
+  /// Admissible values, to be read after "must be".
   const std::string& admissible() const noexcept { return admissible_; }
 
  private:

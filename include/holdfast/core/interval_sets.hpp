@@ -17,7 +17,7 @@ bool contains_any(const std::vector<Interval<Scalar>>& intervals, const Scalar& 
                      [&](const Interval<Scalar>& interval) { return interval.contains(value); });
 }
 
-/// What two unions of open intervals have in common; each union ascending and disjoint, as is the
+/// Intersection of two unions of open intervals; each union ascending and disjoint, as is the
 /// result.
 template <class Scalar>
 std::vector<Interval<Scalar>> intersection(const std::vector<Interval<Scalar>>& first,

@@ -24,7 +24,7 @@ struct Lanes {
   /// One byte a lane: 1 where the mask is set, else 0.
   static void store_flags(bool mask, std::uint8_t* flags) { *flags = mask ? 1 : 0; }
 
-  /// Those of two neighbouring masks.
+  /// Flags of two neighbouring masks.
   static void store_flags(bool first, bool second, std::uint8_t* flags) {
     store_flags(first, flags);
     store_flags(second, flags + count);
@@ -33,7 +33,7 @@ struct Lanes {
 
 namespace detail {
 
-/// What one lane of a pack holds.
+/// The number in one lane of a pack.
 template <class Scalar>
 auto lane_of(const Scalar& pack, std::size_t lane) {
   typename Lanes<Scalar>::Value values[Lanes<Scalar>::count];
