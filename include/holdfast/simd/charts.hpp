@@ -48,7 +48,7 @@ inline void stability_chart(const LoopChart& chart, std::uint8_t* stable, int th
   detail::fill_chart<StabilityChartRows<Pack<double>>>(chart, stable, threads);
 }
 
-/// The same as a vector.
+/// The stability chart as a vector.
 inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int threads = 0) {
   std::vector<std::uint8_t> stable(detail::cells_of(chart));
   stability_chart(chart, stable.data(), threads);
@@ -68,7 +68,7 @@ inline void radius_chart(const LoopChart& chart, double* radius, int threads = 0
   }
 }
 
-/// The same as a vector.
+/// The radius chart as a vector.
 inline std::vector<double> radius_chart(const LoopChart& chart, int threads = 0) {
   std::vector<double> radius(detail::cells_of(chart));
   radius_chart(chart, radius.data(), threads);

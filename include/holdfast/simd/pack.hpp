@@ -84,7 +84,7 @@ struct Lanes<xsimd::batch<Number, Architecture>> {
     std::memcpy(flags, &bytes, count);
   }
 
-  /// Those of two neighbouring masks, 2 `count` bytes.
+  /// Flags of two neighbouring masks, 2 `count` bytes.
   static void store_flags(const typename Pack::batch_bool_type& first,
                           const typename Pack::batch_bool_type& second, std::uint8_t* flags) {
     if constexpr (2 * count <= 8) {
