@@ -113,7 +113,7 @@ std::string wind_warning(const Case& the_case) {
   if (frequency >= 3.0 && frequency <= 150.0) return {};
   const std::string found = "the wind sheds vortices at " + format_number(frequency) +
                             " Hz, outside the 3 to 150 Hz of aeolian vibration: ";
-  // Of the taut string as long and as tight as the span: sqrt(H/m)/(2 L) with H = m g L²/(8 f).
+  // First mode of the taut string as long and tight as the span: sqrt(H/m)/(2 L), H = m g L²/(8 f).
   const double first_mode = std::sqrt(the_case.conductor.gravity / (32.0 * the_case.conductor.sag));
   if (frequency < std::min(first_mode, 3.0))
     return found + "so slow a force is a breeze that sways the whole span, not one loop of it";

@@ -21,7 +21,7 @@ struct OwnParts;
 /// admissible ranges and meaning of each are in case_keys().
 namespace case_tables {
 
-/// Of a number that nobody gave and nothing stands in for; who needs it asks: needed.hpp.
+/// A number that nobody gave and nothing stands in for; its users ask for it: needed.hpp.
 inline constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 
 struct Conductor {
@@ -133,7 +133,7 @@ struct Device {
   double mass_share = 0.5;             // of a stockbridge: what swings at the first frequency
   std::string file;                    // measured: seen from the working folder
 
-  // What the file holds; null of every other kind. CaseSource::attach_record() reads it.
+  // Table of the file; null of every other kind. CaseSource::attach_record() reads it.
   std::shared_ptr<const ImpedanceTable> table;
 };
 
@@ -171,7 +171,7 @@ struct Case {
   case_tables::Site site;
   case_tables::Initial initial;
 
-  // What excitation.record holds; null where it is "". CaseSource::attach_record() reads it.
+  // Record of excitation.record; null where it is "". CaseSource::attach_record() reads it.
   std::shared_ptr<const RecordedForce> force_record;
 
   // Plant and controller of the user's own; null where there is neither. CaseSource hands it on.

@@ -17,7 +17,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Who gave a value; a later layer goes over an earlier one.
+/// Source of a value; a later layer goes over an earlier one.
 enum class Layer { builtin, file, override };
 
 /// A value as it was given, and where, in the words of a message.
@@ -301,8 +301,8 @@ const Given* CaseReader::last_given(const std::vector<std::string>& keys) const 
   return found == given_.rend() ? nullptr : &*found;
 }
 
-/// Of the keys of a fault the last override, else the first of them that the file gives: in a file
-/// the order of the lines says nothing.
+/// The last override among the keys of a fault, else the first of them that the file gives: in a
+/// file the order of the lines says nothing.
 const Given* CaseReader::blamed(const std::vector<std::string>& keys) const {
   const Given* last = last_given(keys);
   if (last == nullptr || last->layer == Layer::override) return last;
@@ -313,7 +313,7 @@ const Given* CaseReader::blamed(const std::vector<std::string>& keys) const {
   return last;
 }
 
-/// What the library has of the named conductor and the user does not give, in whatever order.
+/// Fills in the data of the named conductor that the user does not give, in whatever order.
 void CaseReader::fill_from_library() {
   const LibraryConductor* conductor = find_conductor(case_.conductor.name);
   if (conductor == nullptr) return;
@@ -375,8 +375,8 @@ bool can_have_frequencies(const Case& the_case) {
                        the_case.absorber.position);
 }
 
-/// What follows from other keys of a case that stands alone: of the absorber's mass and that of the
-/// plant either stands for the other, and devices are on a string.
+/// Settles keys of a case that stands alone by its others: the absorber's mass and that of the
+/// plant stand for each other, and devices are on a string.
 void CaseReader::settle_own() {
   if (!case_.stands_alone) return;
   double &hung = case_.absorber.mass, &of_plant = case_.plant.absorber_mass;

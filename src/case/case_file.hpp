@@ -19,10 +19,9 @@ extern const std::string_view builtin_case_text;
 
 /// The built-in case, then the file, then each override `key=value` in its order (the value is
 /// TOML; a bare word counts as a string: `control.proportional_gain=tuned`).
-/// Of a file that gives conductor.name, mass_per_length, span, tension or sag, or every key of the
-/// two masses of [plant], nothing of the built-in case stands below: the case stands alone, and
-/// what it does not give is absent, gains, play and force are 0, gravity, Strouhal's number and
-/// methods as documented.
+/// A file that gives conductor.name, mass_per_length, span, tension or sag, or every key of the two
+/// masses of [plant], stands alone, without the built-in case: what it does not give is absent, but
+/// gains, play and force are 0, and gravity, Strouhal's number and methods as documented.
 /// A number may be a text with a unit, "28.2 kN", of those in units.hpp.
 /// conductor.name stands for what neither file nor override gives of that conductor.
 /// [wind] takes the place of excitation.amplitude and excitation.frequency; the other keys of
@@ -35,7 +34,7 @@ extern const std::string_view builtin_case_text;
 Case load_case(const std::optional<std::filesystem::path>& file,
                const std::vector<std::string>& overrides);
 
-/// The same from a text; `name` stands for the file in messages.
+/// Loads a case from a text; `name` stands for the file in messages.
 Case load_case_text(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides);
 
@@ -52,7 +51,7 @@ std::string case_default(const CaseKey& key);
 /// The full case as a commented case file; load_case() of it gives the same case.
 std::string case_to_toml(const Case& the_case);
 
-/// Of what a case file to begin with makes the plant.
+/// Table that makes the plant in a case file to begin with.
 enum class CaseForm {
   conductor,  ///< [conductor], [absorber] and [reduction]; of [plant] what was given beside them
   plant       ///< [plant], and what was given beside it

@@ -34,7 +34,7 @@ struct HarmonicPart {
 /// Amplitude, frequency and phase, of which the last may be left out.
 const std::array<HarmonicPart, 3>& harmonic_parts();
 
-/// What the value of a key is.
+/// Kinds of values of a key.
 enum class ValueKind {
   number,
   word,
@@ -49,7 +49,7 @@ enum class ValueKind {
 using ValuePlace = std::variant<double*, std::string*, std::array<double, 2>*, std::vector<double>*,
                                 std::vector<std::array<double, 3>>*>;
 
-/// What a key of a case is, or one of its devices.
+/// Form of a key of a case, or of one of its devices.
 struct KeyForm {
   std::string name;  // of a case with its table: "control.sampling_period"
   std::string unit;  // "" without dimension
@@ -115,7 +115,7 @@ void set_case_value(Case& the_case, std::string_view name, double value);
 /// Throws WrongInput when the key is unknown or not a number, or wind.* and there is no wind.
 double case_value(const Case& the_case, std::string_view name);
 
-/// What is wrong between keys that are each admissible alone.
+/// Fault between keys that are each admissible alone.
 struct CaseFault {
   std::vector<std::string> keys;  // those involved
   std::string message;            // empty: nothing is wrong

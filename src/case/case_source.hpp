@@ -10,7 +10,7 @@
 
 namespace holdfast::program {
 
-/// What a case is read from, so that it can be read once more with further values.
+/// Source of a case, to be read once more with further values.
 struct CaseSource {
   std::optional<std::string> text;     // of the case file; none: the built-in case
   std::string name;                    // of that file, for messages
@@ -37,7 +37,7 @@ struct CaseSource {
   void attach_tables(Case& the_case) const;
 };
 
-/// What is said of a recorded force that begins after 0, has a gap or has rows hundreds of sampling
+/// Doubt about a recorded force that begins after 0, has a gap or has rows hundreds of sampling
 /// periods apart, as where its time is in ms; empty of any other.
 std::string record_doubt(const Case& the_case);
 

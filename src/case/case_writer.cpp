@@ -20,12 +20,12 @@ nlohmann::ordered_json json_of_key(const CaseKey& key, Case& the_case) {
   return json_value(key, key.place(the_case));
 }
 
-/// What stands for a case's key: nothing for [wind] without wind, for what wind replaces, and for
+/// Whether a key counts in the case: not [wind] without wind, not what wind replaces, and not
 /// [site] where nothing is said of it.
 bool is_in_force(const CaseKey& key, const Case& the_case) {
   if (key.table() == "site") return has_site(the_case);
   if (is_absent(the_case, key)) return false;
-  // What a plant of the user's own stands in place of is no part of the case.
+  // Keys that a plant of the user's own replaces are no part of the case.
   if (has_own_plant(the_case))
     for (const char* table : {"conductor", "absorber", "reduction", "plant", "initial"})
       if (key.table() == table) return false;
@@ -33,7 +33,7 @@ bool is_in_force(const CaseKey& key, const Case& the_case) {
   return !(key.replaced_by_wind && the_case.wind);
 }
 
-/// What a person should know of a table before changing it; empty for most.
+/// Comment on a table for a person who changes it; empty for most.
 std::string table_comment(const std::string& table) {
   if (table == "conductor")
     return "# name, from the library (holdfast conductors), or the conductor's data; sag or "

@@ -13,7 +13,7 @@
 
 namespace holdfast::program {
 
-/// What a job was asked: everything that its result depends on, and how to show it.
+/// Question to a job: everything that its result depends on, and how to show it.
 struct JobContext {
   std::string job;      // "stability"
   std::string version;  // of the program that computed the numbers; empty: this one

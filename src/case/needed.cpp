@@ -9,7 +9,7 @@
 namespace holdfast::program {
 namespace {
 
-/// What would do in the place of a key.
+/// Another key that would do in the place of one.
 struct Instead {
   std::string_view key;
   const char* other;

@@ -56,8 +56,7 @@ std::string_view value_of_line(std::string_view text, std::size_t line) {
   return equals == std::string_view::npos ? "" : trimmed(uncommented.substr(equals + 1));
 }
 
-/// What is probably wrong with a value that no TOML can be read from; empty where there is no
-/// guess.
+/// Guess at the mistake in a value that no TOML can be read from; empty where there is none.
 std::string guess_of_value(std::string_view value) {
   if (value.empty() || value.front() == '[' || value.front() == '"') return "";
   if (has_decimal_comma(value)) return "; a number has a decimal point, not a comma: 0.5";
@@ -69,7 +68,7 @@ std::string guess_of_value(std::string_view value) {
   return "";
 }
 
-/// What to say behind a refusal: the nearest word, where a word was given and some are admissible.
+/// Hint behind a refusal: the nearest word, where a word was given and some are admissible.
 std::string suggested_word(const std::vector<std::string>& words, const toml::node& node) {
   const auto word = node.value_exact<std::string>();
   if (!word || words.empty()) return "";

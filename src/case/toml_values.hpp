@@ -13,7 +13,7 @@
 
 namespace holdfast::program {
 
-/// What is nested deeper in a text than in any case, and on which line.
+/// Excess nesting of a text, deeper than in any case, and its line.
 struct TomlExcess {
   std::size_t line = 0;
   std::string message;  ///< "brackets are nested deeper than 16"

@@ -57,7 +57,7 @@ const std::vector<DeviceKey> listed_keys = {
         "CSV file of its impedance: columns frequency_Hz, magnitude_N_s_per_m and phase_deg"),
 };
 
-/// What a kind of device takes beside kind, position, to and clamp_mass.
+/// Keys that a kind of device takes beside kind, position, to and clamp_mass.
 struct Kind {
   std::string_view name;
   std::vector<std::string_view> required, optional;

@@ -41,11 +41,11 @@ std::vector<const DeviceKey*> standing_keys(case_tables::Device device);
 /// Gives a device the `to` of its kind, where nobody gives it.
 void settle_device(case_tables::Device& device, const std::set<std::string>& given);
 
-/// What is wrong with one device by itself, of which those keys were given; its keys are `damping`,
-/// none where one is missing.
+/// Fault of one device by itself, of which those keys were given; its keys are `damping`, none
+/// where one is missing.
 CaseFault device_fault(const case_tables::Device& device, const std::set<std::string>& given);
 
-/// What is wrong between the devices of a case and its conductor.
+/// Fault between the devices of a case and its conductor.
 CaseFault devices_fault(const Case& the_case);
 
 }  // namespace holdfast::program

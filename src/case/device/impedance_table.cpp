@@ -16,7 +16,7 @@ constexpr const char* frequency_column = "frequency_Hz";
 constexpr const char* magnitude_column = "magnitude_N_s_per_m";
 constexpr const char* phase_column = "phase_deg";
 
-/// Of |Z|: what the phases of such measurements miss, about a degree.
+/// Least Re Z/|Z|: the phases of such measurements are wrong by about a degree.
 constexpr double smallest_real_share = -0.02;
 
 /// A phase of 90 degrees, of a mere mass, has a cosine that rounds to either side of 0.

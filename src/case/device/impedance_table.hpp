@@ -28,11 +28,11 @@ struct ImpedanceTable {
 /// passive device gives power. Below 0 by less, as about a degree of phase makes it, it is 0.
 ImpedanceTable read_impedance_table(const std::filesystem::path& file);
 
-/// The same from a text; `name` stands for the file in messages.
+/// Reads a table from a text; `name` stands for the file in messages.
 ImpedanceTable read_impedance_text(const std::string& text, const std::string& name);
 
-/// Of each measured device: a line where real parts were taken as 0, and one where its phases are
-/// probably in radians, since none is beyond 2 pi though some are beyond half of one.
+/// Doubts about each measured device: a line where real parts were taken as 0, and one where its
+/// phases are probably in radians, since none is beyond 2 pi though some are beyond half of one.
 std::vector<std::string> impedance_doubts(const Case& the_case);
 
 }  // namespace holdfast::program

@@ -23,7 +23,7 @@ const std::vector<LibraryConductor>& conductor_library();
 /// The one of that name, in capitals or not; null where there is none.
 const LibraryConductor* find_conductor(std::string_view name);
 
-/// Those whose name, kind or source has every word of the text, in capitals or not.
+/// Conductors whose name, kind or source has every word of the text, in capitals or not.
 std::vector<const LibraryConductor*> conductors_with(std::string_view text);
 
 /// The three names most like one that is not known: `"Drake", "Crane" or "Brahma"`.

@@ -29,7 +29,7 @@ std::string blame_for_range(const Case& the_case, const char* key, const char* r
                 : "";
 }
 
-/// Of the absorber's place, upward of its rest (m, below 0), before the statics end.
+/// Displacement of the absorber's place, upward of its rest (m, below 0), where the statics end.
 double highest_reading(const Case& the_case) {
   const auto irvine = irvine_statics_of(the_case);
   return irvine.displacement(irvine.lowest_force() * (1.0 - 1e-6));

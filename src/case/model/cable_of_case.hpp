@@ -55,8 +55,8 @@ double conductor_stiffness_of(const Case& the_case);
 /// absorber's place by a tenth of their largest displacement or more, the first and the sixth.
 std::pair<double, double> default_frequencies(const Case& the_case);
 
-/// What the user of a job about the cable has to know where the case gives a plant alone: whose
-/// cable it is. Empty otherwise.
+/// Warning of a job about the cable where the case gives a plant alone: whose cable it is. Empty
+/// otherwise.
 std::string borrowed_cable_warning(const Case& the_case);
 
 /// Throws WrongInput where a force (N) on the absorber's place lies outside what Eq. 1 and the

@@ -10,33 +10,33 @@
 
 namespace holdfast::program {
 
-/// What the user has to know of an answer that a small change of the question would change much,
-/// or that is not of the true force; empty where there is nothing. Each is one line.
+/// Warnings of an answer that a small change of the question would change much, or that is not of
+/// the true force; empty where there is nothing. Each is one line.
 
-/// Of a reduction near its double solution.
+/// Warns of a reduction near its double solution.
 std::string sensitive_reduction_warning(const Case& the_case);
 
-/// Of tangents of the boundary that are nearly a cusp.
+/// Warns of tangents of the boundary that are nearly a cusp.
 std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& features);
 
-/// Of an orbit near a switching surface.
+/// Warns of an orbit near a switching surface.
 /// @param border_share  of PeriodicOrbit or EventOrbit
 std::string near_border_warning(double border_share);
 
-/// Of an orbit that has copies shifted in time: neighbours may come to different ones and then stay
-/// apart for good, though each is asymptotically stable.
+/// Warns of an orbit that has copies shifted in time: neighbours may come to different ones and
+/// stay apart for good, though each is asymptotically stable.
 /// @param period       of the orbit (samples)
 /// @param coincidence  samples after which sampling and forcing meet again; 0 < coincidence ≤
 /// period
 std::string shifted_copies_warning(std::int64_t period, std::int64_t coincidence);
 
-/// Of a largest exponent whose sign is not known.
+/// Warns of a largest exponent whose sign is not known.
 std::string open_sign_warning(const LyapunovResult& result);
 
-/// Of exponents along a motion whose reading has steps: between two of them its derivative is zero.
+/// Warns of exponents along a motion whose reading has steps, between which its derivative is zero.
 std::string stepped_reading_warning(const Case& the_case);
 
-/// Of exponents averaged over few forcing periods.
+/// Warns of exponents averaged over few forcing periods.
 /// @param averaged  s
 std::string short_average_warning(const Case& the_case, double averaged);
 
@@ -49,7 +49,7 @@ double held_share(const Case& the_case, double sampling_period, double frequency
 /// @param shown  behind a semicolon: "ratios are to the true one"
 std::string held_force_warning(const Case& the_case, double sampling_period, double frequency,
                                const std::string& shown);
-/// The same at the case's own τ and f.
+/// Warning about the held force at the case's own τ and f.
 std::string held_force_warning(const Case& the_case, const std::string& shown);
 
 }  // namespace holdfast::program

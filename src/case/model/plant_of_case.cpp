@@ -14,7 +14,7 @@ namespace holdfast::program {
 namespace {
 
 void require_two_masses(const Case& the_case) {
-  // What they are reduced from is asked for first.
+  // Keys that the masses are reduced from are asked for first.
   if (the_case.conductor_given) require_keys(the_case, {"absorber.mass", "absorber.position"});
   require_keys(the_case,
                {"plant.conductor_mass", "plant.conductor_stiffness", "plant.conductor_damping",

@@ -22,8 +22,8 @@ Sampling<double> sampling_of(const Case& the_case);
 SampledLoop<double> loop_of(const Case& the_case);
 OperatingPoint operating_point_of(const Case& the_case);
 HarmonicExcitation<double> excitation_of(const Case& the_case);
-/// The same for a motion, which can do without: no force at all has the period of a sample, as of
-/// any other, where the case has neither amplitude nor frequency.
+/// Excitation of a motion, which can do without: where the case has neither amplitude nor frequency
+/// it is no force, with the period of a sample for want of another.
 HarmonicExcitation<double> motion_excitation_of(const Case& the_case);
 ForceHold force_hold_of(const Case& the_case);
 Vector<double, 4> initial_state_of(const Case& the_case);

@@ -8,7 +8,7 @@
 
 namespace holdfast::program {
 
-/// What the case asks of a reduction: k1 as it is read, m2 and the two natural frequencies.
+/// Reduction that the case asks for: k1 as it is read, m2 and the two natural frequencies.
 FrequencyReduction<double> reduction_options_of(const Case& the_case);
 
 /// m1 and k2 from that k1, the absorber's mass and the two frequencies of [reduction].
@@ -25,8 +25,8 @@ TwoMass<double> plant_without_absorber_damping(const Case& the_case);
 /// Throws NoAnswer where there is no such plant, or a package is missing.
 std::string settle_plant(Case& the_case);
 
-/// The same of the absorber alone, which is all of [plant] that a conductor by its modes has: its
-/// mass is absorber.mass unless plant.absorber_mass is given.
+/// Settles the absorber alone, which is all of [plant] that a conductor by its modes has: its mass
+/// is absorber.mass unless plant.absorber_mass is given.
 /// @return which of its values are built-in, or an empty text
 std::string settle_absorber(Case& the_case);
 

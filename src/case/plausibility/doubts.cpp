@@ -26,7 +26,7 @@ bool is_beyond(const AdmissibleRange& range, double value) {
   return value < range.lowest || value > range.highest;
 }
 
-/// What a cable mostly is: by this units that make a case equally possible are told apart.
+/// Number of ways in which a case is unlike most cables, to tell equally possible units apart.
 int oddness(const Case& the_case) {
   const case_tables::Conductor& c = the_case.conductor;
   const double diameter = std::isfinite(c.diameter) ? c.diameter
@@ -112,7 +112,7 @@ class BestUnits {
       if (unit != other.own || !other.is_mistaken) continue;
       const Case changed = scaled(case_, keys, other.factor());
       const int bad = badness(changed, quantities_), odd = oddness(changed);
-      // What half as much again mends for the most part is no mistaken unit.
+      // A fault that half as much again mends for the most part is no mistaken unit.
       const double a_little = other.factor() < 1.0 ? 1.0 / 1.5 : 1.5;
       const int mended = badness_ - badness(scaled(case_, keys, a_little), quantities_);
       if (2 * mended > badness_ - bad || bad >= badness_) continue;

@@ -23,14 +23,14 @@ UnitGuess guessed_unit(const Case& the_case, const std::vector<std::string>& key
 /// A quantity that no cable has, nor its wind nor its drive: the part of first_fault() about it.
 CaseFault impossible_fault(const Case& the_case);
 
-/// Of the quantities those about what the case has: none of the two masses' conductor where the
-/// plant is the conductor itself, none of an absorber that does not count.
+/// Quantities about what the case has: none of the two masses' conductor where the plant is the
+/// conductor itself, none of an absorber that does not count.
 std::vector<PlausibleQuantity> in_question(const Case& the_case,
                                            const std::vector<PlausibleQuantity>& quantities);
 
-/// What lies beyond the usual, a line each: where the key was given, the quantity, the usual range
-/// and why, and the likely unit. What one mistaken unit explains is said once; what follows from
-/// no key of the user's is not said.
+/// Doubts about what lies beyond the usual, a line each: where the key was given, the quantity, the
+/// usual range and why, and the likely unit. All that one mistaken unit explains is said once; a
+/// quantity that follows from no key of the user's is not said.
 std::vector<std::string> doubts_about(const Case& the_case,
                                       const std::vector<PlausibleQuantity>& quantities);
 

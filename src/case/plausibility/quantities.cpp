@@ -39,7 +39,7 @@ PlausibleQuantity number_of(const char* key, const char* unit, double (*of)(cons
   return quantity(key, unit, {key}, of, usual, reason, possible);
 }
 
-/// Of the whole conductor, N.
+/// Weight of the whole conductor, N.
 double weight_of(const Case& c) {
   return c.conductor.mass_per_length * c.conductor.gravity * c.conductor.span;
 }
@@ -75,7 +75,7 @@ constexpr const char* usual_diameters =
 constexpr const char* usual_shares =
     "a rod has 1, a strand 0.75, a sheathed stay 0.3, a model under foam 0.01";
 
-/// Those of one key come first: what they explain is not laid to the others.
+/// Quantities of one key come first: what they explain is not laid to the others.
 const Quantities listed_of_case = {
     number_of(
         "conductor.youngs_modulus", "Pa", [](const Case& c) { return c.conductor.youngs_modulus; },

@@ -19,11 +19,11 @@ struct PlausibleQuantity {
   bool asks_unit = true;          // what lies beyond may be in another unit
 };
 
-/// What follows from conductor, absorber, wind, computer and initial state: known as soon as the
-/// case is read.
+/// Quantities of conductor, absorber, wind, computer and initial state: known as soon as the case
+/// is read.
 const std::vector<PlausibleQuantity>& quantities_of_case();
 
-/// What follows from the plant, once it is settled. All of it is possible.
+/// Quantities of the plant, once it is settled. All of it is possible.
 const std::vector<PlausibleQuantity>& quantities_of_plant();
 
 /// How far the absorber's place may move without leaving what a model of small motions says, m:

@@ -27,8 +27,8 @@ struct CableDecayOptions {
   AbsorberReading reading = AbsorberReading::weight;
 };
 
-/// What is asked where nobody says: an eighth of the absorber's weight removed, six periods of the
-/// first frequency of [reduction], 250 instants in each.
+/// Usual decay: an eighth of the absorber's weight removed, six periods of the first frequency of
+/// [reduction], 250 instants in each.
 CableDecayOptions usual_decay(const Case& the_case);
 
 /// The vibration of the absorber's place.

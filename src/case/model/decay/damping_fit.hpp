@@ -35,8 +35,8 @@ struct AbsorberDampingFit {
 /// else to its time history. Throws NoAnswer where neither determines it.
 AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoMass<double>& plant);
 
-/// What the user has to know of that fit: that the plant's decay is not the cable's, where it
-/// cannot meet its first peak and period. Empty otherwise.
+/// Warning where the plant's decay is not the cable's, whose first peak and period it cannot meet.
+/// Empty otherwise.
 std::string misfit_warning(const AbsorberDampingFit& found);
 
 }  // namespace holdfast::program

@@ -27,7 +27,7 @@ void require_all(const Case& the_case) {
   require_keys(the_case, keys);
 }
 
-/// Of what is chosen.
+/// Limits of the modes and bars that are chosen.
 constexpr int fewest_modes = 60, most_modes_of_string = 300, most_modes_of_cable = 200;
 constexpr double fewest_bars = 200.0, most_bars = 8000.0;
 
@@ -118,7 +118,7 @@ int bars_of(const Case& the_case, int apart) {
 }
 
 ConductorModes all_modes_of_cable(const Case& the_case, int apart, int bars) {
-  // Of two steps one makes a mode, the other one a bundle.
+  // One of two steps makes a mode, the other one a bundle.
   CablePlaceModes found = chain_modes_of(the_case, bars, std::min(2 * apart, 2 * (bars - 1)));
   if (found.outcome != EquilibriumOutcome::converged)
     throw NoAnswer("no equilibrium was found of the cable with the absorber's weight");

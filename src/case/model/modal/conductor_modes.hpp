@@ -25,11 +25,11 @@ struct ConductorModes {
   double highest_frequency() const;
 };
 
-/// What a modal case is computed with: plant.modes and no more; or 60, and up to 300 of a string
-/// and 200 of a cable, the faster ones bundled. Beyond 60 those are kept whose waves the nearer end
-/// sends back by more than a tenth, up to five times what half the sampling rate and twice the
-/// force's frequency reach. Throws NoAnswer where a cable has no equilibrium or its bars so many
-/// modes not.
+/// Modes that a modal case is computed with: plant.modes and no more; or 60, and up to 300 of a
+/// string and 200 of a cable, the faster ones bundled. Beyond 60 those are kept whose waves the
+/// nearer end sends back by more than a tenth, up to five times what half the sampling rate and
+/// twice the force's frequency reach. Throws NoAnswer where a cable has no equilibrium, or not so
+/// many modes for its bars.
 ConductorModes conductor_modes_of(const Case& the_case);
 
 /// All modes of the conductor, about so many of them kept apart.

@@ -34,7 +34,7 @@ Absorber<double> absorber_of(const Case& the_case) {
   const auto& plant = the_case.plant;
   require_absorber(the_case);
   require_keys(the_case, {"plant.absorber_stiffness", "plant.absorber_damping"});
-  // Of a string without ends the clamp is the mode's own mass; one mass has none.
+  // The clamp of a string without ends is the mode's own mass; one mass has none.
   const bool clamped = !is_two_masses(the_case) && !is_infinite(the_case);
   return {plant.absorber_mass, plant.absorber_stiffness, plant.absorber_damping,
           clamped ? the_case.absorber.clamp_mass : 0.0};

@@ -33,7 +33,7 @@ LoopHardware hardware_of(const Case& the_case);
 /// The plant of a modal case, with filter and drive.
 LinearPlant<double> modal_plant_of(const Case& the_case);
 
-/// The same with the poles of conductor and absorber; those found last are remembered. Throws
+/// That plant with the poles of conductor and absorber; those found last are remembered. Throws
 /// NoAnswer where two natural motions of it cannot be told apart.
 ConductorWithAbsorber conductor_with_absorber_of(const Case& the_case);
 
@@ -50,7 +50,7 @@ std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>
 /// 60 modes kept apart.
 bool is_stable_with_clamp(const Case& the_case, double clamp_mass);
 
-/// The same conductor by other modes: how far an answer depends on those that were kept.
+/// Other modes of the same conductor, to show how far an answer depends on those kept.
 struct OtherModes {
   ResolvedCircle<double> circle;
   std::string words;  ///< "with all modes"
@@ -82,8 +82,8 @@ JudgedLoop cut_loop_of(const Case& the_case);
 /// Whether a case is of a string whose modes the program chooses, of which the judge has more.
 bool has_chosen_modes(const Case& the_case);
 
-/// What the judge says against a loop that is stable by the modes that a case is computed with;
-/// empty where it agrees, and without chosen modes.
+/// Objection of the judge to a loop that is stable by the modes that a case is computed with; empty
+/// where it agrees, and without chosen modes.
 std::string judged_otherwise(const Case& the_case);
 
 /// The steady response of the loop of either kind of plant at ω (rad/s), and its amplitude without

@@ -18,7 +18,7 @@ double mobility_of(const std::vector<PlaceMode<double>>& modes) {
   return sum;
 }
 
-/// What is given that nothing of the case's plant depends on.
+/// Warning of given keys on which nothing of the case's plant depends.
 std::string idle_keys_warning(const Case& the_case) {
   const bool masses = is_two_masses(the_case), cable = is_cable(the_case);
   const bool endless = is_infinite(the_case), string = !masses && !cable && !endless;
@@ -27,7 +27,7 @@ std::string idle_keys_warning(const Case& the_case) {
     if (counts) names += (names.empty() ? "" : ", ") + std::string(name);
   };
   const bool plane = the_case.absorber.motion == "plane";
-  // That of a named conductor is there without being asked for.
+  // A named conductor has a bending stiffness without being asked for it.
   const bool bends = the_case.conductor.bending_stiffness > 0.0 && the_case.conductor.name.empty();
   const bool of_modes = the_case.absorber.clamp_mass > 0.0 || std::isfinite(the_case.plant.modes) ||
                         the_case.conductor.damping != "chosen";
@@ -45,7 +45,7 @@ std::string idle_keys_warning(const Case& the_case) {
   return names + ": " + who + " not depend on it; plant.model = " + other + " does";
 }
 
-/// What the modes are that are kept apart, and that the force is faster than they.
+/// Words for the modes that are kept apart, and that the force is faster than they.
 struct KeptModes {
   std::string words, faster;
 };
@@ -58,7 +58,7 @@ KeptModes kept_modes(const Case& the_case, const ConductorModes& conductor) {
           force > end ? "; the force, " + format_rounded(force) + " Hz, is faster than they" : ""};
 }
 
-/// Of faster modes in bundles.
+/// Warning of faster modes in bundles.
 std::string bundles_warning(const Case& the_case, const ConductorModes& conductor) {
   const auto& last = conductor.modes[static_cast<std::size_t>(conductor.apart) - 1];
   // A mode of the string of that frequency has so many half waves.
@@ -75,7 +75,7 @@ std::string bundles_warning(const Case& the_case, const ConductorModes& conducto
          kept.faster;
 }
 
-/// Of faster modes left out.
+/// Warning of faster modes left out.
 std::string cut_warning(const Case& the_case, const ConductorModes& conductor) {
   const double cut_mass = 1.0 / mobility_of(conductor.modes);
   const double felt_mass =

@@ -7,8 +7,8 @@
 
 namespace holdfast::program {
 
-/// What the user has to know of the modes that are kept, beside half the sampling rate; and of keys
-/// that do not count for the case's plant. Empty where there is nothing.
+/// Warning of the modes that are kept, beside half the sampling rate, and of keys that do not count
+/// for the case's plant. Empty where there is nothing.
 std::string modes_warning(const Case& the_case);
 
 /// That a motion beyond the paper's model takes minutes, its work growing with the third power of

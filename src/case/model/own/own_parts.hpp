@@ -19,8 +19,8 @@ namespace holdfast::program {
 using OwnForce =
     std::function<double(std::int64_t k, double t, double displacement, double velocity)>;
 
-/// What a case has of its user's own, beside what a case file can say. Only a program in whose
-/// memory the case is can give it.
+/// Parts of a case that are its user's own, beyond what a case file can say. Only a program in
+/// whose memory the case is can give them.
 struct OwnParts {
   std::optional<LinearPlant<double>> plant;  ///< in place of conductor and absorber
   Vector<double, Eigen::Dynamic> state;      ///< of that plant, where it starts
@@ -51,7 +51,7 @@ struct OwnLaw {
   }
 };
 
-/// That of the case.
+/// Control law of the case.
 /// @param controlled  else without force
 OwnLaw own_law_of(const Case& the_case, bool controlled);
 

@@ -80,7 +80,7 @@ SpanDevice span_device_of(const case_tables::Device& device) {
 
 SpanDevice active_device_of(const Case& the_case, bool controlled) {
   require_keys(the_case, {"absorber.position"});
-  // Of two masses the clamp mass is part of the conductor's; on the conductor it is not.
+  // The clamp mass of two masses is part of the conductor's; on the conductor it is not.
   Absorber<double> absorber = absorber_of(the_case);
   absorber.clamp_mass = the_case.absorber.clamp_mass;
   return {the_case.absorber.position,

@@ -24,7 +24,7 @@ SpanDevice span_device_of(const case_tables::Device& device);
 /// The absorber with its computer, or with gains 0.
 SpanDevice active_device_of(const Case& the_case, bool controlled);
 
-/// What is clamped on the case's span: its devices and, where it has one, its absorber.
+/// Clamped devices of the case's span and, where it has one, its absorber.
 std::vector<SpanDevice> span_devices_of(const Case& the_case, bool controlled = true);
 
 /// Whether the string with its devices comes back to rest, its springs that push away being so many
@@ -40,8 +40,8 @@ void require_measured(const Case& the_case, double lowest, double highest);
 /// Throws WrongInput for a conductor without outside diameter, in the words of `job`.
 void require_diameter(const Case& the_case, const std::string& job);
 
-/// What a conductor itself takes at a frequency (Hz) and an antinode amplitude (m), W/m, by one
-/// law.
+/// Power that a conductor itself takes at a frequency (Hz) and an antinode amplitude (m), W/m, by
+/// one law.
 struct LossLaw {
   std::string name;
   std::function<double(double, double)> power;
