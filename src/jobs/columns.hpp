@@ -13,7 +13,7 @@ namespace holdfast::program {
 /// @param values  what the texts leave open
 std::vector<Column> columns_of(const std::string& table, const Values& values = {});
 
-/// The same with the words of their numbers, for a grid.
+/// Columns of a grid with the words of their numbers.
 std::vector<CellColumn> cell_columns_of(const std::string& table, const Values& values = {});
 
 }  // namespace holdfast::program

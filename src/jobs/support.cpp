@@ -124,7 +124,7 @@ std::string first_of(const Words& wanted, const Words& there) {
   return "";
 }
 
-/// What of the question makes a rule hold.
+/// Part of the question that makes a rule hold.
 std::string asked_words(const Rule& rule, const Asked& asked) {
   for (const std::string& words : rule.asked)
     if (asked.has(words)) return words;

@@ -7,7 +7,7 @@
 
 namespace holdfast::program {
 
-/// What is asked of a case: a job with the options that it was given, "--prove", and each with its
+/// Question about a case: a job with the options that it was given, "--prove", and each with its
 /// value too, "--switching exact".
 struct Asked {
   std::string job;
@@ -17,7 +17,7 @@ struct Asked {
   bool has(const std::string& words) const;
 };
 
-/// What texts/support.toml says of a question about a case.
+/// Answer of texts/support.toml to a question about a case.
 struct Support {
   std::string refusal;     ///< why it is not answered; empty where it is
   std::string idealised;   ///< what the answer leaves out, a sentence each; empty: nothing

@@ -57,7 +57,7 @@ void fill_chart(const ChartRows& chart, const ChartMemory& memory, int threads);
 /// Columns: stable and, with `radius`, the spectral radius of the sampled loop.
 ChartRows sampled_chart(const LoopChart& chart, bool radius, InstructionSet instructions);
 
-/// The same over P and D of the loop of a case, whichever it is.
+/// Chart over P and D of the loop of a case, whichever it is.
 ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool radius,
                              InstructionSet instructions);
 

@@ -11,7 +11,7 @@ namespace holdfast::program {
 /// decay. Throws NoAnswer where they are not apart or one may lie on the boundary.
 std::vector<EnclosedPole> proved_poles_of(const Case& the_case);
 
-/// The same of a modal case; none where nothing can be proved.
+/// Proved poles of a modal case; none where nothing can be proved.
 std::vector<EnclosedPole> poles_if_proved(const Case& the_case);
 
 }  // namespace holdfast::program

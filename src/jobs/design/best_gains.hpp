@@ -12,9 +12,9 @@
 
 namespace holdfast::program {
 
-/// What is asked of a D of least amplitude: to stay below a spectral radius, or else to have a
-/// margin, which two masses measure by the decay of their loop and a conductor by the distance of
-/// its loop from instability, whatever is between plant and computer.
+/// Options of a D of least amplitude: to stay below a spectral radius, or else to have a margin,
+/// which two masses measure by the decay of their loop and a conductor by the distance of its loop
+/// from instability, whatever is between plant and computer.
 AmplitudeOptions amplitude_options_of(const Case& the_case,
                                       std::optional<double> largest_radius = std::nullopt,
                                       std::optional<double> margin = std::nullopt);
@@ -29,8 +29,8 @@ class BestGains {
 
   /// Its D is NaN where the outcome says that there is none.
   const MinimumAmplitude& of(const IdealLoop<double>& loop);
-  /// Of the loop of a case, whichever it is; on a conductor it need not settle in that time, for
-  /// the slowest modes, which no absorber reaches, do not.
+  /// Best D of the loop of a case, whichever it is; on a conductor it need not settle in that time,
+  /// for the slowest modes, which no absorber reaches, do not.
   MinimumAmplitude of(const Case& the_case) const;
 
  private:
@@ -39,7 +39,7 @@ class BestGains {
   MinimumAmplitude answer_{};
 };
 
-/// What the play of a case makes of a gain that was chosen without it: the ratio to the
+/// Warning of the play of a case for a gain that was chosen without it: the ratio to the
 /// uncontrolled vibration by the motions of both, of two masses; "" where the case has no play or
 /// no such gain.
 /// @param gains  N/m, N s/m

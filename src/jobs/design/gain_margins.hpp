@@ -7,8 +7,8 @@
 
 namespace holdfast::program {
 
-/// What a recommended D keeps clear of where nothing else is asked of it: half the way from the
-/// boundary of stability to the D that decays fastest (`AmplitudeOptions::margin`).
+/// Margin that a recommended D keeps where nothing else is asked: half the way from the boundary of
+/// stability to the D that decays fastest (`AmplitudeOptions::margin`).
 inline constexpr double usual_margin = 0.5;
 
 /// The margins of a case's loop with some gains, in the units of the program's tables; NaN where
@@ -36,7 +36,7 @@ struct CaseMargins {
 /// As far as doubles find them, looked at everywhere where that is soon done.
 CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains);
 
-/// The same as theorems, of a case of which it may be asked (texts/support.toml). Throws what
+/// Proves those margins, of a case of which it may be asked (texts/support.toml). Throws what
 /// proved_poles_of does, Interrupted, and NoAnswer where the loop is not proved to be stable.
 /// @param found  how far to look; its ends of τ and δ that the walk has passed over are put right
 ProvedMargins proved_margins_of(const Case& the_case, const PdGains<double>& gains,

@@ -14,7 +14,7 @@ template <class Contact>
 const SwitchCounts& counts_of(const EventMotion<Contact>& motion) {
   return motion.counts();
 }
-// Of a motion that switches at samples alone.
+// Counts of a motion that switches at samples alone.
 template <class Motion>
 const SwitchCounts& counts_of(const Motion&) {
   static const SwitchCounts none;

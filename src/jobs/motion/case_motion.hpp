@@ -33,7 +33,7 @@ class CaseMotion {
   State state() const;
   PortReadings<TwoMass<double>> readings() const { return {}; }
 
-  /// What it has met with; nothing where the contact changes at samples alone.
+  /// Contact changes that it has met with; none where the contact changes at samples alone.
   const SwitchCounts& counts() const;
 
  private:

@@ -61,7 +61,7 @@ void batch_event_metrics(const std::vector<EventSweepMotion>& motions,
   std::size_t lines = 1;
   for (const EventSweepMotion& motion : motions)
     lines = std::max(lines, motion.loop->digital.force.harmonics.size());
-  // What is prepared at once, a table a motion with maps for each line, stays small.
+  // Tables prepared at once, one a motion with maps for each line, stay small.
   const std::size_t at_once = std::clamp<std::size_t>(4096 / lines, 8, motions_of_batch);
   for (std::size_t first = 0; first < motions.size(); first += at_once) {
     const std::size_t count = std::min(at_once, motions.size() - first);

@@ -85,8 +85,8 @@ TrustedDigits trusted_digits_of_motion(const MovingLoop& moving, const BuiltLoop
 TrustedDigits trusted_digits_of_deviation(const MovingLoop& moving, double offset,
                                           std::int64_t samples);
 
-/// The same digits with the largest exponent of the motion over its first samples, 10⁵ at most,
-/// where there are fewer than six; of two masses under control.
+/// Digits with the largest exponent of the motion over its first samples, 10⁵ at most, where there
+/// are fewer than six; of two masses under control.
 TrustedDigits with_rate(TrustedDigits trusted, const MovingLoop& moving, std::int64_t samples);
 
 /// Digits of what a reduction says of its plant: both roots, the discriminant, the largest absorber

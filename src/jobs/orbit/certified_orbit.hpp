@@ -35,7 +35,7 @@ PeriodicOrbit certified_orbit(const JobContext& context, const SampledModes& mov
 EventOrbit certified_orbit(const JobContext& context, const BuiltPlant& moving,
                            std::int64_t largest_period);
 
-/// The same with where it begins, in the model that switches between the samples.
+/// The certified orbit and where it begins, in the model that switches between the samples.
 EventOrbitResult<DriveContact<>> certified_event_orbit(const JobContext& context,
                                                        const BuiltMasses& moving,
                                                        std::int64_t largest_period);
@@ -46,10 +46,10 @@ struct CaptureRadii {
   double largest;   ///< m
 };
 
-/// Of a conductor by its modes: of a ball of all deviations, and of the ellipsoid that it lies in.
+/// Radii on a conductor by its modes: of a ball of all deviations, and of the ellipsoid around it.
 CaptureRadii capture_radii_of(const ModalLoop& loop, const PeriodicOrbit& orbit);
 
-/// What a certificate says beside the orbit itself.
+/// Certificate of an orbit.
 struct OrbitCertificate {
   CaptureRadii radii;
   OrbitVerification verification;  ///< in extended precision

@@ -10,7 +10,7 @@
 
 namespace holdfast::program {
 
-/// What is asked of a map.
+/// Question to a map.
 struct MotionCellsQuestion {
   std::vector<std::string> axes;  ///< KEY=MIN:MAX:COUNT, two
   std::int64_t largest_period;    ///< of a motion, samples

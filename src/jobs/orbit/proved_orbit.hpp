@@ -22,7 +22,7 @@ inline constexpr Named<SwitchingSurface> surface_names[] = {
     {SwitchingSurface::gap_lower, "gap_lower"},
     {SwitchingSurface::gap_upper, "gap_upper"}};
 
-/// Those of a drive that switches between the samples.
+/// Switching surfaces of a drive that switches between the samples.
 inline constexpr Named<ContactSurface> contact_surface_names[] = {
     {ContactSurface::reversal, "reversal"},
     {ContactSurface::gap_lower, "gap_lower"},
@@ -31,7 +31,7 @@ inline constexpr Named<ContactSurface> contact_surface_names[] = {
     {ContactSurface::driven_acceleration, "driven_acceleration"},
     {ContactSurface::sampling_instant, "sampling_instant"}};
 
-/// What became of proofs, in tables.
+/// Outcomes of proofs, in tables.
 inline constexpr Named<OrbitProofOutcome> orbit_proof_names[] = {
     {OrbitProofOutcome::proved, "proved"},
     {OrbitProofOutcome::not_contracting, "not_contracting"},
@@ -43,7 +43,7 @@ inline constexpr Named<OrbitProofOutcome> orbit_proof_names[] = {
 /// The proof of a case's orbit. Throws NoAnswer, saying what could not be decided and by how much.
 OrbitProof proved_orbit_of(const Case& the_case, const PeriodicOrbit& orbit);
 
-/// The same of a drive that switches between the samples.
+/// The proof of an orbit of a drive that switches between the samples.
 EventOrbitProof proved_orbit_of(const IdealLoop<double>& loop,
                                 const EventOrbitResult<DriveContact<>>& found);
 

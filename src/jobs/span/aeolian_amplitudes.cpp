@@ -13,7 +13,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Of a loop that grows.
+/// Vibration of a loop that grows.
 constexpr Vibration no_vibration{{std::numeric_limits<double>::quiet_NaN(), BalanceRange::within},
                                  std::numeric_limits<double>::quiet_NaN()};
 
@@ -29,7 +29,7 @@ double share_of_diameter(const WindPowerLaw& wind, std::size_t point, std::size_
                                  static_cast<double>(point) / static_cast<double>(points - 1));
 }
 
-/// What the devices at both ends take of 1 m at the antinodes, over the span (W/m³).
+/// Power that the devices at both ends take of 1 m at the antinodes, over the span (W/m³).
 double taken_by_devices(const TautString<double>& string, double angular_frequency,
                         const std::array<EndResponse, 2>& ends) {
   double taken = 0.0;

@@ -21,7 +21,7 @@ struct Vibration {
   double strain;                ///< of the outermost wire, zero to peak; NaN where not known
 };
 
-/// What a span does in the wind at one frequency, by one law of the wind and one of the losses.
+/// Vibration of a span in the wind at one frequency, by one law of the wind and one of the losses.
 struct AeolianRow {
   double frequency;   ///< Hz
   double wind_speed;  ///< m/s
@@ -29,13 +29,13 @@ struct AeolianRow {
   Vibration bare, damped;
 };
 
-/// What the energy balance takes from a case with its span, whatever devices are on it.
+/// Data of a case with its span for the energy balance, whatever devices are on it.
 class SpanInWind {
  protected:
   /// Throws WrongInput for a conductor whose diameter is not known.
   explicit SpanInWind(const Case& the_case);
 
-  /// Of the outermost wire, where the antinodes vibrate by an amplitude (m).
+  /// Strain of the outermost wire, where the antinodes vibrate by an amplitude (m).
   double strain_of(const std::array<EndResponse, 2>& ends, double amplitude) const;
 
   TautString<double> string_;
@@ -90,7 +90,7 @@ class LargestVibration : SpanInWind {
 
  private:
   static constexpr std::size_t points = 61;
-  /// What is left for devices (W/m³) at amplitudes from the largest of a law of the wind downward.
+  /// Power spare for devices (W/m³) at amplitudes from the largest of a law of the wind downward.
   using Spare = std::array<double, points>;
 
   double spare(const WindPowerLaw& wind, const LossLaw& loss, double frequency, double y) const;

@@ -14,7 +14,7 @@ struct Band {
 /// The middle, lowest and highest of some numbers, one at least.
 Band band_of(std::vector<double> numbers);
 
-/// What the wind of one speed does in a year: parts of the damages of a life, which they add up to.
+/// Damage by the wind of one speed in a year, a part of the damages of a life.
 struct SpeedDamage {
   double speed;  ///< m/s
   double hours;  ///< a year

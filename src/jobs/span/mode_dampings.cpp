@@ -49,7 +49,7 @@ std::vector<ModeRow> rows_of_plant(const Case& the_case, int count, bool control
   return rows;
 }
 
-/// Of the sampled loop: from the pole that the mode becomes with everything but the computer.
+/// Roots of the sampled loop, each from the pole of the mode with everything but the computer.
 class LoopRoots {
  public:
   explicit LoopRoots(const Case& the_case)

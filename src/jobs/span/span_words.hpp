@@ -40,7 +40,7 @@ std::string life_line_note(const Case& the_case);
 /// A life (years) for a sentence; of thousands nobody knows more than that.
 std::string years_text(double years);
 
-/// What a designer should do about a life, in one honest sentence; empty where there is none.
+/// Advice to a designer about a life, in one honest sentence; empty where there is none.
 std::string life_advice(const FatigueLife& life, double years);
 
 }  // namespace holdfast::program

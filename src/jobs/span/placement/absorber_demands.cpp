@@ -27,7 +27,7 @@ double motion_at_absorber(const TautString<double>& string, const std::vector<Sp
   return 0.0;
 }
 
-/// What the drive does where the conductor moves by an amplitude z (m) at ω.
+/// Demands on the drive where the conductor moves by an amplitude z (m) at ω.
 AbsorberDemands demands_at(const ActiveAbsorber& device, double z, double omega) {
   const std::complex<double> s(0.0, omega), v = s * z;
   const auto& [absorber, sampling, gains, hardware] = device;

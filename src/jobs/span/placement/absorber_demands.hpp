@@ -7,8 +7,8 @@
 
 namespace holdfast::program {
 
-/// What the drive of a case's absorber has to do in the wind, by the energy balance with the pair
-/// of laws that gives the largest amplitude at each frequency.
+/// Demands on the drive of a case's absorber in the wind, by the energy balance with the pair of
+/// laws that gives the largest amplitude at each frequency.
 struct AbsorberDemands {
   double largest_force;   ///< N, amplitude of the command over the band, lags of the loop included
   double largest_stroke;  ///< m, amplitude of the absorber against the conductor, over the band

@@ -26,7 +26,7 @@ placement::MovableValue strength(double lower, double upper, double present, int
   return value;
 }
 
-/// What a number of one device becomes.
+/// Writes a number into one device.
 std::function<void(Case&, double)> into(std::size_t device, double Device::*place,
                                         double sign = 1.0) {
   return [=](Case& variant, double value) { variant.devices[device - 1].*place = sign * value; };

@@ -25,9 +25,9 @@ struct MovedNumber {
 MovedNumber moved_position(const Case& the_case, const PlacementQuestion& question, double shortest,
                            double longest);
 
-/// What of a passive device may move: its place, unless the question keeps it, and its strength, of
-/// a Stockbridge damper and a measured device none, which are as their makers made them. Throws
-/// WrongInput where nothing may.
+/// Numbers of a passive device that may move: its place, unless the question keeps it, and its
+/// strength, of a Stockbridge damper and a measured device none, which are as their makers made
+/// them. Throws WrongInput where nothing may.
 /// @param lowest, highest  of the band (Hz)
 std::vector<MovedNumber> moved_numbers(const Case& the_case, const PlacementQuestion& question,
                                        double lowest, double highest);
@@ -58,8 +58,8 @@ void require_placement_search();
 /// lacks what the goal needs, NoAnswer where no gains have the margin.
 PlacedDevice placed_device(const Case& the_case, const PlacementQuestion& question);
 
-/// What the user has to know of an answer, a sentence each: that nothing better was found, that a
-/// value is at the end of what was searched.
+/// Warnings of an answer, a sentence each: that nothing better was found, that a value is at the
+/// end of what was searched.
 std::vector<std::string> placement_warnings(const PlacedDevice& placed,
                                             const PlacementQuestion& question);
 

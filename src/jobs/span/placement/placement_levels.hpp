@@ -11,14 +11,14 @@
 
 namespace holdfast::program {
 
-/// What a device is placed for.
+/// Goals of the placement of a device.
 enum class PlacementGoal {
   strain,  ///< the least of the largest strains in the wind over a band
   ratio,   ///< the most of the least inverse standing-wave ratios over a band
   modes    ///< the most of the least damping ratios of some modes
 };
 
-/// What is asked of the placement of one device of a case.
+/// Question about the placement of one device of a case.
 struct PlacementQuestion {
   std::size_t device = 0;  ///< its number from 1; 0: the absorber with its computer
   PlacementGoal goal = PlacementGoal::strain;
@@ -29,7 +29,7 @@ struct PlacementQuestion {
   bool is_absorber() const { return device == 0; }
 };
 
-/// What a placement makes small, at each frequency of its band or for each of its modes.
+/// Levels that a placement makes small, at each frequency of its band or for each of its modes.
 class PlacementLevels {
  public:
   /// Throws WrongInput where the case lacks what the goal needs.
