@@ -176,7 +176,7 @@ void Comparisons::number(const std::string& row, double ours, const Values& valu
   const std::size_t digits = plain.find_first_of("-0123456789");
   const std::size_t unit = std::min(plain.find(' ', digits), plain.size());
   const double paper = *parse_number(plain.substr(digits, unit - digits));
-  // What the paper gives to a per cent; its decimals allow half a unit of the last besides.
+  // Tolerance of one per cent on the paper's number; its decimals allow half a unit of the last.
   const double within =
       texts.size() > 4 ? texts[4].value<double>().value() : std::max(0.01 * std::abs(paper), 5e-5);
   statement(row, rounded(ours, 4) + plain.substr(unit), std::abs(ours - paper) <= within, values);

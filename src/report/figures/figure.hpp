@@ -80,8 +80,8 @@ std::vector<Figure> figures_of(const Case& the_case, bool builtin);
 /// "P" and "D": a window of gains around those of the case, as wide as the gains themselves.
 Values window_of_gains(const Case& the_case);
 
-/// What a chart of gains shows: the range of --p or --d as it is given, else the paper's, and where
-/// the case's gains lie outside of that, or its absorber is of another size, one about the case's.
+/// Range of --p or --d in a chart of gains: as it is given, else the paper's, and where the case's
+/// gains lie outside of that, or its absorber is of another size, one about the case's.
 /// @param range  given or the paper's, MIN:MAX with a count behind it or without
 std::string shown_gains(const JobContext& context, const std::string& option,
                         const std::string& range);
@@ -117,11 +117,11 @@ LengthUnit length_unit_for(double length);
 /// An axis of frequencies as the jobs read it: MIN:MAX:COUNT.
 std::string frequencies_text(const Axis& axis);
 
-/// What the texts leave open of the pictures of a span.
+/// Values that the texts leave open of the pictures of a span.
 Values span_values(const Case& the_case);
 
-/// What a line engineer draws of a span: its vibration and strain over frequency, what its devices
-/// take at each end, the damping of its modes, and the damage over wind speed.
+/// Figures of a span as a line engineer draws them: its vibration and strain over frequency, what
+/// its devices take at each end, the damping of its modes, and the damage over wind speed.
 std::vector<Figure> span_figures(const Case& the_case);
 
 /// A key of the case along an axis of a map, and how the picture shows it.
@@ -136,11 +136,11 @@ struct MapAxis {
 /// gnuplot's expression for what the picture's axis shows of a value, itself an expression.
 std::string shown_on(const MapAxis& axis, const std::string& value);
 
-/// What the texts leave open of an axis: "x axis" of a sweep with 61 values, "x label", "x range",
-/// "x tics" and, as "x", the expression for what it shows of a column.
+/// Values that the texts leave open of an axis: "x axis" of a sweep with 61 values, "x label",
+/// "x range", "x tics" and, as "x", the expression for what it shows of a column.
 Values values_of(const std::string& letter, const MapAxis& axis, const std::string& column);
 
-/// What an axis calls a key of the case, with the unit in which it shows it: "sampling period τ
+/// Label of an axis for a key of the case, with the unit in which it shows it: "sampling period τ
 /// (ms)"; of another word, that word.
 std::string label_of(const std::string& key);
 
@@ -150,9 +150,9 @@ double scale_of(const std::string& key);
 /// The largest finite |value| (m) of the columns of a table whose unit is the metre; 0 for none.
 double largest_length(const CsvTable& table);
 
-/// What the texts leave open of the panels of a table over axes, one for each column behind those:
-/// its label, its values, what its shades or, over one axis, its ordinate span, how it is drawn. A
-/// column of words is drawn with a shade, or a height, a word.
+/// Values that the texts leave open of the panels of a table over axes, one for each column behind
+/// those: its label, its values, what its shades or, over one axis, its ordinate span, how it is
+/// drawn. A column of words is drawn with a shade, or a height, a word.
 std::vector<Values> panels_of(const CsvTable& table, std::size_t axes, const LengthUnit& unit);
 
 /// Whether a gnuplot can be started here (Debian package gnuplot-nox).

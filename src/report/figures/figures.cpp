@@ -85,7 +85,7 @@ Values settling_panel(const std::string& duration) {
           {"options", "--duration " + duration}};
 }
 
-/// What the texts leave open of a figure with these axes.
+/// Values that the texts leave open of a figure with these axes.
 Values values_of(const MapAxis& x, const MapAxis& y, const std::vector<Values>& panels,
                  Values values) {
   values.emplace_back("panels", std::to_string(panels.size()));
@@ -181,7 +181,7 @@ Values judged(const DecayRecord& plant, const DecayRecord& cable) {
           {"apart after", rounded(0.5 / std::abs(1.0 / of_plant - 1.0 / of_cable), 2)}};
 }
 
-/// The same of the vibration in the picture; nothing is said where the cable cannot be followed.
+/// Judgement on the vibration in the picture; empty where the cable cannot be followed.
 Values judged_plant(const Case& the_case, const CableDecayOptions& options) {
   try {
     const CableDecay cable = cable_decay(the_case, options);

@@ -63,7 +63,7 @@ int run_gnuplot(const fs::path& folder, const std::string& commands, const std::
   });
 }
 
-/// What gnuplot says, in a file without a name.
+/// Messages of gnuplot, in a file without a name.
 class Messages {
  public:
   Messages() : file_(std::tmpfile(), &std::fclose) {}
@@ -101,7 +101,7 @@ std::string heading_line(const Figure& figure) {
          replaced(figure.heading, "'", "''") + "' noenhanced\n";
 }
 
-/// What a picture that gnuplot has not drawn is told of, in its first words.
+/// Reason why gnuplot has not drawn a picture, by its first words.
 std::string reason_of(int status, const std::string& messages) {
   if (status == 0) return "the picture is cut off; is the disk full?";
   return one_line(without_panels(messages).substr(0, 1000));

@@ -104,7 +104,7 @@ double largest_length(const CsvTable& table) {
         name == "z1_m" || name == "z2_m" || known_column(name).column.unit == "m";
     if (!is_length) continue;
     const std::vector<double> lengths = magnitudes(table, name);
-    // Of the usual ones, where some diverge.
+    // The upper quartile counts, since some may diverge.
     if (!lengths.empty()) largest = std::max(largest, lengths[lengths.size() * 3 / 4]);
   }
   return largest;

@@ -39,7 +39,7 @@ std::string range_of(double value) {
 /// A share of the vibration without control above which control is not worth its drive.
 constexpr double worthwhile = 0.95;
 
-/// Of the vibration without control: so little more or less is the same vibration.
+/// Negligible share of the vibration without control: so little more or less is the same.
 constexpr double negligible = 0.005;
 
 /// Largest |z₁| of the steady motion with control and without it, and what the drive does for it.
@@ -49,7 +49,7 @@ struct LoopVibration {
   double ratio() const { return controlled / free; }
 };
 
-/// What all answers about a case rest on.
+/// Common ground of all answers about a case.
 struct Question {
   const Case& the_case;
   InstructionSet set;
@@ -120,7 +120,7 @@ std::string help_text(const Question& question, const LoopVibration& vibration) 
          page_text(lives_on_play ? "bounded by play" : "grows without play", values);
 }
 
-/// What the force of the paper, held over a sample, would make of the vibration without control.
+/// Vibration without control as the paper's force, held over a sample, would make it.
 std::string held_force_text(const Question& question) {
   const Case& the_case = question.the_case;
   if (held_force_warning(the_case, "").empty()) return "";
@@ -134,7 +134,7 @@ std::string force_text(const LoopVibration& vibration) {
   return page_text("force asked for", {{"force", rounded(vibration.force, 3)}});
 }
 
-/// What is left where the drive switches when it happens and not at samples.
+/// Vibration left where the drive switches when it happens and not at samples.
 std::string exact_switching_text(const Question& question) {
   // A conductor by its modes is followed state by state between samples: too slow for an answer.
   if (!(question.the_case.backlash.width > 0.0) ||
@@ -329,8 +329,8 @@ double limit_between(const Question& question, double serving, double failing) {
   return widths[static_cast<std::size_t>(std::max<std::ptrdiff_t>(first - 1, 0))];
 }
 
-/// What is said of the stretch of widths that serve about the case's own, or else of the first one,
-/// which begins without play but where the loop needs its play.
+/// Text on the stretch of widths that serve about the case's own, or else of the first one, which
+/// begins without play but where the loop needs its play.
 std::string play_text(const Question& question, const std::vector<double>& widths) {
   const std::vector<char> serve = widths_that_serve(question, widths);
   const auto next =

@@ -21,10 +21,10 @@ struct Answer {
 /// The question of the name in texts/page.toml, with what is said of it whatever the answer.
 Answer asked(const std::string& name, const Values& values = {});
 
-/// What is doubtful of the case, where something is; does control help, which D, how slow a
-/// computer, how much play, what motion, does it hold on the conductor itself: for the case as it
-/// is, switching at samples; of a span without an absorber span_answers(). A question that the case
-/// does not let be answered says why. Each is handed over once it is known. Throws Interrupted.
+/// Answers on the case as it is, switching at samples: what is doubtful of it, where something is;
+/// does control help, which D, how slow a computer, how much play, what motion, does it hold on the
+/// conductor itself; of a span without an absorber span_answers(). A question that the case does
+/// not let be answered says why. Each is handed over once it is known. Throws Interrupted.
 void answer(const JobContext& context, const std::function<void(const Answer&)>& take);
 
 /// Whether what two masses say of a case holds on its conductor as a hanging cable: whether its
@@ -32,13 +32,13 @@ void answer(const JobContext& context, const std::function<void(const Answer&)>&
 /// and how much vibration is left. It is not asked where the conductor is not the plant's.
 Answer does_it_hold_on_the_cable(const Case& the_case);
 
-/// What a line or stay engineer asks: what vibrates without devices, what with them, how long the
+/// Answers for a line or stay engineer: what vibrates without devices, what with them, how long the
 /// conductor lives, which frequency is worst, what the devices take, how its modes are damped,
 /// whether the absorber's loop is stable. A question that the case does not let be answered says
 /// what to give. Throws Interrupted.
 void span_answers(const JobContext& context, const std::function<void(const Answer&)>& take);
 
-/// What one motion is, in the words of the page; a number that there is not is "–".
+/// One motion in the words of the page; a number that there is not is "–".
 struct MotionRow {
   std::string place;             ///< of the motion in the paper, or whose it is
   std::string motion;            ///< sampling period, backlash and start

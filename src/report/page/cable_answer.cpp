@@ -29,8 +29,8 @@ Case on_cable(const Case& the_case) {
   return changed;
 }
 
-/// Of the vibration without control under the true force, without play; NaN where sampling does not
-/// show it.
+/// Share of the vibration without control under the true force, without play; NaN where sampling
+/// does not show it.
 double share_left(const Case& the_case, const PdGains<double>& gains) {
   const double frequency = excitation_of(the_case).frequency;
   if (!(2.0 * frequency * sampling_of(the_case).period < 1.0))

@@ -53,7 +53,7 @@ std::string motions_part(const Page& page) {
                                        rows)}});
 }
 
-/// What the panels of a picture show: "displacement z₁ over time t".
+/// Axes of the panels of a picture: "displacement z₁ over time t".
 std::string axes_text(const std::vector<PicturePanel>& panels) {
   std::string text;
   for (const PicturePanel& panel : panels) {

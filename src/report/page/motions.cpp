@@ -66,7 +66,7 @@ std::string border_text(const Borders& borders) {
   return distance(borders.displacement, " mm") + "; " + distance(borders.velocity, " mm/s");
 }
 
-/// Of a loop as it is built, the nearest alone.
+/// Nearest border of a loop as it is built.
 std::string border_text(const SwitchingMargins& margins) {
   return rounded(1e3 * margins.border_distance, 2) + " mm";
 }

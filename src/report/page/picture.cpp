@@ -49,7 +49,7 @@ void remove_passing(const fs::path& path) {
   rmdir(path.c_str());
 }
 
-/// What is left of pictures whose program was killed.
+/// Removes the rest of pictures whose program was killed.
 void remove_left_passing() {
   for (const fs::path& left : passing_folders(passing_folder)) {
     std::error_code ignored;
@@ -169,7 +169,7 @@ double step_of(const KeyValues& axis) {
   return (even->max - even->min) / static_cast<double>(even->count - 1) * scale_of(axis.key);
 }
 
-/// What the texts leave open of a picture over axes.
+/// Values that the texts leave open of a picture over axes.
 Values values_of_axes(const std::vector<KeyValues>& axes) {
   if (axes.size() > 2)
     throw WrongInput("a picture shows one axis or two, not " + std::to_string(axes.size()));
@@ -188,7 +188,7 @@ Values values_of_axes(const std::vector<KeyValues>& axes) {
   return values;
 }
 
-/// The same of any picture.
+/// Values that the texts leave open of any picture.
 Values picture_values(const PictureRequest& request) {
   const Case& the_case = request.context.case_data;
   const std::string& job = request.context.job;

@@ -13,7 +13,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Of RFC 4648.
+/// Base 64 of RFC 4648.
 std::string base64(const std::string& bytes) {
   constexpr const char* alphabet =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

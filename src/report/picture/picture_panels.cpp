@@ -81,7 +81,7 @@ void name_axis(PanelAxis& axis, const std::string& label) {
   if (has_unit) axis.unit = label.substr(unit + 2, label.size() - unit - 3);
 }
 
-/// What a line behind "panel" says of it.
+/// Takes what a line behind "panel" says of the panel.
 void tell(PicturePanel& panel, std::string_view line) {
   if (begins_with(line, of_logarithms)) {
     panel.x.logarithmic |= line.find(" x") != std::string_view::npos;

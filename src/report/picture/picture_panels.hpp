@@ -28,8 +28,8 @@ struct PicturePanel {
 /// know its panels.
 std::string with_measured_panels(const std::string& plot);
 
-/// What gnuplot has said of its panels, among other messages. A panel without a label has that of
-/// the panel below it or left of it, with which it shares the axis.
+/// Panels that gnuplot has measured, from its messages. A panel without a label has that of the
+/// panel below it or left of it, with which it shares the axis.
 std::vector<PicturePanel> measured_panels(const std::string& messages);
 
 /// The other messages.
@@ -59,7 +59,7 @@ PagePicture page_picture(const Figure& figure, const std::filesystem::path& fold
 /// "#" and "%" are escaped: between double quotes of HTML "&" alone is left to escape.
 std::string svg_url(const std::string& svg);
 
-/// The same of the bytes of a PNG.
+/// Address of a picture by the bytes of its PNG.
 std::string png_url(const std::string& png);
 
 }  // namespace holdfast::program

@@ -22,7 +22,7 @@ namespace {
 /// Zero to peak; 150 microstrain peak to peak.
 constexpr double endurance_limit = 75e-6;
 
-/// What the laws say of one frequency, without the devices or with them.
+/// Range of the laws at one frequency, without the devices or with them.
 struct BandAt {
   double frequency, speed;
   Vibration lowest, highest;  // of amplitude and of strain, each by itself
@@ -174,7 +174,7 @@ Answer which_frequency(const Case& the_case, const Axis& axis, const Values& val
   });
 }
 
-/// What one end takes of the waves, at the least and at the most.
+/// Share of the waves that one end takes, at the least and at the most.
 std::string taken_text(const Case& the_case, const SpanEnd& end, const std::string& name,
                        const Axis& axis) {
   if (end.devices.empty()) return page_text("end without device", {{"end", name}});

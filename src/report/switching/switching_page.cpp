@@ -167,9 +167,9 @@ std::size_t harmonics_of(const Case& the_case) {
   return implemented_loop_of(the_case, Switching::exact).digital.force.harmonics.size();
 }
 
-/// Of the case's own motions (s): 20, or 200 periods of the excitation where these are longer, but
-/// no more than 500 000 samples (fewer for a force of many harmonics), nor after the end of a
-/// recorded force.
+/// Duration of the case's own motions (s): 20, or 200 periods of the excitation where these are
+/// longer, but no more than 500 000 samples (fewer for a force of many harmonics), nor after the
+/// end of a recorded force.
 double studied_duration(const Case& the_case) {
   const double most_samples = std::min(5e5, 1e7 / static_cast<double>(harmonics_of(the_case)));
   return std::min({std::max(20.0, 200.0 * forcing_period(the_case)),
@@ -274,7 +274,7 @@ DrawnFigure write_phases(const JobContext& context, bool builtin) {
 constexpr std::array<const char*, 5> law_names = {"kollar", "immediate", "play", "dead_zone",
                                                   "none"};
 
-/// Of each law, with its drive switching at samples and exactly, the force exact in both.
+/// Motions of each law, with its drive switching at samples and exactly, the force exact in both.
 Motions study_laws(const JobContext& context) {
   Loops loops;
   for (const char* law : law_names) {
@@ -342,8 +342,8 @@ Values values_of_amplitudes(const Case& the_case, const Motions& of_case) {
           {"free", format_number(free)}};
 }
 
-/// Of every reading over a key of the case, whose own value is marked; the table has one reading
-/// after the other.
+/// Chart of every reading over a key of the case, whose own value is marked; the table has one
+/// reading after the other.
 DrawnFigure write_chart(const JobContext& context, Figure figure, const std::string& key,
                         const std::vector<double>& abscissae) {
   const Motions motions = study(loops_over(context.case_data, key, abscissae), context.threads);

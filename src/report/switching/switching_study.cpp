@@ -73,8 +73,8 @@ class ModeCounter {
 double transmitted_force(const EventMotion<>& motion, ContactMode mode, const ContactInstant& now) {
   if (mode == ContactMode::gap && motion.contact().changes_between_samples()) return 0.0;
   if (mode != ContactMode::stick) return now.command;
-  // What keeps Δż at zero: the acceleration that the plant would have without a force, over that
-  // per newton of it.
+  // Force that keeps Δż at zero: the acceleration that the plant would have without a force, over
+  // that per newton of it.
   const int gap = static_cast<int>(ContactMode::gap);
   const AffineDynamics& free = motion.dynamics(gap);
   const AffineDynamics& engaged = motion.dynamics(static_cast<int>(ContactMode::engaged));
@@ -88,7 +88,7 @@ class WindowRecorder {
   WindowRecorder(double begin, double end, int instants)
       : window_{begin, end, {}, {}}, count_(instants) {}
 
-  /// What the motion has done since a sample.
+  /// Takes the motion since a sample.
   template <class Trace>
   void take(const EventMotion<>& motion, const Trace& trace, const EventSample& sample,
             double previous_command) {

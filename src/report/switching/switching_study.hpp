@@ -13,7 +13,7 @@
 
 namespace holdfast::program {
 
-/// Of the orbits that are looked for (samples); eight times as many are looked at.
+/// Longest period of the orbits looked for (samples); eight times as many are looked at.
 inline constexpr std::int64_t longest_studied_period = 8'000;
 
 /// How a loop is taken: when its drive switches, and how its force is held over a sample.
@@ -40,7 +40,7 @@ struct StudiedLoop {
   double duration;  ///< s; its second half counts as steady
 };
 
-/// What a motion does in the second half of its duration.
+/// Motion in the second half of its duration.
 struct SteadyMotion {
   bool diverges = false;
   bool accumulates = false;  ///< its changes of contact do: it was not followed to the end
