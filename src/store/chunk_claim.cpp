@@ -36,7 +36,7 @@ ChunkClaim::ChunkClaim(const fs::path& chunk_file) : file_(claim_beside(chunk_fi
       answer_ = Answer::elsewhere;
       return;
     }
-    // Whoever held it may have removed it since it was opened.
+    // Its holder may have removed it since it was opened.
     if (!has_name(opened.number(), file_)) continue;
     if (fault != 0 && !made) return;
     answer_ = Answer::ours;

@@ -47,7 +47,7 @@ std::string compressed(std::string_view bytes) {
 }
 
 std::optional<std::string> expanded(std::string_view file, std::size_t size) {
-  // Of a damaged size nothing is allocated.
+  // A damaged size allocates nothing.
   if (ZSTD_getFrameContentSize(file.data(), file.size()) != size) return std::nullopt;
   std::string bytes(size, '\0');
   if (ZSTD_decompress(bytes.data(), size, file.data(), file.size()) != size) return std::nullopt;

@@ -103,7 +103,7 @@ class StoreFilling {
     }
   }
 
-  /// What one thread does: the next chunk, until there is none; then what others have not done.
+  /// Work of one thread: the next chunk, until there is none; then what others have not done.
   void take_chunks(const std::atomic<bool>& stop) {
     std::vector<std::int64_t> elsewhere;
     ChunkUnderWay under_way;
@@ -177,7 +177,7 @@ class StoreFilling {
     return true;
   }
 
-  /// Those handed out that were not seen here.
+  /// Shows the chunks handed out that were not seen here.
   void show_others() {
     if (group_.rank() != 0 || group_.size() == 1) return;
     const std::int64_t taken = std::min(group_.take_tickets(0), tickets_);

@@ -10,7 +10,7 @@
 
 namespace holdfast::program {
 
-/// What was computed of a chunk.
+/// Computed values of a chunk.
 struct ChunkResult {
   ChunkValues values;
   std::int64_t samples = 0;  ///< of the motions of its cells
@@ -42,8 +42,8 @@ struct ChunkWork {
 void fill_store(const JobContext& context, const StoreFolder& store, ProcessGroup& group,
                 int threads, const ChunkWork& work);
 
-/// The same by this process alone, and whatever its launcher started beside it, on the threads of
-/// the context. Says on standard error how much is kept where it does not come to its end.
+/// Fills the store on the threads of the context, by this process and whatever its launcher started
+/// beside it. Says on standard error how much is kept where it does not end.
 void fill_store(const JobContext& context, const StoreDescription& description,
                 const ChunkWork& work);
 

@@ -30,7 +30,7 @@ std::string_view bytes_of(const std::vector<double>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
 }
 
-/// Of the numbers of lists, so that another record of the same name is noticed.
+/// Checksum of the numbers of lists, so that another record of the same name is noticed.
 template <class... Lists>
 std::string checksum_of(const Lists&... lists) {
   std::uint64_t sum = 0;
@@ -56,7 +56,7 @@ Column column_of(const Json& json) {
           json.at("description").get<std::string>(), json.at("datatype").get<std::string>()};
 }
 
-/// What a holdfast needs to go on with the store or to convert it, beside the CF attributes.
+/// Attribute that a holdfast needs to go on with the store or to convert it, beside those of CF.
 Json holdfast_attribute(const StoreDescription& store) {
   const JobContext& origin = store.origin;
   Json json = {{"version", computed_by(origin)}, {"job", origin.job}};

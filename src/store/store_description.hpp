@@ -22,8 +22,8 @@ using StorePlan = std::map<std::string, std::string>;
 /// A number that tells one plan from others, for the seals of a store's files.
 std::string plan_identity(const StorePlan& plan);
 
-/// What differs, each entry with both texts: "--duration was 20, is 60; --kick was 1:0.1, is not
-/// given". Empty for the same plan.
+/// Differences of two plans, each entry with both texts: "--duration was 20, is 60; --kick was
+/// 1:0.1, is not given". Empty for the same plan.
 std::string plan_differences(const StorePlan& before, const StorePlan& now);
 
 /// Appends the case, key by key, and what it reads from files, by their checksums.
@@ -38,7 +38,7 @@ enum class ElementType {
 
 std::size_t size_of(ElementType type);
 
-/// What a store of cells holds.
+/// Contents of a store of cells.
 struct StoreDescription {
   JobContext origin;  ///< job, options and case that made it
   std::vector<GridAxis> axes;

@@ -71,7 +71,7 @@ void write_file(const fs::path& file, std::string_view bytes) {
   refuse_to_read(folder, system_words(error));
 }
 
-/// What the format says a root is; nothing where there is no such file.
+/// Text of a root in a format; nothing where there is no such file.
 std::optional<std::string> root_text(const fs::path& folder, int format) {
   int error = 0;
   std::optional<std::string> text =
@@ -129,7 +129,7 @@ std::optional<StoreDescription> description_in(const std::string& root, int form
   }
 }
 
-/// Of the store whose removal was cut short.
+/// Description of the store whose removal was cut short.
 std::optional<StoreDescription> removed_store_in(const fs::path& folder) {
   int error = 0;
   const std::optional<std::string> text = read_whole_file(folder / removed_root, error);
@@ -235,7 +235,7 @@ void StoreFolder::begin() const {
   }
 }
 
-/// What a file of the store is known by: its name, and what the store was asked.
+/// Seal of a file of the store: its name, and what the store was asked.
 std::string StoreFolder::seal_of(const fs::path& file) const {
   return file.lexically_relative(folder_).generic_string() + " of " + identity_;
 }
@@ -277,7 +277,7 @@ void StoreFolder::write_axis(std::size_t axis, std::int64_t chunk) const {
   write_file(file_of(array, chunk), packed(array, chunk, values));
 }
 
-/// Whoever comes later finds what the store's plan says, whatever has become of it.
+/// Mends files for whoever comes later, so that they say what the store's plan says.
 void StoreFolder::mend(const Documents& documents) const {
   each_axis_file([&](std::size_t axis, std::int64_t chunk) {
     if (!values_in(arrays_[axis], chunk)) write_axis(axis, chunk);
@@ -365,7 +365,7 @@ std::optional<std::int64_t> StoreFolder::chunks_done_in(const fs::path& folder) 
 }
 
 std::int64_t StoreFolder::chunks_done() const {
-  // What lies there is counted: of how many chunks a root speaks is anybody's word.
+  // Files are counted that lie there: of how many chunks a root speaks is anybody's word.
   std::error_code error;
   std::int64_t done = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / array_of(0).name, error))

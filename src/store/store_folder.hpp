@@ -46,7 +46,7 @@ class StoreFolder {
 
   /// The values of a chunk; nothing where it is missing or damaged.
   std::optional<ChunkValues> read(std::int64_t chunk) const;
-  /// The same of one column.
+  /// Values of one column of a chunk.
   std::optional<std::vector<double>> read_column(std::size_t column, std::int64_t chunk) const;
 
   /// Keeps a chunk. Throws OutputError, which names the file, where it cannot be written; what was
@@ -61,7 +61,7 @@ class StoreFolder {
 
   /// How many chunks are done.
   std::int64_t chunks_done() const;
-  /// The same of whatever store is in a folder; nothing where none is.
+  /// Chunks done of whatever store is in a folder; nothing where none is.
   static std::optional<std::int64_t> chunks_done_in(const std::filesystem::path& folder);
 
   /// Removes what a store of this description has, and the folder where nothing else lies in it:
