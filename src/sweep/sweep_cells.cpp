@@ -84,7 +84,7 @@ class SweepCells {
     return plan_.wants(SweepMetric::ratio_to_uncontrolled) || plan_.wants(SweepMetric::attenuates);
   }
 
-  /// Of each distinct motion without control once: many cells share theirs.
+  /// Adds each distinct motion without control once: many cells share theirs.
   void add_uncontrolled(const Case& the_case, std::int64_t cell) {
     std::vector<double> values;  // of the axes that it depends on
     for (std::size_t k = 0; k < plan_.layout().axes.size(); ++k) {

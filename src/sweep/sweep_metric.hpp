@@ -11,8 +11,8 @@
 
 namespace holdfast::program {
 
-/// What a sweep can tell of a cell; each bears the name of its column. Definitions and units are in
-/// metric_column().
+/// Metrics that a sweep can tell of a cell; each bears the name of its column. Definitions and
+/// units are in metric_column().
 enum class SweepMetric {
   first_peak,
   steady_peak,
@@ -46,7 +46,7 @@ inline bool has_motion(CellOutcome outcome) {
   return outcome == CellOutcome::computed || outcome == CellOutcome::diverges;
 }
 
-/// What is known of a cell; what was not asked for stays as it is here.
+/// Results of a cell; what was not asked for stays as it is here.
 struct CellResult {
   CellOutcome outcome = CellOutcome::invalid;
   MotionMetrics motion = {};
@@ -60,7 +60,7 @@ struct CellResult {
 /// The metric of that name. Throws WrongInput, which names the nearest one.
 SweepMetric metric_named(const std::string& name);
 
-/// Those of a sweep that names none: how much of the vibration is left.
+/// Metrics of a sweep that names none: how much of the vibration is left.
 const std::vector<SweepMetric>& usual_metrics();
 
 /// Name, unit and definition.

@@ -70,13 +70,13 @@ std::vector<SweepMetric> sweep_metrics(const std::vector<std::string>& names) {
 
 std::string table_of(const GridAxis& axis) { return find_case_key(axis.column.name)->table(); }
 
-/// What a plant that is not given is reduced from.
+/// Whether an axis is of what a plant that is not given is reduced from.
 bool is_of_conductor(const GridAxis& axis) {
   const std::string table = table_of(axis);
   return table == "conductor" || table == "absorber" || table == "reduction";
 }
 
-/// Those that decide what the plant is. A key of [plant] goes over what the reduction gives.
+/// Axes that decide what the plant is. A key of [plant] goes over what the reduction gives.
 std::vector<std::size_t> axes_shaping_plant(const Case& the_case,
                                             const std::vector<GridAxis>& axes) {
   const bool reduced =
@@ -175,7 +175,7 @@ Case SweepPlan::case_of(std::int64_t cell) const {
   return the_case;
 }
 
-/// What is wrong with one cell alone is told as its outcome.
+/// Requires the keys of the loops; a fault of one cell alone is told as its outcome.
 void SweepPlan::require_loops() const {
   try {
     require_loop_keys(case_of(0));

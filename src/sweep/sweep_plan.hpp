@@ -17,7 +17,7 @@
 
 namespace holdfast::program {
 
-/// What the job `sweep` was asked.
+/// Question to the job `sweep`.
 struct SweepOptions {
   std::vector<std::string> axes;     // KEY=AXIS, the first slowest
   std::vector<std::string> metrics;  // by name; none: usual_metrics()

@@ -47,7 +47,7 @@ constexpr const char* passing_folder = "holdfast-sweep-";
 fs::path store_folder(const JobContext& context, bool named) {
   if (is_store_name(context.output)) return *context.output;
   if (named) return fs::path(context.output->string() + ".zarr");
-  // What was left by sweeps for one run alone that were killed: nobody goes on with them.
+  // Rests of killed sweeps that were for one run alone: nobody goes on with them.
   for (const fs::path& left : passing_folders(passing_folder)) remove_left_work_store(left);
   return new_passing_folder(passing_folder);
 }
@@ -100,7 +100,7 @@ class SweepFaults {
     return text.empty() ? text : "of " + std::to_string(plan.cells()) + " cells " + text;
   }
 
-  /// Of the chaotic ones, likewise.
+  /// Words on the chaotic cells, likewise.
   std::string chaos_text(const SweepPlan& plan) const {
     if (all_.chaotic == 0) return "";
     return "of " + std::to_string(plan.cells()) + " cells " + std::to_string(all_.chaotic) +
@@ -245,7 +245,7 @@ class SweepRun {
       return;
     }
     output_.emplace(context(), plan_.layout());
-    // What can be written is known now; a process that is killed shall leave nothing of it.
+    // The output is known to be writable now; a process that is killed shall leave nothing of it.
     if (named_) output_.reset();
     const fs::path folder = store_folder(context(), named_);
     try {
