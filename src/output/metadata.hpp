@@ -12,9 +12,9 @@
 
 namespace holdfast::program {
 
-/// What made a table and what its columns are, as W3C CSV on the Web metadata. `file_name` is the
-/// table's name without folder. Units are `schema:unitText`. `notes[0].holdfast` holds version,
-/// job, options and the full case. There is no date: the same question gives the same bytes.
+/// Origin and columns of a table, as W3C CSV on the Web metadata. `file_name` is the table's name
+/// without folder. Units are `schema:unitText`. `notes[0].holdfast` holds version, job, options and
+/// the full case. There is no date: the same question gives the same bytes.
 /// Where fewer than six digits of the table are to be trusted, `trusted_digits` says how many, with
 /// `trusted_until_s` and `largest_exponent_per_s` with its standard error for a motion, and
 /// `least_trusted` for a table of single quantities.
@@ -23,10 +23,10 @@ nlohmann::ordered_json table_metadata(const JobContext& context, const std::vect
                                       const TrustedDigits& trusted = {},
                                       const std::optional<Written>& table = std::nullopt);
 
-/// What `notes[0].holdfast` holds, as text in one line.
+/// Text of `notes[0].holdfast`, in one line.
 std::string origin_text(const JobContext& context, const TrustedDigits& trusted);
 
-/// The same of a picture, which has no columns.
+/// Metadata of a picture, which has no columns.
 nlohmann::ordered_json picture_metadata(const JobContext& context, const std::string& file_name,
                                         const Written& picture);
 

@@ -33,13 +33,13 @@ class Table {
   /// For rows whose width is known only when the program runs: cell() … end_row().
   CsvWriter& writer() { return writer_; }
 
-  /// What the metadata say of the table's digits; call before commit().
+  /// Sets the trusted digits in the metadata; call before commit().
   void trust(const TrustedDigits& trusted) { trusted_ = trusted; }
 
   /// How many rows are to come, where that is known.
   void expect(std::int64_t rows);
 
-  /// What else the metadata say of the numbers.
+  /// Adds a note on the numbers to the metadata.
   void note(const std::string& name, const std::string& text) {
     context_.notes.emplace_back(name, text);
   }

@@ -33,7 +33,7 @@ inline bool is_worth_telling(const TrustedDigits& trusted) {
 /// "; neighbours part, the largest exponent is 1.7 +- 0.1 per second"; "" where it is not known.
 std::string rate_text(const TrustedDigits& trusted);
 
-/// What to tell a user of it in one line; "" where there is nothing to tell.
+/// Warning of few trusted digits in one line; "" where there is nothing to tell.
 std::string trust_warning(const TrustedDigits& trusted);
 
 }  // namespace holdfast::program

@@ -33,7 +33,7 @@ struct ChunkGrid {
   std::vector<std::size_t> chunk;  ///< as chunk_shape() gives it
 
   std::int64_t cells() const { return product(shape); }
-  /// Of a file.
+  /// Cells of a file.
   std::int64_t cells_of_file() const { return product(chunk); }
 
   /// Chunks along an axis.

@@ -86,7 +86,7 @@ class CsvCells final : public CellWriter {
  private:
   static constexpr std::size_t text_size_ = std::size_t{1} << 18;
 
-  /// Of the next cell.
+  /// Appends the axes of the next cell.
   void append_axes() {
     if (fast_ == 0) form_slow_texts();
     text_ += slow_texts_;

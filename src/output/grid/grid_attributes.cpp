@@ -17,7 +17,7 @@ std::string options_text(const JobContext& context) {
   return options.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-/// What made the file, as CF asks for it (2.6.2).
+/// History of the file, as CF asks for it (2.6.2).
 std::string history_of(const JobContext& context) {
   std::string text = "holdfast " + computed_by(context) + ": holdfast " + context.job;
   const auto append = [&text](const std::string& option, const std::string& value) {

@@ -12,7 +12,7 @@ namespace holdfast::program {
 
 class CellWriter;
 
-/// What a column tells of every cell of a grid. Its values are handed over as doubles; by the
+/// Column of a grid, one value for every cell. Its values are handed over as doubles; by the
 /// datatype of the column they are
 ///  - "double": written as they are;
 ///  - "integer": whole, within ±2⁵³; with words 0, 1, 2, … for them, which only netCDF tells;
@@ -23,7 +23,7 @@ struct CellColumn {
   std::vector<std::string> words = {};
 };
 
-/// What the result over a grid is made of: a product of axes, the first slowest.
+/// Layout of the result over a grid: a product of axes, the first slowest.
 struct GridLayout {
   std::vector<GridAxis> axes;  // at least one
   std::vector<CellColumn> columns;

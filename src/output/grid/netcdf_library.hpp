@@ -10,7 +10,7 @@ void require_netcdf();
 /// Throws what require_netcdf() throws.
 void* netcdf_symbol(const char* name);
 
-/// The same with the function's type: `netcdf_function<decltype(nc_close)>("nc_close")(id)`.
+/// A function by its type: `netcdf_function<decltype(nc_close)>("nc_close")(id)`.
 template <class Function>
 Function* netcdf_function(const char* name) {
   return reinterpret_cast<Function*>(netcdf_symbol(name));
