@@ -30,7 +30,7 @@ bool told_by_first_process() {
   return interrupted();
 }
 
-/// What there is to say of an exception; nothing where another process has.
+/// Message of an exception; nothing where another process has told it.
 std::string message_of(const std::exception_ptr& fault) {
   try {
     std::rethrow_exception(fault);
@@ -64,7 +64,7 @@ void tell_lack_of_memory() {
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-/// What a library's destructor throws for want of memory comes here uncaught.
+/// Ends where a library's destructor throws for want of memory, which comes here uncaught.
 [[noreturn]] void end_without_memory() {
   try {
     if (const std::exception_ptr fault = std::current_exception()) std::rethrow_exception(fault);

@@ -27,7 +27,7 @@ int run_guarded(const std::function<int()>& work);
 /// a warning.
 void report_error(const std::string& message);
 
-/// The same with `warning: ` before it; nothing when there is none or it is not wanted. A host gets
+/// Reports with `warning: ` before it; nothing when there is none or it is not wanted. A host gets
 /// every one: it has its own way of not wanting them.
 void report_warning(const std::string& message, bool quiet);
 

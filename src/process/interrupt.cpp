@@ -25,8 +25,8 @@ pthread_t taker = pthread_self();  // the thread that takes the signals
 std::array<Slot, 8> slots;
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may take no lock");
 
-/// What a computation gets to look at the flag: more than the two seconds for which the processes
-/// of a group wait for each other.
+/// Time for a computation to look at the flag: more than the two seconds for which the processes of
+/// a group wait for each other.
 constexpr unsigned seconds_to_end = 3;
 
 /// A signal to the process comes to any thread that does not block it. Only where one thread takes

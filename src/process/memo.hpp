@@ -15,8 +15,8 @@ class Memo {
  public:
   explicit Memo(std::size_t most) : most_(most) {}
 
-  /// Of the key, by `compute` where it is not known. Threads that ask for one key at once may
-  /// compute it each, and all get the first value; what `compute` throws is not remembered.
+  /// The value of a key, by `compute` where it is not known. Threads that ask for one key at once
+  /// may compute it each, and all get the first value; what `compute` throws is not remembered.
   template <class Compute>
   Value of(const Key& key, const Compute& compute) {
     {

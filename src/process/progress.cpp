@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t milliseconds_between_updates = 100;
 constexpr const char* clear_line = "\r\033[K";
 
-/// Of what is shown on standard error: a line at a time.
+/// Lock of what is shown on standard error: a line at a time.
 std::mutex showing;
 const Progress* counting = nullptr;  // the job's, while there is one; guarded by `showing`
 std::atomic<bool> yielded{false};    // the terminal belongs to the result
@@ -140,7 +140,7 @@ void Progress::advance(std::uint64_t steps, std::uint64_t samples) {
   const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start_);
   std::int64_t due = next_draw_.load();
   if (now.count() < due) return;
-  // Of the threads that come here at once, one draws.
+  // One of the threads that come here at once draws.
   if (!next_draw_.compare_exchange_strong(due, now.count() + milliseconds_between_updates)) return;
   const std::lock_guard<std::mutex> lock(showing);
   show_status(status());

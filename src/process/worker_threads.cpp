@@ -13,8 +13,8 @@
 namespace holdfast::program {
 namespace {
 
-/// What the kernel calls its present run; the host's name where it tells none, which machines may
-/// have in common ("localhost").
+/// Name of the kernel's present run; the host's name where it tells none, which machines may have
+/// in common ("localhost").
 std::string machine_identity() {
   std::string identity;
   std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), identity);

@@ -25,7 +25,7 @@ using EnvironmentLookup = std::function<const char*(const char* name)>;
 /// what srun starts.
 MpiLaunch mpi_launch(const EnvironmentLookup& environment);
 
-/// The same of this process's environment.
+/// The launch in this process's environment.
 MpiLaunch mpi_launch();
 
 /// The processes that work on one computation: this one alone, or those that `mpirun` or `srun`

@@ -33,7 +33,7 @@ class Session {
   /// Ends MPI, for which every process of the launch waits.
   void end();
 
-  /// The same at exit, so that all have said what they have to when the first is gone: the launcher
+  /// Ends MPI at exit, so that all have said what they have to when the first is gone: the launcher
   /// ends the others where one fails.
   void end_at_exit();
 
