@@ -12,15 +12,15 @@ struct Dependency {
   std::string licence;  ///< SPDX expression
 };
 
-/// What this program was built with, in alphabetical order; what an optional package would have
-/// added is left out where it was missing.
+/// Packages that this program was built with, in alphabetical order; what an optional package would
+/// have added is left out where it was missing.
 std::vector<Dependency> dependencies();
 
 /// Compiler and instruction set, "GCC 12.2.0, x86-64".
 std::string compiler_text();
 
-/// What `--version` prints: the version on the first line, then the compiler, the instruction set
-/// that is taken on this processor with those that could be, and the dependencies.
+/// Text of `--version`: the version on the first line, then the compiler, the instruction set that
+/// is taken on this processor with those that could be, and the dependencies.
 std::string version_text();
 
 /// The software bill of materials: CycloneDX 1.5 as JSON. The same for the same build: it has

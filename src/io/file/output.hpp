@@ -56,7 +56,7 @@ class OutputFile {
   /// Makes the file appear. For standard output: sees to it that all was written.
   void commit();
 
-  /// What write() has been given so far, of a named file.
+  /// Bytes that write() has been given so far, of a named file.
   const Written& written() const { return written_; }
 
   /// Whether a named file will appear, as opposed to standard output, a device or a pipe.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int as_itself = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
 
-/// Of the entry itself; its kind is no file's where there is none.
+/// Status of the entry itself; its kind is no file's where there is none.
 struct stat status_of(const Descriptor& folder, const std::string& name) {
   struct stat status {};
   if (fstatat(folder.number(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) status = {};

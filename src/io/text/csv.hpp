@@ -130,7 +130,7 @@ class CsvTable {
   /// Throws WrongInput for fewer rows than `what` needs.
   void require_rows(std::size_t fewest, const std::string& what) const;
 
-  /// What is wrong with a row, with file and line.
+  /// Fault of a row, with file and line.
   WrongInput fault(std::size_t row, const std::string& message) const;
 
  private:
@@ -152,7 +152,7 @@ class CsvTable {
 /// Throws WrongInput, `file:line: …`, for anything malformed, ambiguous or unreadable.
 CsvTable read_csv(const std::filesystem::path& file);
 
-/// The same from a text; `name` stands for the file in messages.
+/// Parses a table from a text; `name` stands for the file in messages.
 CsvTable parse_csv(std::string_view text, const std::string& name);
 
 }  // namespace holdfast::program

@@ -23,14 +23,14 @@ struct ForceRecord {
 DecayRecord read_decay_file(const std::filesystem::path& file);
 ForceRecord read_force_record(const std::filesystem::path& file);
 
-/// The same from a text; `name` stands for the file in messages.
+/// Reads a record from a text; `name` stands for the file in messages.
 DecayRecord read_decay_text(const std::string& text, const std::string& name);
 ForceRecord read_force_text(const std::string& text, const std::string& name);
 
 /// The step of time (s) that nine of ten steps do not exceed; of two instants or more.
 double usual_step(const std::vector<double>& times);
 
-/// What is said of the first gap, a step of more than three usual ones; empty where there is none.
+/// Words on the first gap, a step of more than three usual ones; empty where there is none.
 std::string gap_text(const std::vector<double>& times);
 
 }  // namespace holdfast::program
