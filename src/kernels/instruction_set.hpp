@@ -17,10 +17,10 @@ enum class InstructionSet {
 /// "baseline", "avx2", "avx512".
 std::string_view name_of(InstructionSet set);
 
-/// That of the name. Throws WrongInput for a name that is none.
+/// The instruction set of that name. Throws WrongInput for a name that is none.
 InstructionSet instruction_set_named(std::string_view name);
 
-/// Those of this program that this processor has, the narrowest first; the baseline is one of them.
+/// Sets of this program that this processor has, narrowest first; the baseline is one of them.
 std::vector<InstructionSet> available_instruction_sets();
 
 /// The widest of them.

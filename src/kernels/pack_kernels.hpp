@@ -34,7 +34,7 @@ class ChartKernel {
                     double* radius) = 0;
 };
 
-/// What the kernel of the metrics asks of its caller.
+/// Source of motions for the kernel of the metrics.
 class MotionSource {
  public:
   virtual ~MotionSource() = default;
@@ -44,7 +44,7 @@ class MotionSource {
   virtual void pause() = 0;
 };
 
-/// What says which orbit a motion surely tends to, as AttractorSet does.
+/// Test of the orbit that a motion surely tends to, as AttractorSet has it.
 class AttractionTest {
  public:
   virtual ~AttractionTest() = default;
@@ -98,7 +98,7 @@ const PackKernels& baseline_kernels();
 const PackKernels& avx2_kernels();
 const PackKernels& avx512_kernels();
 
-/// Those of an available instruction set.
+/// Kernels of an available instruction set.
 const PackKernels& pack_kernels(InstructionSet set);
 
 }  // namespace holdfast::program
