@@ -12,9 +12,9 @@ namespace holdfast::program {
 
 struct CaseSource;
 
-/// What stands around a job that another program runs in its own memory, in place of files,
-/// standard error and a terminal: where its case comes from, and what takes its tables, its
-/// warnings and how far it is.
+/// Surroundings of a job that another program runs in its own memory, in place of files, standard
+/// error and a terminal: where its case comes from, and what takes its tables, its warnings and how
+/// far it is.
 ///
 ///     JobHost host;
 ///     host.source = std::make_shared<CaseSource>();   // the built-in case
@@ -22,7 +22,7 @@ struct CaseSource;
 ///     do_job({"orbit"});
 ///     host.tables.front().columns …
 struct JobHost {
-  /// That of this thread; null where jobs run by themselves.
+  /// The host of this thread; null where jobs run by themselves.
   static JobHost* current() { return innermost; }
 
   std::shared_ptr<CaseSource> source;  // in place of --case and --set

@@ -48,7 +48,7 @@ class ReceivedColumn {
   /// Where the column is one of numbers: an empty text is NaN there, and any other an error.
   void put(std::string_view text);
 
-  /// Of cells that are given by their words, as those of a grid are.
+  /// Words of cells that are given by them, as those of a grid are.
   void set_words(std::vector<std::string> words) { words_ = std::move(words); }
 
   std::vector<double>& numbers() { return numbers_; }
