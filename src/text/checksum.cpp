@@ -9,7 +9,7 @@ namespace {
 /// @tparam polynomial  lowest bit for the highest power
 template <class Register, Register polynomial>
 Register check_of(std::string_view bytes, Register of_bytes_before) {
-  // What eight steps of the division make of a register that holds one byte.
+  // Remainders after eight steps of the division, for a register that holds one byte.
   static constexpr std::array<Register, 256> remainders = [] {
     std::array<Register, 256> all{};
     for (std::size_t byte = 0; byte < all.size(); ++byte) {

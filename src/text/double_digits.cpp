@@ -54,7 +54,7 @@ std::from_chars_result read_digits(std::string_view text, double& value) {
   const double read = std::strtod(copy.c_str(), &end);
   const char* const rest = begin + (end - copy.c_str());
   if (rest == begin) return {begin, std::errc::invalid_argument};
-  // What strtod makes of a number out of range is told by its caller from the text.
+  // The caller tells a number out of range by its text, whatever strtod makes of it.
   const bool written_infinite = copy.find_first_of("iI") != std::string::npos;
   if (std::isinf(read) && !written_infinite) return {rest, std::errc::result_out_of_range};
   value = read;

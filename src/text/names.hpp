@@ -13,7 +13,7 @@ struct Named {
   const char* name;
 };
 
-/// What the list, which has every enumerator, calls the value.
+/// Name of the value in the list, which has every enumerator.
 template <class Enum, std::size_t Count>
 constexpr const char* name_in(const Named<Enum> (&names)[Count], Enum value) {
   for (const Named<Enum>& one : names)
