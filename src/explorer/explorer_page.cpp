@@ -20,10 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What stands in the page for the case.
+/// Text that stands in the page for the case.
 constexpr const char* empty_case = R"({"name":"","text":""})";
 
-/// Of a library that the program is part of; empty: it is a program.
+/// Folder of a library that the program is part of; empty: it is a program.
 fs::path folder_of_library;
 
 /// Where the page lies beside the program: as installed, and as built; or in the library's folder.

@@ -9,8 +9,8 @@
 
 namespace holdfast::program {
 
-// What the explorer draws anew while the hand still moves: the numbers of the jobs `stability` and
-// `response` without their tables.
+// Charts that the explorer draws anew while the hand still moves: the numbers of the jobs
+// `stability` and `response` without their tables.
 
 /// The cells of the job `stability` over P and D, P slowest: 1 where the loop without play is
 /// stable. On any plant of the case. Throws InvalidParameter, WrongInput.
@@ -23,7 +23,7 @@ struct AmplitudesAt {
   double uncontrolled;  ///< under the true force
 };
 
-/// The same under forces of other frequencies than the case's, its gains as they are.
+/// Amplitudes under forces of other frequencies than the case's, its gains as they are.
 struct Amplitudes {
   bool stable;  ///< the loop without play
   std::vector<AmplitudesAt> at;
