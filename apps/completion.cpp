@@ -46,7 +46,7 @@ std::vector<OptionWords> options_of(const CLI::App& job) {
   return options;
 }
 
-/// Of the devices those of the first.
+/// Keys of a case, those of devices for the first one.
 std::string all_keys() {
   std::string keys;
   for (const CaseKey& key : case_keys()) keys += (keys.empty() ? "" : " ") + key.name + "=";

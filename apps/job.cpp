@@ -42,7 +42,7 @@ int at_most_cores(int threads) {
   return cores > 0 ? std::min(threads, cores) : threads;
 }
 
-/// Of one number: finite, from `lowest` to `highest`.
+/// Checks one number: finite, from `lowest` to `highest`.
 CLI::Validator number_from(double lowest, double highest) {
   const std::string expected =
       "a number from " + format_number(lowest) + " to " + format_number(highest);
@@ -85,7 +85,7 @@ void settle(JobContext& context) {
 /// Settles the plant where the job needs it, and warns of what is not plausible.
 void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   report_warning(wind_warning(context.case_data), context.quiet);
-  // What is usual for a plant of the user's own nobody knows here.
+  // Usual values for a plant of the user's own are not known here.
   if (has_own_plant(context.case_data)) return;
   doubt(context,
         doubts_about(context.case_data, in_question(context.case_data, quantities_of_case())));
@@ -95,7 +95,7 @@ void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   doubt(context, {record_doubt(context.case_data)});
   if (needs_plant) doubt(context, {borrowed_damping_text(context.case_data)});
   if (needs_plant) settle(context);
-  // What follows from one mistake in the plant would look like another.
+  // Consequences of one mistake in the plant would look like another.
   if (context.doubts.empty() && has_absorber(context.case_data) &&
       (needs_plant || !plant_is_reduced(context.case_data)))
     doubt(context,

@@ -18,7 +18,7 @@
 #include "process/progress.hpp"
 #include "text/text.hpp"
 
-// What every job needs: its command line here, and with it the table that it writes, and how it
+// Frame of every job: its command line here, and with it the table that it writes, and how it
 // warns, refuses, shows progress and ends.
 
 namespace holdfast::program {
@@ -35,7 +35,7 @@ class Job {
   CLI::Option* add(const std::string& name, Value& value) const {
     return told(options_->add_option(name, value)->capture_default_str());
   }
-  /// The same without a default.
+  /// An option that holds one word or number, without a default.
   template <class Value>
   CLI::Option* add(const std::string& name, std::optional<Value>& value) const {
     return told(options_->add_option(name, value));
@@ -61,7 +61,7 @@ class Job {
   /// The --case, --set and --instructions options as they were given, to be handed to another job.
   std::vector<std::string> case_arguments() const;
 
-  /// What it does; where --output names a picture, it is drawn of the table that this writes.
+  /// Sets the work; where --output names a picture, it is drawn of the table that this writes.
   void does(const std::function<void()>& work) const;
 
  private:
@@ -105,7 +105,7 @@ void add_job(CLI::App& program, const std::string& name) {
   });
 }
 
-/// The same without options.
+/// Adds a job without options.
 inline void add_job(CLI::App& program, const std::string& name, void (*run)(const JobContext&)) {
   const Job job(program, name);
   job.does([job, run] { run(job.context()); });

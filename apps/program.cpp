@@ -78,7 +78,7 @@ std::vector<std::string> with_job_first(const CLI::App& program, std::vector<std
   return words;
 }
 
-/// What is wrong with an option that stands in the job's place.
+/// Refuses an option that stands in the job's place, and says where it belongs.
 [[noreturn]] void refuse_option_before_job(const CLI::App& program, const std::string& word) {
   if (option_of_every_job(program, word) != nullptr)
     throw WrongInput("which job? Here are options alone; holdfast --help lists the jobs");
@@ -123,7 +123,7 @@ std::string jobs_with(const CLI::App& program, const std::string& option) {
   return CLI::detail::join(names, ", ");
 }
 
-/// What was probably meant by the first word of a command line that its job does not expect.
+/// Guess at the meaning of a first word on the command line that the job does not expect.
 std::string unexpected_text(const CLI::App& job) {
   const std::string word = job.remaining().empty() ? "" : job.remaining().front();
   const std::string others = jobs_with(*job.get_parent(), word);
@@ -141,7 +141,7 @@ std::string unexpected_text(const CLI::App& job) {
   return "unexpected word " + word + "; a name with blanks needs quotes";
 }
 
-/// What the parser found wrong; that an option stands twice it says as a count of values.
+/// Message of the parser; of an option that stands twice it would be a count of values.
 std::string text_of(const CLI::ParseError& outcome) {
   const std::string text = one_line(outcome.what());
   const std::size_t twice = text.find(": At Most 1 required");

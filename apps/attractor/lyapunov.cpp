@@ -46,7 +46,7 @@ std::int64_t steps_of(const JobContext& context, const LyapunovQuestion& options
   return steps;
 }
 
-/// Of hundreds of states all exponents would cost days where they are not those of natural motions.
+/// Refuses all exponents of very many commands on their way; warns of those that cost days.
 void require_bearable_modes(const Case& the_case, const MovingLoop& moving,
                             const LyapunovQuestion& options, bool quiet) {
   if (!std::holds_alternative<BuiltPlant>(moving)) return;

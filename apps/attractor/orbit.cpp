@@ -61,7 +61,7 @@ void with_orbit(const JobContext& context, const OrbitQuestion& options, const V
 }
 
 double border_distance(const PeriodicOrbit& orbit) { return orbit.borders.displacement.distance; }
-/// That of a turn inside the gap from its ends.
+/// Least distance (m) of a turn inside the gap from its ends.
 double border_distance(const EventOrbit& orbit) { return orbit.margins.border_distance; }
 
 void write_orbit(const JobContext& context, const OrbitQuestion& options) {
@@ -244,7 +244,7 @@ void write_proof(const JobContext& context, std::int64_t largest_period) {
   table.commit();
 }
 
-/// The same of a drive that switches between the samples.
+/// The theorem on the orbit of a drive that switches between the samples.
 void write_event_proof(const JobContext& context, std::int64_t largest_period) {
   Table table(context, columns_of("certificate"));
   const auto found = certified_event_orbit(

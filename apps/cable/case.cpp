@@ -22,7 +22,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// What follows from the case, by its name in texts/jobs.toml.
+/// Numbers derived from the case, by their names in texts/jobs.toml.
 using Derivations = std::vector<std::pair<const char*, double>>;
 
 void add_force(Derivations& derived, const Case& the_case) {
@@ -90,7 +90,7 @@ void add_stability(Derivations& derived, const Case& the_case) {
 Derivations derivations_of(const Case& the_case) {
   const bool masses = is_two_masses(the_case);
   Derivations derived;
-  // What cannot be told of a case that lacks something is left out.
+  // A derivation is left out where the case lacks something for it.
   const auto told = [&](bool is_asked, const auto& add) {
     if (!is_asked) return;
     try {
@@ -106,7 +106,7 @@ Derivations derivations_of(const Case& the_case) {
   return derived;
 }
 
-/// Of the masses of an absorber, its own and that of the plant, the one that another stands for.
+/// The other of the two keys for an absorber's mass, where it stands for this one.
 std::string other_absorber_mass(const std::string& key, const Case& the_case) {
   const std::string other = key == "absorber.mass"         ? "plant.absorber_mass"
                             : key == "plant.absorber_mass" ? "absorber.mass"
@@ -168,7 +168,7 @@ void write_case_table(const JobContext& context) {
   table.commit();
 }
 
-/// What makes the plant of the case itself.
+/// Table that makes the plant of the case itself.
 CaseForm form_of(const Case& the_case) {
   return the_case.plant_given && !plant_is_reduced(the_case) ? CaseForm::plant
                                                              : CaseForm::conductor;

@@ -21,7 +21,7 @@ bool is_across(const ElementsMode& mode, const Conductor<double>& conductor) {
 /// Frequencies of Irvine and Caughey, of each family in turn.
 class IrvineFrequencies {
  public:
-  /// Of the first modes, as many of each family as of the other, give or take one.
+  /// Frequencies of the first modes, as many of each family as of the other, give or take one.
   IrvineFrequencies(const Conductor<double>& conductor, int of_each)
       : modes_(irvine_modes(conductor, 2 * of_each + 2)) {}
 

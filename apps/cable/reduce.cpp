@@ -10,7 +10,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Of what belongs to c2 without a fit.
+/// Value of the numbers about c2 without a fit.
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 void append_plant(Table& table, const TwoMass<double>& plant, double absorber_damping) {

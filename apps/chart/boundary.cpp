@@ -45,7 +45,7 @@ auto with_polynomial(const Case& the_case, bool continuous, const Visit& visit) 
       sampled_loop(plant, Sampling<Real>{sampling.period, sampling.processing_delay})));
 }
 
-/// Of D, as wide as a window may be (N s/m).
+/// Range of D, as wide as a window may be (N s/m).
 constexpr Interval<double> every_gain{-1e150, 1e150};
 
 std::vector<BoundaryFeature<Precise>> precise_features(const Case& the_case,
@@ -117,7 +117,7 @@ std::vector<GainPlane> answers(const Case& the_case, const FixedGains& fixed, bo
       fixed);
 }
 
-/// What the same conductor by other modes says; empty where no end moves by more than a hundredth.
+/// Warning where other modes of the conductor move an end by more than a hundredth; else empty.
 std::string truncation_warning(const Case& the_case, const FixedGains& fixed,
                                const std::vector<GainPlane>& found) {
   const OtherModes other = other_modes_of(the_case);
@@ -158,7 +158,7 @@ void report_refusals(const std::vector<GainPlane>& all, bool quiet) {
   for (const std::string& refusal : refusals) report_warning(refusal, quiet);
 }
 
-/// What the judge of loops calls unstable within the intervals; empty where nothing.
+/// Warning where the judge calls a loop within the intervals unstable; else empty.
 std::string judge_warning(const Case& the_case, const std::vector<GainPlane>& all) {
   const JudgedLoop judge = judged_loop_of(the_case);
   for (const GainPlane& answer : all)
@@ -175,7 +175,7 @@ std::string judge_warning(const Case& the_case, const std::vector<GainPlane>& al
   return "";
 }
 
-/// What the columns of angles hold.
+/// Words for the columns of angles.
 Values angle_words(bool continuous) {
   if (continuous) return {{"unit", "rad/s"}, {"angle", "angular frequency of the root pair"}};
   return {{"unit", "rad"}, {"angle", "angle of the root on the unit circle"}};

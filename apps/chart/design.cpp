@@ -54,7 +54,7 @@ void warn_of_no_gain(MinimumAmplitudeOutcome outcome, double proportional_gain,
         quiet);
 }
 
-/// What is found at one frequency and P.
+/// Best D at one frequency and P.
 struct BestRow {
   double frequency, p;  // Hz, N/m
   MinimumAmplitude quietest;

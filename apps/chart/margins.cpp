@@ -19,7 +19,7 @@ constexpr Named<MarginEndOutcome> margin_end_names[] = {
     {MarginEndOutcome::none, "none"},
     {MarginEndOutcome::beyond_search, "beyond_search"}};
 
-/// What became of the proof of one direction.
+/// Outcome of the proof in one direction.
 struct ProofWords {
   std::string outcome;  // proved; in part, or not proved, and why
   double stable_to;     // NaN where nothing is proved

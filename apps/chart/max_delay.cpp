@@ -82,7 +82,7 @@ struct MaxDelayQuestion {
     report_warning(held_force_, context.quiet);
   }
 
-  /// What was asked at one frequency, with its answer.
+  /// Question at one frequency, with its answer.
   struct Answered {
     MaxDelayOptions question;
     MaxDelay answer;

@@ -73,7 +73,7 @@ struct ModalDampingQuestion {
       lost += std::isnan(mode.damping()) ? 1 : 0;
       if (++number > count) continue;
       const double added = mode.damping() - mode.bare, promised = mode.first_order - mode.bare;
-      // Of what hardly moves round-off decides.
+      // A root that hardly moves is left to round-off.
       const bool counts = std::abs(promised) > 0.01 * mode.bare + 1e-9;
       not_light += counts && !(std::abs(added - promised) < 0.5 * std::abs(promised)) ? 1 : 0;
     }

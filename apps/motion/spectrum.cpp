@@ -71,7 +71,7 @@ SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& op
   return {record, with_rate(digits->result(), moving, samples)};
 }
 
-/// Of a record whose second half is not as large as its first.
+/// Warning where the second half of a record is not as large as its first.
 std::string unsettled_warning(const std::vector<double>& record) {
   const auto middle = record.begin() + static_cast<std::ptrdiff_t>(record.size() / 2);
   const auto root_mean_square = [](auto begin, auto end) {

@@ -94,7 +94,7 @@ std::string companion_note(const Case& the_case, std::size_t number) {
   return "";
 }
 
-/// Of the goal without the absorber: what it gains over the devices alone.
+/// The goal without the absorber, to show its gain over the devices alone.
 double without_absorber(Case the_case, const PlacementQuestion& question) {
   the_case.plant.absorber_mass = 0.0;
   const PlacementLevels levels(the_case, question);
