@@ -277,7 +277,7 @@ check_links() {
       fi
     fi
   done < <(link_targets "$source_folder/$page")
-  # Sections by number: [docs/theory.md](docs/theory.md), section 17
+  # Sections by number: [docs/theory-motion.md](docs/theory-motion.md), section 2
   while IFS=' ' read -r target number; do
     checked=$((checked + 1))
     if ! grep -qE "^#+ $number\\. " "$(dirname "$source_folder/$page")/$target"; then
