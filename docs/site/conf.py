@@ -9,6 +9,7 @@ root_doc = "docs/site/index"
 # What the links of the pages lead to, such as examples, lies there as well.
 include_patterns = [
     "*.md",
+    "bench/README.md",
     "data/README.md",
     "docs/*.md",
     "docs/site/*.md",

@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 import gallery
 
 #: Beside docs/: documents, and what documents link to.
-BROUGHT = ("README.md", "CHANGELOG.md", "CITATION.cff", "LICENSE", "data", "examples", "tools")
+BROUGHT = ("README.md", "CHANGELOG.md", "CITATION.cff", "LICENSE", "data", "bench/README.md", "examples", "tools")
 
 
 def bring(project: pathlib.Path, target: pathlib.Path) -> None:

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# drift_test.sh WORK: documentation_test.sh and numbers_test.sh accept a page that is right and find each
-# fault of one that is not. A stand-in is the program: it prints its arguments one a line, `fail` exits
+# drift_test.sh WORK: documentation_test.sh, numbers_test.sh and api_test.sh accept a page and a header that
+# are right and find each fault of those that are not. A stand-in is the program: it prints its arguments one a line, `fail` exits
 # with 2, `package` asks for a package.
 # shellcheck disable=SC2016  # the backquotes are those of pages
 set -euo pipefail
@@ -159,6 +159,55 @@ Now 1.
 $(guarded '' 'holdfast show my.csv | sed "s/x = //"' '"Now 1" = x')
 $(printf '%s\n' "<!-- change my.csv -->" "$(block toml 'x = 3')")
 $(guarded 'Then 3.' 'holdfast show my.csv | sed "s/x = //"' '"Then 3" = x')"
+
+# api CODE WHAT SED: api_test.sh ends with CODE after the header and the page below were changed by SED.
+mkdir -p "$work/source/include/holdfast/core"
+api() {
+  local code=0
+  cat >"$work/source/include/holdfast/core/size.hpp" <<'HEADER'
+namespace holdfast {
+
+/// A length.
+struct Size {
+  double metres;  ///< > 0
+};
+
+/// Refuses a length. @throws InvalidParameter unless it is > 0
+inline void validate(const Size& size) { require_positive("size", size.metres, "m"); }
+
+/// Twice a length. @throws InvalidParameter as `validate`
+template <class Number>
+Number twice(const Size& size) {
+  validate(size);
+  return Number(2) * size.metres;
+}
+
+namespace detail {
+
+double hidden(const Size& size) { throw InvalidParameter("size", size.metres, "m", "another"); }
+
+}  // namespace detail
+}  // namespace holdfast
+HEADER
+  printf '| a length | `Size`, `twice()` | `core/size.hpp` |\n' >"$work/source/docs/cpp.md"
+  sed -i "$3" "$work/source/include/holdfast/core/size.hpp" "$work/source/docs/cpp.md"
+  "$(dirname "$check")/api_test.sh" "$work/source" "${4-3}" >"$work/log" 2>&1 || code=$?
+  [[ $code == "$1" ]] || {
+    printf 'FAILED: %s: exit code %s, not %s\n' "$2" "$code" "$1"
+    cat "$work/log"
+    failures=$((failures + 1))
+  }
+}
+api 0 'a header' ''
+api 1 'fewer declarations than expected' '' 4
+api 1 'a type without a comment' '/A length/d'
+api 1 'a function without a comment' '/Twice/d'
+api 1 'a function that calls validate() and does not say so' 's/ @throws InvalidParameter as.*//'
+api 1 'a function of one line that refuses and does not say so' 's/ @throws InvalidParameter unless.*//'
+api 1 'a header of the page that is not there' 's|core/size.hpp|core/sizes.hpp|'
+api 1 'a function of the page that is not there' 's/`twice()`/`thrice()`/'
+api 1 'a function of the page that is a type' 's/`Size`/`Size()`/'
+api 1 'a page without a table' 's/^|.*//'
 
 expect 1 nonsense 'an unknown mode' 'text'
 exit $((failures > 0))

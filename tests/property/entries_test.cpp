@@ -1,5 +1,5 @@
-// Every entry of the library that docs/api.md does not call unchecked refuses what is not
-// admissible, and names it.
+// Every entry of the library whose comment names InvalidParameter refuses what is not admissible,
+// and names it.
 
 #include <functional>
 #include <limits>

@@ -187,7 +187,7 @@ typename BasicBarChain<Real>::Nodes unbalanced_forces(
 
 /// Equilibrium of the chain under gravity and a load P (N, downward) at the absorber's place:
 /// Newton's method from the exact catenary, the step halved while it does not lessen the unbalanced
-/// force.
+/// force. @throws InvalidParameter for a load that is not finite
 template <class Real>
 ChainEquilibrium chain_equilibrium(const BasicBarChain<Real>& chain, double load) {
   using Nodes = typename BasicBarChain<Real>::Nodes;

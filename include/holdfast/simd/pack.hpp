@@ -13,7 +13,7 @@
 /// that a kernel written for `double` works on as many cells at once as the processor has lanes.
 /// The instruction set is that for which the unit is compiled: SSE2, AVX2, AVX-512, NEON, …. It is
 /// part of the pack's type, and so of the name of every kernel on it: units compiled for several of
-/// them go together into one program (docs/performance.md).
+/// them go together into one program (bench/README.md).
 
 namespace holdfast {
 

@@ -130,7 +130,7 @@ class SteadyResponse {
 
   /// @param loop               of `sampled_loop`, or of `loop_map` with any gains
   /// @param input              `held_harmonic` or `exact_harmonic` of the same loop and ω
-  /// @param angular_frequency  ω (rad/s), > 0
+  /// @param angular_frequency  ω (rad/s), > 0, else InvalidParameter
   template <class Loop, int States>
   SteadyResponse(const Loop& loop, const HarmonicInput<Scalar, States>& input,
                  const Scalar& angular_frequency)
