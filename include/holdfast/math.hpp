@@ -39,5 +39,4 @@
 #include "holdfast/math/stats/settled_means.hpp"
 #include "holdfast/math/stats/share_error.hpp"
 #include "holdfast/math/stats/slab_quadrature.hpp"
-#include "holdfast/math/stats/student_quantile.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"

@@ -264,12 +264,12 @@ std::string without_numbers(const std::string& question) {
 class Footnotes {
  public:
   std::string of(const Support& support) {
-    const std::string word = support.refusal.empty() ? "yes" : "no";
+    const std::string word = support.refusal.empty() ? "✓" : "✗";
     if (support.reason.empty()) return word;
     const auto known = std::find(texts_.begin(), texts_.end(), support.reason);
     const auto number = known - texts_.begin() + 1;
     if (known == texts_.end()) texts_.push_back(support.reason);
-    return word + " " + std::to_string(number);
+    return word + std::to_string(number);
   }
   std::string list() const {
     std::string all;
@@ -320,19 +320,19 @@ std::string table_of(const toml::node_view<const toml::node>& group, bool on_con
                      Footnotes& reasons) {
   const Words all = feature_names();
   const std::vector<Words> shown = singles_asked(on_conductor);
-  std::string text = "| asked |", line = "|---|";
+  std::string text = "|asked|", line = "|---|";
   for (const Words& names : shown) {
-    const auto number = std::find(all.begin(), all.end(), names.back()) - all.begin() + 1;
-    text += " " + std::to_string(number) + " |";
+    text += std::to_string(std::find(all.begin(), all.end(), names.back()) - all.begin() + 1) + "|";
     line += "---|";
   }
   text += "\n" + line + "\n";
   for (const std::string& question : words_of(group["questions"])) {
-    text += "| `" + without_numbers(question) + "` |";
-    for (const Words& names : shown)
-      text += knows(group, question, names.back())
-                  ? " " + reasons.of(cell_of(question, names).support) + " |"
-                  : "  |";
+    text += "|`" + without_numbers(question) + "`|";
+    for (const Words& names : shown) {
+      if (knows(group, question, names.back()))
+        text += reasons.of(cell_of(question, names).support);
+      text += "|";
+    }
     text += "\n";
   }
   return text;

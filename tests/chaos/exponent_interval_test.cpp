@@ -189,6 +189,24 @@ TEST_P(ExponentInterval, CoversTheKnownExponent) {
   EXPECT_GE(found.covered, least_covered);
 }
 
+/// P(|T| ≤ t) for Student's T, by Simpson's rule on its density in the angle t = √ν tan θ.
+double share_within(double t, double freedom) {
+  const double end = std::atan(t / std::sqrt(freedom));
+  const int panels = 2000;
+  double inside = 0.0, all = 0.0;
+  for (int k = 0; k <= panels; ++k) {
+    const double weight = k == 0 || k == panels ? 1.0 : (k % 2 == 1 ? 4.0 : 2.0);
+    inside += weight * end * std::pow(std::cos(end * k / panels), freedom - 1);
+    all += weight * 0.5 * pi<double> *
+           std::pow(std::abs(std::cos(0.5 * pi<double> * k / panels)), freedom - 1);
+  }
+  return inside / all;
+}
+
+TEST(ExponentEstimate, IsAsWideAsStudentsDistributionSays) {
+  EXPECT_NEAR(share_within(exponent_estimate(0.0, 1.0).half_width, 31.0), 0.99, 1e-9);
+}
+
 TEST_P(ExponentInterval, IsSharp) {
   // 99 % of a normal distribution lie within 2.58 standard deviations; Student's quantile and the
   // larger of two standard errors add a quarter. Bounded sums leave an interval that falls as 1/n.

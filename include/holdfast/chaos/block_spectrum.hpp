@@ -38,7 +38,6 @@ enum class LyapunovScope {
 ///
 /// Work per block of six samples and vector: 25 multiply-adds (20 without processing delay); per
 /// stretch a Gram–Schmidt process on 5 × 4 (5 × 5 before the first map with a null direction).
-/// @tparam Scalar  double; a template so that only who asks compiles it
 template <class Scalar>
 class BlockSpectrum {
  public:

@@ -10,7 +10,6 @@
 #include "holdfast/chaos/recurrence.hpp"
 #include "holdfast/chaos/switching_complexity.hpp"
 #include "holdfast/core/errors.hpp"
-#include "holdfast/math/stats/student_quantile.hpp"
 
 namespace holdfast {
 
@@ -24,12 +23,8 @@ enum class AttractorType {
   undecided,              ///< the indicators are missing or contradict each other
 };
 
-/// The share of repeats in which the interval of an exponent holds the exponent. It is 99 %, so
-/// that a motion whose exponent is 0 is called chaotic, or contracting, in one case of two hundred
-/// each.
-inline constexpr double exponent_confidence = 0.99;
-
-/// The largest Lyapunov exponent and its 99 % interval, value ± half_width.
+/// The largest Lyapunov exponent and its 99 % interval, value ± half_width: a motion whose exponent
+/// is 0 is called chaotic, or contracting, in one case of two hundred each.
 struct ExponentEstimate {
   double value;       ///< −∞ where every direction is a null direction
   double half_width;  ///< ≥ 0
@@ -41,15 +36,14 @@ struct ExponentEstimate {
 };
 
 /// An estimate from an exponent and its standard error by batch means. The half width is Student's
-/// quantile at `exponent_confidence` for the fewest batches that a series of more than 64 steps has
-/// (32) times the standard error, plus 10⁻¹² for the rounding of logarithms.
+/// quantile of 99 % for the fewest batches that a series of more than 64 steps has (32) times the
+/// standard error, plus 10⁻¹² for the rounding of logarithms.
 /// @param value           the exponent, natural logarithm per step
 /// @param standard_error  ≥ 0, not NaN
 /// @throws InvalidParameter for another standard error
 inline ExponentEstimate exponent_estimate(double value, double standard_error) {
   require_non_negative("standard error of the exponent", standard_error, "");
-  constexpr double rounding = 1e-12;
-  const double quantile = student_quantile(exponent_confidence, 31);
+  constexpr double rounding = 1e-12, quantile = 2.7440419192942613;  // P(|T| ≤ quantile) = 99 %
   return {value, quantile * standard_error + rounding};
 }
 

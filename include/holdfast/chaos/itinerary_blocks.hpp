@@ -50,7 +50,6 @@ class ItineraryBlocks {
 
   /// @param engaged   S
   /// @param backlash  S*
-  /// @tparam Scalar  `double`; a template so that only who calls it compiles it
   template <class Scalar>
   ItineraryBlocks(const Matrix<Scalar, 5>& engaged, const Matrix<Scalar, 5>& backlash);
 

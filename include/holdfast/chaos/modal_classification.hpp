@@ -17,7 +17,6 @@ namespace holdfast {
 namespace detail {
 
 /// The exponents of a conductor by its modes, as indicators_of_system() takes them.
-/// @tparam Scalar  double; a parameter so that who does not ask compiles none of it
 template <class Scalar>
 struct ModalTangents : ModalSpectrum<Scalar> {
   const bool& engaged;
@@ -38,7 +37,6 @@ struct ModalTangents : ModalSpectrum<Scalar> {
 /// Work: that of find_periodic_orbit(), and 0.2 million multiply-adds a natural motion for each
 /// thousand samples that are looked at.
 /// @throws InvalidParameter where one of them is not admissible
-/// @tparam Loop  ModalLoop; a template so that only who calls it compiles it
 template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 SampledClassification classify_motion(const Loop& loop, const ModalMotion::Full& initial_state,
                                       const OrbitLimits& limits = {}) {

@@ -23,7 +23,6 @@ namespace holdfast {
 /// Exponents that are exactly −∞ are left out, but for a single mode, which has four where there is
 /// no processing delay, and once the drive has been in its backlash. Work per sample: 130
 /// multiply-adds a natural motion.
-/// @tparam Scalar  double; a parameter so that who does not ask compiles none of it
 template <class Scalar = double>
 class ModalSpectrum {
  public:

@@ -46,7 +46,7 @@ inline double block_entropy(const std::vector<bool>& sequence, std::size_t block
 /// samples say nothing new; compare it only at the same sampling period.
 /// @param sequence  64 … 10⁶ symbols
 /// @throws InvalidParameter for another number of symbols
-/// @tparam Sequence  std::vector<bool>; a template so that only who calls it compiles it
+/// @tparam Sequence  std::vector<bool>
 template <class Sequence = std::vector<bool>>
 SwitchingComplexity switching_complexity(const Sequence& sequence) {
   const double count = static_cast<double>(sequence.size());

@@ -122,7 +122,7 @@ inline double median_of_sorted(const std::vector<double>& sorted) {
 /// @param series       200 … 100 000 finite values
 /// @param frequencies  number of c, 1 … 1000
 /// @throws InvalidParameter for another number of samples or frequencies, or values not finite
-/// @tparam Series  std::vector<double>; a template so that only who calls it compiles it
+/// @tparam Series  std::vector<double>
 template <class Series = std::vector<double>>
 double zero_one_test(const Series& series, int frequencies = 100) {
   require_within("number of samples", static_cast<double>(series.size()), "", 200.0, 1e5);

@@ -23,7 +23,7 @@ namespace detail {
 
 /// The norm of a plant's own states beside those of its controller, which come last, stand still
 /// between the samples, and are seen by no guard.
-/// @tparam any  Eigen::Dynamic; a template so that only who uses it compiles it
+/// @tparam any  Eigen::Dynamic
 template <int any>
 class NormBesideController {
  public:

@@ -125,7 +125,6 @@ class SampledSearchModel {
 };
 
 /// The region of attraction of an orbit of an IdealLoop, from attraction_balls().
-/// @tparam Scalar  `double`; a template so that only who uses it compiles it
 template <class Scalar>
 class SampledAttraction {
  public:

@@ -103,8 +103,7 @@ std::vector<Multiplier> multipliers_of(const ItineraryMaps<Scalar>&, const Itine
 /// @param law        the backlash before the first sample, as the motion that led here left it
 /// @return `certified` where the solution has this itinerary, attracting or not
 /// Work: about 500 multiply-adds a sample of the two masses; memory about 70 bytes a sample.
-/// @tparam Loop  IdealLoop or ModalLoop, with its Maps; a template so that only who calls it
-///               compiles it
+/// @tparam Loop  IdealLoop or ModalLoop, with its Maps
 template <class Loop, class Maps, class Scalar>
 OrbitResult orbit_of_itinerary(const Loop& loop, const Rational& ratio, const Maps& maps,
                                const Itinerary& itinerary, const Backlash<Scalar>& law) {

@@ -282,7 +282,6 @@ std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
 ///         contract
 /// Work: about 300 multiply-adds a sample for every length of segment below a period that is tried,
 /// and for the shortest one above that contracts.
-/// @tparam Scalar  `double`; a template so that only who calls it compiles it
 template <class Scalar>
 std::vector<AttractionBall> attraction_balls(const IdealLoop<Scalar>& loop,
                                              const PeriodicOrbit& orbit) {

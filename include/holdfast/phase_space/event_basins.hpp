@@ -188,7 +188,7 @@ std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limit
 
 /// Hands motions of two masses out to lanes that go past the orbits of a set together, and marks
 /// those that come to one.
-/// @tparam Plant  TwoMass<double>; a template so that only who calls it compiles it
+/// @tparam Plant  TwoMass<double>
 template <class Plant = TwoMass<double>>
 class EventApproaches final : public LaneApproaches {
  public:

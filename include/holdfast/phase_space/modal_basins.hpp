@@ -23,7 +23,6 @@ namespace detail {
 
 /// The regions of attraction of the orbits of a conductor by its modes, each about the first sample
 /// of its orbit.
-/// @tparam Loop  ModalLoop; a template so that only who uses it compiles it
 template <class Loop>
 struct ModalNeighbourhoods {
   using Orbit = PeriodicOrbit;
@@ -67,7 +66,6 @@ struct Neighbourhoods<ModalLoop> : ModalNeighbourhoods<ModalLoop> {
 
 /// Motions of a conductor by its modes: each goes past the regions that the rounds before have
 /// found, and is searched for its own orbit where it comes into none of them.
-/// @tparam LoopModel  ModalLoop; a template so that only who uses it compiles it
 template <class LoopModel>
 struct ModalMotions {
   using Loop = LoopModel;
@@ -123,7 +121,6 @@ struct ModalMotions {
 /// @param limits          of each search for one motion's own orbit
 /// @param for_tiles       as find_basins() of an IdealLoop takes it
 /// @throws InvalidParameter where loop, states or limits are not admissible
-/// @tparam Loop           ModalLoop; a template so that only who calls it compiles it
 template <class Loop, class Tiles, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 BasinMap find_basins(const Loop& loop, const std::vector<Vector<double, 4>>& initial_states,
                      const OrbitLimits& limits, const Tiles& for_tiles) {

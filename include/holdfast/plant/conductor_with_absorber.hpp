@@ -35,7 +35,6 @@ inline std::complex<double> place_receptance(const ConductorWithAbsorber& conduc
 }
 
 /// It as a plant of order 2N + 2 and what states the hardware has.
-/// @tparam Scalar    double; a parameter so that nothing is compiled where this is not called
 /// @param conductor  whose poles do not count
 /// @throws InvalidParameter where modes, absorber or hardware are not admissible, and with devices
 template <class Scalar = double>

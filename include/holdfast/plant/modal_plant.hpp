@@ -64,7 +64,8 @@ std::complex<Scalar> receptance(const std::vector<PlaceMode<Scalar>>& modes,
                                 const std::complex<Scalar>& s) {
   std::complex<Scalar> sum(0);
   for (const PlaceMode<Scalar>& mode : modes)
-    sum += mode.shape * mode.shape / (mode.mass * mode.divisor(s));
+    sum += mode.shape * mode.shape / (mode.mass * std::norm(mode.divisor(s))) *
+           std::conj(mode.divisor(s));
   return sum;
 }
 

@@ -23,7 +23,7 @@ class SweepMatrices {
     HarmonicInput<double> input;
   };
 
-  /// @tparam Loop  IdealLoop<double>; a template so that only who calls it compiles it
+  /// @tparam Loop  IdealLoop<double>
   template <class Loop>
   const Matrices& of(const Loop& loop) {
     const bool same_loop = known_ && numbers_of(known_->plant) == numbers_of(loop.plant) &&

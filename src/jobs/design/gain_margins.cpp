@@ -42,16 +42,16 @@ bool reaches(const ProvedMargin& proved, const TwoSidedMargin& walked, double va
 }
 
 /// Looks at every τ and δ between those of the case and the ends that the walk has found, and puts
-/// these right, as far as a second or so allows.
+/// these right, as far as a second or so allows; not at all where that is a few steps.
 bool look_everywhere(StabilityMargins& found, const Case& the_case, const PdGains<double>& gains) {
-  constexpr double most_work = 1e6;  // steps times roots squared
   const auto poles = poles_if_proved(the_case);
   if (poles.empty() || found.outcome != MarginOutcome::stable) return false;
   const Sampling<double> sampling = sampling_of(the_case);
   const auto roots = 2.0 * static_cast<double>(poles.size()) + held_commands(sampling);
-  const ProvedMargins proved = proved_sampling_margins(
-      poles, sampling, gains, found, {1e-5, static_cast<int>(most_work / (roots * roots))},
-      [] { throw_if_interrupted(); });
+  const int steps = static_cast<int>(1e6 / (roots * roots));  // a second or so
+  if (steps < 10) return false;
+  const ProvedMargins proved =
+      proved_sampling_margins(poles, sampling, gains, found, {1e-5, steps}, throw_if_interrupted);
   const bool everywhere =
       reaches(proved.sampling_period, found.sampling_period, sampling.period) &&
       reaches(proved.processing_delay, found.processing_delay, sampling.processing_delay);

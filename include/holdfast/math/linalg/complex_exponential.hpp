@@ -57,25 +57,27 @@ struct ComplexLanes {
   /// The sum of all lanes.
   std::complex<Scalar> sum() const { return {re.sum(), im.sum()}; }
   /// 1/z.
-  ComplexLanes inverse() const {
+  EIGEN_ALWAYS_INLINE ComplexLanes inverse() const {
     const Reals scale = (re * re + im * im).inverse();
     return {re * scale, -im * scale};
   }
-  ComplexLanes& operator+=(const ComplexLanes& other) {
+  EIGEN_ALWAYS_INLINE ComplexLanes& operator+=(const ComplexLanes& other) {
     re += other.re;
     im += other.im;
     return *this;
   }
-  friend ComplexLanes operator-(const ComplexLanes& a, const ComplexLanes& b) {
+  EIGEN_ALWAYS_INLINE friend ComplexLanes operator-(const ComplexLanes& a, const ComplexLanes& b) {
     return {a.re - b.re, a.im - b.im};
   }
-  friend ComplexLanes operator*(const ComplexLanes& a, const ComplexLanes& b) {
+  EIGEN_ALWAYS_INLINE friend ComplexLanes operator*(const ComplexLanes& a, const ComplexLanes& b) {
     return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
   }
-  friend ComplexLanes operator-(const std::complex<Scalar>& a, const ComplexLanes& b) {
+  EIGEN_ALWAYS_INLINE friend ComplexLanes operator-(const std::complex<Scalar>& a,
+                                                    const ComplexLanes& b) {
     return {a.real() - b.re, a.imag() - b.im};
   }
-  friend ComplexLanes operator+(const ComplexLanes& a, const std::complex<Scalar>& b) {
+  EIGEN_ALWAYS_INLINE friend ComplexLanes operator+(const ComplexLanes& a,
+                                                    const std::complex<Scalar>& b) {
     return {a.re + b.real(), a.im + b.imag()};
   }
 };

@@ -19,7 +19,6 @@ namespace holdfast {
 /// @throws InvalidParameter where M is not square
 /// Work: 4 n³ multiply-adds for each doubling, of which there are log₂ of the steps that M takes to
 /// forget.
-/// @tparam Scalar  double; a parameter so that who does not ask compiles none of it
 template <class Scalar>
 std::optional<Matrix<Scalar, Eigen::Dynamic>> discrete_lyapunov(
     const Matrix<Scalar, Eigen::Dynamic>& map) {

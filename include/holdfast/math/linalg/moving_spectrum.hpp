@@ -50,7 +50,6 @@ struct MovingVector {
 /// the round-off of the products is bounded as well and counted as part of R. Work: about 3 m²
 /// products n × n for m terms. Source: R. A. Horn, C. R. Johnson, Matrix Analysis, 2nd ed., 8.1
 /// and 8.3.
-/// @tparam Scalar  double; a parameter so that who does not ask compiles none of it
 template <class Scalar = double>
 class MovingSpectrum {
  public:

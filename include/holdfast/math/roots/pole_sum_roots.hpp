@@ -15,7 +15,7 @@ namespace holdfast {
 
 /// A characteristic function whose poles are known, those of a sampled plant in a loop:
 ///
-///     p(λ) = 1 − λ^{−n} w(rλ) Σ (a_k + b_k/λ)/(λ − 1 − ε_k),   w(λ) = c + d (1 − 1/λ)
+///     p(λ) = 1 − λ^{−n} w(rλ) (g/λ + Σ (a_k + b_k/λ)/(λ − 1 − ε_k)),   w(λ) = c + d (1 − 1/λ)
 template <class Scalar>
 struct PoleSum {
   using Complex = std::complex<Scalar>;  ///< of poles and residues
@@ -34,6 +34,7 @@ struct PoleSum {
   };
 
   std::vector<Part> parts;              ///< of all poles
+  Complex past{0};                      ///< g
   Weight weight{Scalar(1), Scalar(0)};  ///< w, common to all
   Scalar radius{1};                     ///< r, λ being that of the loop divided by it
   int power = 0;                        ///< n ≥ 0
@@ -56,10 +57,13 @@ class RootIteration {
       : weight_(sum.weight),
         radius_(sum.radius),
         power_(sum.power),
+        past_(sum.past),
         poles_(sum.parts.size()),
         steps_(poles_ + static_cast<std::size_t>(extra)) {
-    for (const auto& part : sum.parts)
+    for (const auto& part : sum.parts) {
       parts_.push_back({part.increment, part.present, part.past, Complex(0)});
+      has_past_ = has_past_ || part.past != Complex(0);
+    }
     find_mirrors(mirrored);
     std::vector<Complex> first(poles_);
     for (std::size_t i = 0; i < poles_; ++i)
@@ -71,8 +75,10 @@ class RootIteration {
           Scalar(0.3), Scalar(0.7) + Scalar(2) * pi<Scalar> * Scalar(j) / Scalar(extra)));
   }
 
+  /// @param enough  how far a root may be off, as a share of its distance from the unit circle
   /// @return whether all of them settled, and their sum is what the polynomial says
-  bool settle() {
+  bool settle(const Scalar& enough) {
+    enough_ = enough;
     std::vector<char> settled(steps_.size(), 0);
     for (std::size_t i = 0; i < poles_; ++i) settled[i] = mirrors_[i] < i ? 1 : 0;
     for (int sweep = 0; sweep < 200; ++sweep) {
@@ -105,7 +111,7 @@ class RootIteration {
 
   /// Sums over all poles at λ = e + d, and their slopes.
   struct Sums {
-    Complex a, b, slope_a, slope_b;  ///< Σ a/(λ − e) and Σ b/(λ − e)
+    Complex a, b, slope_a, slope_b;  ///< Σ a/(λ − e) and g + Σ b/(λ − e)
     Complex divided_out;             ///< Σ (1/(λ − e) − 1/(λ − z)), z being the roots
   };
 
@@ -170,15 +176,18 @@ class RootIteration {
   Sums sums_at(const Complex& e, const Complex& d) const {
     ComplexLanes<Scalar> a, b, slope_a, slope_b, divided_out;
     for (const auto& [increment, present, past, distance] : parts_.blocks()) {
-      const auto from_pole = (e - increment) + d, away = from_pole.inverse();
-      const auto of_a = present * away, of_b = past * away;
+      const auto from_pole = (e - increment) + d, from_root = from_pole - distance;
+      const auto both = (from_pole * from_root).inverse(), away = from_root * both;
+      const auto of_a = present * away;
       a += of_a;
-      b += of_b;
       slope_a += of_a * away;
+      divided_out += distance * both;
+      if (!has_past_) continue;
+      const auto of_b = past * away;
+      b += of_b;
       slope_b += of_b * away;
-      divided_out += distance * (from_pole * (from_pole - distance)).inverse();
     }
-    return {a.sum(), b.sum(), -slope_a.sum(), -slope_b.sum(), -divided_out.sum()};
+    return {a.sum(), b.sum() + past_, -slope_a.sum(), -slope_b.sum(), -divided_out.sum()};
   }
 
   /// The sums over all other poles at the root of one.
@@ -247,13 +256,14 @@ class RootIteration {
     if (!std::isfinite(size)) return std::abs(lambda) < Scalar(1e-15);
     unknown -= step;
     const Scalar shrinking = std::min(Scalar(1), size / std::exchange(steps_[i], size));
-    return size * shrinking <= tolerance_ * std::abs(unknown) + floor_;
+    return size * shrinking <= tolerance_ * std::abs(unknown) + floor_ ||
+           size < enough_ * std::abs(Scalar(1) - std::abs(lambda));
   }
 
-  /// Σ z = Σ e + w(∞) Σ a, or Σ e where n > 0.
+  /// Σ z = Σ e + w(∞) (g + Σ a), or Σ e where n > 0.
   bool has_their_sum() const {
     const Scalar weight = weight_.constant + weight_.change;
-    Complex sum(0);
+    Complex sum = power_ == 0 ? -weight * past_ : Complex(0);
     Scalar size(0);
     for (std::size_t i = 0; i < poles_; ++i) {
       const Row row = parts_[i];
@@ -265,13 +275,16 @@ class RootIteration {
       sum += root;
       size += std::abs(root);
     }
-    return std::abs(sum) <= Scalar(1e-9) * size + Scalar(1e-14) * Scalar(poles_);
+    const Scalar share(enough_ > Scalar(0) ? 1e-5 : 1e-9);
+    return std::abs(sum) <= share * size + Scalar(1e-14) * Scalar(poles_);
   }
 
   typename PoleSum<Scalar>::Weight weight_;
   Scalar radius_;
   int power_;
-  Scalar tolerance_{1e-14}, floor_{1e-17};
+  Complex past_;           // g
+  bool has_past_ = false;  // whether there are b
+  Scalar tolerance_{1e-14}, floor_{1e-17}, enough_{0};
   std::size_t poles_;
   std::vector<std::size_t> mirrors_;
   ComplexRows<Scalar, 4> parts_{parked};
@@ -284,11 +297,14 @@ class RootIteration {
 /// The roots λ of a PoleSum, all of them. Some 3 to 30 sweeps of N² operations, where the
 /// eigenvalues of a matrix take N³.
 /// @param sum   its complex poles in conjugate pairs, as of what is real
-/// @param late  whether there are b
+/// @param late    whether there are b
+/// @param enough  how far a root may be off, as a share of its way to the unit circle; 0: all
+/// digits
 /// @return nothing where they do not settle or their sum is not that of the polynomial: where roots
 ///         coincide, or n > 19
 template <class Scalar>
-std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late) {
+std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late,
+                                                 const Scalar& enough = Scalar(0)) {
   using Complex = std::complex<Scalar>;
   const auto all = std::exchange(sum.parts, {});
   // Poles that have died out within a sample are one together, λ = 0, and else roots there.
@@ -308,14 +324,17 @@ std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late)
   if (sum.parts.empty() || sum.power > 19) return {};
   detail::RootIteration<Scalar> iteration(sum, extra, true);
   // Where two have settled on one real root, or an extra one on one of a pair, all begin anew.
-  if (!iteration.settle() && !(iteration = {sum, extra, false}).settle()) return {};
+  if (!iteration.settle(enough) && !(enough > Scalar(0) && iteration.settle(Scalar(0))) &&
+      !(iteration = {sum, extra, false}).settle(Scalar(0)))
+    return {};
   auto roots = iteration.roots();
   for (; of_dead > 1; --of_dead) roots.emplace_back(0);
   return roots;
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template std::vector<std::complex<double>> pole_sum_roots(PoleSum<double>, bool);
+extern template std::vector<std::complex<double>> pole_sum_roots(PoleSum<double>, bool,
+                                                                 const double&);
 #endif
 
 }  // namespace holdfast

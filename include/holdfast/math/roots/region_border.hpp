@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "holdfast/core/types.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
 
 namespace holdfast {
@@ -67,7 +68,7 @@ class BorderWalk {
     longest_ = std::min(steps_.longest, reach / 4.0);
     border_.points.push_back(*first);
     // The inside is where it was come from.
-    backward_ = pi;
+    backward_ = pi<double>;
     fresh_ = true;
     for (double step = longest_; border_.looks < steps_.most_looks && !border_.closed;)
       step = go_on(step);
@@ -75,7 +76,6 @@ class BorderWalk {
   }
 
  private:
-  static constexpr double pi = 3.14159265358979323846;
   static constexpr double ahead = 0.35;  // rad to either side, where the border is expected
   static constexpr double sweep = 0.2;   // rad
 
@@ -96,7 +96,7 @@ class BorderWalk {
   static double distance(const PlanePoint& a, const PlanePoint& b) {
     return std::hypot(a.x - b.x, a.y - b.y);
   }
-  static double turned(double angle) { return std::remainder(angle, 2.0 * pi); }
+  static double turned(double angle) { return std::remainder(angle, 2.0 * pi<double>); }
 
   /// The last point inside on the way from `in` (inside) to `out` (not) of place(parameter); none
   /// where rounding says otherwise of the two.
@@ -143,7 +143,7 @@ class BorderWalk {
   /// The farthest that the region reaches from a point along the axes.
   double reach_from(const PlanePoint& start) {
     double reach = 0.0;
-    for (const double angle : {0.0, pi / 2.0, pi, -pi / 2.0})
+    for (const double angle : {0.0, pi<double> / 2.0, pi<double>, -pi<double> / 2.0})
       if (const auto end = ray(start, angle)) reach = std::max(reach, distance(start, end->at));
     return reach;
   }
@@ -161,12 +161,12 @@ class BorderWalk {
   std::optional<BorderPoint<Label>> next(double step) {
     const PlanePoint here = border_.points.back().at;
     const auto is_inside = [&](double angle) { return inside(moved(here, step, angle)); };
-    const double forward = backward_ - pi;
+    const double forward = backward_ - pi<double>;
     if (!fresh_ && is_inside(forward + ahead) && !is_inside(forward - ahead))
       return between(step, forward + ahead, forward - ahead);
     for (double width = sweep; width > 2e-3; width /= 4.0) {
       std::optional<double> in;
-      const double last = backward_ - 2.0 * pi;
+      const double last = backward_ - 2.0 * pi<double>;
       for (double angle = backward_ - width; angle > last; angle -= width) {
         const bool is_in = is_inside(angle);
         if (in && !is_in) return between(step, *in, angle);
@@ -191,11 +191,11 @@ class BorderWalk {
       border_.looks = steps_.most_looks;
       return step;
     }
-    const bool bent = !fresh_ && std::abs(turned(direction - backward_ + pi)) > 0.3;
+    const bool bent = !fresh_ && std::abs(turned(direction - backward_ + pi<double>)) > 0.3;
     if (bent && !least) return shorter(0.5);
     border_.points.push_back(*found);
     // Behind a corner the old piece still tells where the border came from.
-    if (!least) backward_ = direction + pi;
+    if (!least) backward_ = direction + pi<double>;
     if (border_.points.size() == 2) first_direction_ = direction;
     fresh_ = least;
     close(step, direction);

@@ -207,7 +207,6 @@ inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& map
 /// @param maps       of the loop
 /// @param itinerary  of one period
 /// @param blocks     maps_of_blocks() of the sequence
-/// @tparam Maps  ModalItineraryMaps; a template so that only who calls it compiles it
 template <class Maps, std::enable_if_t<std::is_same_v<Maps, ModalItineraryMaps>, int> = 0>
 std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itinerary,
                                        const std::vector<typename Maps::Map>& blocks) {

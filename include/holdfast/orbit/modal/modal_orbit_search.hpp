@@ -55,7 +55,6 @@ struct ModalAttraction {
 /// @param maps   of it
 /// @param orbit  attracting and certified
 /// @return nothing where no V is found that M is seen to contract, to working precision
-/// @tparam Loop  ModalLoop; a template so that only who calls it compiles it
 template <class Loop>
 std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalItineraryMaps& maps,
                                                 const PeriodicOrbit& orbit) {
@@ -107,7 +106,6 @@ inline std::optional<Rational> forcing_ratio(const ModalLoop& loop) {
 /// @param region  at the same phase of the forcing
 /// @param motion  before a sample
 /// @param units   of the deviations
-/// @tparam Motion  ModalMotion; a parameter so that who does not ask compiles none of it
 template <class Motion>
 bool attracts(const ModalAttraction& region, const Motion& motion, const Eigen::VectorXd& units) {
   const typename Motion::Memory memory = motion.memory();
@@ -155,7 +153,6 @@ class ModalRegion {
 
 /// The orbit of a loop without backlash, to which every motion tends, in O(N) operations a sample.
 /// @return nothing where the loop is not stable or its roots are not told apart
-/// @tparam Maps  ModalItineraryMaps; a template so that only who calls it compiles it
 template <class Maps>
 std::optional<PeriodicOrbit> orbit_without_backlash(const ModalLoop& loop, const Maps& maps,
                                                     const Rational& ratio) {
@@ -197,7 +194,6 @@ std::optional<PeriodicOrbit> orbit_without_backlash(const ModalLoop& loop, const
 /// @param initial_state  of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂]
 /// @param limits         how long and how far to look
 /// @throws InvalidParameter where one of them is not admissible
-/// @tparam Loop  ModalLoop; a template so that only who calls it compiles it
 template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 OrbitResult find_periodic_orbit(const Loop& loop, const ModalMotion::Full& initial_state,
                                 const OrbitLimits& limits = {}) {

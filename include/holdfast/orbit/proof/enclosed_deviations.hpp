@@ -37,7 +37,6 @@ struct RowWithError {
 /// Deviations along an orbit that begin as the six unit vectors [z̃; gap] of a weighted norm: in
 /// doubles, with a bound of all that these are wrong by, carried in the norms in which the orbit's
 /// maps contract.
-/// @tparam Number  Enclosure; a template so that only who asks compiles it
 template <class Number>
 class EnclosedDeviations {
  public:

@@ -59,7 +59,6 @@ struct EnclosedGuard {
 
 /// The three modes of a drive with exact play (contact/contact.hpp) as linear systems ẇ = A w in
 /// enclosures, with their guards. z, u are counted in plant_scaling() units.
-/// @tparam Number  Enclosure; a template so that only who asks compiles it
 template <class Number>
 class EnclosedModes {
  public:

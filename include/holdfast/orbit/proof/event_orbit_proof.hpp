@@ -64,7 +64,6 @@ namespace detail {
 ///
 /// and where r_N ≤ r_0 and the product of the norms is below 1 the period maps the first ellipsoid
 /// into itself and contracts there.
-/// @tparam Number  Enclosure; a template so that only who asks compiles it
 template <class Number>
 class EventOrbitProver {
  public:
@@ -323,7 +322,6 @@ class EventOrbitProver {
 ///                      above, the proposal is refused
 /// @throws InvalidParameter where the loop is not admissible, or the orbit not one of its samples
 /// Work: some 0.1 ms a sample and 1 ms a change of contact, some twenty times.
-/// @tparam Scalar  `double`; a template so that only who calls it compiles it
 template <class Scalar>
 EventOrbitProof prove_event_orbit(const IdealLoop<Scalar>& loop, const EventOrbit& orbit,
                                   const StroboscopicState<DriveContact<>>& first,
@@ -346,5 +344,10 @@ EventOrbitProof prove_event_orbit(const IdealLoop<Scalar>& loop, const EventOrbi
       .prove_with_ball(orbit.multipliers.front().log_modulus, deviation_weights(loop),
                        largest_miss);
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template EventOrbitProof prove_event_orbit(const IdealLoop<double>&, const EventOrbit&,
+                                                  const StroboscopicState<DriveContact<>>&, double);
+#endif
 
 }  // namespace holdfast

@@ -40,7 +40,6 @@ namespace detail {
 /// ball at the next sample reaches beyond it, the set in which the motions are does not. So the set
 /// of the sample before, the witness, is kept for the guards as long as it is wanted; a motion is
 /// in both sets.
-/// @tparam Number  Enclosure; a template so that only who asks compiles it
 template <class Number>
 class EventPassage {
  public:

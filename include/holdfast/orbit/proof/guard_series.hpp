@@ -18,7 +18,6 @@ namespace holdfast::detail {
 ///     g(s) = Σ_{k<m} c_k sᵏ + c_m sᵐ,   c_k = h Aᵏ w/k!,
 ///
 /// c_m enclosing what is left of Taylor's series.
-/// @tparam Number  Enclosure; a template so that only who asks compiles it
 template <class Number>
 class GuardSeries {
  public:

@@ -82,7 +82,6 @@ inline void validate_proposal(const IdealLoop<double>& loop, const PeriodicOrbit
 }
 
 /// The proof of one orbit, step by step. States are counted in plant_scaling() units.
-/// @tparam Number  Enclosure; a template so that only who asks compiles it
 template <class Number>
 class OrbitProver {
  public:
@@ -365,7 +364,6 @@ class OrbitProver {
 ///                       above, the proposal is refused
 /// @throws InvalidParameter where the loop is not admissible, or the orbit not one of its samples
 /// Work: about 30 µs a sample, and 20 µs for every sample until deviations have become shorter.
-/// @tparam Scalar  `double`; a template so that only who calls it compiles it
 template <class Scalar>
 OrbitProof prove_orbit(const IdealLoop<Scalar>& loop, const PeriodicOrbit& orbit,
                        double largest_miss = 1e-12) {
@@ -376,6 +374,7 @@ OrbitProof prove_orbit(const IdealLoop<Scalar>& loop, const PeriodicOrbit& orbit
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template class detail::OrbitProver<Enclosure>;
 extern template OrbitProof prove_orbit(const IdealLoop<double>&, const PeriodicOrbit&, double);
 #endif
 

@@ -39,7 +39,6 @@ struct AlongSegment {
 /// The loops between two that differ in P, D, F_m and r₀ alone, of which the maps of a sample are
 /// linear: what proofs ask of them, in plant_scaling() units. One loop is a segment without
 /// length.
-/// @tparam Number  Enclosure; a template so that only who asks compiles it
 template <class Number>
 class SegmentOfLoops {
  public:

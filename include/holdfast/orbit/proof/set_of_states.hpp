@@ -15,7 +15,6 @@ namespace holdfast::detail {
 /// instants `at_once` is the derivative at one instant after them all, carried back by the flow to
 /// the instant of the centre: what the saltation matrix makes of it, without the way along the
 /// flow, which is large and falls out again.
-/// @tparam Number  Enclosure; a template so that only who asks compiles it
 template <class Number>
 struct SetOfStates {
   using State = Vector<Number, FlowPlace::size>;      ///< w

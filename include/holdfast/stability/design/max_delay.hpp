@@ -338,7 +338,7 @@ class DelaySearch {
         ratio = response.ratio_to_uncontrolled(gains);
       }
       const auto loop = modal_response<double>(plant_, options_.sampling(period));
-      if (ratio < 1.0 && loop_excess(loop, gains) < 0.0) return true;
+      if (ratio < 1.0 && loop_excess(loop, gains, 1e-3) < 0.0) return true;
     }
     const Intervals gains = gains_at(period);
     if (!gains.empty()) start_ = gains.front().representative();
@@ -466,7 +466,6 @@ MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options)
 /// and the excitation: by all roots with the D that served last, or else by all intervals of stable
 /// D. Where none serves the edge is halved to 10⁻⁹. A stretch of periods narrower than a step is
 /// missed, and nothing is shown of what lies in between or beyond.
-/// @tparam Scalar  double; a parameter so that nothing is compiled where this is not called
 /// @param plant    its poles not none and none of its hardware's
 /// @param options  within their ranges; search ratio and most steps do not count
 /// @param ratio    of two neighbouring periods, > 1

@@ -53,7 +53,6 @@ inline bool is_quieter(const MinimumAmplitude& one, const MinimumAmplitude& othe
 /// At each P the D is exact; P itself is searched, at 65 places of a range that is doubled while
 /// the best of them is at its end, and about the best by golden section. A better P between two
 /// places may be missed: this is a search and no proof.
-/// @tparam Scalar    double; a parameter so that nothing is compiled where this is not called
 /// @param loop       of the plant by its poles, at the sampling of the options
 /// @param options    within their ranges
 /// @param frequency  f (Hz), > 0

@@ -23,8 +23,6 @@ namespace holdfast {
 
 /// The open intervals of D (N s/m) at which every root of a loop has |λ| < radius, by
 /// `ResolvedCircle` of G(λ radius).
-/// @tparam Scalar            double; a parameter so that nothing is compiled where this is not
-///                           called
 /// @param response           of the plant by its poles
 /// @param proportional_gain  P (N/m), finite
 /// @param radius             > 0
@@ -294,8 +292,6 @@ struct ConductorOverBand {
 
 /// The D that minimises the largest amplitude ratio to no control over a band, at a fixed P, of a
 /// conductor by its modes: as `minimax_amplitude` of a plant.
-/// @tparam Scalar            double; a parameter so that nothing is compiled where this is not
-///                           called
 /// @param conductor          with all its poles
 /// @param options            within their ranges; their wish what ratios are relative to does not
 ///                           count

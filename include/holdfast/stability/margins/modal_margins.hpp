@@ -155,7 +155,7 @@ struct ModalMargins {
 
   /// ρ − 1; where not all roots are found, no more than its sign, by the turn of p.
   Scalar excess_of(const Response& other) const {
-    const Scalar excess = loop_excess(other, gains);
+    const Scalar excess = loop_excess(other, gains, Scalar(1e-3));
     if (std::isfinite(excess)) return excess;
     const bool stable = ResolvedCircle<Scalar>(other).roots_outside(gains) == 0;
     return stable ? -std::numeric_limits<Scalar>::min() : std::numeric_limits<Scalar>::min();
@@ -181,7 +181,6 @@ struct ModalMargins {
 /// sample at a time, with all roots at each step: a stretch of instability narrower than a step is
 /// missed, which `proved_sampling_margins` would find, and what is not met is `beyond_search`,
 /// never `none` but for δ = 0.
-/// @tparam Scalar   double; a parameter so that nothing is compiled where this is not called
 /// @param poles     `plant_poles`, all of them; kept outside while this runs
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @param gains     P (N/m) and D (N s/m), finite

@@ -92,7 +92,6 @@ struct EnclosedSamplings {
 /// beyond it, no root is on it or beyond. Nodes near the roots have small W_i (K. Weierstrass,
 /// 1891). Over a stretch x₀ + ϱ t, |t| ≤ 1, the nodes follow the roots on spirals, and p(z_i(t)) is
 /// enclosed to the second order. Work: for N roots some N² operations of curves, 2 ms for 40 modes.
-/// @tparam Scalar  double; a template so that only who calls it compiles it
 template <class Scalar>
 class SamplingProof {
  public:

@@ -53,7 +53,6 @@ inline std::complex<double> matched_pole(const std::vector<std::complex<double>>
 /// A mode is followed, not proved: where two roots meet on their way, which of them is whose is a
 /// matter of name, and where the steps become too small its damping is NaN. Work: some hundred
 /// values of the transfer functions a mode.
-/// @tparam Scalar   double; a parameter so that nothing is compiled where this is not called
 /// @param modes     of the bare conductor, as the absorber's place sees them
 /// @param absorber  with its clamp
 /// @param sampling  τ and δ

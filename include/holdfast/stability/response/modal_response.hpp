@@ -83,6 +83,8 @@ class ModalResponse {
     for (int k = 0; k < commands_; ++k) factor /= radius;
     scaled.unstable_ = 0;
     scaled.poles_ = {};
+    scaled.poles_.past_z = poles_.past_z * factor / radius;
+    scaled.poles_.past_v = poles_.past_v * factor / radius;
     for (Pole pole : poles_.all()) {
       pole.increment = (pole.increment - offset) / radius;
       pole.displacement *= factor;
@@ -138,6 +140,7 @@ class ModalResponse {
       p = Scalar(1);
       d = Scalar(0);
     }
+    loop.past = p * poles_.past_z + d * poles_.past_v;
     for (const Pole& pole : poles_.all())
       loop.parts.push_back({pole.increment, p * pole.displacement + d * pole.velocity,
                             p * pole.past_displacement + d * pole.past_velocity});
@@ -157,50 +160,60 @@ class ModalResponse {
     Complex past_displacement, past_velocity;  // b_k
   };
 
-  /// Σ a_k/(λ − e_k) and Σ b_k/(λ − e_k), of z and of v.
+  /// Σ a_k/(λ − e_k), of z and of v.
   struct Sums {
-    Complex z{0}, v{0}, past_z{0}, past_v{0};
-
-    void add_times(const Pole& pole, const Complex& factor) {
-      z += detail::plain_product(pole.displacement, factor);
-      v += detail::plain_product(pole.velocity, factor);
-      past_z += detail::plain_product(pole.past_displacement, factor);
-      past_v += detail::plain_product(pole.past_velocity, factor);
-    }
+    Complex z{0}, v{0};
   };
 
   /// Poles, of which no e^{iθ} is as far as those that fill up the last vector of the processor.
-  struct Poles : detail::ComplexRows<Scalar, 5> {
-    Poles() : detail::ComplexRows<Scalar, 5>(Scalar(-8)) {}
+  /// What is late joins the rest, (b/λ)/(λ − e) being (b/e)/(λ − e) − (b/e)/λ, but where hardly
+  /// anything of a pole is left after a sample.
+  struct Poles : detail::ComplexRows<Scalar, 3> {
+    std::vector<Pole> late;        // of which hardly anything is left
+    Complex past_z{0}, past_v{0};  // −Σ b/e of all others
+
+    Poles() : detail::ComplexRows<Scalar, 3>(Scalar(-8)) {}
 
     void add(const Pole& of) {
-      this->push_back(
-          {of.increment, of.displacement, of.velocity, of.past_displacement, of.past_velocity});
+      const Complex left = Complex(1) + of.increment;
+      if (of.past_displacement == Complex(0) && of.past_velocity == Complex(0)) {
+        this->push_back({of.increment, of.displacement, of.velocity});
+      } else if (std::norm(left) < Scalar(1e-4)) {
+        late.push_back(of);
+      } else {
+        const Complex of_z = of.past_displacement / left, of_v = of.past_velocity / left;
+        past_z -= of_z;
+        past_v -= of_v;
+        this->push_back({of.increment, of.displacement + of_z, of.velocity + of_v});
+      }
     }
     std::vector<Pole> all() const {
-      std::vector<Pole> poles;
+      std::vector<Pole> poles = late;
       for (std::size_t k = 0; k < this->size(); ++k) {
         const auto row = (*this)[k];
-        poles.push_back({row[0], row[1], row[2], row[3], row[4]});
+        poles.push_back({row[0], row[1], row[2], Complex(0), Complex(0)});
       }
       return poles;
     }
     Sums sums_at(const Complex& mu) const {
-      detail::ComplexLanes<Scalar> z, v, past_z, past_v;
-      for (const auto& [increment, of_z, of_v, of_past_z, of_past_v] : this->blocks()) {
+      detail::ComplexLanes<Scalar> z, v;
+      for (const auto& [increment, of_z, of_v] : this->blocks()) {
         const auto factor = (mu - increment).inverse();
         z += of_z * factor;
         v += of_v * factor;
-        past_z += of_past_z * factor;
-        past_v += of_past_v * factor;
       }
-      return {z.sum(), v.sum(), past_z.sum(), past_v.sum()};
+      return {z.sum(), v.sum()};
     }
   };
 
   CommandResponse<Scalar> finished(const Sums& sums, const Complex& mu) const {
     const Complex lambda = Complex(1) + mu;
-    CommandResponse<Scalar> g{sums.z + sums.past_z / lambda, sums.v + sums.past_v / lambda};
+    CommandResponse<Scalar> g{sums.z + poles_.past_z / lambda, sums.v + poles_.past_v / lambda};
+    for (const Pole& pole : poles_.late) {
+      const Complex factor = Scalar(1) / (mu - pole.increment);
+      g.displacement += (pole.displacement + pole.past_displacement / lambda) * factor;
+      g.velocity += (pole.velocity + pole.past_velocity / lambda) * factor;
+    }
     for (int k = 1; k < commands_; ++k) {
       g.displacement /= lambda;
       g.velocity /= lambda;
@@ -258,7 +271,8 @@ class ModalResponse<Scalar>::Nearby {
   /// @param centre    μ of the place
   Nearby(const ModalResponse& response, const Complex& centre)
       : response_(response), centre_(centre) {
-    const std::vector<Pole> all = response.poles_.all();
+    std::vector<Pole> all = response.poles_.all();
+    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(response.poles_.late.size()));
     std::vector<std::pair<Scalar, const Pole*>> poles;
     poles.reserve(all.size());
     for (const Pole& pole : all) poles.emplace_back(std::norm(centre - pole.increment), &pole);
@@ -284,14 +298,10 @@ class ModalResponse<Scalar>::Nearby {
     for (std::size_t j = far_.size() - 1; j-- > 0;) {
       const Complex way = mu - centre_;
       sums = {far_[j].z + detail::plain_product(way, sums.z),
-              far_[j].v + detail::plain_product(way, sums.v),
-              far_[j].past_z + detail::plain_product(way, sums.past_z),
-              far_[j].past_v + detail::plain_product(way, sums.past_v)};
+              far_[j].v + detail::plain_product(way, sums.v)};
     }
     const Sums near = near_.sums_at(mu);
-    return response_.finished(
-        {sums.z + near.z, sums.v + near.v, sums.past_z + near.past_z, sums.past_v + near.past_v},
-        mu);
+    return response_.finished({sums.z + near.z, sums.v + near.v}, mu);
   }
 
   /// The distance from μ to the nearest pole, or a little less where none is near.
@@ -311,7 +321,8 @@ class ModalResponse<Scalar>::Nearby {
     const Complex ratio = -Scalar(1) / (centre_ - pole.increment);
     Complex factor = -ratio;
     for (Sums& term : far_) {
-      term.add_times(pole, factor);
+      term.z += detail::plain_product(pole.displacement, factor);
+      term.v += detail::plain_product(pole.velocity, factor);
       factor = detail::plain_product(factor, ratio);
     }
   }
@@ -341,7 +352,6 @@ ModalResponse<Scalar>::ModalResponse(const Plant& plant, const Sampling<Scalar>&
 }
 
 /// The response of which these are all poles.
-/// @tparam Scalar   double; a parameter so that nothing is compiled where this is not called
 /// @param poles     of `plant_poles`
 /// @param sampling  τ and δ
 /// @throws InvalidParameter where the sampling is not admissible
@@ -386,22 +396,26 @@ ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduc
 /// one reading, and a root; with D = 0 that root is 0 and not among them.
 /// @param response  of the plant by its poles
 /// @param gains     P and D
+/// @param enough    as `pole_sum_roots` takes it
 /// @return nothing where they are not found, the response has no sum over poles, or more than 20
 ///         commands are on their way
 template <class Scalar>
 std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& response,
-                                             const PdGains<Scalar>& gains) {
-  return pole_sum_roots(response.loop_parts(gains), response.is_late_within_sample());
+                                             const PdGains<Scalar>& gains,
+                                             const Scalar& enough = Scalar(0)) {
+  return pole_sum_roots(response.loop_parts(gains), response.is_late_within_sample(), enough);
 }
 
 /// The root of a loop of largest modulus.
 /// @param response  of the plant by its poles
 /// @param gains     P and D
+/// @param enough    as `pole_sum_roots` takes it
 /// @return NaN where `loop_roots` finds none
 template <class Scalar>
 std::complex<Scalar> largest_loop_root(const ModalResponse<Scalar>& response,
-                                       const PdGains<Scalar>& gains) {
-  const auto roots = loop_roots(response, gains);
+                                       const PdGains<Scalar>& gains,
+                                       const Scalar& enough = Scalar(0)) {
+  const auto roots = loop_roots(response, gains, enough);
   const auto largest = std::max_element(
       roots.begin(), roots.end(),
       [](const auto& one, const auto& other) { return std::norm(one) < std::norm(other); });
@@ -412,9 +426,11 @@ std::complex<Scalar> largest_loop_root(const ModalResponse<Scalar>& response,
 /// ρ − 1 of a loop, ρ the largest modulus of its roots; NaN where `loop_roots` finds none.
 /// @param response  of the plant by its poles
 /// @param gains     P and D
+/// @param enough    as `pole_sum_roots` takes it
 template <class Scalar>
-Scalar loop_excess(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains) {
-  const std::complex<Scalar> mu = largest_loop_root(response, gains) - Scalar(1);
+Scalar loop_excess(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains,
+                   const Scalar& enough = Scalar(0)) {
+  const std::complex<Scalar> mu = largest_loop_root(response, gains, enough) - Scalar(1);
   const Scalar squared = Scalar(2) * mu.real() + std::norm(mu);  // |λ|² − 1
   return squared / (Scalar(1) + std::sqrt(Scalar(1) + squared));
 }

@@ -72,8 +72,6 @@ SteadyResponse<Scalar> steady_response_by_poles(const ConductorWithAbsorber& con
 /// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
 /// @param hold               how the excitation enters a sample
 /// @param angular_frequency  ω (rad/s), > 0
-/// @tparam Scalar            double; a parameter so that nothing is compiled where this is not
-/// called
 /// @throws InvalidParameter outside these ranges
 template <class Scalar = double>
 SteadyResponse<Scalar> steady_response(const ConductorWithAbsorber& conductor,
