@@ -39,8 +39,8 @@ void chart_of(int modes) {
   const auto cell_of = [&](std::int64_t k) { return k * 7919 % grid.cells(); };
   const auto time = bench::medians(
       {[&] {
-         chart = stability_chart(ResolvedCircle<double>(modal_response(places, absorber, sampling)),
-                                 grid);
+         chart = stability_chart(
+             UnitCircleCrossings<double>(modal_response(places, absorber, sampling)), grid);
        },
        [&] {
          for (std::int64_t k = 0; k < compared; ++k) {

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "holdfast/plant/linear_plant.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/chart/circle_chart.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/margins/margins.hpp"
@@ -44,7 +44,7 @@ int main() {
   const LinearPlant<double> plant = three_masses();
   const Sampling<double> sampling{0.005, 0.001};  // τ and δ (s)
   const GainGrid grid{{-300.0, 100.0, 9}, {-12.0, 6.0, 37}};
-  const ResolvedCircle<double> circle(ModalResponse<double>(plant, sampling));
+  const UnitCircleCrossings<double> circle(ModalResponse<double>(plant, sampling));
   const auto stable = stability_chart(circle, grid);
 
   std::printf("P (N/m)   D = -12 to 6 N s/m, # stable\n");

@@ -4,21 +4,21 @@
 #include "holdfast/cable/taut_string.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 using namespace holdfast;
 
 // The conductor as a taut string, with the absorber at a tenth of its span and a clamp (kg) that
 // moves with it. Of its modes so many are kept apart; faster ones are bundled, or cut off.
-ResolvedCircle<double> loop_on_string(const Sampling<double>& sampling, double clamp_mass,
-                                      int modes, bool bundled) {
+UnitCircleCrossings<double> loop_on_string(const Sampling<double>& sampling, double clamp_mass,
+                                           int modes, bool bundled) {
   const double highest = bundled ? 100.0 / sampling.period : 0.0;  // rad/s
   const auto places =
       bundled_string_modes(taut_string(kollar2022_conductor()), 0.64, modes, highest);
   const TwoMass<double> masses = kollar2022_plant();
-  return ResolvedCircle<double>(modal_response(
+  return UnitCircleCrossings<double>(modal_response(
       places,
       {masses.absorber_mass, masses.absorber_stiffness, masses.absorber_damping, clamp_mass},
       sampling));
@@ -52,7 +52,7 @@ int main() {
   }
 
   // In one sample the clamp feels only the waves that it sends out, and its own mass.
-  const ResolvedCircle<double> loop = loop_on_string({0.001}, 0.0, 80, true);
+  const UnitCircleCrossings<double> loop = loop_on_string({0.001}, 0.0, 80, true);
   std::printf("\nD = -13 at 1 ms without a clamp: %d root(s) outside the unit circle\n",
               loop.roots_outside({proportional, -13.0}));
 }

@@ -4,8 +4,8 @@
 #include "holdfast/stability/boundary/boundary_features.hpp"
 #include "holdfast/stability/boundary/circle_boundary.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 
 namespace holdfast {
 
@@ -28,6 +28,6 @@ template std::vector<Interval<double>> stable_gains(const LoopMap<double>&, Free
 template std::vector<BoundaryPoint<double>> stability_boundary(const ModalResponse<double>&,
                                                                const Interval<double>&);
 
-template class ResolvedCircle<double>;
+template class UnitCircleCrossings<double>;
 
 }  // namespace holdfast

@@ -37,7 +37,7 @@ class AttractorSetTest final : public AttractionTest {
 };
 
 /// MotionBatch on the packs of an instruction set.
-class TravelOnPacks : public CopiedKernel<TravelKernel> {
+class PropagatorOnPacks : public CopiedKernel<MotionKernel> {
  public:
   using CopiedKernel::CopiedKernel;
   void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
@@ -166,10 +166,10 @@ using States = std::vector<Vector<double, 4>>;
 
 auto basins_of(const SampledMasses& moving, const JobContext& context, const States& states,
                const OrbitLimits& limits) {
-  const auto travel = [&](const auto& motion) {  // in packs
-    return TravelOnPacks(pack_kernels(context.instructions).travel(motion));
+  const auto propagate = [&](const auto& motion) {  // in packs
+    return PropagatorOnPacks(pack_kernels(context.instructions).propagate(motion));
   };
-  return find_basins_by(travel, moving.loop, states, limits, tiles_on(context));
+  return find_basins_by(propagate, moving.loop, states, limits, tiles_on(context));
 }
 auto basins_of(const SampledModes& moving, const JobContext& context, const States& states,
                const OrbitLimits& limits) {

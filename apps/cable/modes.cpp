@@ -54,7 +54,7 @@ struct ModesQuestion {
     const Conductor<double> conductor = conductor_of(context.case_data);
     const ElementsModes found = elements_modes(conductor, elements, count);
     if (found.outcome != EquilibriumOutcome::converged)
-      throw NoAnswer("no equilibrium of the elements was found");
+      throw NoAnswer("no static equilibrium of the elements was found");
     IrvineFrequencies irvine(conductor, count);
     Table table(context, columns_of("modes"));
     for (int k = 0; k < count; ++k) {

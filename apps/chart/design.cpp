@@ -133,7 +133,7 @@ void write_band_gain(const JobContext& context, const Range& band,
   report_warning(held_force_warning(the_case, options.sampling.period, band.max, ratios_shown),
                  context.quiet);
   if (answer.outcome == MinimaxOutcome::not_converged)
-    report_warning("the search has not closed: some D may have a worst ratio as small as " +
+    report_warning("the search stopped early: another D may have a worst ratio down to " +
                        format_rounded(answer.lower_bound),
                    context.quiet);
   const GainMargins margins = gain_margins(loop, {p, answer.differential_gain});

@@ -75,9 +75,9 @@ struct MaxDelayQuestion {
     }
     table.commit();
     if (on_boundary_ > 0)
-      report_warning("of " + std::to_string(axis.count) + " D " + std::to_string(on_boundary_) +
-                         " lie on the boundary of stability, each a limit at its longest period; "
-                         "at a shorter one holdfast design finds a D with a margin",
+      report_warning(std::to_string(on_boundary_) + " of " + std::to_string(axis.count) +
+                         " D lie on the boundary of stability: their periods are limits; take "
+                         "shorter ones and let holdfast design find a D with a margin",
                      context.quiet);
     report_warning(held_force_, context.quiet);
   }

@@ -34,7 +34,7 @@ template <class Work>
 void do_hosted(JobHost& host, const nb::object& watch, const Work& work) {
   do_without_lock(
       [&] {
-        const program::HostedHere here(host);
+        const program::HostScope here(host);
         work();
       },
       [&] { tell_progress(host, watch); });
@@ -44,7 +44,7 @@ void do_hosted(JobHost& host, const nb::object& watch, const Work& work) {
 template <class Work>
 void do_hosted_here(JobHost& host, const Work& work) {
   do_here([&] {
-    const program::HostedHere here(host);
+    const program::HostScope here(host);
     work();
   });
 }

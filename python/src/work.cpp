@@ -97,7 +97,7 @@ void do_without_lock(const std::function<void()>& work, const std::function<void
           watch();
         } catch (nb::python_error& error) {
           stop.emplace(error);
-          program::ask_to_end();
+          program::request_stop();
         }
       }
       lock.lock();

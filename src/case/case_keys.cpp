@@ -31,7 +31,8 @@ struct OtherName {
   std::string_view key;
 };
 
-constexpr std::array<OtherName, 26> other_names = {{
+constexpr std::array<OtherName, 27> other_names = {{
+    {"span_length", "conductor.span"},
     {"m1", "plant.conductor_mass"},
     {"k1", "plant.conductor_stiffness"},
     {"c1", "plant.conductor_damping"},

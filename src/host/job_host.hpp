@@ -18,7 +18,7 @@ struct CaseSource;
 ///
 ///     JobHost host;
 ///     host.source = std::make_shared<CaseSource>();   // the built-in case
-///     const HostedHere here(host);
+///     const HostScope here(host);
 ///     do_job({"orbit"});
 ///     host.tables.front().columns …
 struct JobHost {
@@ -31,17 +31,17 @@ struct JobHost {
   std::atomic<std::uint64_t> steps_done{0}, steps{0};  // of the job that counts them; 0: none yet
 
  private:
-  friend class HostedHere;
+  friend class HostScope;
   static inline thread_local JobHost* innermost = nullptr;
 };
 
 /// Makes a host that of the thread while it lives; hosts may be nested.
-class HostedHere {
+class HostScope {
  public:
-  explicit HostedHere(JobHost& host) : outer_(JobHost::innermost) { JobHost::innermost = &host; }
-  ~HostedHere() { JobHost::innermost = outer_; }
-  HostedHere(const HostedHere&) = delete;
-  HostedHere& operator=(const HostedHere&) = delete;
+  explicit HostScope(JobHost& host) : outer_(JobHost::innermost) { JobHost::innermost = &host; }
+  ~HostScope() { JobHost::innermost = outer_; }
+  HostScope(const HostScope&) = delete;
+  HostScope& operator=(const HostScope&) = delete;
 
  private:
   JobHost* outer_;

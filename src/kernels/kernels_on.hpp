@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "holdfast/phase_space/approaches.hpp"
+#include "holdfast/phase_space/lane_scheduler.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
 #include "holdfast/stability/chart/loop_chart_rows.hpp"
 #include "holdfast/sweep/event_metric_batch.hpp"
@@ -38,10 +38,10 @@ class KernelsOn {
     RadiusRows radius_;
   };
 
-  class Travel final : public TravelKernel {
+  class Motion final : public MotionKernel {
    public:
-    explicit Travel(const MotionBatch<Pack>& batch) : batch_(batch) {}
-    std::unique_ptr<TravelKernel> copy() const override { return std::make_unique<Travel>(*this); }
+    explicit Motion(const MotionBatch<Pack>& batch) : batch_(batch) {}
+    std::unique_ptr<MotionKernel> copy() const override { return std::make_unique<Motion>(*this); }
     void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
              const AttractionTest& test) override {
       batch_.run(motions, count, samples, test);
@@ -78,16 +78,16 @@ class KernelsOn {
     detail::group_event_metrics<Pack>(motions, count, results, [&] { source.pause(); });
   }
 
-  static void approaches(const ImplementedLoop& loop, LaneApproaches& of_caller) {
-    run_approaches<Pack>(loop, of_caller);
+  static void approaches(const ImplementedLoop& loop, LaneScheduler& of_caller) {
+    run_on_lanes<Pack>(loop, of_caller);
   }
 
-  static std::unique_ptr<TravelKernel> travel(const PeriodicallyForcedMotion<double>& motion) {
-    return std::make_unique<Travel>(MotionBatch<Pack>(motion));
+  static std::unique_ptr<MotionKernel> propagate(const PeriodicallyForcedMotion<double>& motion) {
+    return std::make_unique<Motion>(MotionBatch<Pack>(motion));
   }
 
  public:
-  static constexpr PackKernels all{chart, metrics, event_metrics, approaches, travel};
+  static constexpr PackKernels all{chart, metrics, event_metrics, approaches, propagate};
 };
 
 }  // namespace holdfast::program

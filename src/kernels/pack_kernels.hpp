@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "holdfast/phase_space/approaches.hpp"
+#include "holdfast/phase_space/lane_scheduler.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
 #include "holdfast/sweep/event_metric_batch.hpp"
@@ -52,10 +52,10 @@ class AttractionTest {
 };
 
 /// MotionBatch on the packs of an instruction set.
-class TravelKernel {
+class MotionKernel {
  public:
-  virtual ~TravelKernel() = default;
-  virtual std::unique_ptr<TravelKernel> copy() const = 0;
+  virtual ~MotionKernel() = default;
+  virtual std::unique_ptr<MotionKernel> copy() const = 0;
   virtual void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
                    const AttractionTest& test) = 0;
 };
@@ -87,9 +87,9 @@ struct PackKernels {
   /// detail::group_event_metrics(); the source gives its pause.
   void (*event_metrics)(const detail::PreparedEventMotion* motions, std::size_t count,
                         MotionMetrics* results, MotionSource& source);
-  /// run_approaches().
-  void (*approaches)(const ImplementedLoop& loop, LaneApproaches& approaches);
-  std::unique_ptr<TravelKernel> (*travel)(const PeriodicallyForcedMotion<double>& motion);
+  /// run_on_lanes().
+  void (*approaches)(const ImplementedLoop& loop, LaneScheduler& scheduler);
+  std::unique_ptr<MotionKernel> (*propagate)(const PeriodicallyForcedMotion<double>& motion);
 };
 
 /// One unit each, compiled for its instruction set; those that the program does not have are not

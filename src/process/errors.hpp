@@ -30,11 +30,11 @@ struct OutputError : Refusal {
 
 /// Another process of the same computation has told why it ends; this one ends with the same code
 /// and in silence.
-class ToldElsewhere : public std::exception {
+class ReportedElsewhere : public std::exception {
  public:
-  explicit ToldElsewhere(int exit_code) : exit_code_(exit_code) {}
+  explicit ReportedElsewhere(int exit_code) : exit_code_(exit_code) {}
   int exit_code() const { return exit_code_; }
-  const char* what() const noexcept override { return "told by another process"; }
+  const char* what() const noexcept override { return "reported by another process"; }
 
  private:
   int exit_code_;

@@ -22,7 +22,7 @@ namespace {
 /// Whether the first of the processes that a launcher started together tells of a wrong input that
 /// all of them were given. The launcher ends the others when it has, and would end it too if one of
 /// them exited before: hence they wait. Where nothing ends them the input is wrong here alone.
-bool told_by_first_process() {
+bool first_process_reports() {
   if (mpi_launch().rank == 0) return false;
   const auto patience_ends = std::chrono::steady_clock::now() + std::chrono::seconds(5);
   while (!interrupted() && std::chrono::steady_clock::now() < patience_ends)
@@ -34,7 +34,7 @@ bool told_by_first_process() {
 std::string message_of(const std::exception_ptr& fault) {
   try {
     std::rethrow_exception(fault);
-  } catch (const ToldElsewhere&) {
+  } catch (const ReportedElsewhere&) {
     return "";
   } catch (const Interrupted& stopped) {
     return stopped.what();
@@ -54,8 +54,8 @@ std::string message_of(const std::exception_ptr& fault) {
 /// Says what there is to say of an exception that ends the program with that code.
 void tell(const std::exception_ptr& fault, int code) {
   const std::string message = message_of(fault);
-  const bool told = message.empty() || (code == exit_code::wrong_input && told_by_first_process());
-  if (!told) report_error(message);
+  const bool known = message.empty() || (code == exit_code::wrong_input && first_process_reports());
+  if (!known) report_error(message);
 }
 
 /// For where there is no memory for the words either.
@@ -104,8 +104,8 @@ void report_warning(const std::string& message, bool quiet) {
 int exit_code_of(const std::exception_ptr& fault) {
   try {
     std::rethrow_exception(fault);
-  } catch (const ToldElsewhere& told) {
-    return told.exit_code();
+  } catch (const ReportedElsewhere& reported) {
+    return reported.exit_code();
   } catch (const Interrupted&) {
     return exit_code::interrupted;
   } catch (const WrongInput&) {

@@ -15,11 +15,11 @@ inline constexpr int interrupted = 130;
 }  // namespace exit_code
 
 /// The code of an exception: WrongInput, holdfast::InvalidParameter 2; Interrupted 130; that of
-/// ToldElsewhere; anything else 1.
+/// ReportedElsewhere; anything else 1.
 int exit_code_of(const std::exception_ptr& fault);
 
 /// Runs the program's work and gives its exit code. An exception becomes one line on standard
-/// error that begins with `holdfast: `, but for ToldElsewhere, and its exit_code_of(). Of the
+/// error that begins with `holdfast: `, but for ReportedElsewhere, and its exit_code_of(). Of the
 /// processes that an MPI launcher started together, the first tells what is wrong with the input.
 int run_guarded(const std::function<int()>& work);
 

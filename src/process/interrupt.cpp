@@ -98,7 +98,7 @@ void throw_if_interrupted() {
   if (interrupted()) throw Interrupted();
 }
 
-void ask_to_end() { signals_seen.store(1); }
+void request_stop() { signals_seen.store(1); }
 
 void forget_asking() { signals_seen.store(0); }
 

@@ -32,7 +32,7 @@ bool interrupted();
 void throw_if_interrupted();
 
 /// Asks the computation to end as a signal does, without one; and takes that back.
-void ask_to_end();
+void request_stop();
 void forget_asking();
 
 /// Forgets a signal that came, so that tests can raise one.

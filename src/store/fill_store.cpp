@@ -165,7 +165,7 @@ class StoreFilling {
   /// From any thread, also to the host, which the first one alone has.
   void tell(const std::string& warning) const {
     const std::lock_guard<std::mutex> one_at_a_time(telling_);
-    std::optional<HostedHere> here;
+    std::optional<HostScope> here;
     if (host_ != nullptr) here.emplace(*host_);
     report_warning(warning, context_.quiet);
   }

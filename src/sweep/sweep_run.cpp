@@ -329,7 +329,7 @@ class SweepRun {
 
 void write_sweep(const JobContext& context, const SweepOptions& options) {
   if (options.resume && !has_named_output(context))
-    throw WrongInput("--resume needs --output, the file beside which chunks are left");
+    throw WrongInput("--resume needs the --output of the earlier run, beside which its chunks lie");
   if (mpi_launch().size > 1 && !has_named_output(context))
     throw WrongInput(
         "--output: a sweep on several processes needs a file, beside which they share their "

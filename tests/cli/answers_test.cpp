@@ -63,7 +63,7 @@ TEST(Answers, SayWhatIsLeftOnTheConductorItself) {
   EXPECT_EQ(answer.rfind("Yes", 0), 0U) << answer;
   const std::string cell = "response --p -557:-557:1 --d -4:-4:1 --quiet";
   const double here = table_of(cell).number(0, "amplitude_m");
-  EXPECT_NEAR(number_behind(answer, "of two masses "), 100.0 * here / 1.2559e-3,
+  EXPECT_NEAR(number_behind(answer, "on the plant of the case "), 100.0 * here / 1.2559e-3,
               0.6);  // the amplitude under 0.5 N without control
   const double there =
       table_of(cell + " --set plant.model=cable").number(0, "ratio_to_uncontrolled");

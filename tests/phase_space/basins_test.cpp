@@ -76,7 +76,7 @@ struct EventLanesModel : EventModel<Switching::exact> {
   static BasinsOf<EventOrbit> basins(const ImplementedLoop& loop,
                                      const std::vector<Vector<double, 4>>& states,
                                      const OrbitLimits& limits, const Tiles& tiles) {
-    return find_basins_by(run_approaches<double>, loop, states, limits, tiles);
+    return find_basins_by(run_on_lanes<double>, loop, states, limits, tiles);
   }
 };
 

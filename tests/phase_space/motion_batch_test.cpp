@@ -1,7 +1,7 @@
 #include "holdfast/phase_space/motion_batch.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
-#include "holdfast/phase_space/approaches.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
+#include "holdfast/phase_space/lane_scheduler.hpp"
 
 #include "motion/batch/event_pack_setting.hpp"
 #include "support/kollar_case.hpp"
@@ -76,9 +76,9 @@ TEST(MotionBatch, MarksDivergedMotions) {
 }
 
 /// Hands out some starts, each for so many periods, and keeps where they came to.
-class CountedApproaches final : public LaneApproaches {
+class CountedScheduler final : public LaneScheduler {
  public:
-  CountedApproaches(std::vector<Vector<double, 4>> starts, std::int64_t period, int periods)
+  CountedScheduler(std::vector<Vector<double, 4>> starts, std::int64_t period, int periods)
       : starts_(std::move(starts)), period_(period), periods_(periods), ends(starts_.size()) {}
 
   bool next(std::size_t lane, Vector<double, 4>& start) override {
@@ -114,22 +114,22 @@ TEST(Approaches, EachMotionIsThatOfEventMotion) {
   test::Random random(3);
   std::vector<Vector<double, 4>> starts;
   for (int k = 0; k < 7; ++k) starts.push_back(0.003 * random.matrix<Vector<double, 4>>());
-  CountedApproaches approaches(starts, 20, 5);
-  run_approaches<double>(motion.loop, approaches);
+  CountedScheduler scheduler(starts, 20, 5);
+  run_on_lanes<double>(motion.loop, scheduler);
   std::int64_t samples = 0;
   for (std::size_t k = 0; k < starts.size(); ++k) {
     auto alone = event_motion(motion.loop, starts[k]);
     const std::int64_t of_it = 20 * (5 + static_cast<std::int64_t>(k % 3));
     test::move_samples(alone, of_it);
     samples += of_it;
-    EXPECT_LE((alone.state() - approaches.ends[k]).cwiseAbs().maxCoeff(), 1e-12) << k;
+    EXPECT_LE((alone.state() - scheduler.ends[k]).cwiseAbs().maxCoeff(), 1e-12) << k;
   }
-  EXPECT_EQ(approaches.samples, samples);
+  EXPECT_EQ(scheduler.samples, samples);
 }
 
 TEST(Approaches, OfNothingEndAtOnce) {
-  CountedApproaches none({}, 20, 5);
-  run_approaches<double>(test::kollar_exact(0.005, 0.001).loop, none);
+  CountedScheduler none({}, 20, 5);
+  run_on_lanes<double>(test::kollar_exact(0.005, 0.001).loop, none);
   EXPECT_EQ(none.samples, 0);
 }
 

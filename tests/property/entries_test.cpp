@@ -204,7 +204,7 @@ TEST(Entries, OfStabilityRefuseByName) {
        [&](double x) { stability_chart(polynomial(), grid_of(-600, x)); }},
       {"stability_chart", "number of", no_count,
        [&](double x) {
-         stability_chart(ResolvedCircle<double>({linear_plant(masses), sampling}),
+         stability_chart(UnitCircleCrossings<double>({linear_plant(masses), sampling}),
                          grid_of(-600, x));
        }},
       {"stable_differential_gains", "gain", not_finite,

@@ -85,7 +85,7 @@ TEST(AnyOrder, ChartIsThatOfTheEigenvalues) {
   for (const double delay : {0.0, 0.0004, 0.0027}) {
     const LoopMap<double> map = loop_map(plant, {0.001, delay});
     const GainGrid grid{{-600.0, 100.0, 36}, {-30.0, 10.0, 41}};
-    const ResolvedCircle<double> circle({plant, {0.001, delay}});
+    const UnitCircleCrossings<double> circle({plant, {0.001, delay}});
     const std::vector<std::uint8_t> chart = stability_chart(circle, grid);
     int stable = 0;
     for (std::int64_t i = 0; i < grid.proportional.count; ++i) {
@@ -107,7 +107,7 @@ TEST(AnyOrder, ChartOfTwoMassesIsTheClosedForms) {
   const Sampling<double> sampling{0.01, 0.004};
   const GainGrid grid{{-600.0, 100.0, 71}, {-30.0, 10.0, 81}};
   const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
-  const ResolvedCircle<double> circle({through_ports(plant), sampling});
+  const UnitCircleCrossings<double> circle({through_ports(plant), sampling});
   EXPECT_EQ(stability_chart(circle, grid), stability_chart(polynomial, grid));
 }
 

@@ -267,13 +267,13 @@ struct Weighing {
 /// @param look   ChaosIndicators by IndicatorOptions, nothing where it cannot be followed
 /// @return whether it could be followed
 template <class Search, class Motion, class Look>
-bool weigh(ClassifiedMotion<Search>& found, const Motion& start, IndicatorOptions options,
-           const Weighing& weighing, const Look& look) {
+bool classify(ClassifiedMotion<Search>& found, const Motion& start, IndicatorOptions options,
+              const Weighing& criteria, const Look& look) {
   constexpr std::int64_t longest = 99960;  // whole parts: see IndicatorOptions::samples
   const std::optional<ChaosIndicators> indicators = look(options);
   if (!indicators) return false;
   found.indicators = *indicators;
-  if (weighing.is_forced) {
+  if (criteria.is_forced) {
     found.indicators.forcing_periods =
         options.base_frequency * static_cast<double>(options.samples);
   } else if (found.indicators.lines) {
@@ -284,9 +284,9 @@ bool weigh(ClassifiedMotion<Search>& found, const Motion& start, IndicatorOption
     found.indicators.neighbour = neighbour_distance(start, options.transient, options.samples);
   found.classification = classify(found.indicators);
   const bool is_left_open = is_open && found.classification.kind == AttractorType::undecided;
-  if (!is_left_open || !weighing.may_look_longer || options.samples >= longest) return true;
+  if (!is_left_open || !criteria.may_look_longer || options.samples >= longest) return true;
   options.transient = options.samples = longest;
-  return weigh(found, start, options, weighing, look);
+  return classify(found, start, options, criteria, look);
 }
 
 /// The classification of a loop that switches at samples, from the orbit that its motion comes to
@@ -301,7 +301,7 @@ SampledClassification classify_sampled(const Loop& loop, OrbitResult search, con
   IndicatorOptions options = indicator_options(loop.excitation.frequency * loop.sampling.period);
   options.forcing_incommensurate = found.search.outcome == OrbitOutcome::incommensurate;
   const auto known = [&](const IndicatorOptions& plan) { return std::optional(look(plan)); };
-  weigh(found, motion, options, {loop.excitation.amplitude > 0.0}, known);
+  classify(found, motion, options, {loop.excitation.amplitude > 0.0}, known);
   return found;
 }
 
@@ -319,12 +319,12 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
   const bool irregular = digital.force.record != nullptr || digital.jitter.half_width > 0.0;
   options->forcing_incommensurate =
       found.search.outcome == OrbitOutcome::incommensurate && !irregular;
-  const Weighing weighing{first_harmonic(digital.force) != nullptr,
+  const Weighing criteria{first_harmonic(digital.force) != nullptr,
                           digital.force.record == nullptr};
   const auto look = [&start](const IndicatorOptions& plan) {
     return indicators_of_motion(start, plan);
   };
-  if (!weigh(found, start, *options, weighing, look)) {
+  if (!classify(found, start, *options, criteria, look)) {
     found.classification = {};
     found.classification.rests_on =
         "Changes of contact accumulate: the motion cannot be followed further.";

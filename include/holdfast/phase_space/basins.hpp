@@ -178,18 +178,18 @@ auto basins_by(const typename Model::Loop& loop,
 
 /// Motions of a loop that move on together; each may be searched for its own orbit.
 /// @tparam LoopModel  IdealLoop<double>; ImplementedLoop in event_basins.hpp
-template <class LoopModel, class Travel>
+template <class LoopModel, class Propagator>
 struct BatchedMotions;
 
 /// Motions of an IdealLoop in a batch, each searched from where it stands.
-template <class Scalar, class Travel>
-struct BatchedMotions<IdealLoop<Scalar>, Travel> {
+template <class Scalar, class Propagator>
+struct BatchedMotions<IdealLoop<Scalar>, Propagator> {
   using Loop = IdealLoop<Scalar>;
 
   Loop loop;
   Rational ratio;
   OrbitLimits limits;
-  const Travel& travel;
+  const Propagator& propagate;
   PeriodicallyForcedMotion<double> start =
       periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval());
   std::int64_t samples = std::max<std::int64_t>(4096, 4 * ratio.denominator);  // of a round
@@ -206,7 +206,7 @@ struct BatchedMotions<IdealLoop<Scalar>, Travel> {
   template <class Tiles>
   void advance(std::vector<ActiveTrajectory>& motions, const AttractorSet<Loop>& known,
                const Tiles& for_tiles) {
-    const auto batch = travel(start);
+    const auto batch = propagate(start);
     constexpr std::size_t tile = 64;
     for_tiles(motions.size(), tile, [&](std::size_t first, std::size_t number) {
       auto own = batch;
@@ -219,19 +219,19 @@ struct BatchedMotions<IdealLoop<Scalar>, Travel> {
 }  // namespace detail
 
 /// find_basins() with another way to move the motions on.
-/// @param travel          travel(motion) gives what runs as a MotionBatch, to be copied; of an
-///                        ImplementedLoop travel(loop, approaches) moves them on
+/// @param propagate       propagate(motion) gives what runs as a MotionBatch, to be copied; of an
+///                        ImplementedLoop propagate(loop, scheduler) moves them on
 /// @param loop            with its excitation and backlash; an ImplementedLoop has_event_pack()
 /// @param initial_states  each (m, m/s, m, m/s), finite; may be none
 /// @param limits          of each search for one motion's own orbit
 /// @param for_tiles       as find_basins() takes it
 /// @throws InvalidParameter where loop, states or limits are not admissible
-template <class Travel, class Loop, class Tiles>
-auto find_basins_by(const Travel& travel, const Loop& loop,
+template <class Propagator, class Loop, class Tiles>
+auto find_basins_by(const Propagator& propagate, const Loop& loop,
                     const std::vector<Vector<double, 4>>& initial_states, const OrbitLimits& limits,
                     const Tiles& for_tiles) {
-  return detail::basins_by<detail::BatchedMotions<Loop, Travel>>(loop, initial_states, limits,
-                                                                 for_tiles, travel);
+  return detail::basins_by<detail::BatchedMotions<Loop, Propagator>>(loop, initial_states, limits,
+                                                                     for_tiles, propagate);
 }
 
 /// The attractor of each of many initial states [z₁, ż₁, z₂, ż₂].
@@ -252,8 +252,8 @@ template <class Scalar, class Tiles>
 BasinMap find_basins(const IdealLoop<double>& loop,
                      const std::vector<Vector<double, 4>>& initial_states,
                      const OrbitLimits& limits, const Tiles& for_tiles) {
-  const auto travel = [](const auto& motion) { return MotionBatch<Scalar>(motion); };
-  return find_basins_by(travel, loop, initial_states, limits, for_tiles);
+  const auto propagate = [](const auto& motion) { return MotionBatch<Scalar>(motion); };
+  return find_basins_by(propagate, loop, initial_states, limits, for_tiles);
 }
 
 }  // namespace holdfast

@@ -18,9 +18,9 @@
 #include "holdfast/orbit/event/return_map.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/state_scale.hpp"
-#include "holdfast/phase_space/approaches.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "holdfast/phase_space/basins.hpp"
+#include "holdfast/phase_space/lane_scheduler.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
 #include "holdfast/plant/port_readings.hpp"
 #include "holdfast/plant/ports.hpp"
@@ -190,14 +190,14 @@ std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limit
 /// those that come to one.
 /// @tparam Plant  TwoMass<double>
 template <class Plant = TwoMass<double>>
-class EventApproaches final : public LaneApproaches {
+class EventScheduler final : public LaneScheduler {
  public:
   using Approach = ApproachOf<Plant>;
 
   /// @param motions  `count` of them
   /// @param fresh    an approach that has not begun
-  EventApproaches(ActiveTrajectory* motions, std::size_t count, const Approach& fresh,
-                  const OrbitLimits& limits)
+  EventScheduler(ActiveTrajectory* motions, std::size_t count, const Approach& fresh,
+                 const OrbitLimits& limits)
       : next_(motions), end_(motions + count), fresh_(fresh), limits_(limits) {}
 
   bool next(std::size_t lane, Vector<double, 4>& start) override {
@@ -259,14 +259,14 @@ struct SingleMotions {
 
 /// Motions of an ImplementedLoop that has_event_pack(): all that are left go past the orbits that
 /// are known by now side by side, from their begins.
-template <class Plant, class Travel>
-struct BatchedMotions<ImplementedLoopOf<Plant>, Travel> {
+template <class Plant, class Propagator>
+struct BatchedMotions<ImplementedLoopOf<Plant>, Propagator> {
   using Loop = ImplementedLoopOf<Plant>;
 
   Loop loop;
   Rational ratio;
   OrbitLimits limits;
-  const Travel& travel;
+  const Propagator& propagate;
   std::size_t passed = 0;  // orbits that all have gone past
 
   static std::optional<Rational> ratio_of(const Loop& loop) { return forcing_ratio(loop.digital); }
@@ -284,9 +284,9 @@ struct BatchedMotions<ImplementedLoopOf<Plant>, Travel> {
     const std::int64_t samples = patience(known.orbits(), limits);
     constexpr std::size_t tile = 64;
     for_tiles(motions.size(), tile, [&](std::size_t first, std::size_t number) {
-      EventApproaches<> approaches(motions.data() + first, number,
-                                   {known, samples, ratio.denominator}, limits);
-      travel(loop, approaches);
+      EventScheduler<> scheduler(motions.data() + first, number,
+                                 {known, samples, ratio.denominator}, limits);
+      propagate(loop, scheduler);
     });
   }
 };

@@ -61,11 +61,11 @@ class PoleFinder {
   /// A mode that the absorber hardly moves, as one with a node there: what is needed of it beside
   /// what the others do.
   struct Weak {
-    std::size_t mode;  ///< n
-    Complex apart;     ///< s_n less the mode's other one
-    Complex own;       ///< ρ of H = ρ/(s − s_n) + b
-    Complex pressed;   ///< K
-    Complex held;      ///< 1 + bK
+    std::size_t mode;   ///< n
+    Complex apart;      ///< s_n less the mode's other one
+    Complex residue;    ///< ρ of H = ρ/(s − s_n) + b
+    Complex stiffness;  ///< K
+    Complex divisor;    ///< 1 + bK
   };
 
   /// The n-th mode, if it is weak: |ρK/(1 + bK)| < 10⁻⁸ |s_n|.
@@ -76,12 +76,12 @@ class PoleFinder {
     Weak found{n, apart, mode.shape * mode.shape / (mode.mass * apart),
                passive_stiffness(absorber_, s), 1.0};
     // A product that is not small has no need of b, unless b is large.
-    if (!(std::abs(found.own * found.pressed) < 1e-6 * std::abs(s))) return std::nullopt;
-    Complex others = -found.own / apart;
+    if (!(std::abs(found.residue * found.stiffness) < 1e-6 * std::abs(s))) return std::nullopt;
+    Complex others = -found.residue / apart;
     for (const PlaceMode<double>& other : modes_)
       if (&other != &mode) others += receptance<double>({other}, s);
-    found.held += others * found.pressed;
-    if (!(std::abs(found.own * found.pressed) < 1e-8 * std::abs(found.held) * std::abs(s)))
+    found.divisor += others * found.stiffness;
+    if (!(std::abs(found.residue * found.stiffness) < 1e-8 * std::abs(found.divisor) * std::abs(s)))
       return std::nullopt;
     return found;
   }
@@ -108,12 +108,11 @@ class PoleFinder {
     const Complex s = begin.s;
     const std::optional<Weak> mode = weak(n, begin);
     if (!mode) return from(s);
-    return {s - mode->own * mode->pressed / mode->held,
-            transmitted_share(absorber_, s) * mode->own / (mode->held * mode->held)};
+    return {s - mode->residue * mode->stiffness / mode->divisor,
+            transmitted_share(absorber_, s) * mode->residue / (mode->divisor * mode->divisor)};
   }
 
-  /// The natural motions of a bare mode: the one with Im s > 0 first, of an overdamped mode the
-  /// slower one.
+  /// The natural motions of a bare mode: the one with Im s > 0 first, or the slower one of two.
   static BarePair bare(const PlaceMode<double>& mode) {
     const double omega = mode.angular_frequency, zeta = mode.damping_ratio;
     const double apart = std::sqrt(std::abs(1.0 - zeta * zeta));
@@ -133,6 +132,7 @@ class PoleFinder {
       // Beside a mode that is nearly weak a step is small before the slope is right.
       settled = turn >= 2 && std::abs(step) <= 1e-15 * std::abs(s);
     }
+    if (std::abs(s.imag()) < 1e-15 * std::abs(s)) s.imag(0.0);  // a real one, but for rounding
     return {s, transmitted_share(absorber_, s) / slope};
   }
 
@@ -264,7 +264,7 @@ inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& 
 
 /// The longest sampling period (s) that shows every one of some natural motions: π over their
 /// largest |s|.
-inline double period_that_shows(const std::vector<PlantPole>& poles) {
+inline double nyquist_period(const std::vector<PlantPole>& poles) {
   double fastest = 0.0;
   for (const PlantPole& pole : poles) fastest = std::max(fastest, std::abs(pole.s));
   return pi<double> / fastest;

@@ -155,10 +155,10 @@ class SpanPoles {
   void attach(const Stiffness& stiffness, const std::vector<Complex>& own, std::size_t place) {
     std::vector<Followed> found;
     for (const Pole& pole : poles_) {
-      const Moved moved = moved_alone(pole, stiffness, place);
-      if (moved.is_weak)
-        found.push_back({pole.s, pole.s - moved.way, pole.is_pair, weakly(pole, moved)});
-      else if (const auto s = next_to(pole, moved, stiffness, place))
+      const PoleShift shift = shift_alone(pole, stiffness, place);
+      if (shift.is_weak)
+        found.push_back({pole.s, pole.s - shift.change, pole.is_pair, weakly(pole, shift)});
+      else if (const auto s = next_to(pole, shift, stiffness, place))
         found.push_back({pole.s, *s, pole.is_pair, std::nullopt});
       else
         follow(found, stiffness, pole.s, pole.is_pair, place);
@@ -173,53 +173,53 @@ class SpanPoles {
   }
 
   /// How far a pole goes by its own residue, all others staying.
-  struct Moved {
-    Complex way;                  // s_k less where it comes
-    bool is_weak;                 // so little that this is all
-    Complex pressed, held, own;   // K, 1 + bK, φ at the place
-    std::vector<Complex> others;  // of H from the place to each, without the pole
+  struct PoleShift {
+    Complex change;                              // s_k less where it comes
+    bool is_weak;                                // so little that this is all
+    Complex stiffness_here, denominator, shape;  // K, 1 + bK, φ at the place
+    std::vector<Complex> others;                 // of H from the place to each, without the pole
   };
 
   template <class Stiffness>
-  Moved moved_alone(const Pole& pole, const Stiffness& stiffness, std::size_t place) const {
-    const Complex s = pole.s, own = pole.shapes[place], pressed = stiffness(s).value;
+  PoleShift shift_alone(const Pole& pole, const Stiffness& stiffness, std::size_t place) const {
+    const Complex s = pole.s, shape = pole.shapes[place], stiffness_here = stiffness(s).value;
     std::vector<Complex> others(pole.shapes.size());
     // A motion with a node there feels nothing, though another may have its very s.
-    if (own == 0.0) return {0.0, true, pressed, 1.0, own, std::move(others)};
+    if (shape == 0.0) return {0.0, true, stiffness_here, 1.0, shape, std::move(others)};
     for (const Pole& other : poles_)
       for (std::size_t i = 0; i < others.size(); ++i) {
         if (&other != &pole) others[i] += part(other, i, place, s);
         if (&other == &pole && pole.is_pair)
-          others[i] += std::conj(pole.shapes[i] * own) / (s - std::conj(s));
+          others[i] += std::conj(pole.shapes[i] * shape) / (s - std::conj(s));
       }
-    const Complex held = 1.0 + others[place] * pressed;
-    const Complex way = own * own * pressed / held;
-    const bool is_weak = std::abs(way) < 1e-8 * std::abs(s);
-    return {way, is_weak, pressed, held, own, std::move(others)};
+    const Complex denominator = 1.0 + others[place] * stiffness_here;
+    const Complex change = shape * shape * stiffness_here / denominator;
+    const bool is_weak = std::abs(change) < 1e-8 * std::abs(s);
+    return {change, is_weak, stiffness_here, denominator, shape, std::move(others)};
   }
 
   /// A pole that the device hardly moves.
-  static Pole weakly(const Pole& pole, const Moved& moved) {
-    Pole result{pole.s - moved.way, pole.is_pair, pole.shapes};
+  static Pole weakly(const Pole& pole, const PoleShift& shift) {
+    Pole result{pole.s - shift.change, pole.is_pair, pole.shapes};
     for (std::size_t i = 0; i < result.shapes.size(); ++i)
-      result.shapes[i] -= moved.others[i] * moved.pressed * moved.own / moved.held;
+      result.shapes[i] -= shift.others[i] * shift.stiffness_here * shift.shape / shift.denominator;
     return result;
   }
 
   /// Where a pole comes that moves little beside its distance from all others, by Newton from where
   /// its residue alone brings it; nothing where that is not sure.
   template <class Stiffness>
-  std::optional<Complex> next_to(const Pole& pole, const Moved& moved, const Stiffness& stiffness,
-                                 std::size_t place) const {
-    const double way = std::abs(moved.way);
+  std::optional<Complex> next_to(const Pole& pole, const PoleShift& shift,
+                                 const Stiffness& stiffness, std::size_t place) const {
+    const double change = std::abs(shift.change);
     double nearest = pole.is_pair ? 2.0 * std::abs(pole.s.imag()) : std::abs(pole.s);
     for (const Pole& other : poles_)
       if (&other != &pole && other.shapes[place] != 0.0)
         nearest = std::min(nearest, std::abs(other.s - pole.s));
-    if (!(way < 0.02 * nearest)) return std::nullopt;
-    const Complex expected = pole.s - moved.way;
+    if (!(change < 0.02 * nearest)) return std::nullopt;
+    const Complex expected = pole.s - shift.change;
     const Complex s = polished(expected, stiffness, place);
-    if (!(std::abs(s - expected) < 0.1 * way)) return std::nullopt;
+    if (!(std::abs(s - expected) < 0.1 * change)) return std::nullopt;
     return s;
   }
 

@@ -34,17 +34,17 @@ std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& f
 
 std::string near_border_warning(double border_share) {
   if (!(border_share < near_border)) return "";
-  return "the orbit passes a switching surface at " + format_rounded(border_share) +
-         " of its own size: a change of the loop in its fourth digit may end it";
+  return "the orbit passes a switching surface at a distance of " + format_rounded(border_share) +
+         " of its own size: a relative change of the loop of that order may end it";
 }
 
 std::string shifted_copies_warning(std::int64_t period, std::int64_t coincidence) {
   const std::int64_t copies = period / coincidence;
   if (copies < 2) return "";
-  return "the orbit has " + std::to_string(copies) + " copies, each " +
+  return "the orbit has " + std::to_string(copies) + " copies, shifted by " +
          std::to_string(coincidence) +
-         " samples later: neighbours that come to different ones stay apart for good, though each "
-         "is stable; deviation tells of two";
+         " samples each: two motions that come to different copies stay apart for good, although "
+         "every copy is stable; holdfast deviation follows two motions";
 }
 
 std::string open_sign_warning(const LyapunovResult& result) {

@@ -11,7 +11,7 @@
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/stability/boundary/circle_boundary.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/chart/circle_chart.hpp"
 #include "holdfast/stability/design/modal_design.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
@@ -29,9 +29,9 @@ struct LinearLoop::ByPoles {
   const ModalResponse<double>& response() const {
     return kept(response_, [this] { return command_response_of(case_); });
   }
-  const ResolvedCircle<double>& circle() const {
+  const UnitCircleCrossings<double>& circle() const {
     const ModalResponse<double>& of = response();
-    return kept(circle_, [&of] { return ResolvedCircle<double>(of); });
+    return kept(circle_, [&of] { return UnitCircleCrossings<double>(of); });
   }
   const ConductorWithAbsorber& conductor() const {
     return kept(conductor_, [this] { return conductor_with_absorber_of(case_); });
@@ -59,7 +59,7 @@ struct LinearLoop::ByPoles {
   const Case& case_;
   mutable std::mutex guard_;
   mutable std::optional<ModalResponse<double>> response_;
-  mutable std::optional<ResolvedCircle<double>> circle_;
+  mutable std::optional<UnitCircleCrossings<double>> circle_;
   mutable std::optional<ConductorWithAbsorber> conductor_;
   mutable std::optional<LoopMap<double>> map_;  // once the roots were not found without it
 };
@@ -155,7 +155,7 @@ MaxDelay LinearLoop::longest_period(const MaxDelayOptions& question) const {
 std::vector<Interval<double>> LinearLoop::stable_gains(const MaxDelayOptions& question,
                                                        double period) const {
   if (closed_) return feasible_differential_gains(plant_of(case_), question, period);
-  const ResolvedCircle<double> circle(by_poles_->response_at(question.sampling(period)));
+  const UnitCircleCrossings<double> circle(by_poles_->response_at(question.sampling(period)));
   return circle.stable_gains(FreeGain::differential, {question.proportional_gain, 0.0});
 }
 

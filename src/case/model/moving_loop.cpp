@@ -24,7 +24,7 @@ SampledModes sampled_modes_of(const Case& the_case, bool controlled) {
 
 /// Time between samples (s) of a motion that no computer takes part in: 200 or more to a period of
 /// the force; where these would be millions, fewer whose phases are spread over it evenly.
-double period_that_shows(double frequency, double duration) {
+double resolving_period(double frequency, double duration) {
   constexpr double samples_of_cycle = 200.0, samples_of_motion = 20000.0, most_samples = 4e6;
   const double longest = duration / samples_of_motion;
   const double fine = 1.0 / (samples_of_cycle * frequency);
@@ -109,7 +109,7 @@ double divergence_bound(const MovingLoop& moving) {
 
 MovingLoop motion_without_control(const Case& the_case, double duration) {
   MovingLoop moving = moving_loop_of(without_computer(the_case), {Switching::sampled, false});
-  const double period = period_that_shows(motion_excitation_of(the_case).frequency, duration);
+  const double period = resolving_period(motion_excitation_of(the_case).frequency, duration);
   std::visit(
       [&](auto& one) {
         clock_of(one).hold = ForceHold::exact;

@@ -62,8 +62,8 @@ std::string distant_force_text(const Case& the_case) {
   return "the excitation is at " + format_rounded(frequency) +
          " Hz, far from the natural frequencies of " + format_rounded(first) + " and " +
          format_rounded(second) +
-         " Hz that the plant is reduced for: set reduction.first_frequency and "
-         "reduction.second_frequency to two about it";
+         " Hz that the plant is reduced for: set reduction.second_frequency to about the "
+         "excitation's, reduction.first_frequency to that of the absorber on its spring";
 }
 
 std::string joined_texts(const std::vector<std::string>& texts) {

@@ -16,8 +16,8 @@ namespace holdfast::program {
 namespace {
 
 /// Ends of τ and δ of a modal case are walked; one that was passed over is where the proof ends.
-void put_right(StabilityMargins& found, const ProvedMargins& proved, const Case& the_case,
-               const PdGains<double>& gains) {
+void correct_by_proof(StabilityMargins& found, const ProvedMargins& proved, const Case& the_case,
+                      const PdGains<double>& gains) {
   const auto poles = loop_poles_of(the_case);
   const Sampling<double> sampling = sampling_of(the_case);
   const auto end = [&](MarginEnd& walked, const ProvedMarginEnd& known, bool of_period) {
@@ -43,7 +43,7 @@ bool reaches(const ProvedMargin& proved, const TwoSidedMargin& walked, double va
 
 /// Looks at every τ and δ between those of the case and the ends that the walk has found, and puts
 /// these right, as far as a second or so allows; not at all where that is a few steps.
-bool look_everywhere(StabilityMargins& found, const Case& the_case, const PdGains<double>& gains) {
+bool search_by_proof(StabilityMargins& found, const Case& the_case, const PdGains<double>& gains) {
   const auto poles = poles_if_proved(the_case);
   if (poles.empty() || found.outcome != MarginOutcome::stable) return false;
   const Sampling<double> sampling = sampling_of(the_case);
@@ -55,7 +55,7 @@ bool look_everywhere(StabilityMargins& found, const Case& the_case, const PdGain
   const bool everywhere =
       reaches(proved.sampling_period, found.sampling_period, sampling.period) &&
       reaches(proved.processing_delay, found.processing_delay, sampling.processing_delay);
-  put_right(found, proved, the_case, gains);
+  correct_by_proof(found, proved, the_case, gains);
   return everywhere;
 }
 
@@ -74,7 +74,7 @@ GainMargins gain_margins(const LinearLoop& loop, const PdGains<double>& gains) {
 CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains) {
   const LinearLoop loop(the_case);
   StabilityMargins margins = loop.margins(gains);
-  const bool everywhere = !loop.walks() || look_everywhere(margins, the_case, gains);
+  const bool everywhere = !loop.walks() || search_by_proof(margins, the_case, gains);
   return {margins, everywhere};
 }
 
@@ -84,7 +84,7 @@ ProvedMargins proved_margins_of(const Case& the_case, const PdGains<double>& gai
                                               gains, found, {}, [] { throw_if_interrupted(); });
   if (proved.stability != ProvedStability::stable)
     throw NoAnswer("the loop is too near the boundary of stability to be proved stable");
-  if (!has_closed_forms(the_case)) put_right(found, proved, the_case, gains);
+  if (!has_closed_forms(the_case)) correct_by_proof(found, proved, the_case, gains);
   return proved;
 }
 

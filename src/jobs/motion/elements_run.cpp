@@ -48,7 +48,7 @@ Eigen::VectorXd bent_to(const CableElements& cable, double z1) {
     force = next;
     start = cable.held_by(force);
   }
-  throw NoAnswer("no equilibrium of the elements was found with the absorber's place at " +
+  throw NoAnswer("no static equilibrium of the elements was found with the absorber's place at " +
                  format_number(z1) + " m");
 }
 

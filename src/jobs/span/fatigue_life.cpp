@@ -157,13 +157,13 @@ FatigueLife fatigue_life_of(const Case& the_case, bool controlled, double lowest
   const SafeBorderLine line = life_line_of(the_case);
   life.damage_bare = bare.damage(line);
   life.stress_bare = bare.stress();
-  const bool is_told = !balance.is_growing();
+  const bool is_known = !balance.is_growing();
   const Band none{std::nan(""), std::nan(""), std::nan("")};
-  life.damage = is_told ? damped.damage(line) : none;
-  life.stress = is_told ? damped.stress() : none;
-  life.worst_frequency = is_told ? damped.worst_frequency() : none.value;
+  life.damage = is_known ? damped.damage(line) : none;
+  life.stress = is_known ? damped.stress() : none;
+  life.worst_frequency = is_known ? damped.worst_frequency() : none.value;
   share_out(bare.parts(line),
-            is_told ? damped.parts(line) : std::vector<Band>(life.by_speed.size(), none), life);
+            is_known ? damped.parts(line) : std::vector<Band>(life.by_speed.size(), none), life);
   return life;
 }
 

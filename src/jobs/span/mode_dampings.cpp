@@ -112,9 +112,9 @@ std::vector<ModeRow> mode_rows_of(const Case& the_case, int count, bool controll
 
 std::string growth_text(const Case& the_case, const std::vector<ModeRow>& modes) {
   const bool is_judged = !the_case.devices.empty() || has_chosen_modes(the_case);
-  const ResolvedCircle<double> circle = is_judged
-                                            ? judged_loop_of(the_case).circle
-                                            : ResolvedCircle<double>(command_response_of(the_case));
+  const UnitCircleCrossings<double> circle =
+      is_judged ? judged_loop_of(the_case).circle
+                : UnitCircleCrossings<double>(command_response_of(the_case));
   const int outside = circle.roots_outside(gains_of(the_case));
   int growing = 0;
   std::string names;

@@ -92,7 +92,7 @@ void make_collective_call(ProcessGroup& group, const std::function<void()>& step
       group.exchange(fault ? std::to_string(exit_code_of(fault)) : "");
   if (fault) std::rethrow_exception(fault);
   for (const std::string& code : codes)
-    if (!code.empty()) throw ToldElsewhere(std::stoi(code));
+    if (!code.empty()) throw ReportedElsewhere(std::stoi(code));
 }
 
 }  // namespace holdfast::program

@@ -131,21 +131,21 @@ std::vector<MotionRow> paper_motions(const Case& the_case) {
   std::optional<KnownMotion> from_rest;
   const toml::table texts = toml::parse(page_texts);
   for (const toml::node& node : *texts["paper motions"].as_array()) {
-    const toml::array& told = *node.as_array();
-    const std::string period = text_of(told[1]), width = text_of(told[2]);
+    const toml::array& entry = *node.as_array();
+    const std::string period = text_of(entry[1]), width = text_of(entry[2]);
     std::string settings =
         " --set control.sampling_period=" + period + " --set backlash.width=" + width;
     Case changed = case_with(the_case, "control.sampling_period", *parse_number(period));
     set_case_value(changed, "backlash.width", *parse_number(width));
-    const bool rests = told.size() == 3;
+    const bool rests = entry.size() == 3;
     if (!rests) {
-      const std::string displacement = text_of(told[3]);
+      const std::string displacement = text_of(entry[3]);
       set_case_value(changed, "initial.z1", *parse_number(displacement));
       settings += " --set initial.z1=" + displacement;
     }
     const KnownMotion motion = known_motion(changed);
-    const std::string text = loop_text(changed) + ", from " + (rests ? "rest" : text_of(told[4]));
-    rows.push_back(row_of(text_of(told[0]), text, motion, settings));
+    const std::string text = loop_text(changed) + ", from " + (rests ? "rest" : text_of(entry[4]));
+    rows.push_back(row_of(text_of(entry[0]), text, motion, settings));
     if (rests)
       from_rest = motion;
     else

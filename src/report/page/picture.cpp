@@ -112,7 +112,7 @@ const toml::array& row_for(const PictureRequest& request) {
                      " has no picture; its table is written as .csv");
   }
   throw WrongInput("--output " + request.context.output->string() + ": " + job +
-                   " has a picture with " + needed + " alone; its table is written as .csv");
+                   " draws a picture only with " + needed + "; its table is written as .csv");
 }
 
 /// The keys of its axes and their values; of a chart over the gains P and D.

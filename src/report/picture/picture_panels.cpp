@@ -63,14 +63,14 @@ PanelAxis axis_of(double from, double to, bool decades) {
 }
 
 /// As `measure` of texts/figures.toml has it, heights from below.
-PicturePanel panel_of(const std::vector<double>& told) {
-  return {told[0],
-          1.0 - told[3],
-          told[1],
-          1.0 - told[2],
-          axis_of(told[4], told[5], told[10] != 0.0),
-          axis_of(told[6], told[7], told[11] != 0.0),
-          axis_of(told[8], told[9], false)};
+PicturePanel panel_of(const std::vector<double>& described) {
+  return {described[0],
+          1.0 - described[3],
+          described[1],
+          1.0 - described[2],
+          axis_of(described[4], described[5], described[10] != 0.0),
+          axis_of(described[6], described[7], described[11] != 0.0),
+          axis_of(described[8], described[9], false)};
 }
 
 /// "displacement (mm)"
@@ -160,8 +160,8 @@ std::vector<PicturePanel> measured_panels(const std::string& messages) {
   std::vector<PicturePanel> panels;
   for (const std::string_view line : split(messages, '\n')) {
     if (begins_with(line, of_panel)) {
-      const std::vector<double> told = numbers_of(line);
-      if (told.size() == 12) panels.push_back(panel_of(told));
+      const std::vector<double> described = numbers_of(line);
+      if (described.size() == 12) panels.push_back(panel_of(described));
     } else if (!panels.empty()) {
       tell(panels.back(), trimmed(line));
     }
@@ -194,13 +194,13 @@ std::string plain_label(const std::string& label) {
 std::string panels_json(const std::vector<PicturePanel>& panels) {
   Json list = Json::array();
   for (const PicturePanel& panel : panels) {
-    Json told;
-    told["box"] = {of_picture(panel.left), of_picture(panel.top), of_picture(panel.right),
-                   of_picture(panel.bottom)};
-    add_axis(told, "x", panel.x);
-    add_axis(told, "y", panel.y);
-    add_axis(told, "right", panel.right_axis);
-    list.push_back(std::move(told));
+    Json described;
+    described["box"] = {of_picture(panel.left), of_picture(panel.top), of_picture(panel.right),
+                        of_picture(panel.bottom)};
+    add_axis(described, "x", panel.x);
+    add_axis(described, "y", panel.y);
+    add_axis(described, "right", panel.right_axis);
+    list.push_back(std::move(described));
   }
   return list.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -18,9 +18,9 @@ Eigen::MatrixXd normal_entries(Random& random, Eigen::Index n) {
 double radius_of(const Eigen::MatrixXd& matrix) { return moduli_of(matrix)[0]; }
 
 /// S(0) of a spectral radius, whose eigenvalues move by about `step` over the stretch.
-MovingMatrix drawn_stretch(Random& random, Eigen::Index n, double radius, double step) {
+TaylorMatrix drawn_stretch(Random& random, Eigen::Index n, double radius, double step) {
   const Eigen::MatrixXd centre = normal_entries(random, n);
-  MovingMatrix moving{{centre * (radius / radius_of(centre)) - Eigen::MatrixXd::Identity(n, n)},
+  TaylorMatrix moving{{centre * (radius / radius_of(centre)) - Eigen::MatrixXd::Identity(n, n)},
                       1e-3 * step * normal_entries(random, n).cwiseAbs()};
   double size = step;
   for (int k = 1; k <= 4; ++k, size *= 0.3)
@@ -29,7 +29,7 @@ MovingMatrix drawn_stretch(Random& random, Eigen::Index n, double radius, double
 }
 
 /// S(x) with a share of the remainder, of which any sign may be the true one.
-Eigen::MatrixXd matrix_at(const MovingMatrix& moving, double x, Random& random) {
+Eigen::MatrixXd matrix_at(const TaylorMatrix& moving, double x, Random& random) {
   const Eigen::Index n = moving.remainder.rows();
   Eigen::MatrixXd sum = moving.terms.back();
   for (std::size_t k = moving.terms.size() - 1; k > 0; --k)
@@ -39,7 +39,7 @@ Eigen::MatrixXd matrix_at(const MovingMatrix& moving, double x, Random& random) 
 }
 
 /// The largest radius among 41 matrices of the stretch.
-double sampled_radius(const MovingMatrix& moving, Random& random) {
+double sampled_radius(const TaylorMatrix& moving, Random& random) {
   double largest = 0.0;
   for (int i = -20; i <= 20; ++i)
     largest = std::max(largest, radius_of(matrix_at(moving, i / 20.0, random)));
@@ -52,7 +52,7 @@ TEST(MovingSpectrum, NoMatrixOfAProvedStretchHasARootOutside) {
   for (int draw = 0; draw < 400; ++draw) {
     const auto n = static_cast<Eigen::Index>(1 + random.index(8));
     const double gap = 1.0 / random.log_uniform(1.0, 1000.0);
-    const MovingMatrix moving =
+    const TaylorMatrix moving =
         drawn_stretch(random, n, 1.0 - gap, gap * std::exp(random.uniform(-5.0, 2.0)));
     const MovingSpectrum roots(moving);
     EXPECT_TRUE(roots.inside_at_centre()) << draw;
@@ -70,14 +70,14 @@ TEST(MovingSpectrum, ProvesWhatMovesLittle) {
   Random random(311);
   for (int draw = 0; draw < 100; ++draw) {
     const double gap = std::exp(random.uniform(-6.0, 0.0));
-    const MovingMatrix moving = drawn_stretch(random, 5, 1.0 - gap, 1e-4 * gap);
+    const TaylorMatrix moving = drawn_stretch(random, 5, 1.0 - gap, 1e-4 * gap);
     EXPECT_TRUE(MovingSpectrum<double>(moving).inside()) << draw;
   }
 }
 
 // A double root at the centre has no basis of eigenvectors, and must not need one.
 TEST(MovingSpectrum, TakesRootsThatCoincide) {
-  MovingMatrix moving{{Eigen::MatrixXd::Zero(3, 3)}, Eigen::MatrixXd::Zero(3, 3)};
+  TaylorMatrix moving{{Eigen::MatrixXd::Zero(3, 3)}, Eigen::MatrixXd::Zero(3, 3)};
   moving.terms[0] << -0.5, 0.1, 0.0, 0.0, -0.5, 0.1, 0.0, 0.0, -0.5;
   moving.terms.emplace_back(0.01 * Eigen::MatrixXd::Ones(3, 3));
   EXPECT_TRUE(MovingSpectrum<double>(moving).inside());
@@ -87,7 +87,7 @@ TEST(MovingSpectrum, TakesRootsThatCoincide) {
 
 TEST(MovingSpectrum, WhatIsOutsideOrNotFiniteHasNoProof) {
   Random random(312);
-  MovingMatrix moving = drawn_stretch(random, 4, 1.01, 1e-6);
+  TaylorMatrix moving = drawn_stretch(random, 4, 1.01, 1e-6);
   EXPECT_FALSE(MovingSpectrum<double>(moving).inside_at_centre());
   moving = drawn_stretch(random, 4, 0.5, 1e-6);
   moving.remainder(2, 1) = std::numeric_limits<double>::infinity();
@@ -102,11 +102,11 @@ TEST(MovingSpectrum, ResponsesHoldAllOverTheStretch) {
   const std::complex<double> turn(0.0, 0.02);
   for (int draw = 0; draw < 60; ++draw) {
     const Eigen::Index n = 5;
-    MovingMatrix moving = drawn_stretch(random, n, 0.9, 1e-3);
+    TaylorMatrix moving = drawn_stretch(random, n, 0.9, 1e-3);
     const MovingSpectrum roots(moving);
     ASSERT_TRUE(roots.inside()) << draw;
     const double angle = random.uniform(-3.0, 3.0);
-    MovingNumber from_one{{}, std::pow(0.02, 5) / 120.0};
+    TaylorNumber from_one{{}, std::pow(0.02, 5) / 120.0};
     MovingVector source{{}, Eigen::VectorXd::Zero(n)};
     std::complex<double> term = std::polar(1.0, angle);
     for (std::size_t k = 0; k < 5; ++k) {
@@ -116,7 +116,7 @@ TEST(MovingSpectrum, ResponsesHoldAllOverTheStretch) {
                                 normal_entries(random, n).col(0).cast<std::complex<double>>());
     }
     const Eigen::MatrixXd rows = normal_entries(random, n).topRows(2);
-    const std::vector<MovingNumber> answers = roots.responses(from_one, source, rows);
+    const std::vector<TaylorNumber> answers = roots.responses(from_one, source, rows);
     ASSERT_EQ(answers.size(), 2U);
     for (const double x : {-1.0, -0.4, 0.0, 0.7, 1.0}) {
       Eigen::VectorXcd g = Eigen::VectorXcd::Zero(n);
@@ -126,7 +126,7 @@ TEST(MovingSpectrum, ResponsesHoldAllOverTheStretch) {
           on_circle * Eigen::MatrixXd::Identity(n, n) - matrix_at(moving, x, random);
       const Eigen::VectorXcd expected = rows.cast<std::complex<double>>() * solution_of(shifted, g);
       for (Eigen::Index i = 0; i < 2; ++i) {
-        const MovingNumber& answer = answers[static_cast<std::size_t>(i)];
+        const TaylorNumber& answer = answers[static_cast<std::size_t>(i)];
         std::complex<double> sum = 0.0;
         for (std::size_t k = answer.terms.size(); k > 0; --k) sum = x * sum + answer.terms[k - 1];
         EXPECT_LE(std::abs(sum - expected[i]), answer.remainder + 1e-12 * answer.size())

@@ -36,7 +36,7 @@ JobContext builtin_context() {
 
 TEST(JobHost, TakesTablesInPlaceOfText) {
   JobHost host;
-  const HostedHere here(host);
+  const HostScope here(host);
   testing::internal::CaptureStdout();
   Table table(builtin_context(), columns);
   table.expect(3);
@@ -59,7 +59,7 @@ TEST(JobHost, TakesTablesInPlaceOfText) {
 
 TEST(JobHost, RefusesRowsOfAnotherWidth) {
   JobHost host;
-  const HostedHere here(host);
+  const HostScope here(host);
   Table table(builtin_context(), columns);
   EXPECT_THROW(table.row(0.5, 1), std::logic_error);
   Table other(builtin_context(), columns);
@@ -71,7 +71,7 @@ TEST(JobHost, RefusesRowsOfAnotherWidth) {
 TEST(JobHost, LeavesTablesOfFilesToTheFiles) {
   const TemporaryFolder folder;
   JobHost host;
-  const HostedHere here(host);
+  const HostScope here(host);
   JobContext context = builtin_context();
   context.output = folder / "out.csv";
   Table table(context, columns);
@@ -100,7 +100,7 @@ TEST(JobHost, ColumnsTakeWhatIsNotOfTheirKind) {
 
 TEST(JobHost, TakesGridsWithTheirAxes) {
   JobHost host;
-  const HostedHere here(host);
+  const HostScope here(host);
   const GridLayout layout{
       {{{"p", "N/m", "P"}, Axis{0.0, 1.0, 2}}, {{"d", "", "D"}, Axis{3.0, 5.0, 3}}},
       {{{"stable", "", "", "integer"}, {"no", "yes"}}, {{"radius", "", ""}, {}}}};
@@ -119,7 +119,7 @@ TEST(JobHost, GetsWarningsAndProgressOfItsThread) {
   JobHost host;
   testing::internal::CaptureStderr();
   {
-    const HostedHere here(host);
+    const HostScope here(host);
     report_warning("of a value", true);
     report_error("of an outcome");
     Progress progress(10, "stability", false);
@@ -135,7 +135,7 @@ TEST(JobHost, GetsWarningsAndProgressOfItsThread) {
 }
 
 TEST(JobHost, AsksAComputationToEnd) {
-  ask_to_end();
+  request_stop();
   EXPECT_TRUE(interrupted());
   EXPECT_THROW(throw_if_interrupted(), Interrupted);
   forget_asking();
@@ -151,7 +151,7 @@ TEST(JobHost, FillsChartsAsTheJobDoes) {
   const ChartRows rows = stability_chart_of(the_case, grid, true, InstructionSet::baseline);
   fill_chart(rows, {41, stable.data(), {radius.data()}}, 2);
   JobHost host;
-  const HostedHere here(host);
+  const HostScope here(host);
   write_chart(builtin_context(), {gain_axes(grid), cell_columns_of("sampled stability")}, rows);
   EXPECT_EQ(host.tables.at(0).columns[1].numbers(), radius);
   for (std::size_t cell = 0; cell < stable.size(); ++cell)

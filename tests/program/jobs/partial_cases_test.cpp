@@ -81,7 +81,7 @@ Said said_of(const Words& job, const std::string& text) {
   host.source = std::make_shared<CaseSource>();
   host.source->text = text;
   host.source->name = "case.toml";
-  const HostedHere here(host);
+  const HostScope here(host);
   Said said;
   try {
     do_job(job);

@@ -4,7 +4,7 @@
 #include "holdfast/stability/chart/circle_arcs.hpp"
 
 #include "holdfast/control/loop_map.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "support/dense_routes.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/string_loop.hpp"
@@ -167,7 +167,7 @@ TEST(CircleArcs, MeetTheRealRoots) {
 TEST(CircleArcs, LeaveWhatIsFree) {
   Random random(3);
   for (const StringLoop& setting : arc_loops()) {
-    const ResolvedCircle<double> doubles(setting.doubles());
+    const UnitCircleCrossings<double> doubles(setting.doubles());
     CircleArcs circle(setting.enclosed());
     int boxes = 0, crossed = 0;
     for (int trial = 0; trial < 300; ++trial) {

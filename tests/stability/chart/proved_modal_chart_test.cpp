@@ -3,7 +3,7 @@
 
 #include "holdfast/stability/chart/proved_modal_chart.hpp"
 #include "holdfast/control/loop_map.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 
 #include "support/dense_routes.hpp"
 #include "support/random.hpp"
@@ -58,7 +58,7 @@ TEST(ProvedModalChart, NoEigenvalueContradictsIt) {
   for (const StringLoop& setting : charted_loops()) {
     const ProvedChart chart = chart_of(setting);
     const LoopMap<double> map = setting.map();
-    const ResolvedCircle<double> circle(setting.doubles());
+    const UnitCircleCrossings<double> circle(setting.doubles());
     std::array<int, 3> asked{};
     for (int trial = 0; trial < 20000; ++trial) {
       const auto& [box, stability] = chart.boxes[random.index(chart.boxes.size())];
@@ -87,7 +87,7 @@ TEST(ProvedModalChart, NoEigenvalueContradictsIt) {
 TEST(ProvedModalChart, StableCellsHoldNoBoundary) {
   for (const StringLoop& setting : charted_loops()) {
     const ProvedChart chart = chart_of(setting);
-    const ResolvedCircle<double> circle(setting.doubles());
+    const UnitCircleCrossings<double> circle(setting.doubles());
     int seen = 0;
     for (double p = -990.0; p < 200.0; p += 61.7)
       for (const auto& interval : circle.stable_gains(FreeGain::differential, {p, 0.0}))

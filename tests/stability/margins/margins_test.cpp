@@ -407,7 +407,7 @@ TEST(SamplingFamily, TheMovingMapIsTheMapAllOverTheStretch) {
                                 ? Family::of_period(plant, fraction)
                                 : Family::of_delay(plant, period, held_commands({1.0, fraction}));
       const double position = by_period ? period : fraction * period, radius = 0.3 * period;
-      const MovingMatrix moving = family.moving(family.map_at(position), gains, radius);
+      const TaylorMatrix moving = family.moving(family.map_at(position), gains, radius);
       for (const double x : {-0.9, -0.3, 0.4, 0.9}) {
         const Eigen::MatrixXd map = family.map_at(position + x * radius).closed_increment(gains);
         Eigen::MatrixXd sum = moving.terms.back();

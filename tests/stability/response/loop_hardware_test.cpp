@@ -5,7 +5,7 @@
 #include "holdfast/cable/taut_string.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/conductor_with_absorber.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/response/modal_damping.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
@@ -68,7 +68,7 @@ TEST(LoopHardware, StabilityIsThatOfTheEigenvalues) {
     const ConductorWithAbsorber of = conductor(9, hardware);
     const Sampling<double> sampling{0.002, 0.0011};
     const ModalResponse<double> response = modal_response(of, sampling);
-    const ResolvedCircle<double> circle(response);
+    const UnitCircleCrossings<double> circle(response);
     const LoopMap<double> map = loop_map(linear_plant(of), sampling);
     for (int draw = 0; draw < 20; ++draw) {
       const PdGains<double> gains{random.uniform(-900.0, 300.0), random.uniform(-15.0, 8.0)};

@@ -4,7 +4,7 @@
 
 #include "holdfast/cable/taut_string.hpp"
 #include "holdfast/control/loop_map.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
 #include "holdfast/stability/response/modal_damping.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
@@ -110,7 +110,7 @@ TEST(VelocityByDifference, IsTheMapWithAReadingMore) {
         least = std::max(least, (values.array() - root).abs().minCoeff());
       EXPECT_LT(least, 1e-6);  // roots next to 0 are not told better by eigenvalues
       const int outside = static_cast<int>((values.cwiseAbs().array() > 1.0).count());
-      EXPECT_EQ(ResolvedCircle<double>(response).roots_outside(gains), outside);
+      EXPECT_EQ(UnitCircleCrossings<double>(response).roots_outside(gains), outside);
     }
     for (const double omega : {21.0, 62.8}) {
       const auto input = harmonic_input(plant, loop_map(plant, sampling), ForceHold::exact, omega);

@@ -12,14 +12,14 @@
 #include "holdfast/math/linalg/balancing.hpp"
 #include "holdfast/math/linalg/eigenbasis.hpp"
 #include "holdfast/math/linalg/elimination.hpp"
-#include "holdfast/math/linalg/moving_number.hpp"
+#include "holdfast/math/linalg/taylor_number.hpp"
 
 namespace holdfast {
 
 /// A real matrix that moves with a number x, −1 ≤ x ≤ 1, about the one at x = 0:
 ///
 ///     S(x) = I + Σ_k terms[k] xᵏ + R(x),   |R_ij(x)| ≤ remainder_ij
-struct MovingMatrix {
+struct TaylorMatrix {
   std::vector<Eigen::MatrixXd> terms;  ///< terms[0] = S(0) − I and so on, n × n each, at least two
   Eigen::MatrixXd remainder;           ///< n × n, ≥ 0
 };
@@ -57,7 +57,7 @@ class MovingSpectrum {
 
   /// @param matrix  finite; a matrix that is not has no proof
   /// @throws InvalidParameter for fewer than two terms, or where the sizes disagree
-  explicit MovingSpectrum(const MovingMatrix& matrix);
+  explicit MovingSpectrum(const TaylorMatrix& matrix);
 
   /// Whether all eigenvalues of S(0) are computed to lie inside the unit circle.
   bool inside_at_centre() const { return inside_at_centre_; }
@@ -72,7 +72,7 @@ class MovingSpectrum {
   /// @param source    g(x), likewise
   /// @param rows      c, any number of them, each n wide
   /// @throws InvalidParameter for another number of terms, or rows of another width
-  std::vector<MovingNumber> responses(const MovingNumber& from_one, const MovingVector& source,
+  std::vector<TaylorNumber> responses(const TaylorNumber& from_one, const MovingVector& source,
                                       const Eigen::MatrixXd& rows) const;
 
  private:
@@ -85,7 +85,7 @@ class MovingSpectrum {
 
   /// The terms in the coordinates V = Q X, in which S(0) is diagonal but for the pairs that are not
   /// apart, and what is not in them.
-  void take(const MovingMatrix& matrix) {
+  void take(const TaylorMatrix& matrix) {
     const Eigen::Index n = matrix.remainder.rows();
     const BalancedMatrix<double, Eigen::Dynamic> similar(matrix.terms.front());
     const Eigen::VectorXd factors = similar.factors, inverse = factors.cwiseInverse();
@@ -269,7 +269,7 @@ class MovingSpectrum {
 };
 
 template <class Scalar>
-MovingSpectrum<Scalar>::MovingSpectrum(const MovingMatrix& matrix) {
+MovingSpectrum<Scalar>::MovingSpectrum(const TaylorMatrix& matrix) {
   require_within("number of terms", static_cast<double>(matrix.terms.size()), "", 2.0, 1e6);
   for (const Eigen::MatrixXd& term : matrix.terms) {
     require_size("rows of a term", term.rows(), matrix.remainder.rows());
@@ -283,7 +283,7 @@ MovingSpectrum<Scalar>::MovingSpectrum(const MovingMatrix& matrix) {
 }
 
 template <class Scalar>
-std::vector<MovingNumber> MovingSpectrum<Scalar>::responses(const MovingNumber& from_one,
+std::vector<TaylorNumber> MovingSpectrum<Scalar>::responses(const TaylorNumber& from_one,
                                                             const MovingVector& source,
                                                             const Eigen::MatrixXd& rows) const {
   require_size("number of terms", static_cast<Eigen::Index>(from_one.terms.size()),
@@ -310,7 +310,7 @@ std::vector<MovingNumber> MovingSpectrum<Scalar>::responses(const MovingNumber& 
   missed = unit.template triangularView<Eigen::UnitLower>().solve(missed);
   missed = eliminated(reserve_, missed).cwiseAbs();
   missed += turned_ * missed;
-  std::vector<MovingNumber> result;
+  std::vector<TaylorNumber> result;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     const Eigen::RowVectorXcd row = rows.row(i) * basis_;
     result.push_back({{}, row.cwiseAbs().dot(missed)});

@@ -43,17 +43,17 @@ class StructuralRank {
   void begin(Carried quantity) { carried_ |= bit(quantity); }
 
   /// A quantity acts on z, and may go on doing so.
-  void act(Carried quantity) { settle(quantity, 1, 0); }
+  void act(Carried quantity) { eliminate(quantity, 1, 0); }
 
   /// A quantity is given up.
   void end(Carried quantity) {
-    settle(quantity, 0, 0);
+    eliminate(quantity, 0, 0);
     carried_ &= ~bit(quantity);
   }
 
   /// A quantity is given up, and lives on in another one that is new.
   void become(Carried quantity, Carried other) {
-    settle(quantity, 0, bit(other));
+    eliminate(quantity, 0, bit(other));
     if ((carried_ & bit(quantity)) != 0) carried_ = (carried_ & ~bit(quantity)) | bit(other);
   }
 
@@ -74,7 +74,7 @@ class StructuralRank {
   }
 
   /// Takes a quantity out of all sets that hold it, at a cost, or puts another one in its place.
-  void settle(Carried quantity, int cost, unsigned other) {
+  void eliminate(Carried quantity, int cost, unsigned other) {
     for (unsigned set = 0; set < sets; ++set) {
       if ((set & bit(quantity)) == 0 || least_[set] == none) continue;
       int& cut = least_[(set & ~bit(quantity)) | other];

@@ -77,7 +77,7 @@ class RootIteration {
 
   /// @param enough  how far a root may be off, as a share of its distance from the unit circle
   /// @return whether all of them settled, and their sum is what the polynomial says
-  bool settle(const Scalar& enough) {
+  bool converge(const Scalar& enough) {
     enough_ = enough;
     std::vector<char> settled(steps_.size(), 0);
     for (std::size_t i = 0; i < poles_; ++i) settled[i] = mirrors_[i] < i ? 1 : 0;
@@ -324,8 +324,8 @@ std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late,
   if (sum.parts.empty() || sum.power > 19) return {};
   detail::RootIteration<Scalar> iteration(sum, extra, true);
   // Where two have settled on one real root, or an extra one on one of a pair, all begin anew.
-  if (!iteration.settle(enough) && !(enough > Scalar(0) && iteration.settle(Scalar(0))) &&
-      !(iteration = {sum, extra, false}).settle(Scalar(0)))
+  if (!iteration.converge(enough) && !(enough > Scalar(0) && iteration.converge(Scalar(0))) &&
+      !(iteration = {sum, extra, false}).converge(Scalar(0)))
     return {};
   auto roots = iteration.roots();
   for (; of_dead > 1; --of_dead) roots.emplace_back(0);

@@ -165,10 +165,10 @@ class NaturalMotions {
       shape.weak = true;
       shape.mode = weak->mode;
       shape.own = 1.0 / (mode.mass * weak->apart);
-      shape.place = mode.shape * shape.own / weak->held;
-      shape.force = -weak->pressed * shape.place;
+      shape.place = mode.shape * shape.own / weak->divisor;
+      shape.force = -weak->stiffness * shape.place;
       shape.scale = 1.0 / shape.own;
-      shape.read = mode.shape / weak->held;
+      shape.read = mode.shape / weak->divisor;
     } else {
       shape.read = pole.residue / (shape.place * detail::transmitted_share(loop_.absorber, pole.s));
       shape.scale = shape.read / shape.place;

@@ -69,7 +69,7 @@ class EventPassage {
       set.centre[place(i)] = Number(state[i]);
       set.spread.row(place(i)) = axes.row(i).template cast<Number>();
     }
-    settle(path_.samples[sample].before.mode, set);
+    prepare(path_.samples[sample].before.mode, set);
     return set;
   }
   /// Place in w of a coordinate of [z₁, ż₁, z₂, ż₂, u_{j−1}, g].
@@ -105,8 +105,8 @@ class EventPassage {
         !jump(here.switches[next++].begun, set))
       return false;
     if (!pass_part(1, next, set)) return false;
-    settle(mode_, set);
-    keep_witness(set, !here.switches.empty() || here.from.mode != here.before.mode);
+    prepare(mode_, set);
+    record_witness(set, !here.switches.empty() || here.from.mode != here.before.mode);
     return next == here.switches.size();
   }
 
@@ -137,7 +137,7 @@ class EventPassage {
   }
 
   /// Imposes what a contact keeps exactly: Δż = 0 and Δz = g in stick, no g while engaged.
-  void hold(ContactMode mode, Set& set) const {
+  void constrain(ContactMode mode, Set& set) const {
     if (mode == ContactMode::stick) {
       set.assign(3, Modes::unit(1));
       set.assign(2, Modes::unit(0) + Modes::unit(FlowPlace::gap));
@@ -147,8 +147,8 @@ class EventPassage {
 
   /// At a sample also: u_{j−1} is forgotten where u_j is in force at once, and a gap that is never
   /// left is given.
-  void settle(ContactMode mode, Set& set) const {
-    hold(mode, set);
+  void prepare(ContactMode mode, Set& set) const {
+    constrain(mode, set);
     if (!moves_gap_) set.spread.row(FlowPlace::gap).setZero();
     if (!is_late()) set.assign(FlowPlace::command, Number());
   }
@@ -164,22 +164,22 @@ class EventPassage {
     set.assign(FlowPlace::time, Number());
   }
 
-  void keep_witness(const Set& set, bool has_changed) {
+  void record_witness(const Set& set, bool has_changed) {
     if (has_changed) witness_ = set;
-    if (witness_) settle(mode_, *witness_);
+    if (witness_) prepare(mode_, *witness_);
   }
 
   /// The command or the force has jumped; only stick may end by that.
   bool jump(const RecordedContact& to, Set& set) {
     if (to.mode == mode_) return true;
     if (mode_ != ContactMode::stick || to.sign != sign_) return false;
-    hold(ContactMode::stick, set);
+    constrain(ContactMode::stick, set);
     if (to.mode == ContactMode::engaged) {
       // The drive would rather enter the gap where nothing pushes it on.
       const Row pushed_on = Number(sign_) * modes_.free_acceleration();
       if (!test(about(ContactSurface::free_acceleration, 0, now(set)), set.range(pushed_on)))
         return false;
-      hold(to.mode, set);
+      constrain(to.mode, set);
     }
     begin(to, to.mode == ContactMode::gap ? 2 : 1);
     return true;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/chart/chart.hpp"
 
 namespace holdfast {
@@ -15,7 +15,7 @@ namespace holdfast {
 /// @param differential  D (N s/m) along it
 /// @param stable        of as many cells, which are written
 template <class Scalar>
-void fill_stability_row(const ResolvedCircle<Scalar>& circle, const Scalar& proportional,
+void fill_stability_row(const UnitCircleCrossings<Scalar>& circle, const Scalar& proportional,
                         const Axis& differential, std::uint8_t* stable) {
   std::fill(stable, stable + differential.count, std::uint8_t{0});
   for (const auto& interval :
@@ -28,13 +28,13 @@ void fill_stability_row(const ResolvedCircle<Scalar>& circle, const Scalar& prop
 
 /// Stable (1) or not (0) for every cell of a grid of gains, of a loop of any order; P slowest.
 ///
-/// The stable intervals of D of each row, by `ResolvedCircle`. Of the two masses `stability_chart`
-/// of the characteristic polynomial says the same a hundred times as fast.
+/// The stable intervals of D of each row, by `UnitCircleCrossings`. Of the two masses
+/// `stability_chart` of the characteristic polynomial says the same a hundred times as fast.
 /// @param circle  of the loop
 /// @param grid    of gains
 /// @throws InvalidParameter where the grid is not admissible
 template <class Scalar>
-std::vector<std::uint8_t> stability_chart(const ResolvedCircle<Scalar>& circle,
+std::vector<std::uint8_t> stability_chart(const UnitCircleCrossings<Scalar>& circle,
                                           const GainGrid& grid) {
   validate(grid);
   const std::int64_t width = grid.differential.count;

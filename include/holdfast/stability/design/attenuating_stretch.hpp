@@ -24,9 +24,9 @@ inline double tail_beyond(double next, double rate, std::size_t order) {
 }
 
 /// e^{iωτ} − 1 within `radius` of a period τ, `terms` terms.
-inline MovingNumber moving_phase(double omega, double period, double radius, std::size_t terms) {
+inline TaylorNumber moving_phase(double omega, double period, double radius, std::size_t terms) {
   const double angle = omega * period;
-  MovingNumber result{{circle_increment(angle)}, 0.0};
+  TaylorNumber result{{circle_increment(angle)}, 0.0};
   std::complex<double> term = std::polar(1.0, angle);
   for (std::size_t j = 1; j <= terms; ++j) {
     term *= std::complex<double>(0.0, omega * radius / static_cast<double>(j));
@@ -91,23 +91,23 @@ Stretch attenuation(const Plant& plant, const SamplingFamily<Plant>& family,
                     const PdGains<double>& gains, ForceHold hold, double omega, double period,
                     double radius, double reference) {
   const LoopMap<double> map = family.map_at(period);
-  const MovingMatrix closed = family.moving(map, gains, radius);
+  const TaylorMatrix closed = family.moving(map, gains, radius);
   const MovingSpectrum roots(closed);
   if (!roots.inside()) return roots.inside_at_centre() ? Stretch::open : Stretch::fails;
   const std::size_t terms = closed.terms.size();
-  const MovingNumber phase = moving_phase(omega, period, radius, terms);
+  const TaylorNumber phase = moving_phase(omega, period, radius, terms);
   Eigen::MatrixXd rows(2, map.size());
   rows << map.conductor, gains.proportional * map.displacement + gains.differential * map.velocity;
   const auto y = roots.responses(phase, moving_input(plant, map, hold, omega, radius, terms), rows);
   if (std::isfinite(reference)) {
-    MovingNumber held{std::vector<std::complex<double>>(y[0].terms.size()), 0.0};
+    TaylorNumber held{std::vector<std::complex<double>>(y[0].terms.size()), 0.0};
     held.terms[0] = reference;
     return stretch_of(squares_difference(held, y[0]));
   }
   auto by_command = roots.responses(phase, family.moving_command(map, radius), rows);
   by_command[1].terms[0] += 1.0;
-  const MovingNumber controlled = y[0] * by_command[1];
-  const MovingNumber free = sum_of(controlled, by_command[0] * y[1], -1.0);
+  const TaylorNumber controlled = y[0] * by_command[1];
+  const TaylorNumber free = sum_of(controlled, by_command[0] * y[1], -1.0);
   return stretch_of(squares_difference(free, controlled));
 }
 

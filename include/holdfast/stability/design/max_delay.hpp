@@ -21,7 +21,7 @@
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/design/attenuating_stretch.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
@@ -113,7 +113,7 @@ SteadyResponse<Scalar> delay_response(const ConductorWithAbsorber& plant,
 template <class Scalar = double>
 DelayOffer delay_offer(const ConductorWithAbsorber& plant, const MaxDelayOptions& options,
                        double sampling_period) {
-  const ResolvedCircle<Scalar> circle(
+  const UnitCircleCrossings<Scalar> circle(
       modal_response<Scalar>(plant, options.sampling(sampling_period)));
   DelayOffer offer{circle.stable_gains(FreeGain::differential, {options.proportional_gain, 0.0})};
   if (options.criterion != DelayCriterion::stable && !offer.stable.empty())
@@ -230,7 +230,7 @@ class DelaySearch {
                        ? true_amplitude_per_force(plant, options.angular_frequency())
                        : std::numeric_limits<double>::quiet_NaN()) {
     if constexpr (is_walked_)
-      shown_ = std::min(period_that_shows(with_hardware(plant.poles, plant.hardware)),
+      shown_ = std::min(nyquist_period(with_hardware(plant.poles, plant.hardware)),
                         0.5 / options.frequency);
   }
 

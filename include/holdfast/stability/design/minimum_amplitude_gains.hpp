@@ -5,7 +5,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/core/interval_sets.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/modal_design.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
@@ -23,7 +23,7 @@ namespace detail {
 
 /// The D of least amplitude at one P, among those of a modulus margin.
 template <class Scalar>
-MinimumAmplitude quietest_at_modulus(const ResolvedCircle<Scalar>& circle, double p,
+MinimumAmplitude quietest_at_modulus(const UnitCircleCrossings<Scalar>& circle, double p,
                                      const AmplitudeOptions& options,
                                      const SteadyResponse<Scalar>& response) {
   auto admissible = ModulusLevels<Scalar>(circle, p).beyond(Scalar(options.margin));
@@ -70,7 +70,7 @@ MinimumAmplitudeGains minimum_amplitude_gains(const ModalResponse<Scalar>& loop,
   require_positive("width of the range of P", range.upper - range.lower, "N/m");
   if (!(2.0 * frequency * options.sampling.period < 1.0))
     return {std::nan(""), {MinimumAmplitudeOutcome::aliased}};
-  const ResolvedCircle<Scalar> circle(loop);
+  const UnitCircleCrossings<Scalar> circle(loop);
   MinimumAmplitudeGains best{std::nan(""), {MinimumAmplitudeOutcome::none}};
   const auto ask = [&](double p) {
     const MinimumAmplitude there = detail::quietest_at_modulus(circle, p, options, response);

@@ -11,7 +11,7 @@
 #include "holdfast/core/interval_sets.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/plant/conductor_with_absorber.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/design/minimax_amplitude.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
@@ -22,7 +22,7 @@
 namespace holdfast {
 
 /// The open intervals of D (N s/m) at which every root of a loop has |λ| < radius, by
-/// `ResolvedCircle` of G(λ radius).
+/// `UnitCircleCrossings` of G(λ radius).
 /// @param response           of the plant by its poles
 /// @param proportional_gain  P (N/m), finite
 /// @param radius             > 0
@@ -34,8 +34,8 @@ std::vector<Interval<Scalar>> differential_gains_within_radius(
     const detail::Undeduced<Scalar>& radius) {
   const auto scaled = response.at_radius(radius - Scalar(1));
   if (!scaled) return {};
-  return ResolvedCircle<Scalar>(*scaled).stable_gains(FreeGain::differential,
-                                                      {proportional_gain, Scalar(0)});
+  return UnitCircleCrossings<Scalar>(*scaled).stable_gains(FreeGain::differential,
+                                                           {proportional_gain, Scalar(0)});
 }
 
 namespace detail {
@@ -112,7 +112,7 @@ namespace detail {
 template <class Scalar>
 class ModulusLevels {
  public:
-  ModulusLevels(const ResolvedCircle<Scalar>& circle, const Scalar& proportional_gain)
+  ModulusLevels(const UnitCircleCrossings<Scalar>& circle, const Scalar& proportional_gain)
       : stable_(circle.stable_gains(FreeGain::differential, {proportional_gain, Scalar(0)})) {
     for (const auto& place : circle.places()) {
       const CommandResponse<Scalar> g = circle.response().at_angle(place.angle);
@@ -203,7 +203,7 @@ std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<
                                                             const AmplitudeOptions& options) {
   if (options.by_decay || !(options.margin > 0.0))
     return detail::gains_that_decay(response, proportional_gain, options);
-  const detail::ModulusLevels<Scalar> levels(ResolvedCircle<Scalar>(response), proportional_gain);
+  const detail::ModulusLevels<Scalar> levels{UnitCircleCrossings(response), proportional_gain};
   const auto best = levels.largest();
   if (!(best.modulus > Scalar(0))) return {};
   const Scalar margin(options.margin);
@@ -253,7 +253,7 @@ struct ConductorOverBand {
   /// λ − 1 of the loop's roots.
   std::vector<std::complex<double>> loop_roots(const PdGains<double>& gains) const {
     auto found = holdfast::loop_roots(loop, gains);
-    if (found.empty()) return ResolvedCircle<Scalar>(loop).roots_nearby(gains);
+    if (found.empty()) return UnitCircleCrossings<Scalar>(loop).roots_nearby(gains);
     for (std::complex<double>& root : found) root -= 1.0;
     return found;
   }

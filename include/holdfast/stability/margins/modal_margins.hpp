@@ -11,7 +11,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/plant/plant_poles.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 
@@ -35,7 +35,7 @@ struct ModalMargins {
 
   TwoSidedMargin of_gain(FreeGain free) const {
     const Scalar value = gain_of(gains, free);
-    const auto stable = ResolvedCircle<Scalar>(response).stable_gains(free, gains);
+    const auto stable = UnitCircleCrossings<Scalar>(response).stable_gains(free, gains);
     return margin_in(stable, value, [&](Scalar position) {
       const Scalar outside = position + Scalar(1e-9) * (position - value);
       return boundary_at(response, with_gain(gains, free, outside), position, value,
@@ -45,7 +45,7 @@ struct ModalMargins {
 
   /// Stable interval of a common factor of both gains, about 1.
   Interval<Scalar> factors() const {
-    const ResolvedCircle<Scalar> circle(loop_response());
+    const UnitCircleCrossings<Scalar> circle(loop_response());
     for (const Interval<Scalar>& interval : circle.stable_gains(FreeGain::differential, {}))
       if (interval.contains(Scalar(1))) return interval;
     return {Scalar(1), Scalar(1)};
@@ -59,7 +59,7 @@ struct ModalMargins {
     };
     const auto level = [&](const Scalar& angle) { return std::norm(loop_gain(angle)) - Scalar(1); };
     Scalar least = std::numeric_limits<Scalar>::infinity(), before(0), at_before(-1);
-    const ResolvedCircle<Scalar> circle(response);
+    const UnitCircleCrossings<Scalar> circle(response);
     for (const auto& [angle, g] : circle.places()) {
       const Scalar here = level(angle);
       if ((here > Scalar(0)) != (at_before > Scalar(0))) {
@@ -157,7 +157,7 @@ struct ModalMargins {
   Scalar excess_of(const Response& other) const {
     const Scalar excess = loop_excess(other, gains, Scalar(1e-3));
     if (std::isfinite(excess)) return excess;
-    const bool stable = ResolvedCircle<Scalar>(other).roots_outside(gains) == 0;
+    const bool stable = UnitCircleCrossings<Scalar>(other).roots_outside(gains) == 0;
     return stable ? -std::numeric_limits<Scalar>::min() : std::numeric_limits<Scalar>::min();
   }
 
@@ -167,7 +167,7 @@ struct ModalMargins {
                                Scalar value, Scalar period) {
     std::complex<Scalar> root = largest_loop_root(there, with);
     if (!std::isfinite(std::abs(root)))
-      root = Scalar(1) + ResolvedCircle<Scalar>(there).roots_nearby(with).front();
+      root = Scalar(1) + UnitCircleCrossings<Scalar>(there).roots_nearby(with).front();
     return crossing_end(root, std::abs(root - Scalar(1)), position, value, period);
   }
 };
@@ -177,7 +177,7 @@ struct ModalMargins {
 /// How far D, P, τ and δ, each on its own, are from the boundary of stability, of a loop by the
 /// poles of its plant.
 ///
-/// D and P as `ResolvedCircle` has them. τ and δ are walked, τ by 5 % and δ by an eighth of a
+/// D and P as `UnitCircleCrossings` has them. τ and δ are walked, τ by 5 % and δ by an eighth of a
 /// sample at a time, with all roots at each step: a stretch of instability narrower than a step is
 /// missed, which `proved_sampling_margins` would find, and what is not met is `beyond_search`,
 /// never `none` but for δ = 0.

@@ -121,14 +121,14 @@ class SamplingFamily {
   /// @param map     of `map_at`, at the centre
   /// @param gains   P and D
   /// @param radius  (s), ≥ 0
-  MovingMatrix moving(const LoopMap<double>& map, const PdGains<double>& gains,
+  TaylorMatrix moving(const LoopMap<double>& map, const PdGains<double>& gains,
                       double radius) const {
     constexpr int order = 12;
     const Eigen::Index size = map.size(), n = size - map.held_commands;
     const Eigen::MatrixXd a = plant_.state_matrix();
     Eigen::MatrixXd by_period = period_rate() * rate_by_period(map);
     Eigen::MatrixXd by_action = action_rate() * rate_by_action(map, gains);
-    MovingMatrix result{{map.closed_increment(gains)}, Eigen::MatrixXd::Zero(size, size)};
+    TaylorMatrix result{{map.closed_increment(gains)}, Eigen::MatrixXd::Zero(size, size)};
     double factor = radius;  // radiusʲ/j!
     for (int j = 1; j <= order; ++j) {
       result.terms.emplace_back(Eigen::MatrixXd::Zero(size, size));
@@ -158,7 +158,7 @@ class SamplingFamily {
     LoopMap<double> alone = map;
     alone.displacement = Eigen::RowVectorXd::Zero(size);
     alone.velocity = Eigen::RowVectorXd::Unit(size, 0);
-    const MovingMatrix fed = moving(alone, {0.0, 1.0}, radius);
+    const TaylorMatrix fed = moving(alone, {0.0, 1.0}, radius);
     MovingVector result{{map.command.cast<std::complex<double>>()},
                         fed.remainder.rowwise().maxCoeff()};
     const Eigen::MatrixXd a = plant_.state_matrix();

@@ -83,8 +83,8 @@ class ModalResponse {
     for (int k = 0; k < commands_; ++k) factor /= radius;
     scaled.unstable_ = 0;
     scaled.poles_ = {};
-    scaled.poles_.past_z = poles_.past_z * factor / radius;
-    scaled.poles_.past_v = poles_.past_v * factor / radius;
+    scaled.poles_.past_z = poles_.past_z * factor;
+    scaled.poles_.past_v = poles_.past_v * factor;
     for (Pole pole : poles_.all()) {
       pole.increment = (pole.increment - offset) / radius;
       pole.displacement *= factor;

@@ -73,10 +73,10 @@ CableDecay decay_of(const CableElements& cable, const CableDecayOptions& options
                        format_rounded(removal.last_time) +
                        " s, and its model ends: take a smaller force");
     case cvode::LoadRemovalOutcome::no_equilibrium:
-      throw NoAnswer("under " + force + " no equilibrium of the elements was found");
+      throw NoAnswer("under " + force + " no static equilibrium of the elements was found");
     case cvode::LoadRemovalOutcome::integration_failed:
-      throw NoAnswer("CVODE gave up after " + format_number(removal.last_time) +
-                     " s: " + one_line(removal.words));
+      throw NoAnswer("the integrator CVODE failed at t = " + format_number(removal.last_time) +
+                     " s of the decay: " + one_line(removal.words));
   }
   return {removal.initial_displacement, removal.record};
 }

@@ -162,9 +162,9 @@ bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {
 
 OtherModes other_modes_of(const Case& the_case) {
   if (has_own_plant(the_case))
-    return {ResolvedCircle<double>(command_response_of(the_case)), "with all modes"};
+    return {UnitCircleCrossings<double>(command_response_of(the_case)), "with all modes"};
   const auto circle_by = [&](const ConductorModes& modes) {
-    return ResolvedCircle<double>(response_of(the_case, modes));
+    return UnitCircleCrossings<double>(response_of(the_case, modes));
   };
   const ConductorModes kept = conductor_modes_of(the_case);
   if (std::isfinite(the_case.plant.modes))
@@ -183,7 +183,7 @@ JudgedLoop loop_on_string(Case the_case, ConductorModes (*modes_of)(const Case&)
   the_case.plant.model = "string";
   the_case.plant.modes = std::nan("");
   const ConductorModes modes = modes_of(the_case);
-  return {ResolvedCircle<double>(response_of(the_case, modes)), modes.apart,
+  return {UnitCircleCrossings<double>(response_of(the_case, modes)), modes.apart,
           modes.highest_frequency()};
 }
 

@@ -16,7 +16,7 @@
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/loop_hardware.hpp"
 #include "holdfast/plant/plant_poles.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/response/response.hpp"
 
 namespace holdfast::program {
@@ -52,7 +52,7 @@ bool is_stable_with_clamp(const Case& the_case, double clamp_mass);
 
 /// Other modes of the same conductor, to show how far an answer depends on those kept.
 struct OtherModes {
-  ResolvedCircle<double> circle;
+  UnitCircleCrossings<double> circle;
   std::string words;  ///< "with all modes"
 
   bool is_stable(const PdGains<double>& gains) const { return circle.roots_outside(gains) == 0; }
@@ -66,7 +66,7 @@ OtherModes other_modes_of(const Case& the_case);
 /// taut string with all devices, by all modes that the sampling can excite (`judged_modes_of`),
 /// whatever plant.model and plant.modes say.
 struct JudgedLoop {
-  ResolvedCircle<double> circle;
+  UnitCircleCrossings<double> circle;
   int modes;       ///< so many one by one, the faster ones bundled
   double highest;  ///< Hz, of the last of them
 

@@ -41,7 +41,7 @@ struct GainPassage {
 /// Work: about 30 angles a pole once (`ModalResponse::Nearby`), then some 10 operations an angle
 /// and 10 values of G a passage. No power of λ and no determinant is formed.
 template <class Scalar>
-class ResolvedCircle {
+class UnitCircleCrossings {
  public:
   /// G at an angle.
   struct Place {
@@ -50,7 +50,7 @@ class ResolvedCircle {
   };
 
   /// @param response  of the loop; kept
-  explicit ResolvedCircle(ModalResponse<Scalar> response) : response_(std::move(response)) {
+  explicit UnitCircleCrossings(ModalResponse<Scalar> response) : response_(std::move(response)) {
     using Nearby = typename ModalResponse<Scalar>::Nearby;
     const Scalar close(0.12);
     // Nearer to the real axis than that Im X is round-off.
@@ -350,7 +350,7 @@ Scalar loop_excess_or_turn(const ModalResponse<Scalar>& response, const PdGains<
   if (std::isfinite(excess)) return excess;
   if (!response.at_radius(Scalar(0))) return std::numeric_limits<Scalar>::quiet_NaN();
   const auto holds_all = [&](const Scalar& offset) {
-    return ResolvedCircle<Scalar>(*response.at_radius(offset)).roots_outside(gains) == 0;
+    return UnitCircleCrossings<Scalar>(*response.at_radius(offset)).roots_outside(gains) == 0;
   };
   const Scalar sign(holds_all(Scalar(0)) ? -1 : 1);
   const auto is_beyond = [&](const Scalar& size) { return holds_all(sign * size) == (sign > 0); };
@@ -368,7 +368,7 @@ Scalar loop_excess_or_turn(const ModalResponse<Scalar>& response, const PdGains<
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template class ResolvedCircle<double>;
+extern template class UnitCircleCrossings<double>;
 #endif
 
 }  // namespace holdfast

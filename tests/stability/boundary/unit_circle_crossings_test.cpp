@@ -1,7 +1,7 @@
 // Passages and root counts of loops of any order on the resolved circle: against the pencil of
 // circle_crossings, against the eigenvalues of the loop's map, and against values computed apart.
 
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/cable/taut_string.hpp"
 #include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
@@ -62,7 +62,7 @@ struct Compared {
   int stable = 0, unstable = 0;
 };
 
-void compare_row(const RandomSpan& span, const ResolvedCircle<double>& circle,
+void compare_row(const RandomSpan& span, const UnitCircleCrossings<double>& circle,
                  const LoopMap<double>& map, FreeGain free, Random& random, Compared& compared) {
   const bool by_d = free == FreeGain::differential;
   const PdGains<double> held{random.uniform(-2.0, 1.0) * span.stiffness,
@@ -100,7 +100,7 @@ Compared compare(const SpanRange& range, int draws, std::uint64_t seed) {
   for (int draw = 0; draw < draws; ++draw) {
     SCOPED_TRACE(draw);
     const RandomSpan span = random_span(random, range);
-    const ResolvedCircle<double> circle({span.plant, span.sampling});
+    const UnitCircleCrossings<double> circle({span.plant, span.sampling});
     const LoopMap<double> map = loop_map(span.plant, span.sampling);
     for (int row = 0; row < 6; ++row)
       compare_row(span, circle, map, row % 2 == 0 ? FreeGain::differential : FreeGain::proportional,
@@ -111,7 +111,7 @@ Compared compare(const SpanRange& range, int draws, std::uint64_t seed) {
 
 /// Stable D of the paper's conductor as a taut string, by eigenvalues of the augmented map in
 /// another program.
-TEST(ResolvedCircle, StableGainsOfThePapersString) {
+TEST(UnitCircleCrossings, StableGainsOfThePapersString) {
   struct Row {
     int modes;
     double clamp_mass, period, delay, proportional, from, to;
@@ -120,7 +120,7 @@ TEST(ResolvedCircle, StableGainsOfThePapersString) {
                          Row{40, 0.010, 0.001, 0.0, -557.0, -33.050641432, 4.563099517},
                          Row{40, 0.010, 0.003, 0.003, -557.0, -7.339352696, 3.300516682},
                          Row{40, 0.020, 0.005, 0.0, 0.0, -1.565813520, 4.926156571}}) {
-    const ResolvedCircle<double> circle(
+    const UnitCircleCrossings<double> circle(
         {paper_string(row.modes, row.clamp_mass), {row.period, row.delay}});
     const auto stable = circle.stable_gains(FreeGain::differential, {row.proportional, 0.0});
     ASSERT_EQ(stable.size(), 1U);
@@ -129,24 +129,24 @@ TEST(ResolvedCircle, StableGainsOfThePapersString) {
   }
 }
 
-TEST(ResolvedCircle, CellsAndRootsOutsideAreThoseOfTheEigenvalues) {
+TEST(UnitCircleCrossings, CellsAndRootsOutsideAreThoseOfTheEigenvalues) {
   const Compared compared = compare({20}, 20, 253);
   EXPECT_GT(compared.stable, 200);
   EXPECT_GT(compared.unstable, 200);
 }
 
-TEST(ResolvedCircle, HoldsForFastAndForSlowComputers) {
+TEST(UnitCircleCrossings, HoldsForFastAndForSlowComputers) {
   EXPECT_GT(compare({8, 1e-4, 0.05, 1e-7, 1e-2}, 15, 254).stable, 50);
   EXPECT_GT(compare({8, 1e-4, 0.05, 3.0, 3000.0}, 15, 255).stable, 50);
 }
 
 /// A command that is on its way for k samples turns G by (k − 1) θ.
-TEST(ResolvedCircle, HoldsForDelaysOfManySamples) {
+TEST(UnitCircleCrossings, HoldsForDelaysOfManySamples) {
   EXPECT_GT(compare({4, 1e-3, 0.05, 0.02, 1.0, 30.0}, 15, 256).stable, 50);
   EXPECT_GT(compare({2, 1e-3, 0.05, 0.02, 1.0, 120.0}, 3, 257).unstable, 20);
 }
 
-TEST(ResolvedCircle, HoldsWhereLittleOrNothingIsDamped) {
+TEST(UnitCircleCrossings, HoldsWhereLittleOrNothingIsDamped) {
   EXPECT_GT(compare({10, 1e-7, 1e-4, 1e-3, 1.0}, 15, 258).stable, 50);
   EXPECT_GT(compare({10, 0.0, 0.0}, 15, 259).stable, 50);
   EXPECT_GT(compare({10, 1e-4, 0.05, 0.02, 1.0, 2.5, false}, 15, 260).stable, 20);
@@ -155,10 +155,10 @@ TEST(ResolvedCircle, HoldsWhereLittleOrNothingIsDamped) {
 
 /// At λ = 1 neither gain moves the loop, since drive and conductor push each other: the passages
 /// that round-off leaves there, at gains of 10¹² and more, are none.
-TEST(ResolvedCircle, PassagesOfRoundOffAreNone) {
+TEST(UnitCircleCrossings, PassagesOfRoundOffAreNone) {
   const LinearPlant<double> plant = modal_plant<double>({{10.0, 1e-4, 1.0, 1.0}}, {0.1, 10.0, 0.4});
   for (const double period : {1e-4, 1e-5, 1e-6}) {
-    const ResolvedCircle<double> circle({plant, {period}});
+    const UnitCircleCrossings<double> circle({plant, {period}});
     const auto stable = circle.stable_gains(FreeGain::proportional, {0.0, 0.0});
     ASSERT_EQ(stable.size(), 1U) << period;
     EXPECT_TRUE(stable[0].contains(-1.0)) << period;
@@ -166,8 +166,8 @@ TEST(ResolvedCircle, PassagesOfRoundOffAreNone) {
   }
 }
 
-TEST(ResolvedCircle, GainsThatAreNoiseEndWithoutACount) {
-  const ResolvedCircle<double> circle({paper_string(10, 0.010), {0.001}});
+TEST(UnitCircleCrossings, GainsThatAreNoiseEndWithoutACount) {
+  const UnitCircleCrossings<double> circle({paper_string(10, 0.010), {0.001}});
   EXPECT_EQ(circle.roots_outside({NAN, 0.0}), -1);
   EXPECT_EQ(circle.roots_outside({0.0, INFINITY}), -1);
   EXPECT_TRUE(circle.stable_gains(FreeGain::differential, {1e200, 0.0}).empty());
@@ -175,7 +175,7 @@ TEST(ResolvedCircle, GainsThatAreNoiseEndWithoutACount) {
 }
 
 /// Of either gain, and of loops with delays, filters and lags.
-TEST(ResolvedCircle, IntervalsAreThoseOfThePencil) {
+TEST(UnitCircleCrossings, IntervalsAreThoseOfThePencil) {
   Random random(255);
   int compared = 0;
   for (int draw = 0; draw < 100; ++draw) {
@@ -189,7 +189,7 @@ TEST(ResolvedCircle, IntervalsAreThoseOfThePencil) {
     const PdGains<double> held{random.uniform(-2.0, 1.0) * span.stiffness,
                                random.uniform(-1.0, 0.0) * span.resistance};
     SCOPED_TRACE(draw);
-    const auto found = ResolvedCircle<double>({plant, span.sampling}).stable_gains(free, held);
+    const auto found = UnitCircleCrossings<double>({plant, span.sampling}).stable_gains(free, held);
     const auto expected = stable_gains(loop_map(plant, span.sampling), free, held);
     compared += expect_same_intervals(found, expected, 1e-7);
   }
@@ -198,11 +198,11 @@ TEST(ResolvedCircle, IntervalsAreThoseOfThePencil) {
 
 /// A hundred modes, where no polynomial has a digit left: stable just inside, unstable just
 /// outside, by the eigenvalues of a map of 203 rows.
-TEST(ResolvedCircle, HoldsAtTwoHundredStates) {
+TEST(UnitCircleCrossings, HoldsAtTwoHundredStates) {
   const LinearPlant<double> plant = paper_string(100, 0.010);
   const Sampling<double> sampling{0.003, 0.0};
-  const auto stable =
-      ResolvedCircle<double>({plant, sampling}).stable_gains(FreeGain::differential, {-557.0, 0.0});
+  const auto stable = UnitCircleCrossings<double>({plant, sampling})
+                          .stable_gains(FreeGain::differential, {-557.0, 0.0});
   ASSERT_EQ(stable.size(), 1U);
   const LoopMap<double> map = loop_map(plant, sampling);
   const double lower = stable[0].lower;
@@ -215,12 +215,12 @@ TEST(ResolvedCircle, HoldsAtTwoHundredStates) {
 constexpr double impedance = 0.67;
 
 /// The force straight on the string.
-ResolvedCircle<double> circle(double clamp_mass, double period) {
+UnitCircleCrossings<double> circle(double clamp_mass, double period) {
   const PlaceMode<double> mode = infinite_string_mode(impedance, clamp_mass, period);
   const auto [s, partner] = holdfast::detail::PoleFinder::bare(mode);
   const std::complex<double> residue = mode.shape * mode.shape / (mode.mass * (s - partner));
   const std::vector<PlantPole> poles = {{s, residue}, {partner, -residue}};
-  return ResolvedCircle<double>(modal_response(poles, {period}));
+  return UnitCircleCrossings<double>(modal_response(poles, {period}));
 }
 
 /// λ² − (1 + (Pτ + D)/(2 Z_c)) λ + D/(2 Z_c) = 0: stable inside (0, −2Z_c), (0, 2Z_c), (−8Z_c/τ,
@@ -228,7 +228,7 @@ ResolvedCircle<double> circle(double clamp_mass, double period) {
 TEST(InfiniteString, StableGainsFormATriangle) {
   constexpr double twice = 2.0 * impedance;
   for (const double period : {1e-3, 0.02}) {
-    const ResolvedCircle<double> string = circle(0.0, period);
+    const UnitCircleCrossings<double> string = circle(0.0, period);
     for (const double share : {0.01, 0.3, 0.7, 0.99}) {
       const double p = -8.0 * impedance / period * share;
       const auto stable = string.stable_gains(FreeGain::differential, {p, 0.0});
@@ -250,7 +250,7 @@ TEST(InfiniteString, AClampMassWidensThem) {
     const std::vector<PlaceMode<double>> modes = {infinite_string_mode(impedance, mass, period)};
     const auto poles = plant_poles(modes, {1e9, 1e-6, damping, 0.0});
     ASSERT_FALSE(poles.empty());
-    const ResolvedCircle<double> string(modal_response(poles, {period}));
+    const UnitCircleCrossings<double> string(modal_response(poles, {period}));
     const auto stable = string.stable_gains(FreeGain::differential, {0.0, 0.0});
     ASSERT_FALSE(stable.empty());
     EXPECT_NEAR(stable[0].lower, -c / std::tanh(c * period / (2.0 * mass)), 1e-7 * c) << mass;

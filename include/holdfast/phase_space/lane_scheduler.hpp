@@ -13,12 +13,12 @@
 namespace holdfast {
 
 /// Assigns motions of one loop to the lanes of a SIMD pack and decides when each ends.
-class LaneApproaches {
+class LaneScheduler {
  public:
-  LaneApproaches() = default;
-  LaneApproaches(const LaneApproaches&) = delete;
-  LaneApproaches& operator=(const LaneApproaches&) = delete;
-  virtual ~LaneApproaches() = default;
+  LaneScheduler() = default;
+  LaneScheduler(const LaneScheduler&) = delete;
+  LaneScheduler& operator=(const LaneScheduler&) = delete;
+  virtual ~LaneScheduler() = default;
 
   /// Gives a lane its next motion from `start` [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s). @return false
   /// where none is left
@@ -35,11 +35,11 @@ class LaneApproaches {
 /// the stroboscopic instant at which its own has ended. Samples are counted from each of those
 /// instants, so that no rounding of late instants lets sampling and forcing drift apart.
 /// @param loop        of which has_event_pack(), whose sampling and forcing coincide every
-///                    approaches.period() samples
-/// @param approaches  hands the motions out
+///                    scheduler.period() samples
+/// @param scheduler  hands the motions out
 /// @throws InvalidParameter where the loop is not admissible
 template <class Scalar>
-void run_approaches(const ImplementedLoop& loop, LaneApproaches& approaches) {
+void run_on_lanes(const ImplementedLoop& loop, LaneScheduler& scheduler) {
   using Pack = EventPack<Scalar>;
   constexpr std::size_t lanes = Pack::lanes;
   EventTable table(loop);
@@ -51,23 +51,23 @@ void run_approaches(const ImplementedLoop& loop, LaneApproaches& approaches) {
     pack.restart_index(0);
     bool some = false;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      if (taken[lane] && approaches.goes_on(lane, pack.state(lane), !pack.accumulates(lane))) {
+      if (taken[lane] && scheduler.goes_on(lane, pack.state(lane), !pack.accumulates(lane))) {
         some = true;
         continue;
       }
       if (!taken[lane] && !begins) continue;
       Vector<double, 4> start;
       taken[lane] = false;
-      while (!taken[lane] && approaches.next(lane, start))
-        taken[lane] = approaches.goes_on(lane, start, true);
+      while (!taken[lane] && scheduler.next(lane, start))
+        taken[lane] = scheduler.goes_on(lane, start, true);
       taken[lane] ? pack.restart(lane, start) : pack.sleep(lane);
       some = some || taken[lane];
     }
     if (!some) return;
-    for (std::int64_t j = 0; j < approaches.period(); ++j) {
+    for (std::int64_t j = 0; j < scheduler.period(); ++j) {
       pack.sense();
       for (std::size_t lane = 0; lane < lanes; ++lane)
-        if (taken[lane]) approaches.took(lane, pack.contact(lane).word());
+        if (taken[lane]) scheduler.took(lane, pack.contact(lane).word());
       pack.advance();
     }
   }

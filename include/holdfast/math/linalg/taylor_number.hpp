@@ -12,7 +12,7 @@
 namespace holdfast {
 
 /// A complex number that moves with a number x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ and what is not in it.
-struct MovingNumber {
+struct TaylorNumber {
   std::vector<std::complex<double>> terms;  ///< at least one
   double remainder;                         ///< ≥ 0
 
@@ -25,8 +25,8 @@ struct MovingNumber {
 };
 
 /// The product of two moving numbers.
-inline MovingNumber operator*(const MovingNumber& a, const MovingNumber& b) {
-  MovingNumber product{std::vector<std::complex<double>>(a.terms.size() + b.terms.size() - 1),
+inline TaylorNumber operator*(const TaylorNumber& a, const TaylorNumber& b) {
+  TaylorNumber product{std::vector<std::complex<double>>(a.terms.size() + b.terms.size() - 1),
                        a.remainder * (b.size() + b.remainder) + a.size() * b.remainder};
   for (std::size_t i = 0; i < a.terms.size(); ++i)
     for (std::size_t k = 0; k < b.terms.size(); ++k)
@@ -35,7 +35,7 @@ inline MovingNumber operator*(const MovingNumber& a, const MovingNumber& b) {
 }
 
 /// The sum of two moving numbers, the second being taken `factor` times.
-inline MovingNumber sum_of(MovingNumber a, const MovingNumber& b, double factor) {
+inline TaylorNumber sum_of(TaylorNumber a, const TaylorNumber& b, double factor) {
   a.terms.resize(std::max(a.terms.size(), b.terms.size()));
   for (std::size_t k = 0; k < b.terms.size(); ++k) a.terms[k] += factor * b.terms[k];
   a.remainder += std::abs(factor) * b.remainder;
@@ -49,7 +49,7 @@ struct SquaresDifference {
 };
 
 /// @param a, b  of as many terms
-inline SquaresDifference squares_difference(const MovingNumber& a, const MovingNumber& b) {
+inline SquaresDifference squares_difference(const TaylorNumber& a, const TaylorNumber& b) {
   const std::size_t last = a.terms.size() - 1;
   double first = 0.0, fall = 0.0;
   for (std::size_t k = 0; k <= 2 * last; ++k) {
