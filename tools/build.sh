@@ -108,7 +108,7 @@ build_preset() {
   shift
   if [ ! -f "$folder/build.ninja" ] ||
     [ "$project_root/CMakePresets.json" -nt "$folder/build.ninja" ]; then
-    (cd "$project_root" && cmake --preset "$preset" -D HOLDFAST_REQUIRE_PACKAGES=ON) || return
+    (cd "$project_root" && cmake --preset "$preset" -D HOLDFAST_REQUIRE_PACKAGES=ON --log-level=NOTICE) || return
   fi
   cmake --build "$folder" --parallel "$(nproc)" ${1:+--target "$@"} 2>&1 | show_progress "build/$preset"
 }
