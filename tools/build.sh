@@ -6,13 +6,14 @@ package_list=$project_root/tools/packages.txt
 
 say() { printf '%s\n' "$*" >&2; }
 
-# The lines of the list that a command needs: listed_packages run|test|ci
+# The lines of the list that a command needs: listed_packages run|explorer|test|ci
 listed_packages() {
   local purposes
   case $1 in
     run) purposes='run' ;;
+    explorer) purposes='run|explorer' ;;
     test) purposes='run|test' ;;
-    ci) purposes='run|test|ci' ;;
+    ci) purposes='run|explorer|test|ci' ;;
   esac
   grep -E "^($purposes) " "$package_list"
 }
@@ -27,7 +28,7 @@ missing_packages() {
   comm -23 <(printf '%s\n' "$wanted") <(printf '%s\n' "$installed")
 }
 
-# Installs what is missing: install_packages run|test|ci. Touches no network when nothing is.
+# Installs what is missing: install_packages run|explorer|test|ci. Touches no network when nothing is.
 # Returns 2 where it cannot.
 install_packages() {
   if ! command -v apt-get >/dev/null; then
@@ -60,13 +61,64 @@ install_packages() {
   fi
 }
 
-# Configures build/PRESET when there is nothing there yet or the presets are newer, then builds:
-# build_preset PRESET. Changes in the CMake files Ninja notices by itself.
+# A time in words: duration SECONDS
+duration() {
+  if [ "$1" -lt 60 ]; then printf '%d s' "$1"; else printf '%d min %d s' $(($1 / 60)) $(($1 % 60)); fi
+}
+
+# Shows Ninja's lines as one, which a terminal sees move and a file gets every half minute; all other
+# output passes. NAME is what is built: COMMAND 2>&1 | show_progress NAME
+show_progress() {
+  local name=$1 begin=$SECONDS shown=0 code line text='' built=0 steps=0 now left step clear=''
+  [ ! -t 2 ] || clear=$'\r\e[K'
+  while true; do
+    code=0
+    IFS= read -r -t 1 line || code=$?
+    text+=$line
+    if [ "$code" -eq 0 ]; then
+      if [[ $text =~ ^\ *\[([0-9]+)/([0-9]+)\] ]]; then
+        built=${BASH_REMATCH[1]} steps=${BASH_REMATCH[2]}
+      elif [ "$text" != 'ninja: no work to do.' ]; then
+        printf '%s%s\n' "$clear" "$text" >&2
+      fi
+      text=''
+    elif [ "$code" -le 128 ]; then
+      break
+    fi
+    now=$((SECONDS - begin))
+    if [ -z "$clear" ] && [ $((now - shown)) -lt 30 ]; then continue; fi
+    shown=$now left='' step=''
+    [ "$built" -eq 0 ] || step="step $built of $steps, "
+    # The steps differ by much, hence "about", and nothing before there is something to go by.
+    if [ "$built" -gt 1 ] && [ $((10 * built)) -ge "$steps" ]; then
+      left=", about $(duration $((now * (steps - built) / built))) left"
+    fi
+    printf '%s%s: %s%s%s' "$clear" "$name" "$step" "$(duration "$now")" "$left" >&2
+    [ -n "$clear" ] || printf '\n' >&2
+  done
+  printf '%s%s' "$clear" "$text" >&2
+  [ "$built" -lt 2 ] || say "$name: $built of $steps steps in $(duration $((SECONDS - begin)))"
+}
+
+# Configures build/PRESET when there is nothing there yet or the presets are newer, then builds all of it
+# or the targets that are named: build_preset PRESET [TARGET ...]. Changes in the CMake files Ninja
+# notices by itself.
 build_preset() {
-  local folder=$project_root/build/$1
+  local preset=$1 folder=$project_root/build/$1
+  shift
   if [ ! -f "$folder/build.ninja" ] ||
     [ "$project_root/CMakePresets.json" -nt "$folder/build.ninja" ]; then
-    (cd "$project_root" && cmake --preset "$1" -D HOLDFAST_REQUIRE_PACKAGES=ON) || return
+    (cd "$project_root" && cmake --preset "$preset" -D HOLDFAST_REQUIRE_PACKAGES=ON --log-level=NOTICE) || return
   fi
-  cmake --build "$folder" --parallel "$(nproc)"
+  cmake --build "$folder" --parallel "$(nproc)" ${1:+--target "$@"} 2>&1 | show_progress "build/$preset"
+}
+
+# The Python that PYTHON names, else the newest that has the module venv.
+newest_python() {
+  local python
+  for python in ${PYTHON-} python3.14 python3.13 python3.12 python3; do
+    if "$python" -m venv --help >/dev/null 2>&1; then echo "$python" && return; fi
+  done
+  say 'Python 3.9 or newer with the module venv is missing (tools/packages.txt)'
+  return 2
 }

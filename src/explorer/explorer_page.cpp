@@ -39,11 +39,9 @@ std::vector<fs::path> places_of_page() {
   std::string places;
   for (const fs::path& place : places_of_page())
     places += (places.empty() ? "no " : " and no ") + place.string();
-  throw NoAnswer(
-      "the explorer's page was not built: " + places +
-      "; in the project's folder, cmake --preset wasm && cmake --build --preset wasm makes it "
-      "(Debian packages emscripten, node-d3)" +
-      (folder_of_library.empty() ? "" : ", and pip install . takes it along"));
+  throw NoAnswer("the explorer's page was not built: " + places +
+                 "; in the project's folder, ./run --explorer makes it" +
+                 (folder_of_library.empty() ? "" : ", and pip install . takes it along"));
 }
 
 std::optional<fs::path> built_page() {

@@ -8,8 +8,8 @@ run_step(${CPACK} --config ${BUILD}/CPackConfig.cmake -G DEB -C ${CONFIG} -B ${W
 file(GLOB package ${WORK}/holdfast_${VERSION}*.deb)
 run_step(${DPKG_DEB} -x ${package} ${WORK}/root)
 foreach(file IN ITEMS bin/holdfast include/holdfast/holdfast.hpp share/pkgconfig/holdfast.pc
-    share/cmake/holdfast/holdfast-config.cmake share/man/man1/holdfast.1
-    share/bash-completion/completions/holdfast share/zsh/site-functions/_holdfast
+    share/cmake/holdfast/holdfast-config.cmake share/man/man1/holdfast.1.gz
+    share/bash-completion/completions/holdfast share/zsh/vendor-completions/_holdfast
     share/holdfast/kollar2022.toml share/doc/holdfast/LICENSE
     share/doc/holdfast/holdfast.cdx.json)
   if(NOT EXISTS ${WORK}/root/usr/${file})
