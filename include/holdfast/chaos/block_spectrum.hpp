@@ -16,59 +16,59 @@
 
 namespace holdfast {
 
-/// Which exponents are computed.
+/// The choice of computed exponents.
 enum class LyapunovScope {
   all,      ///< the whole spectrum
-  largest,  ///< the first one alone, from one tangent vector
+  largest,  ///< only the first one, from one tangent vector
 };
 
-/// Lyapunov spectrum of the sampled loop with backlash from its contacts, a block at a time.
+/// The Lyapunov spectrum of the sampled loop with backlash from its contacts, block by block.
 ///
-/// The exponents are those of `LyapunovSpectrum` with S and S* pushed sample by sample, but the
+/// The exponents equal those of `LyapunovSpectrum` with S or S* applied at every sample. But the
 /// tangent vectors are multiplied by the maps of whole blocks and orthogonalised as rarely as
-/// conditioning allows. Over the blocks k of a stretch B = W_k … W₁ Q = Q' R,
+/// conditioning allows. Over the blocks k of a stretch B = W_k … W₁ Q = Q' R, the number
 ///
 ///     a = √(Σ_k ‖W_k … W₁ Q‖²) ‖R⁻¹‖
 ///
-/// measures how far R's diagonal magnifies round-off. The length of a stretch is chosen from the
-/// growth in the one before; one with a > `largest_amplification` is done again in halves, a block
-/// sample by sample. The inner product is that of the balanced coordinates of
-/// `ItineraryBlocks`, which the exponents are freed from when they are read. Columns that a map has
-/// taken to zero are not carried on. Logarithms are taken of products of stretches, once a batch.
+/// measures how much R's diagonal amplifies round-off. The length of a stretch is chosen from the
+/// growth in the previous one; one with a > `largest_amplification` is repeated in halves, and a
+/// single block sample by sample. The inner product is that of the balanced coordinates of
+/// `ItineraryBlocks`; its effect is removed when the exponents are read. Columns that a map
+/// annihilates are dropped. Logarithms are taken of products of stretches, once in each batch.
 ///
 /// Work per block of six samples and vector: 25 multiply-adds (20 without processing delay); per
 /// stretch a Gram–Schmidt process on 5 × 4 (5 × 5 before the first map with a null direction).
 template <class Scalar>
 class BlockSpectrum {
  public:
-  /// Largest a of a stretch that is longer than a sample.
+  /// The largest a of a stretch with more than one sample.
   static constexpr double largest_amplification = 5e6;
-  /// Longest stretch, in blocks.
+  /// The longest stretch, in blocks.
   static constexpr int most_blocks = 64;
 
-  /// @param blocks  of the loop whose S and S* are the tangents
-  /// @param scope   of `largest` the spectrum shows −∞ for all exponents but the first
+  /// @param blocks  blocks of the loop whose S and S* are the tangent maps
+  /// @param scope   with `largest` all exponents but the first are −∞
   explicit BlockSpectrum(std::shared_ptr<const ItineraryBlocks> blocks,
                          LyapunovScope scope = LyapunovScope::all);
 
-  /// Takes the contacts of the next `ItineraryBlocks::length` samples.
+  /// Adds the contacts of the next `ItineraryBlocks::length` samples.
   void push(ItineraryBlock block) {
     pending_[static_cast<std::size_t>(count_)] = block;
     pending_samples_ += ItineraryBlocks::length;
     if (++count_ == planned_) close_block();
   }
 
-  /// Forgets all but the directions of the tangent vectors after the blocks pushed and the block
-  /// `open`, of any length: the exponents are those of what comes from here on.
+  /// Restarts the averages after the blocks pushed and the partial block `open`; only the
+  /// directions of the tangent vectors are kept.
   void restart(ItineraryBlock open);
 
-  /// The spectrum over the blocks pushed and the block `open`, of any length.
+  /// The spectrum over the blocks pushed and the partial block `open`.
   LyapunovSpectrum<double, 5> spectrum(ItineraryBlock open = empty_block) const;
-  /// Number of batches complete, for the standard errors.
+  /// The number of complete batches, for the standard errors.
   std::size_t complete_batches() const { return sums_.complete_batches(); }
 
  private:
-  /// The basis and the logarithms of its stretches in the coordinates of the loop.
+  /// The basis in the coordinates of the loop, with the logarithms of its stretching.
   struct Orthogonal {
     explicit Orthogonal(const BlockSpectrum& from) : alive(from.alive_) {
       basis = from.blocks_->scale().asDiagonal() * from.basis_;
@@ -108,8 +108,8 @@ class BlockSpectrum {
     }
   }
 
-  /// Takes a stretch of blocks, in halves where round-off would grow too much, and one block sample
-  /// by sample.
+  /// Advances over a stretch of blocks: in halves where round-off would grow too much, and a single
+  /// block sample by sample.
   template <int Reach, int Columns>
   void advance(const ItineraryBlock* blocks, int count) {
     using Basis = TangentBasis<Scalar, Columns>;
@@ -134,7 +134,7 @@ class BlockSpectrum {
     }
   }
 
-  /// basis ← map · basis.
+  /// Replaces the basis by map · basis.
   template <int Reach, int Columns>
   static void multiply(const ItineraryBlocks::Map& map, TangentBasis<Scalar, Columns>& basis) {
     Eigen::Matrix<Scalar, 1, Columns> rows[5];
@@ -179,7 +179,7 @@ class BlockSpectrum {
     }
   }
 
-  /// Whether squared lengths are far from overflow and from losing digits to underflow.
+  /// Whether squared lengths are safe from overflow and from loss of digits by underflow.
   template <int Columns>
   static bool within_range(const Vector<Scalar, Columns>& squares) {
     Scalar smallest = squares[0], largest = squares[0];
@@ -195,7 +195,7 @@ class BlockSpectrum {
     products_ = Vector<Scalar, 5>::Ones();
   }
 
-  /// Sets how many blocks may come between two orthogonalisations, from those just done.
+  /// Sets the number of blocks between two orthogonalisations, from the previous growth.
   void learn(double squared_amplification, int count) {
     constexpr double at_start = 16.0;  // ‖I₄‖² ‖I₄‖²
     const double blocks = count;
@@ -204,7 +204,7 @@ class BlockSpectrum {
     allowed_ = std::min(std::max(1.0, std::floor(room / growth)), 2.0 * blocks);
   }
 
-  /// Divides what is left of a batch into equal stretches.
+  /// Divides the rest of a batch into equal stretches.
   void plan() {
     const auto blocks_left = (sums_.steps_left() - samples_) / ItineraryBlocks::length;
     const double left = std::max(1.0, static_cast<double>(blocks_left));

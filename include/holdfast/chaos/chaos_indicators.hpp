@@ -20,18 +20,18 @@
 
 namespace holdfast {
 
-/// How much of a motion to look at, and how closely. The defaults fit motions of up to a few
-/// thousand samples a period.
+/// The length and the resolution of an examination of a motion. The defaults suit motions of up to
+/// a few thousand samples per period.
 struct IndicatorOptions {
-  std::int64_t transient = 5000;  ///< samples left out first, 0 … 10⁷
-  std::int64_t samples = 20160;  ///< samples looked at, 2000 … 100 000; divisible by 2, 3, 5, 7 so
-                                 ///< that many periods fit whole
-  double base_frequency = 1.0;       ///< cycles per sample whose divisions the lines are asked for
-  std::int64_t zero_one_stride = 1;  ///< every so many samples for the 0–1 test, 1 … samples/500
-  bool forcing_incommensurate = false;  ///< see ChaosIndicators
+  std::int64_t transient = 5000;  ///< samples left out at the start, 0 … 10⁷
+  std::int64_t samples = 20160;  ///< number of samples examined, 2000 … 100 000; divisible by 2, 3,
+                                 ///< 5, 7 so that many periods fit in whole
+  double base_frequency = 1.0;          ///< cycles per sample; lines are tested at its divisions
+  std::int64_t zero_one_stride = 1;     ///< samples per step of the 0–1 test, 1 … samples/500
+  bool forcing_incommensurate = false;  ///< see ChaosIndicators::forcing_incommensurate
 };
 
-/// @throws InvalidParameter for a member outside its range
+/// Validates the options. @throws InvalidParameter where a member is outside its range
 inline void validate(const IndicatorOptions& options) {
   const auto samples = static_cast<double>(options.samples);
   require_within("transient", static_cast<double>(options.transient), "samples", 0.0, 1e7);
@@ -42,7 +42,7 @@ inline void validate(const IndicatorOptions& options) {
 
 namespace detail {
 
-/// The largest exponent of a spectrum with a 99 % interval; only after at least 64 steps.
+/// The largest exponent of a spectrum with a 99 % interval; needs at least 64 steps.
 template <int Size>
 ExponentEstimate largest_exponent(const LyapunovSpectrum<double, Size>& spectrum) {
   const SettledMeans<Size> found = spectrum.settled();
@@ -51,15 +51,15 @@ ExponentEstimate largest_exponent(const LyapunovSpectrum<double, Size>& spectrum
   return exponent_estimate(value, found.standard_errors[which]);
 }
 
-/// Notes when a state has grown beyond all measure: by 10³⁰ over the largest coordinate of the
-/// first 100 samples.
+/// The detector of divergence: a state grows by 10³⁰ over the largest coordinate of the first 100
+/// samples.
 template <int Size>
 class DivergenceGuard {
  public:
   explicit DivergenceGuard(const Vector<double, Size>& initial)
       : largest_(initial.cwiseAbs()), reference_(largest_.maxCoeff()) {}
 
-  /// True where the state is not finite or has left the bounds.
+  /// Whether the state is not finite or beyond the bound.
   bool leaves(const Vector<double, Size>& state) {
     if (!state.allFinite()) return true;
     largest_ = largest_.cwiseMax(state.cwiseAbs());
@@ -68,7 +68,7 @@ class DivergenceGuard {
     return reference_ > 0.0 && size / 1e30 > reference_;
   }
 
-  /// Largest |x_i| so far, coordinate by coordinate.
+  /// The largest |x_i| so far, for each coordinate.
   const Vector<double, Size>& largest() const { return largest_; }
 
  private:
@@ -84,7 +84,7 @@ inline double extent_of(const std::vector<double>& series, std::size_t from, std
   return *high - *low;
 }
 
-/// Extent of the last quarter over that of the first; nothing for a series that rests in the first.
+/// The extent of the last quarter over that of the first; empty for rest in the first quarter.
 inline std::optional<double> extent_growth(const std::vector<double>& series) {
   const std::size_t size = series.size(), quarter = size / 4;
   const double first = extent_of(series, 0, quarter);
@@ -109,8 +109,8 @@ inline std::vector<double> every(const std::vector<double>& series, std::int64_t
   return thinned;
 }
 
-/// Sets the indicators that rest on returns of the states.
-/// @param sizes  largest |x_i| since the start
+/// Sets the indicators that use returns of the states.
+/// @param sizes  largest |x_i| since the start, for each coordinate
 template <int Size>
 void weigh_returns(const std::vector<Vector<double, Size>>& states,
                    const Vector<double, Size>& sizes, ChaosIndicators& indicators) {
@@ -121,14 +121,14 @@ void weigh_returns(const std::vector<Vector<double, Size>>& states,
   indicators.determinism = recurrence_determinism<Size>(last, recurrence_radius);
 }
 
-/// The exponents of the tangent maps of a discrete system, where there are any: up to restart()
-/// they turn the basis into the directions of the exponents, and nothing is summed.
+/// The exponents from the tangent maps of a discrete system, where there are any. Before restart()
+/// the basis only turns into the directions of the exponents; no averages are taken.
 template <int Size>
 class TangentMaps {
  public:
   using OfState = std::function<Matrix<double, Size>(const Vector<double, Size>&)>;
 
-  /// @param map  outlives this
+  /// @param map  tangent map of a state; it must outlive this object
   TangentMaps(Eigen::Index size, const OfState& map)
       : map_(map), basis_(Matrix<double, Size>::Identity(size, size)), spectrum_(basis_) {}
 
@@ -151,9 +151,9 @@ class TangentMaps {
   bool counts_ = false;
 };
 
-/// chaos_indicators() with exponents of any kind.
-/// @param tangents  push(before) takes each step, after it, with the state before it; restart()
-///                  comes before the first step that counts
+/// The indicators of chaos_indicators() with any kind of exponents.
+/// @param tangents  push(before) is called after each step with the state before it; restart() is
+///                  called before the first step that counts
 template <int Size, class Tangents>
 ChaosIndicators indicators_of_system(
     const Vector<double, Size>& initial, const std::function<void(Vector<double, Size>&)>& advance,
@@ -200,25 +200,25 @@ ChaosIndicators indicators_of_system(
 ///     auto slope = [](const Vector<double, 1>& x) { return Matrix<double, 1>(4 - 8 * x[0]); };
 ///     classify(chaos_indicators<1>({0.3}, logistic, value, {}, slope)).kind;  // chaotic
 ///
-/// Each callable may keep a state of its own, as a forcing does its index. A step first calls
+/// Each callable may have a state of its own, like the index of a forcing. A step first calls
 /// `advance(state)`, which replaces the state by the next one, then `tangent(before)` and
-/// `contact()`, both of the step just taken. The basis of the exponents turns through the whole
-/// transient before their means begin.
+/// `contact()`, both for that step. The basis of the exponents turns through the whole transient
+/// before their averages begin.
 ///
 /// A motion diverges when its state is not finite or has grown by 10³⁰ over the largest coordinate
-/// of its first 100 samples; nothing else is then looked at. Else a repetition is looked for to
-/// 10⁻⁹ of the extent, three times and more in half of the samples; the closest return and the
-/// recurrence at 0.05 of the extent are those of the last 1000 states; the lines are asked for the
+/// of its first 100 samples; then nothing else is computed. Otherwise a repetition is sought to
+/// 10⁻⁹ of the extent, three times or more in half of the samples. The closest return and the
+/// recurrence at 0.05 of the extent belong to the last 1000 states. The lines are tested for
 /// divisions of the base frequency up to 128. Bounded work: transient + samples steps, the 0–1
 /// test, one search for repetition (at worst samples²/12 distances), two spectra, and 10⁶
 /// distances.
 /// @param initial     the state at sample 0
-/// @param advance     makes a state the next one
-/// @param observable  of a state, the number that spectrum and 0–1 test see
-/// @param options     how much of the motion to look at, and how closely
-/// @param tangent     ∂(next state)/∂(state); without it no exponents are found
-/// @param contact     true where the drive transmits; empty of a system without contacts
-/// @throws InvalidParameter for a plan out of its ranges or an initial state that is not finite
+/// @param advance     replaces a state by the next one
+/// @param observable  the number of a state that spectrum and 0–1 test use
+/// @param options     length and resolution of the examination
+/// @param tangent     ∂(next state)/∂(state); without it there are no exponents
+/// @param contact     true where the drive transmits; empty for a system without contacts
+/// @throws InvalidParameter for options out of their ranges or an initial state that is not finite
 template <int Size>
 ChaosIndicators chaos_indicators(
     const Vector<double, Size>& initial, const std::function<void(Vector<double, Size>&)>& advance,

@@ -13,74 +13,74 @@
 
 namespace holdfast {
 
-/// Kinds of motion of a discrete system.
+/// The kinds of motion of a discrete system.
 enum class AttractorType {
-  periodic,               ///< the same after N samples
-  quasi_periodic,         ///< two or more frequencies without a common period, neighbours stay near
-  irregular_contracting,  ///< neighbours come together, yet no repetition was found
-  chaotic,                ///< bounded as far as seen, neighbours separate exponentially
-  diverges,               ///< leaves every bound
-  undecided,              ///< the indicators are missing or contradict each other
+  periodic,               ///< repeats after N samples
+  quasi_periodic,         ///< two or more frequencies without a common period; neighbours stay near
+  irregular_contracting,  ///< neighbours converge, yet no repetition was found
+  chaotic,                ///< bounded as far as observed; neighbours separate exponentially
+  diverges,               ///< exceeds every bound
+  undecided,              ///< indicators are missing or contradict each other
 };
 
-/// The largest Lyapunov exponent and its 99 % interval, value ± half_width: a motion whose exponent
-/// is 0 is called chaotic, or contracting, in one case of two hundred each.
+/// The largest Lyapunov exponent and its 99 % interval, value ± half_width. A motion whose exponent
+/// is 0 is taken for chaotic, or for contracting, in one case of two hundred each.
 struct ExponentEstimate {
   double value;       ///< −∞ where every direction is a null direction
   double half_width;  ///< ≥ 0
 
-  /// The whole interval is above zero.
+  /// Whether the whole interval is above zero.
   bool positive() const { return value - half_width > 0.0; }
-  /// The whole interval is below zero.
+  /// Whether the whole interval is below zero.
   bool negative() const { return value + half_width < 0.0; }
 };
 
-/// An estimate from an exponent and its standard error by batch means. The half width is Student's
-/// quantile of 99 % for the fewest batches that a series of more than 64 steps has (32) times the
-/// standard error, plus 10⁻¹² for the rounding of logarithms.
+/// The estimate from an exponent and its standard error by batch means. The half width is the
+/// standard error times Student's 99 % quantile for the fewest batches of a series with more than
+/// 64 steps (32), plus 10⁻¹² for the rounding of logarithms.
 /// @param value           the exponent, natural logarithm per step
 /// @param standard_error  ≥ 0, not NaN
-/// @throws InvalidParameter for another standard error
+/// @throws InvalidParameter where the standard error is out of its range
 inline ExponentEstimate exponent_estimate(double value, double standard_error) {
   require_non_negative("standard error of the exponent", standard_error, "");
   constexpr double rounding = 1e-12, quantile = 2.7440419192942613;  // P(|T| ≤ quantile) = 99 %
   return {value, quantile * standard_error + rounding};
 }
 
-/// The lines of the spectrum of an observable.
+/// The measures of the lines in the spectrum of an observable.
 struct SpectralIndicators {
-  int division;  ///< the smallest m for which the multiples of f/m hold the power, or 0
-  double share;  ///< the share of the power that was asked for
-  std::size_t lines_holding;  ///< how many lines hold 99 % of the power
+  int division;               ///< smallest m such that the multiples of f/m contain the power, or 0
+  double share;               ///< share of the power that these lines must contain
+  std::size_t lines_holding;  ///< number of lines that contain 99 % of the power
   double continuous;          ///< share of the power between the lines
 };
 
-/// Indicators of the kind of a motion; those that were not computed stay empty.
+/// The indicators that decide the kind of a motion; those not computed stay empty.
 struct ChaosIndicators {
-  std::optional<std::int64_t> diverged_at;       ///< sample at which the motion had left all bounds
-  std::optional<std::int64_t> certified_period;  ///< of an orbit that was proved (samples)
-  std::optional<RepeatSearch> repeat;            ///< of the states, of three periods and more
+  std::optional<std::int64_t> diverged_at;       ///< sample at which the motion exceeded all bounds
+  std::optional<std::int64_t> certified_period;  ///< samples in a period of a proved orbit
+  std::optional<RepeatSearch> repeat;            ///< repetition of the states, at least three times
   std::optional<ExponentEstimate> largest_exponent;  ///< natural logarithm per step
   std::optional<double> zero_one;                    ///< median K of the 0–1 test
-  std::optional<SpectralIndicators> lines;           ///< of the observable
+  std::optional<SpectralIndicators> lines;           ///< spectral lines of the observable
   std::optional<double> extent_growth;   ///< extent of the last quarter over that of the first
-  std::optional<double> neighbour;       ///< how far a neighbour came, see neighbour_distance()
+  std::optional<double> neighbour;       ///< final distance of a neighbour (neighbour_distance())
   std::optional<double> closest_return;  ///< closest_return() of the last states
-  std::optional<double> determinism;     ///< recurrence_determinism() of the same states
-  std::optional<SwitchingComplexity> switching;  ///< of the contacts, where they are known
-  std::optional<double> forcing_periods;         ///< that the series covers
-  bool forcing_incommensurate = false;  ///< f τ is no fraction with a denominator in reach: no
-                                        ///< motion that answers the forcing repeats
+  std::optional<double> determinism;     ///< recurrence_determinism() of the last states
+  std::optional<SwitchingComplexity> switching;  ///< complexity of the contacts, if known
+  std::optional<double> forcing_periods;         ///< number of forcing periods in the series
+  bool forcing_incommensurate = false;  ///< f τ is no fraction with a bounded denominator: no
+                                        ///< forced response repeats
 };
 
-/// A kind, and the numbers that it rests on.
+/// The kind of a motion with the numbers that it follows from.
 struct Classification {
-  AttractorType kind = AttractorType::undecided;  ///< what the motion is
+  AttractorType kind = AttractorType::undecided;  ///< kind of the motion
   std::int64_t period = 0;                        ///< samples; 0 unless periodic
-  std::string rests_on;                           ///< one or two English sentences
+  std::string rests_on;                           ///< reason, one or two English sentences
 };
 
-/// `periodic(N)`, `quasi-periodic`, `irregular, exponent <= 0`, `chaotic`, `diverges`, `undecided`.
+/// The name of a kind: `periodic(N)`, `quasi-periodic`, `irregular, exponent <= 0`, `chaotic`, …
 inline std::string attractor_type_text(AttractorType kind, std::int64_t period = 0) {
   constexpr std::array<const char*, 6> words = {
       "periodic", "quasi-periodic", "irregular, exponent <= 0", "chaotic", "diverges", "undecided"};
@@ -88,32 +88,32 @@ inline std::string attractor_type_text(AttractorType kind, std::int64_t period =
   return kind == AttractorType::periodic ? word + "(" + std::to_string(period) + ")" : word;
 }
 
-/// The text of a classification's kind, with its period where it is periodic.
+/// The name of a classification's kind, with its period where it is periodic.
 inline std::string attractor_type_text(const Classification& classification) {
   return attractor_type_text(classification.kind, classification.period);
 }
 
-/// From this K of the 0–1 test on a series counts as chaotic …
+/// The least K of the 0–1 test with which a series counts as chaotic.
 inline constexpr double zero_one_high = 0.8;
-/// … and up to this one as regular; between them it says nothing.
+/// The largest K of the 0–1 test with which a series counts as regular; in between it is undecided.
 inline constexpr double zero_one_low = 0.2;
-/// Up to this share of the power between the lines a spectrum counts as one of lines alone.
+/// The largest share of the power between the lines with which a spectrum counts as pure lines.
 inline constexpr double lines_only_share = 1e-3;
-/// Fewer periods of the forcing than this tell nothing of a forced motion.
+/// The fewest periods of the forcing from which a forced motion can be classified.
 inline constexpr double fewest_forcing_periods = 20.0;
-/// An extent that changes by more than this factor (or its inverse) from the first to the last
-/// quarter of the series belongs to no steady motion.
+/// The factor of steady motion: an extent that changes by more than this factor (or its inverse)
+/// from the first to the last quarter of the series is not steady.
 inline constexpr double steady_growth = 2.0;
-/// A neighbour begins this share of the extent away …
+/// The initial distance of a neighbour, as a share of the extent.
 inline constexpr double neighbour_start = 1e-9;
-/// … has parted from the motion where it ends this far from it or farther …
+/// The least final distance of a neighbour that has separated from the motion.
 inline constexpr double neighbour_parted = 1e-3;
-/// … and has stayed where it ends nearer than this. Between the two it says nothing.
+/// The largest final distance of a neighbour that has stayed; in between nothing is decided.
 inline constexpr double neighbour_stays = 1e-7;
 
 namespace detail {
 
-/// Four significant digits at most.
+/// A number as text with at most four significant digits.
 inline std::string number_text(double value) {
   std::ostringstream text;
   text.precision(4);
@@ -121,7 +121,7 @@ inline std::string number_text(double value) {
   return text.str();
 }
 
-/// Weighs indicators by the rules of classify(), in words.
+/// Applies the rules of classify() to the indicators and states the reasons in words.
 class Classifier {
  public:
   explicit Classifier(const ChaosIndicators& indicators) : indicators_(indicators) {}
@@ -150,11 +150,11 @@ class Classifier {
     return comes_together() ? contracting() : neutral();
   }
 
-  /// Classifies a motion under a recorded force, or with samples that jitter: its spectrum, 0–1
-  /// test and repetitions are those of the forcing as much as its own. So nothing is called
-  /// quasi-periodic, and where the samples jitter nothing periodic but rest. Divergence stands, and
-  /// chaos, by an exponent above zero. Else one below zero decides: neighbours come together under
-  /// one and the same forcing, so that the motion follows it.
+  /// Classifies a motion under a recorded force or with jittering samples. Its spectrum, 0–1 test
+  /// and repetitions reflect the forcing as much as the motion. So nothing is called
+  /// quasi-periodic, and with jitter nothing periodic but rest. Divergence and chaos (an exponent
+  /// above zero) are still recognised. Else a negative exponent decides: neighbours converge under
+  /// the same forcing, and the motion follows it.
   Classification classify_irregularly_forced(bool samples_jitter) const {
     const Classification regular = classify();
     const bool repeats = regular.kind == AttractorType::periodic;
@@ -169,7 +169,7 @@ class Classifier {
     return undecided("The forcing or the samples do not repeat, and the exponent does not decide");
   }
 
-  /// Whether how far a neighbour comes can decide what is undecided without.
+  /// Whether the missing neighbour distance could decide an undecided case.
   bool lacks_neighbour() const {
     return !indicators_.neighbour && searched_in_vain() && indicators_.largest_exponent &&
            !comes_together() && classify().kind == AttractorType::undecided;
@@ -291,17 +291,17 @@ class Classifier {
   }
   bool is_regular() const { return indicators_.zero_one && *indicators_.zero_one <= zero_one_low; }
   bool has_parted() const { return indicators_.neighbour.value_or(0.0) >= neighbour_parted; }
-  /// Two motions show no sensitivity, and the 0–1 test does not contradict that.
+  /// Whether a neighbour stays near and the 0–1 test does not contradict.
   bool stays_beside_neighbour() const {
     return indicators_.neighbour.value_or(1.0) <= neighbour_stays &&
            indicators_.zero_one.value_or(0.0) < zero_one_high;
   }
   bool searched_in_vain() const { return indicators_.repeat && indicators_.repeat->lag == 0; }
-  /// Nothing but separate lines; false where no spectrum is known.
+  /// Whether the spectrum consists of separate lines only; false without a spectrum.
   bool has_lines_alone() const {
     return indicators_.lines && indicators_.lines->continuous <= lines_only_share;
   }
-  /// The power lies on the multiples of one frequency; false where no spectrum is known.
+  /// Whether the power is on the multiples of one frequency; false without a spectrum.
   bool has_one_base() const { return indicators_.lines && indicators_.lines->division > 0; }
 
   const ChaosIndicators& indicators_;

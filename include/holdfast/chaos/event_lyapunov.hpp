@@ -15,54 +15,54 @@
 
 namespace holdfast {
 
-/// A motion and the Lyapunov spectrum that it has had so far. It stands in for the motion in
-/// run_trajectory, so that a history may be kept beside it.
+/// A motion with the Lyapunov spectrum along it. It replaces the motion in run_trajectory, so that
+/// a time history may be recorded at the same time.
 ///
-/// The tangent is that of VariationalFlow, orthogonalised at every sample. Of its N + 3 exponents,
-/// N being the order of the plant, one each is −∞
-///  - once the drive has been engaged: where its gap lies is a function of the state from then on;
-///  - unless the controller takes differences of displacements: else it does not use the last one;
-///  - without processing delay: u_{j−1} is without effect from t_j on.
-/// After a stick phase, in which Δż = 0 and the drive knows its place, no more are finite than N −
-/// 1 and the commands (and readings) that have been decided but act later, at whichever instant of
-/// it these are fewest: without processing delay one less, with one up to two less. With a delay
-/// and a difference together N + 2 may be finite; one less if this is made before the first sample
-/// of all, when nothing has been read. A gap that is never left is neutral, an exponent of 0.
+/// The tangent is that of VariationalFlow, orthogonalised at every sample. With N the order of the
+/// plant, it has N + 3 exponents, of which one each is −∞
+/// - once the drive has been engaged: from then on its gap is a function of the state;
+/// - unless the controller takes differences of displacements: the last one is not used then;
+/// - without processing delay: u_{j−1} has no effect from t_j on.
+/// After a stick phase, in which Δż = 0 and the drive's position is known, at most N − 1 exponents
+/// are finite, and those of commands (and readings) decided but not yet effective, at the instant
+/// with the fewest: without processing delay one less, with it up to two less. With delay and
+/// difference N + 2 may be finite; one less if this object is made before the very first sample,
+/// when nothing was read. A gap that is never left is neutral: an exponent 0.
 ///
-/// An exact −∞ is told by the structural rank (structural_rank.hpp) of the product of all maps, not
-/// by a pivot: maps with different kernels show it only up to a rounding that those in between
-/// magnify. Work per sample of the two masses: that of the tangent, and some 1500 multiply-adds.
+/// An exact −∞ is detected by the structural rank (structural_rank.hpp) of the product of all maps,
+/// not by a pivot: the kernels of different maps show only up to rounding, amplified by the maps in
+/// between. Work per sample of the two masses: the tangent's, and some 1500 multiply-adds.
 template <class Contact>
 class EventLyapunov {
  public:
-  /// N + 3.
+  /// The number of exponents, N + 3.
   static constexpr int size = VariationalFlow<Contact>::size;
 
-  /// @param motion  goes on from where it stands; must outlive this
+  /// @param motion  advanced from its present state; it must outlive this object
   explicit EventLyapunov(EventMotion<Contact>& motion)
       : motion_(&motion),
         tangent_(motion),
         spectrum_(detail::oblique_basis<double, size>(motion.state().size() + 3)) {}
 
-  /// Takes the sample; once before each `advance()`.
+  /// Takes the present sample; to be called once before each `advance()`.
   typename EventMotion<Contact>::Sample sense() { return motion_->sense(); }
 
-  /// Moves on to the next sample, and the tangent vectors with it.
+  /// Advances the motion and its tangent vectors to the next sample.
   void advance();
 
-  /// Adds a displacement (m) to the conductor, which leaves the tangent vectors as they are; call
+  /// Adds a displacement (m) to the conductor, without effect on the tangent vectors; to be called
   /// before `sense()`.
   void displace_conductor(double displacement) { motion_->displace_conductor(displacement); }
-  /// t_j (s) of the present sample.
+  /// The instant t_j (s) of the present sample.
   double time() const { return motion_->time(); }
-  /// x_j, N × 1; of the two masses z_j (m, m/s, m, m/s).
+  /// The state x_j, N × 1; for two masses z_j (m, m/s, m, m/s).
   const typename EventMotion<Contact>::State& state() const { return motion_->state(); }
 
-  /// Natural logarithm per sample, over the samples since the last restart.
+  /// The spectrum over the samples since the last restart, natural logarithm per sample.
   const LyapunovSpectrum<double, size>& spectrum() const { return spectrum_; }
-  /// Number of batches complete, for the standard errors.
+  /// The number of complete batches, for the standard errors.
   std::size_t complete_batches() const { return spectrum_.complete_batches(); }
-  /// Forgets all but the tangent vectors.
+  /// Restarts the averages; only the tangent vectors are kept.
   void restart() { spectrum_.restart(); }
 
  private:
@@ -78,14 +78,14 @@ void EventLyapunov<Contact>::advance() {
   spectrum_.push(tangent_.map(), tangent_.rank_of_product());
 }
 
-/// The five leading Lyapunov exponents of a motion that may switch between its samples, from where
-/// it stands, natural logarithm per sample. One whose `counts()` say that its changes of contact
-/// accumulate has none to be trusted from there on.
+/// The five leading Lyapunov exponents of a motion that may switch between its samples, from its
+/// present state, natural logarithm per sample. They are not valid once the motion's `counts()`
+/// report accumulating changes of contact.
 ///
 ///     const LyapunovResult result = run_event_lyapunov(motion, {1000000, 1000, 1e-5});
 ///
 /// @param motion  left after the last sample taken
-/// @param run     how long, and with what accuracy, is averaged
+/// @param run     length and accuracy of the average
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible
 template <class Contact>

@@ -13,26 +13,26 @@
 
 namespace holdfast {
 
-/// The contacts of 0 … `ItineraryBlocks::length` consecutive samples: a 1, then one binary digit a
-/// sample, the first sample's highest, 1 where the force is transmitted.
+/// The contacts of 0 … `ItineraryBlocks::length` consecutive samples as a binary number: a 1, then
+/// a digit for each sample in their order, 1 where the force is transmitted.
 using ItineraryBlock = std::uint8_t;
 
-/// The block of no sample.
+/// The block without samples.
 inline constexpr ItineraryBlock empty_block = 1;
 
-/// Number of samples of a block.
+/// The number of samples of a block.
 constexpr int samples_of(ItineraryBlock block) {
   int samples = 0;
   for (unsigned rest = block; rest > 1; rest /= 2) ++samples;
   return samples;
 }
 
-/// The block of one sample more.
+/// The block with one sample appended.
 constexpr ItineraryBlock followed_by(ItineraryBlock block, bool engaged) {
   return static_cast<ItineraryBlock>(2 * block + (engaged ? 1 : 0));
 }
 
-/// One sample of a block alone, 0 ≤ sample < samples_of(block).
+/// The block of a single sample of a block, 0 ≤ sample < samples_of(block).
 constexpr ItineraryBlock sample_of(ItineraryBlock block, int sample) {
   return followed_by(empty_block, ((block >> (samples_of(block) - 1 - sample)) & 1) != 0);
 }
@@ -40,11 +40,11 @@ constexpr ItineraryBlock sample_of(ItineraryBlock block, int sample) {
 /// The tangent maps of every block: products of two constant 5 × 5 matrices, S where the force is
 /// transmitted and S* in the backlash.
 ///
-/// The products are those of T⁻¹ S T and T⁻¹ S* T, T diagonal with powers of two that balance
-/// |S| + |S*|: displacements, velocities and forces get about the same size, without rounding.
+/// The products are those of T⁻¹ S T and T⁻¹ S* T, where T is diagonal with powers of two that
+/// balance |S| + |S*|: displacements, velocities and forces get similar sizes without rounding.
 class ItineraryBlocks {
  public:
-  static constexpr int length = 6;  ///< samples of the longest blocks
+  static constexpr int length = 6;  ///< number of samples in the longest blocks
   /// A tangent map with contiguous rows.
   using Map = Eigen::Matrix<double, 5, 5, Eigen::RowMajor>;
 
@@ -53,23 +53,23 @@ class ItineraryBlocks {
   template <class Scalar>
   ItineraryBlocks(const Matrix<Scalar, 5>& engaged, const Matrix<Scalar, 5>& backlash);
 
-  /// @param tangent_loop  whose S and S* are the tangents
+  /// @param tangent_loop  the loop whose S and S* are the tangent maps
   /// @param gains         P (N/m) and D (N s/m)
   template <class Scalar>
   ItineraryBlocks(const SampledLoop<Scalar>& tangent_loop, const PdGains<Scalar>& gains)
       : ItineraryBlocks(tangent_loop.engaged_map(gains), tangent_loop.backlash_map()) {}
 
-  /// T⁻¹ M T, M the product of the block's maps, the last sample's leftmost.
+  /// The map T⁻¹ M T, where M is the product of the block's maps, the last sample's leftmost.
   const Map& map(ItineraryBlock block) const { return maps_[block]; }
 
-  /// Smallest rank of the block's maps, each to working precision.
+  /// The smallest rank of a block's maps, each to working precision.
   int rank(ItineraryBlock block) const { return ranks_[block]; }
   /// The smaller of the ranks of S and S*.
   int smallest_rank() const { return std::min(ranks_[2], ranks_[3]); }
-  /// The larger of them: no more exponents than this are finite.
+  /// The larger of the ranks of S and S*: at most that many exponents are finite.
   int largest_rank() const { return std::max(ranks_[2], ranks_[3]); }
 
-  /// 4 where both maps ignore the last coordinate, as without a processing delay; else 5.
+  /// The number of coordinates that matter: 4 where both maps ignore the last one, else 5.
   int reach() const { return reach_; }
   /// The diagonal of T.
   const Vector<double, 5>& scale() const { return scale_; }
@@ -104,7 +104,7 @@ ItineraryBlocks::ItineraryBlocks(const Matrix<Scalar, 5>& engaged,
   reach_ = engaged.col(4).isZero(0.0) && backlash.col(4).isZero(0.0) ? 4 : 5;
 }
 
-/// Whether a block is one of the longest.
+/// Whether a block has the largest number of samples.
 constexpr bool is_whole(ItineraryBlock block) { return block >> ItineraryBlocks::length != 0; }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -21,15 +21,15 @@
 
 namespace holdfast {
 
-/// How long a Lyapunov spectrum is averaged.
+/// The length and accuracy of an averaged Lyapunov spectrum.
 struct LyapunovRun {
-  std::int64_t most_samples;  ///< ≥ 1, after those left out
+  std::int64_t most_samples;  ///< ≥ 1, after the discarded ones
   std::int64_t discard = 0;   ///< ≥ 0, left out at the start while motion and basis settle
-  double standard_error = 0;  ///< ≥ 0, of λ₁ per sample, that is accurate enough; 0: none is
-  LyapunovScope scope = LyapunovScope::all;  ///< what is computed
+  double standard_error = 0;  ///< ≥ 0, sufficient accuracy of λ₁ per sample; 0: use all
+  LyapunovScope scope = LyapunovScope::all;  ///< which exponents are computed
 };
 
-/// @throws InvalidParameter where a field is not admissible
+/// Validates a run. @throws InvalidParameter where a field is not admissible
 inline void validate(const LyapunovRun& run) {
   require_within("samples of a Lyapunov run", static_cast<double>(run.most_samples), "", 1, 9e15);
   require_within("samples left out", static_cast<double>(run.discard), "", 0, 9e15);
@@ -39,24 +39,24 @@ inline void validate(const LyapunovRun& run) {
 /// How a Lyapunov run ended.
 enum class LyapunovOutcome {
   accurate,      ///< the standard error asked for was reached
-  sample_limit,  ///< all samples were taken before that
-  diverged,      ///< the state left the range of the number type; the exponents are those of the
-                 ///< samples before that, NaN where it happened among those left out
+  sample_limit,  ///< all samples were used before that
+  diverged,      ///< the state left the range of numbers; exponents are those before, NaN if within
+                 ///< the discarded samples
 };
 
-/// The Lyapunov exponents of a motion, natural logarithm per sample, over the samples from where
-/// they have settled (settled_means()).
+/// The Lyapunov exponents of a motion, natural logarithm per sample, averaged over the samples
+/// after they have settled (settled_means()).
 struct LyapunovResult {
-  LyapunovOutcome outcome;  ///< why no more samples were taken
-  /// λ₁ … λ₅ in the order of the QR, −∞ for a null direction; NaN but for the first where that
-  /// alone was asked for.
+  LyapunovOutcome outcome;  ///< reason for the end of the run
+  /// The exponents λ₁ … λ₅ in the order of the QR, −∞ for a null direction; all but the first NaN
+  /// where only that was computed.
   Vector<double, 5> exponents;
-  /// Count what the beginning may have left in the means, as settled_means() says; 0 for −∞.
+  /// Standard errors, including the bias that the beginning may have left (settled_means()).
   Vector<double, 5> standard_errors;
-  std::int64_t samples;       ///< averaged over
-  std::int64_t settling = 0;  ///< left out before them, beyond those of LyapunovRun::discard
+  std::int64_t samples;       ///< number of samples averaged
+  std::int64_t settling = 0;  ///< samples left out in addition to LyapunovRun::discard
 
-  /// Whether the 99 % interval of λ₁ leaves out zero: whether it is known if neighbours separate.
+  /// Whether the 99 % interval of λ₁ excludes zero, so that its sign is known.
   bool sign_is_known() const {
     if (exponents[0] == -std::numeric_limits<double>::infinity()) return true;
     if (!std::isfinite(exponents[0]) || !std::isfinite(standard_errors[0])) return false;
@@ -65,12 +65,12 @@ struct LyapunovResult {
   }
 };
 
-/// Fewest complete batches on which a run may end early.
+/// The fewest complete batches with which a run may end early.
 inline constexpr std::size_t fewest_batches = 32;
 
 namespace detail {
 
-/// The five leading exponents of a spectrum as the result of a run.
+/// The result of a run from the five leading exponents of a spectrum.
 /// @tparam Size  ≥ 5
 template <int Size>
 LyapunovResult lyapunov_result(LyapunovOutcome outcome,
@@ -87,11 +87,11 @@ LyapunovResult lyapunov_result(LyapunovOutcome outcome,
   return result;
 }
 
-/// Averages the exponents of one motion: leaves out the first samples, then goes on until their
-/// mean is accurate enough, the samples are at an end or the motion diverges.
+/// Averages the exponents of one motion: discards the first samples, then continues until the mean
+/// is accurate enough, the samples are used up or the motion diverges.
 /// @param pause  called every 2¹² samples
-/// @tparam Lyapunov  sense(), advance() and state() are those of the motion, restart(), spectrum()
-///                   and complete_batches() those of the exponents
+/// @tparam Lyapunov  sense(), advance() and state() of the motion; restart(), spectrum() and
+///                   complete_batches() of the exponents
 template <class Lyapunov>
 LyapunovResult run_average(Lyapunov& motion, const LyapunovRun& run,
                            const std::function<void()>& pause) {
@@ -127,30 +127,30 @@ LyapunovResult run_average(Lyapunov& motion, const LyapunovRun& run,
 
 }  // namespace detail
 
-/// Observer of a trajectory that accumulates its Lyapunov spectrum: S where the force is
+/// The observer of a trajectory that accumulates its Lyapunov spectrum: S where the force is
 /// transmitted, S* in the backlash.
 ///
-/// The consistent tangent comes from the loop of the motion itself. Kollár 2022 prints S and S*
-/// with δ = τ beside a trajectory with δ = 0; passing the loop of δ = τ here gives the exponents of
+/// The consistent tangent comes from the loop of the motion itself. Kollár 2022 gives S and S* with
+/// δ = τ beside a trajectory with δ = 0; with the loop of δ = τ here one obtains the exponents of
 /// Table 2.
-/// @tparam Scalar  `double`, that of the loop
+/// @tparam Scalar  number type of the loop, `double`
 template <class Scalar>
 class LyapunovObserver {
  public:
-  /// @param tangent_loop  whose S and S* are the tangents
+  /// @param tangent_loop  the loop whose S and S* are the tangent maps
   /// @param gains         P (N/m) and D (N s/m) of the motion
   LyapunovObserver(const SampledLoop<Scalar>& tangent_loop, const PdGains<Scalar>& gains)
       : LyapunovObserver(std::make_shared<const ItineraryBlocks>(tangent_loop, gains)) {}
 
-  /// @param blocks  of the loop whose S and S* are the tangents
-  /// @param scope   what is computed
+  /// @param blocks  blocks of the loop whose S and S* are the tangent maps
+  /// @param scope   which exponents are computed
   explicit LyapunovObserver(std::shared_ptr<const ItineraryBlocks> blocks,
                             LyapunovScope scope = LyapunovScope::all)
       : engine_(std::move(blocks), scope) {}
 
-  /// Takes the contact of the next sample, and nothing else of it.
+  /// Adds the contact of the next sample; nothing else of the sample is used.
   void operator()(const MotionSample<Scalar>& sample) { push(sample.engaged); }
-  /// The same.
+  /// Adds the contact of the next sample.
   void push(bool engaged) {
     open_ = followed_by(open_, engaged);
     if (!is_whole(open_)) return;
@@ -158,12 +158,12 @@ class LyapunovObserver {
     open_ = empty_block;
   }
 
-  /// The spectrum over the samples seen so far, as of QR at every one of them. Reading it, however
-  /// often, changes nothing.
+  /// The spectrum over the samples so far, as by QR at every one of them. Reading it changes
+  /// nothing.
   LyapunovSpectrum<Scalar, 5> spectrum() const { return engine_.spectrum(open_); }
-  /// Number of batches complete, for the standard errors.
+  /// The number of complete batches, for the standard errors.
   std::size_t complete_batches() const { return engine_.complete_batches(); }
-  /// Forgets all but the directions of the tangent vectors.
+  /// Restarts the averages; only the directions of the tangent vectors are kept.
   void restart() {
     engine_.restart(open_);
     open_ = empty_block;
@@ -176,7 +176,7 @@ class LyapunovObserver {
 
 namespace detail {
 
-/// A motion of the sampled loop with its exponents, as run_average() takes it.
+/// A motion of the sampled loop with its exponents, as run_average() requires it.
 /// @tparam Exponents  LyapunovObserver or ModalSpectrum
 template <class Motion, class Exponents>
 class SampledLyapunov : public Exponents {
@@ -196,7 +196,7 @@ class SampledLyapunov : public Exponents {
   bool engaged_ = false;
 };
 
-/// The exponents of a motion from where it stands, over a run.
+/// The exponents of a motion from its present state over a run.
 template <class Motion, class Exponents>
 LyapunovResult run_sampled(Motion& motion, const Exponents& exponents, const LyapunovRun& run,
                            const std::function<void()>& pause) {
@@ -206,14 +206,14 @@ LyapunovResult run_sampled(Motion& motion, const Exponents& exponents, const Lya
 
 }  // namespace detail
 
-/// The Lyapunov exponents of the sampled loop with backlash along a motion, from where it stands.
+/// The Lyapunov exponents of the sampled loop with backlash along a motion from its present state.
 ///
 ///     auto blocks = std::make_shared<const ItineraryBlocks>(loop, gains);
 ///     const LyapunovResult result = run_lyapunov(motion, blocks, {1000000, 1000, 1e-5});
 ///
-/// @param motion  SampledMotion on scalars; left after the last sample taken
-/// @param blocks  of the loop whose S and S* are the tangents
-/// @param run     how long, and with what accuracy, is averaged
+/// @param motion  a SampledMotion on scalars; it ends after the last sample used
+/// @param blocks  blocks of the loop whose S and S* are the tangent maps
+/// @param run     length and accuracy of the average
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible or there are no blocks
 template <class Motion>

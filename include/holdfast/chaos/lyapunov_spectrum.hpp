@@ -16,9 +16,9 @@ namespace holdfast {
 
 namespace detail {
 
-/// An orthogonal basis in which no map of a loop has an invariant or a null direction along
-/// an axis: the reflection I − 2 v vᵀ / ‖v‖², v_i = √(i + 1).
-/// @param size  of the maps
+/// An orthogonal basis for which no map of a loop has an invariant or a null direction along an
+/// axis: the reflection I − 2 v vᵀ / ‖v‖², v_i = √(i + 1).
+/// @param size  size of the maps
 template <class Scalar = double, int Size = 7>
 Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
   Vector<Scalar, Size> normal(size);
@@ -29,29 +29,29 @@ Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
 
 }  // namespace detail
 
-/// Lyapunov spectrum of a sequence of tangent maps, by QR at every step.
+/// The Lyapunov spectrum of a sequence of tangent maps, by QR at every step.
 ///
 ///     M_j Q_j = Q_{j+1} R_{j+1},   λ_i = (1/n) Σ_j ln |(R_j)_ii|   (natural logarithm per step)
 ///
-/// A tangent map of rank r < Size has Size − r null directions: those exponents are exactly −∞,
-/// and no logarithm of round-off is taken. The rank is that to working precision: a direction that
-/// one step contracts by more than about 10¹⁵ against the others counts as a null direction.
+/// A tangent map of rank r < Size has Size − r null directions: those exponents are exactly −∞, not
+/// logarithms of round-off. The rank is determined to working precision: a direction that one step
+/// contracts by more than about 10¹⁵ against the others is a null direction.
 /// Source: Kollár 2022, Eq. (16), whose Gram–Schmidt steps are this QR with a worse conditioning;
 /// G. Benettin et al., Meccanica 15 (1980).
 template <class Scalar, int Size>
 class LyapunovSpectrum {
  public:
-  /// Sums over the steps so far, and where they stand.
+  /// The sums over the steps so far, with the present basis.
   struct State {
     Matrix<Scalar, Size> basis;      ///< Q_n
-    BatchSums<Scalar, Size> sums;    ///< of ln |R_ii|
-    Vector<Scalar, Size> remainder;  ///< what belongs to the sums, but to none of their batches
+    BatchSums<Scalar, Size> sums;    ///< sums of ln |R_ii|
+    Vector<Scalar, Size> remainder;  ///< part of the sums that is in no batch yet
     int finite = Size;               ///< number of exponents that are not −∞
   };
 
-  /// @param initial_basis  Q₀, orthogonal; the exponents are those of the space that its leading
-  ///                       columns reach, so that maps with an invariant coordinate axis need
-  ///                       another than the identity
+  /// @param initial_basis  Q₀, orthogonal; the exponents belong to the span of its leading columns
+  ///                       under the maps, so that maps with an invariant coordinate axis need
+  ///                       another basis than the identity
   explicit LyapunovSpectrum(const Matrix<Scalar, Size>& initial_basis =
                                 Matrix<Scalar, Size>::Identity(Size < 0 ? 0 : Size,
                                                                Size < 0 ? 0 : Size))
@@ -59,29 +59,29 @@ class LyapunovSpectrum {
                Vector<Scalar, Size>::Zero(initial_basis.rows()),
                static_cast<int>(initial_basis.rows())} {}
 
-  /// Goes on from steps that were taken otherwise.
+  /// Continues from the sums of steps computed elsewhere.
   explicit LyapunovSpectrum(const State& state) : state_(state) {}
 
-  /// Rank of a map to working precision; find it once where the same map is pushed many times.
+  /// The rank of a map to working precision; to be computed once for a map that is used many times.
   static int rank_of(const Matrix<Scalar, Size>& tangent);
 
-  /// Takes one step with the tangent map `tangent` of known rank.
+  /// Applies one step with the tangent map `tangent` of known rank.
   void push(const Matrix<Scalar, Size>& tangent, int rank);
 
-  /// The same, the map's rank found first.
+  /// Applies one step with a tangent map whose rank is determined first.
   void push(const Matrix<Scalar, Size>& tangent) { push(tangent, rank_of(tangent)); }
 
-  /// λ₁ … λ_Size per step, in the order of the QR (descending once converged); −∞ where exact, NaN
-  /// before the first step.
+  /// The exponents λ₁ … λ_Size per step, in the order of the QR (descending once converged); −∞
+  /// where exact, NaN before the first step.
   Vector<Scalar, Size> exponents() const;
 
-  /// Standard errors by batch means; 0 for an exact −∞, NaN while there are too few steps.
+  /// The standard errors by batch means; 0 for an exact −∞, NaN with too few steps.
   Vector<Scalar, Size> standard_errors() const {
     return with(state_.sums.standard_errors(), Scalar(0));
   }
 
-  /// The exponents over the steps from where the directions have settled, with standard errors that
-  /// hold also where the sums are bounded: settled_means(), of the sums alone. −∞ ± 0 for a null
+  /// The exponents over the steps after the directions have settled (settled_means()), with
+  /// standard errors that remain valid where the sums are bounded. −∞ ± 0 for a null
   /// direction.
   SettledMeans<Size> settled() const {
     SettledMeans<Size> found = settled_means(state_.sums);
@@ -90,13 +90,13 @@ class LyapunovSpectrum {
     return found;
   }
 
-  /// n, the number of maps since the start or the last restart.
+  /// The number n of maps since the start or the last restart.
   std::int64_t steps() const { return state_.sums.steps(); }
-  /// Number of batches complete, for the standard errors.
+  /// The number of complete batches, for the standard errors.
   std::size_t complete_batches() const { return state_.sums.complete_batches(); }
 
-  /// Forgets all but the directions of the tangent vectors and how many of them are null
-  /// directions: the exponents are those of the steps from here on.
+  /// Restarts the averages; only the directions of the tangent vectors and the number of null
+  /// directions are kept.
   void restart() {
     state_.sums = BatchSums<Scalar, Size>(1, state_.basis.rows());
     state_.remainder.setZero();

@@ -16,7 +16,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// The exponents of a conductor by its modes, as indicators_of_system() takes them.
+/// The exponents of a conductor by its modes, in the form that indicators_of_system() requires.
 template <class Scalar>
 struct ModalTangents : ModalSpectrum<Scalar> {
   const bool& engaged;
@@ -29,13 +29,13 @@ struct ModalTangents : ModalSpectrum<Scalar> {
 
 }  // namespace detail
 
-/// Says what the motion of a conductor by its modes is, as classify_motion() of an IdealLoop does;
-/// undecided where its natural motions are not all found.
-/// @param loop           with its excitation and backlash
-/// @param initial_state  of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂]
-/// @param limits         of the search for an orbit
-/// Work: that of find_periodic_orbit(), and 0.2 million multiply-adds a natural motion for each
-/// thousand samples that are looked at.
+/// Classifies the motion of a conductor by its modes, as classify_motion() of an IdealLoop;
+/// undecided where some of its natural motions were not found.
+/// @param loop           the loop with its excitation and backlash
+/// @param initial_state  state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂]
+/// @param limits         limits of the search for an orbit
+/// Work: that of find_periodic_orbit(), and 0.2 million multiply-adds per natural motion and
+/// thousand samples examined.
 /// @throws InvalidParameter where one of them is not admissible
 template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 SampledClassification classify_motion(const Loop& loop, const ModalMotion::Full& initial_state,

@@ -18,22 +18,22 @@
 namespace holdfast {
 
 /// The five leading Lyapunov exponents of a conductor by its modes along a sequence of contacts, as
-/// LyapunovSpectrum has them of maps, by five deviations that are orthonormalised at every sample.
+/// LyapunovSpectrum of maps, from five deviations orthonormalised at every sample.
 ///
-/// Exponents that are exactly −∞ are left out, but for a single mode, which has four where there is
-/// no processing delay, and once the drive has been in its backlash. Work per sample: 130
-/// multiply-adds a natural motion.
+/// Exponents that are exactly −∞ are left out. The exception is a single mode: it has only four
+/// finite ones without processing delay, and also once the drive has been in its backlash. Work per
+/// sample: 130 multiply-adds per natural motion.
 template <class Scalar = double>
 class ModalSpectrum {
  public:
-  /// @param loop  whose natural motions are all found
+  /// @param loop  the loop; all its natural motions must be known
   explicit ModalSpectrum(const ModalLoop& loop)
       : ModalSpectrum(NaturalMotions(loop, plant_poles(loop.modes, loop.absorber)), loop.gains,
                       loop.sampling.processing_delay > 0.0) {}
 
-  /// @param motions  of the loop
+  /// @param motions  natural motions of the loop
   /// @param gains    P and D while the drive transmits
-  /// @param late     whether a force acts beyond the sample that decides it, δ > 0
+  /// @param late     whether a force acts beyond the next sample, δ > 0
   ModalSpectrum(const NaturalMotions& motions, const PdGains<double>& gains, bool late)
       : deviations_(motions, gains) {
     const Eigen::Index order = deviations_.order();
@@ -41,7 +41,7 @@ class ModalSpectrum {
     deviations_.begin(detail::oblique_basis<Scalar, Eigen::Dynamic>(order).leftCols(finite_));
   }
 
-  /// Takes one sample, at which the drive transmits or not.
+  /// Adds one sample, at which the drive transmits or not.
   void push(bool engaged) {
     deviations_.advance(engaged);
     Matrix<Scalar, Eigen::Dynamic> basis = deviations_.columns();
@@ -60,19 +60,19 @@ class ModalSpectrum {
     sums_.add(logarithms, 1);
   }
 
-  /// The same, so that it may look on in run_trajectory.
+  /// Adds one sample, in the form of an observer of run_trajectory.
   void operator()(const MotionSample<double>& sample) { push(sample.engaged); }
 
-  /// Forgets all but the directions of the deviations.
+  /// Restarts the averages; only the directions of the deviations are kept.
   void restart() { sums_ = BatchSums<Scalar, leading>(1); }
 
-  /// Over the samples since the last restart.
+  /// The spectrum over the samples since the last restart.
   LyapunovSpectrum<Scalar, 5> spectrum() const {
     return LyapunovSpectrum<Scalar, 5>({Matrix<Scalar, leading>::Identity(), sums_,
                                         Vector<Scalar, leading>::Zero(),
                                         static_cast<int>(finite_)});
   }
-  /// Number of batches complete, for the standard errors.
+  /// The number of complete batches, for the standard errors.
   std::size_t complete_batches() const { return sums_.complete_batches(); }
 
  private:
@@ -83,11 +83,11 @@ class ModalSpectrum {
   BatchSums<Scalar, leading> sums_{1};
 };
 
-/// The five leading Lyapunov exponents of a motion of a conductor by its modes, from where it
-/// stands, natural logarithm per sample.
-/// @param motion  ModalMotion; left after the last sample taken
-/// @param loop    that of the motion
-/// @param run     how long, and with what accuracy, is averaged
+/// The five leading Lyapunov exponents of a motion of a conductor by its modes, from its present
+/// state, natural logarithm per sample.
+/// @param motion  a ModalMotion; it ends after the last sample used
+/// @param loop    the loop of the motion
+/// @param run     length and accuracy of the average
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible
 template <class Motion>

@@ -28,28 +28,28 @@
 
 namespace holdfast {
 
-/// Kind of a motion of a loop with backlash, with its certificate or the indicators.
-/// @tparam Search  OrbitResultOf the model's orbit
+/// The kind of a motion of a loop with backlash, with its certificate or the indicators.
+/// @tparam Search  OrbitResultOf the orbits of the loop
 template <class Search>
 struct ClassifiedMotion {
-  Classification classification;  ///< what the motion is, and what that rests on
-  /// The orbit, where there is one; `incommensurate` also under a recorded force or where samples
-  /// jitter.
+  Classification classification;  ///< kind of the motion and its reason
+  /// The search's result with the orbit, if there is one; `incommensurate` also under a recorded
+  /// force or with jittering samples.
   Search search;
-  ChaosIndicators indicators;  ///< of a certified orbit its period and its exponent alone
+  ChaosIndicators indicators;  ///< for a certified orbit only its period and exponent
 };
 
-/// Classification of a motion of an IdealLoop.
+/// The classification of a motion of an IdealLoop.
 using SampledClassification = ClassifiedMotion<OrbitResult>;
-/// Classification of a motion of an ImplementedLoop. @tparam States  N, the order of the plant
+/// The classification of a motion of an ImplementedLoop. @tparam States  N, the order of the plant
 template <int States>
 using EventClassificationOf = ClassifiedMotion<OrbitResultOf<EventOrbitOf<States>>>;
-/// Classification of a motion of the two masses.
+/// The classification of a motion of the two masses.
 using EventClassification = EventClassificationOf<4>;
 
 namespace detail {
 
-/// @param shown  what it shows of the orbit's contacts
+/// @param shown  text about the orbit's contacts
 template <class Orbit>
 std::string certificate_text(const Orbit& orbit, const std::string& shown) {
   const auto counted = [](std::int64_t count, const char* what) {
@@ -65,10 +65,10 @@ std::string certificate_text(const Orbit& orbit, const std::string& shown) {
          ", and it closes to " + number_text(orbit.closure_error) + " in m and m/s.";
 }
 
-/// Takes the classification from the search where that has certified an orbit or seen the motion
+/// Takes the classification from the search where it certified an orbit or saw the motion
 /// diverge.
-/// @param shown   what a certificate shows of the orbit's contacts
-/// @return whether it has
+/// @param shown   text about the orbit's contacts for the certificate
+/// @return whether the search decided
 template <class Search>
 bool is_decided_by_search(ClassifiedMotion<Search>& found, const std::string& shown) {
   const bool certified = found.search.outcome == OrbitOutcome::certified;
@@ -87,8 +87,8 @@ bool is_decided_by_search(ClassifiedMotion<Search>& found, const std::string& sh
   return true;
 }
 
-/// How a loop is looked at: as many samples as the 0–1 test wants forcing periods for.
-/// @param cycles  f τ, periods of the forcing in a sample, > 0
+/// The options for a loop: as many samples as contain enough forcing periods for the 0–1 test.
+/// @param cycles  f τ, periods of the forcing per sample, > 0
 inline IndicatorOptions indicator_options(double cycles) {
   IndicatorOptions options;
   const double samples_of_period = std::clamp(std::round(1.0 / cycles), 1.0, 200.0);
@@ -99,9 +99,9 @@ inline IndicatorOptions indicator_options(double cycles) {
   return options;
 }
 
-/// The indicators of a motion that switches at its samples, from what conductor and absorber show.
-/// @param engaged   takes whether the drive transmits, for the tangents
-/// @param tangents  as indicators_of_system() takes them
+/// The indicators of a motion that switches at its samples, from states of conductor and absorber.
+/// @param engaged   set to whether the drive transmits, for the tangents
+/// @param tangents  as indicators_of_system() requires them
 template <class Motion, class Tangents>
 ChaosIndicators indicators_of_samples(Motion motion, const IndicatorOptions& options, bool& engaged,
                                       Tangents& tangents) {
@@ -123,7 +123,7 @@ ChaosIndicators indicators_of_samples(Motion motion, const IndicatorOptions& opt
   return indicators;
 }
 
-/// The indicators of a motion of an IdealLoop from its samples.
+/// The indicators of a motion of an IdealLoop, from its samples.
 template <class Scalar>
 ChaosIndicators indicators_of_motion(const IdealLoop<Scalar>& loop,
                                      const HarmonicallyForcedMotion<Scalar>& motion,
@@ -138,14 +138,14 @@ ChaosIndicators indicators_of_motion(const IdealLoop<Scalar>& loop,
   return indicators_of_samples(motion, options, engaged, tangents);
 }
 
-/// A motion seen by chaos_indicators(): states [x; u_{j−1}; 0; 0], as those of the indicators of an
-/// IdealLoop with room for the tangent of VariationalFlow.
+/// A motion in the form of chaos_indicators(): states [x; u_{j−1}; 0; 0], like those of an
+/// IdealLoop, with room for the tangent of VariationalFlow.
 template <class Contact>
 class TrajectoryWithTangent {
   static constexpr int size = VariationalFlow<Contact>::size;
 
  public:
-  /// @param gap_counts  whether a deviation of the gap is one of the motion
+  /// @param gap_counts  whether a deviation of the gap counts as a deviation of the motion
   TrajectoryWithTangent(const EventMotion<Contact>& start, bool gap_counts)
       : motion_(start), tangent_(motion_), gap_counts_(gap_counts) {}
 
@@ -159,7 +159,7 @@ class TrajectoryWithTangent {
         [this](const State&) { return map(); }, [this] { return engaged_; });
   }
 
-  /// The sample since which the drive has not left its gap.
+  /// The last sample at which the drive was outside its gap.
   std::int64_t last_engaged() const { return last_engaged_; }
   bool accumulates() const { return motion_.counts().accumulates; }
 
@@ -200,8 +200,8 @@ class TrajectoryWithTangent {
   std::int64_t last_engaged_ = 0;
 };
 
-/// Indicators of a motion from its samples.
-/// @return nothing where its changes of contact accumulate
+/// The indicators of a motion with exact switching, from its samples.
+/// @return nothing where changes of contact accumulate
 template <class Contact>
 std::optional<ChaosIndicators> indicators_of_motion(const EventMotion<Contact>& start,
                                                     const IndicatorOptions& options) {
@@ -214,7 +214,7 @@ std::optional<ChaosIndicators> indicators_of_motion(const EventMotion<Contact>& 
   return TrajectoryWithTangent<Contact>(start, false).indicators(options);
 }
 
-/// The harmonic that motions are measured by; null without one.
+/// The harmonic whose periods are counted; null without one.
 inline const Harmonic* first_harmonic(const MultiHarmonicForce& force) {
   const auto first =
       std::find_if(force.harmonics.begin(), force.harmonics.end(),
@@ -222,8 +222,8 @@ inline const Harmonic* first_harmonic(const MultiHarmonicForce& force) {
   return first == force.harmonics.end() ? nullptr : &*first;
 }
 
-/// The frequency (Hz) at which a plant swings by itself: the conductor's own of the two masses,
-/// that of the slowest mode of another one; without any, its fastest rate.
+/// The natural frequency (Hz) of a plant: for two masses the conductor's own, for other plants that
+/// of the slowest mode; without any, its fastest rate.
 inline double own_frequency(const TwoMass<double>& plant) {
   const double own = std::sqrt(plant.conductor_stiffness / plant.conductor_mass);
   return own / (2.0 * pi<double>);
@@ -235,8 +235,8 @@ double own_frequency(const Plant& plant) {
   return balanced_norm(plant.state_matrix()) / (2.0 * pi<double>);
 }
 
-/// The plan for a loop, by its first harmonic or else by its own frequency. A recorded force is not
-/// outlived by it.
+/// The options for a loop, from its first harmonic or else from its own frequency. The examined
+/// time does not exceed the record of a recorded force.
 /// @return nothing where the record ends before enough samples
 template <class Plant>
 std::optional<IndicatorOptions> indicator_options(const ImplementedLoopOf<Plant>& loop) {
@@ -255,17 +255,17 @@ std::optional<IndicatorOptions> indicator_options(const ImplementedLoopOf<Plant>
   return options;
 }
 
-/// How a motion is weighed by its samples.
+/// The conditions of the examination of a motion by its samples.
 struct Weighing {
-  bool is_forced;               ///< by a harmonic, whose periods are counted
-  bool may_look_longer = true;  ///< than the plan says, where that does not decide
+  bool is_forced;               ///< forced by a harmonic, whose periods are counted
+  bool may_look_longer = true;  ///< may use more samples if the planned ones do not decide
 };
 
-/// The classification of a motion by its samples; where they do not decide, by a neighbour, and
-/// where that does not either, by as many samples as may be.
+/// Classifies a motion by its samples; where they do not decide, by a neighbour, and where that
+/// does not decide either, by as many samples as allowed.
 /// @param start  the motion, before a sample
-/// @param look   ChaosIndicators by IndicatorOptions, nothing where it cannot be followed
-/// @return whether it could be followed
+/// @param look   ChaosIndicators for IndicatorOptions, nothing where the motion cannot be followed
+/// @return whether the motion could be followed
 template <class Search, class Motion, class Look>
 bool classify(ClassifiedMotion<Search>& found, const Motion& start, IndicatorOptions options,
               const Weighing& criteria, const Look& look) {
@@ -289,8 +289,8 @@ bool classify(ClassifiedMotion<Search>& found, const Motion& start, IndicatorOpt
   return classify(found, start, options, criteria, look);
 }
 
-/// The classification of a loop that switches at samples, from the orbit that its motion comes to
-/// or else by `look`, as weigh() takes it.
+/// The classification of a loop that switches at samples, from the orbit that its motion comes to,
+/// or else from the indicators that `look` computes.
 /// @tparam Loop  IdealLoop or ModalLoop
 template <class Loop, class Motion, class Look>
 SampledClassification classify_sampled(const Loop& loop, OrbitResult search, const Motion& motion,
@@ -337,17 +337,17 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
 
 }  // namespace detail
 
-/// Says what a motion is: by the orbit that it comes to, or, where none is found, by the indicators
-/// of its samples.
+/// Classifies a motion: by the periodic orbit that it comes to, or, where none is found, by the
+/// indicators of its samples.
 ///
 ///     classify_motion(loop, Vector<double, 4>::Zero()).classification.kind;   //
 ///     AttractorType::periodic
 ///
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
-/// @param limits         of the search for an orbit
-/// Work: that of find_periodic_orbit() and of chaos_indicators() for up to 10⁵ samples, and where
-/// these do not decide once more for 10⁵ samples, each time with three times as many of the motion.
+/// @param limits         limits of the search for an orbit
+/// Work: that of find_periodic_orbit() and of chaos_indicators() for up to 10⁵ samples; where these
+/// do not decide, again for 10⁵ samples, three times as many of the motion each time.
 /// @throws InvalidParameter where one of them is not admissible
 template <class Scalar>
 SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
@@ -360,7 +360,7 @@ SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
                                     return detail::indicators_of_motion(loop, motion, plan);
                                   });
 }
-/// Classifies a motion of an IdealLoop that begins at any column of Eigen's.
+/// Classifies a motion of an IdealLoop; the initial state is any Eigen column.
 template <class Scalar, class Column>
 SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
                                       const Eigen::MatrixBase<Column>& initial_state,
@@ -371,17 +371,17 @@ SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
 
 /// Classifies a motion of an implemented loop, with the saltation at each change of contact.
 ///
-/// The rules are those of `classify`. Three things are beyond an IdealLoop:
-///  - a recorded force or a clock that jitters: no orbit is looked for, and nothing is called
-///    quasi-periodic or, with such a clock, periodic, rest apart. An exponent below zero is
-///    `irregular_contracting`: neighbours come together under one and the same forcing. The
-///    evidence is of the samples before the record ends; undecided where those are fewer than 4200;
-///  - a quantised measurement has no tangent at its steps: exponents and multipliers are those
-///    between them;
+/// The rules are those of `classify`. Three cases do not occur in an IdealLoop:
+/// - a recorded force or a jittering clock: no orbit is sought, and nothing is called
+/// quasi-periodic or, with such a clock, periodic, except rest. A negative exponent means
+/// `irregular_contracting`: neighbours converge under the same forcing. Only samples before the end
+/// of the record count; undecided where they are fewer than 4200;
+/// - a quantised measurement has no tangent at its steps: exponents and multipliers are those in
+/// between;
 ///  - where changes of contact accumulate the classification is undecided.
-/// @param loop           as it is built
+/// @param loop           the loop with its implemented hardware
 /// @param initial_state  x₀, N × 1, finite; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s)
-/// @param limits         of the search for an orbit
+/// @param limits         limits of the search for an orbit
 /// Work: that of find_event_orbit() and of chaos_indicators() for up to 10⁵ samples.
 /// @throws InvalidParameter where one of them is not admissible
 /// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>
@@ -404,7 +404,7 @@ EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<
                                      " (from 0), so that the motion is one of a family.";
   return found;
 }
-/// Classifies a motion of an implemented loop that begins at any column of Eigen's.
+/// Classifies a motion of an implemented loop; the initial state is any Eigen column.
 template <class Plant, class Column>
 EventClassificationOf<states_of<Plant>> classify_motion(
     const ImplementedLoopOf<Plant>& loop, const Eigen::MatrixBase<Column>& initial_state,

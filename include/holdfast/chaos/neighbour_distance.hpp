@@ -10,19 +10,19 @@
 
 namespace holdfast {
 
-/// How far a neighbour of a motion is from it in the end: the mean over the last quarter of the
-/// samples of |x_i − y_i| over the extent of x_i, the largest of all coordinates i of the state.
-/// The neighbour begins after the transient, its z displaced by `neighbour_start` of the extent of
+/// The final distance of a neighbour of a motion: the mean over the last quarter of the samples
+/// of |x_i − y_i| over the extent of x_i, for the coordinate i in which it is largest. The
+/// neighbour starts after the transient, with z displaced by `neighbour_start` of the extent of
 /// z.
 ///
-/// It tells sensitive motions from others by what happens to two motions, without tangents: where
-/// neighbours separate exponentially the distance ends at a share of the extent; on an invariant
-/// circle or torus it stays what it was.
-/// @param motion     SampledMotion, EventMotion or ModalMotion, before a sample; a copy of it runs
-/// @param transient  samples left out first, ≥ 2
-/// @param samples    taken side by side, ≥ 4
+/// It detects sensitive dependence from two motions, without tangents: where neighbours separate
+/// exponentially the distance ends at a share of the extent; on an invariant circle or torus it
+/// stays at its initial size.
+/// @param motion     SampledMotion, EventMotion or ModalMotion before a sample; a copy is run
+/// @param transient  samples left out at the start, ≥ 2
+/// @param samples    number of samples of both motions, ≥ 4
 /// @return nothing where z does not move or a state leaves the range of numbers
-/// @throws InvalidParameter for fewer samples
+/// @throws InvalidParameter where `transient` or `samples` is too small
 template <class Motion>
 std::optional<double> neighbour_distance(Motion motion, std::int64_t transient,
                                          std::int64_t samples) {

@@ -10,19 +10,19 @@
 
 namespace holdfast {
 
-/// Distances between the states of a series, each coordinate measured in its own extent:
+/// The distance between states of a series, each coordinate measured in its own extent:
 ///
 ///     d(x, y) = max_i |x_i − y_i| / (max x_i − min x_i)
 ///
-/// so that 0 ≤ d ≤ 1 in any units. A coordinate that is constant to within round-off, 10⁻¹³ of its
-/// own size, is left out; one that is nothing but round-off about zero needs a size given.
+/// so that 0 ≤ d ≤ 1 in any units. A coordinate that is constant to round-off, 10⁻¹³ of its size,
+/// is left out; a coordinate that is mere round-off about zero needs its size as an argument.
 template <int Size>
 class RelativeDistance {
  public:
-  /// @param states  the series whose extents are the measure
-  /// @param sizes   size of each coordinate where it is more than the series shows, as when the
-  ///                motion has decayed from there
-  /// @throws InvalidParameter for an empty series or a state that is not finite
+  /// @param states  the series whose extents are the units
+  /// @param sizes   size of each coordinate where it exceeds that in the series, for example after
+  ///               decay
+  /// @throws InvalidParameter where the series is empty or a state is not finite
   explicit RelativeDistance(const std::vector<Vector<double, Size>>& states,
                             const Vector<double, Size>& sizes = no_sizes()) {
     require_positive("number of states", static_cast<double>(states.size()), "");
@@ -38,10 +38,10 @@ class RelativeDistance {
     weights_ = (extent.array() > 1e-13 * largest.array()).select(extent.cwiseInverse(), 0.0);
   }
 
-  /// Stands for sizes that are not known.
+  /// The value for unknown sizes: zeros.
   static Vector<double, Size> no_sizes() { return Vector<double, Size>::Zero(Size < 0 ? 0 : Size); }
 
-  /// d of two states, of which either may lie outside the series; 0 where no coordinate varies.
+  /// The distance d of two states, in or outside the series; 0 where no coordinate varies.
   double operator()(const Vector<double, Size>& one, const Vector<double, Size>& other) const {
     return (one - other).cwiseAbs().cwiseProduct(weights_).maxCoeff();
   }
@@ -50,12 +50,12 @@ class RelativeDistance {
   Vector<double, Size> weights_;
 };
 
-/// Least distance over all pairs of states of a series, relative to its extent: its closest return.
+/// The closest return of a series: the least distance over all pairs of its states, as a share.
 ///
 /// Work: N²/2 distances, N ≤ 5000.
-/// @param states  x_j at successive samples, whose extents are the measure
-/// @return 1 of a single state
-/// @throws InvalidParameter for no or more than 5000 states, or a state not finite
+/// @param states  x_j at successive samples, whose extents are the units
+/// @return 1 for a single state
+/// @throws InvalidParameter for no or more than 5000 states, or a state that is not finite
 template <int Size>
 double closest_return(const std::vector<Vector<double, Size>>& states) {
   require_within("number of states", static_cast<double>(states.size()), "", 1.0, 5000.0);
@@ -67,24 +67,24 @@ double closest_return(const std::vector<Vector<double, Size>>& states) {
   return closest;
 }
 
-/// Result of a search for repetition, and how far it looked.
+/// The result of a search for repetition, with the searched range.
 struct RepeatSearch {
-  std::size_t lag;          ///< the smallest lag that repeats, 0 where none does
-  std::size_t largest_lag;  ///< the largest lag that was tried
-  double tolerance;         ///< of a repeat, relative to the extent
+  std::size_t lag;          ///< smallest lag that repeats, 0 without one
+  std::size_t largest_lag;  ///< largest lag that was tested
+  double tolerance;         ///< tolerance of a repeat, as a share of the extent
 };
 
-/// Smallest lag n at which the whole second half of a series repeats itself,
+/// The smallest lag n at which the whole second half of a series repeats itself,
 ///
 ///     d(x_j, x_{j−n}) ≤ tolerance   for every j ≥ N/2
 ///
-/// with room for `repeats` of them: n ≤ N / (2 repeats). It is evidence and no proof: a motion of
-/// slow drift or of a longer period may pass a coarse tolerance. Work: one distance a lag where it
-/// fails at once; at worst N²/(4 repeats), N ≤ 10⁶.
+/// with room for `repeats` repetitions: n ≤ N / (2 repeats). It is evidence and no proof: slow
+/// drift or a longer period may pass a coarse tolerance. Work: one distance for a lag that fails at
+/// once; at worst N²/(4 repeats), N ≤ 10⁶.
 /// @param states     x_0 … x_{N−1} at successive samples
-/// @param tolerance  relative to the extent of the second half, 0 ≤ tolerance < 1
+/// @param tolerance  share of the extent of the second half, 0 ≤ tolerance < 1
 /// @param repeats    ≥ 1
-/// @param sizes      see RelativeDistance: what has decayed below round-off of it is at rest
+/// @param sizes      see RelativeDistance: a coordinate below round-off of its size is at rest
 /// @throws InvalidParameter for no or more than 10⁶ states, a state not finite, or arguments out of
 ///         their ranges
 template <int Size>
@@ -106,17 +106,17 @@ RepeatSearch repeats_after(const std::vector<Vector<double, Size>>& states, doub
   return {0, largest, tolerance};
 }
 
-/// Determinism of a series by its recurrence plot, the pairs of a state with itself left out: the
-/// share of the pairs within a radius that lie on diagonal lines of two or more, of the returns
-/// that are followed by another; 0 where nothing returns.
+/// The determinism of a series from its recurrence plot (without the diagonal): the share of the
+/// pairs within a radius that are on diagonal lines of two or more, that is, of returns followed by
+/// another return; 0 without returns.
 ///
-/// It is near 1 for a motion on a closed curve and about 1 − (1 − rate)² for chance, the rate being
-/// the share of the pairs that are within the radius. Work: N²/2 distances and no storage,
-/// N ≤ 5000. Source: N. Marwan et al., Physics Reports 438 (2007), 237–329.
-/// @param states  x_j at successive samples, whose extents are the measure
+/// It is near 1 for a motion on a closed curve and about 1 − (1 − rate)² for a random series, the
+/// rate being the share of pairs within the radius. Work: N²/2 distances and no storage, N ≤ 5000.
+/// Source: N. Marwan et al., Physics Reports 438 (2007), 237–329.
+/// @param states  x_j at successive samples, whose extents are the units
 /// @param radius  share of the extent, > 0
-/// @throws InvalidParameter for fewer than two or more than 5000 states, a state not finite, or
-///         another radius
+/// @throws InvalidParameter for fewer than two or more than 5000 states, a state that is not
+/// finite, or a radius that is not positive
 template <int Size>
 double recurrence_determinism(const std::vector<Vector<double, Size>>& states, double radius) {
   require_within("number of states", static_cast<double>(states.size()), "", 2.0, 5000.0);

@@ -8,18 +8,18 @@
 
 namespace holdfast {
 
-/// How rich an itinerary (engaged, in the backlash) is.
+/// The complexity of an itinerary (engaged, in the backlash).
 struct SwitchingComplexity {
-  double entropy;        ///< h_k = H_{k+1} − H_k (bit per symbol)
-  std::size_t block;     ///< k
-  std::size_t switches;  ///< how often the contact changes
+  double entropy;        ///< h_k = H_{k+1} − H_k (bits per symbol)
+  std::size_t block;     ///< length k of the words
+  std::size_t switches;  ///< number of changes of contact
 };
 
-/// H_k, the entropy (bit) of the words of k symbols that a sequence holds, by their frequencies.
-/// It is too low where the sequence has not many times 2^k symbols. Work: n + 2^k.
-/// @param sequence  n symbols, read with overlap
-/// @param block     k, 0 … 20 and ≤ n; H₀ = 0
-/// @throws InvalidParameter for another k
+/// The entropy H_k (bits) of the words of k symbols in a sequence, from their frequencies. It is
+/// biased low unless the sequence has many times 2^k symbols. Work: n + 2^k.
+/// @param sequence  n symbols, whose words overlap
+/// @param block     word length k, 0 … 20 and ≤ n; H₀ = 0
+/// @throws InvalidParameter where k is out of its range
 inline double block_entropy(const std::vector<bool>& sequence, std::size_t block) {
   const double longest = std::fmin(20.0, static_cast<double>(sequence.size()));
   require_within("block length", static_cast<double>(block), "", 0.0, longest);
@@ -38,14 +38,14 @@ inline double block_entropy(const std::vector<bool>& sequence, std::size_t block
   return std::fmax(0.0, entropy);
 }
 
-/// Complexity of an itinerary.
+/// The complexity of an itinerary, from its block entropies.
 ///
-/// k of the block entropies is the largest with 2^{k+1} ≤ n/32, at most 12, so that each possible
-/// word is expected 32 times. A sequence of period N that is no longer than k has h_k = 0; h_k of a
-/// longer one is above 0 and falls with k. Of contacts that seldom switch h is small because most
-/// samples say nothing new; compare it only at the same sampling period.
+/// The word length k is the largest with 2^{k+1} ≤ n/32, at most 12, so that each possible word is
+/// expected 32 times. A sequence with a period N ≤ k has h_k = 0; with a longer period h_k is above
+/// 0 and falls with k. With rare changes of contact h is small because most samples add no
+/// information; so it is comparable only at the same sampling period.
 /// @param sequence  64 … 10⁶ symbols
-/// @throws InvalidParameter for another number of symbols
+/// @throws InvalidParameter where the number of symbols is out of its range
 /// @tparam Sequence  std::vector<bool>
 template <class Sequence = std::vector<bool>>
 SwitchingComplexity switching_complexity(const Sequence& sequence) {

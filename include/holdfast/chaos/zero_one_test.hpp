@@ -13,8 +13,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// The series drives a point of the plane; its mean-square displacement over n = 1, 2, … is the
-/// test's measure. Constant memory once made: one walk is used for every c.
+/// The walk of the 0–1 test: the series moves a point in the plane, and its mean-square
+/// displacement over n = 1, 2, … is measured. One walk serves every c without new memory.
 class ZeroOneWalk {
  public:
   /// @param centred  the series without its mean
@@ -25,7 +25,7 @@ class ZeroOneWalk {
         vertical_(centred.size() + 1, 0.0),
         displacement_(lags_, 0.0) {}
 
-  /// K_c: correlation of the mean-square displacement with the lag.
+  /// The correlation K_c of the mean-square displacement with the lag.
   double correlation(double frequency) {
     walk(frequency);
     std::fill(displacement_.begin(), displacement_.end(), 0.0);
@@ -76,7 +76,7 @@ class ZeroOneWalk {
   std::vector<double> displacement_;
 };
 
-/// The series without its mean; empty where it is constant to within round-off.
+/// The series minus its mean; empty where it is constant to round-off.
 inline std::vector<double> without_mean(std::vector<double> series) {
   double mean = 0.0, largest = 0.0;
   const auto [low, high] = std::minmax_element(series.begin(), series.end());
@@ -90,7 +90,7 @@ inline std::vector<double> without_mean(std::vector<double> series) {
   return series;
 }
 
-/// Median of sorted values, linear between the two in the middle.
+/// The median of sorted values, for an even number the mean of the two in the middle.
 inline double median_of_sorted(const std::vector<double>& sorted) {
   const double place = 0.5 * static_cast<double>(sorted.size() - 1);
   const std::size_t below = static_cast<std::size_t>(place);
@@ -106,22 +106,22 @@ inline double median_of_sorted(const std::vector<double>& sorted) {
 ///     D(n) = mean_j [(p(j+n) − p(j))² + (q(j+n) − q(j))²] − (mean φ)² (1 − cos nc)/(1 − cos c)
 ///     K_c  = correlation of D(n) with n,   n = 1 … N/10;   K = median of K_c over c
 ///
-/// D stays bounded for a regular series and grows like n for a chaotic one. The oscillating term,
-/// the share of the mean, is removed by taking the mean off the series first, so that K changes
-/// with neither shift nor scale. The c are π/5 + (3π/5) {k g}, k = 1, 2, …, with {·} the fractional
-/// part and g = 0.7548776662466927, 1/g the root of x³ = x + 1: evenly spread, the same in every
-/// run. At the few that meet a frequency of the series K_c is 1 without chaos; the median does not
-/// see them.
+/// D stays bounded for a regular series and grows like n for a chaotic one. The oscillating term
+/// is removed by subtracting the mean from the series first, so that K is independent of shift and
+/// scale. The c are π/5 + (3π/5) {k g}, k = 1, 2, …, with {·} the fractional part and g =
+/// 0.7548776662466927, 1/g the root of x³ = x + 1: evenly spread and equal in every run. At the
+/// few c that coincide with a frequency of the series K_c is 1 without chaos; the median ignores
+/// them.
 ///
-/// The test says 0 of any motion sampled much faster than it moves, and of fewer than about 500
-/// samples with several frequencies it may say anything. A constant series has K = 0.
+/// The test yields 0 for any motion sampled much faster than it moves, and is unreliable for fewer
+/// than about 500 samples with several frequencies. A constant series has K = 0.
 ///
-/// Work: at most 500 lags from 5000 evenly spaced j for each c, and one cosine and sine a sample.
+/// Work: at most 500 lags from 5000 evenly spaced j for each c, and one cosine and sine per sample.
 /// Source: G. A. Gottwald, I. Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009), 129–145.
 /// @return K, near 0 for a regular motion, near 1 for a chaotic one
 /// @param series       200 … 100 000 finite values
 /// @param frequencies  number of c, 1 … 1000
-/// @throws InvalidParameter for another number of samples or frequencies, or values not finite
+/// @throws InvalidParameter for a number of samples or frequencies, or a value, out of range
 /// @tparam Series  std::vector<double>
 template <class Series = std::vector<double>>
 double zero_one_test(const Series& series, int frequencies = 100) {

@@ -13,62 +13,62 @@
 
 namespace holdfast {
 
-/// When the drive enters and leaves its backlash.
+/// The instants at which the drive may enter and leave its backlash.
 enum class Switching : std::uint8_t {
-  sampled,  ///< at samples, by the law's rule for them
-  exact,    ///< when it happens; `kollar`, `immediate` and `play` are one law then
+  sampled,  ///< at samples only, by the law's rule for sampled values
+  exact,    ///< exactly; `kollar`, `immediate` and `play` are then the same law
 };
 
-/// The contact of a drive with its load as an automaton of three modes. In each of them the plant
-/// is affine (`dynamics`), guards tell how long it lasts, and `sample`, `jumped` and `reached` are
-/// the transitions.
+/// The contact of a drive with its load as an automaton of three modes. In each mode the plant is
+/// affine (`dynamics`), guards determine its end, and `sample`, `jumped` and `reached` are the
+/// transitions.
 ///
 ///     DriveContact<> contact(plant, {ContactLaw::play, 0.0005}, Switching::exact, state);
 ///
-/// **At samples** any law decides what holds up to the next one; where it does not transmit, the
-/// command of that sample is without effect, u_j = 0 from t_j + δ on. A drive with states of its
-/// own follows that command: what it transmits fades with them. The stops of a dead zone touch from
-/// the sample on. Modes: 1, for a dead zone 0 and 2 on its lower and upper stop.
+/// **At samples** any law decides on the contact up to the next sample; where it does not transmit,
+/// the command of that sample has no effect, u_j = 0 from t_j + δ on. A drive with states of its
+/// own follows that command: its transmitted force decays with them. The stops of a dead zone act
+/// from the sample on. Modes: 1, for a dead zone 0 and 2 on its lower and upper stop.
 ///
-/// **Exact play** is the play operator of Δz as a Filippov system. With v = Δż = rᵀx and
-/// a(s) = rᵀ(A x + b s + b_u u + c F), the relative acceleration while a force s is transmitted,
-/// its modes, numbered as ContactMode is, are
+/// **Exact play** is the play operator of Δz as a Filippov system. With v = Δż = rᵀx and a(s) =
+/// rᵀ(A x + b s + b_u u + c F), the relative acceleration under a transmitted force s, its modes,
+/// numbered as in ContactMode, are
 ///
-///  - engaged: the drive's force s_e is transmitted (u of an ideal drive, f x + g u of one with
-///    states), until v comes to zero from a sign σ. Then the gap is [Δz − r₀, Δz] for σ > 0,
-///    [Δz, Δz + r₀] for σ < 0, and the next mode is stick if σ a(0) > 0 and σ a(s_e) < 0, else gap;
+/// - engaged: the drive's force s_e is transmitted (u for an ideal drive, f x + g u for one with
+/// states), until v reaches zero from a sign σ. Then the gap is [Δz − r₀, Δz] for σ > 0, [Δz, Δz +
+/// r₀] for σ < 0, and the next mode is stick if σ a(0) > 0 and σ a(s_e) < 0, else gap;
 ///  - gap: no force, until Δz leaves the gap; then engaged;
-///  - stick: without a force the spring would push on in the old direction, with s_e it would turn
-///    back. The sides stay together, v = 0, and the force transmitted is that which keeps them so,
-///    s = −rᵀ(A x + b_u u + c F) / (rᵀb), between 0 and s_e. The mode ends in gap when
-///    σ a(0) ≤ 0, in engaged when σ a(s_e) ≥ 0.
+/// - stick: without force the relative motion would continue in the old direction, with s_e it
+/// would reverse. Both sides stay together, v = 0, under the transmitted force s = −rᵀ(A x + b_u u
+/// + c F) / (rᵀb), which is between 0 and s_e. The mode ends in gap when σ a(0) ≤ 0, in engaged
+/// when σ a(s_e) ≥ 0.
 ///
 /// r₀ = 0 is a drive without backlash: always engaged. The rule of Kollár 2022, Eqs. (7)–(8), is
-/// what becomes of this law when it is asked at the samples alone. Source of the sliding force:
-/// A. F. Filippov, Differential equations with discontinuous righthand sides, 1988.
+/// this law evaluated at the samples only. Source of the sliding force: A. F. Filippov,
+/// Differential equations with discontinuous righthand sides, 1988.
 ///
-/// **An exact dead zone** |Δz| ≤ r₀/2 transmits nothing inside (mode 1); outside (0 and 2) the
-/// command, and the stop adds k_c (Δz ∓ r₀/2) + c_c Δż between the masses. No mode slides: where
-/// the plant pushes out over the edge and the command in again, the absorber bounces on it, v
-/// reversing with a period of 2 |v| (1/|a(0)| + 1/|a(u)|), and damping makes |v| smaller without
-/// end. Every bounce is followed, as far as SwitchCounts::accumulates. Source: S. W. Shaw, P. J.
-/// Holmes, A periodically forced piecewise linear oscillator, J. Sound Vib. 90 (1983).
+/// **An exact dead zone** |Δz| ≤ r₀/2 transmits nothing inside (mode 1); outside (0 and 2) it
+/// transmits the command, and the stop adds k_c (Δz ∓ r₀/2) + c_c Δż between the masses. No mode
+/// slides. If the plant pushes outwards over the edge and the command inwards, the absorber bounces
+/// on the edge, v reversing with a period of 2 |v| (1/|a(0)| + 1/|a(u)|), and damping reduces |v|
+/// without end. Every bounce is followed, up to SwitchCounts::accumulates. Source: S. W. Shaw, P.
+/// J. Holmes, A periodically forced piecewise linear oscillator, J. Sound Vib. 90 (1983).
 /// @tparam DrivenPlant  TwoMass<double> or a LinearPlant<double, N>
 template <class DrivenPlant = TwoMass<double>>
 class DriveContact {
  public:
-  using Plant = DrivenPlant;                           ///< what the drive moves
+  using Plant = DrivenPlant;                           ///< plant with the drive
   using State = StateOf<Plant>;                        ///< x, N × 1
-  using Instant = ContactInstantOf<states_of<Plant>>;  ///< what a change depends on
-  using ModeGuards = GuardsOf<states_of<Plant>>;       ///< what ends a mode
+  using Instant = ContactInstantOf<states_of<Plant>>;  ///< data that a change of contact depends on
+  using ModeGuards = GuardsOf<states_of<Plant>>;       ///< guards that end a mode
 
-  static constexpr int modes = 3;  ///< numbered 0, 1, 2
+  static constexpr int modes = 3;  ///< number of modes, 0, 1, 2
 
-  /// @param plant          without control and stops
-  /// @param backlash       the law and its parameters
-  /// @param switching      between the samples, or at them alone
-  /// @param initial_state  where the motion begins, N × 1: its Δz decides which stop of an exact
-  ///                       dead zone is touched; play begins engaged, σ not known yet
+  /// @param plant          plant without control and stops
+  /// @param backlash       law of backlash with its parameters
+  /// @param switching      between the samples, or at samples only
+  /// @param initial_state  initial state, N × 1: its Δz decides which stop of an exact dead zone is
+  ///                       touched; play begins engaged, with σ unknown
   /// @throws InvalidParameter where plant or backlash are not admissible, or the state is of
   /// another size
   DriveContact(const Plant& plant, const BacklashParameters& backlash, Switching switching,
@@ -93,8 +93,8 @@ class DriveContact {
     if (here > upper_ || here < lower_) change_to(here > upper_ ? 2 : 0, 0);
   }
 
-  /// How the state moves in one of the modes. The command is in force in all modes of a law at
-  /// samples: it is `commanded` that leaves out what is not transmitted.
+  /// The equations of motion in one mode. With a law at samples the command acts in all modes;
+  /// `commanded` removes a command that is not transmitted.
   DynamicsOf<Plant> dynamics(int mode) const {
     if (has_stop(mode))
       return dynamics_on_stop(plant_, backlash_.contact_stiffness, backlash_.contact_damping,
@@ -102,40 +102,40 @@ class DriveContact {
     if (kind_ == Kind::at_samples || mode == 0) return engaged_dynamics(plant_);
     return mode == gap ? released_dynamics(plant_) : locked_dynamics(plant_);
   }
-  /// The plant that the drive moves.
+  /// The plant with the drive.
   const Plant& plant() const { return plant_; }
-  /// The two masses whose energy bounds the motion in one of the modes; a stop is part of it.
+  /// The two masses whose energy bounds the motion in one mode, including a stop's spring.
   Plant plant(int mode) const {
     return has_stop(mode)
                ? plant_on_stop(plant_, backlash_.contact_stiffness, backlash_.contact_damping)
                : plant_;
   }
-  /// How states of the plant are read.
+  /// The readings of the plant's states.
   const PortReadings<Plant>& readings() const { return readings_; }
 
-  /// Number of the present mode, 0 … `modes` − 1.
+  /// The number of the present mode, 0 … `modes` − 1.
   int mode() const { return mode_; }
-  /// Contact mode of the drive at present; of a law at samples `engaged` before the first one.
+  /// The present contact mode of the drive; for a law at samples `engaged` before the first sample.
   ContactMode word() const { return word_; }
-  /// Whether the command of the present sample takes effect: unless a law at samples found it not
-  /// transmitted.
+  /// Whether the command of the present sample has an effect: always, except where a law at samples
+  /// decided not to transmit it.
   bool transmits_command() const {
     return kind_ != Kind::at_samples || word_ == ContactMode::engaged;
   }
-  /// u_j (N) as it goes to the drive, of a sample's command.
+  /// The command u_j (N) that reaches the drive, from a sample's command.
   double commanded(double command) const { return transmits_command() ? command : 0.0; }
-  /// Force that the drive transmits (N); a stop's own force is not in it.
+  /// The force that the drive transmits (N), without a stop's own force.
   double transmitted(const Instant& now) const {
     if (kind_ == Kind::at_samples) return now.command;
     if (word_ == ContactMode::engaged) return engaged_force(plant_, now);
     return word_ == ContactMode::gap ? 0.0 : -free_(now) / mobility_;
   }
 
-  /// Whether it may change between the samples: of an exact law but play of r₀ = 0.
+  /// Whether the contact may change between samples: with an exact law except play with r₀ = 0.
   bool changes_between_samples() const { return changes_between_samples_; }
-  /// Guards that end the present mode between the samples: Δż while play is engaged; the way (m) to
-  /// either end of the gap, or on a stop how far Δz is beyond it; in stick the accelerations that
-  /// keep the sides together.
+  /// The guards that end the present mode between the samples: Δż while play is engaged; the
+  /// distance (m) from either end of the gap, or on a stop the excess of Δz beyond it; in stick the
+  /// accelerations of both conditions of stick.
   ModeGuards guards() const {
     if (!changes_between_samples_) return {};
     if (mode_ == gap) return gap_guards();
@@ -143,7 +143,7 @@ class DriveContact {
     return mode_ == 0 ? engaged_guards() : stick_guards();
   }
 
-  /// Takes a sample: a law at samples decides on its Δz and Δż.
+  /// Applies a sample: a law at samples decides by its Δz and Δż.
   void sample(const State& state) {
     if (kind_ != Kind::at_samples) return;
     const bool engaged =
@@ -151,32 +151,32 @@ class DriveContact {
     word_ = engaged ? ContactMode::engaged : ContactMode::gap;
     mode_ = gap + law_.side();
   }
-  /// The force or the command has jumped, or may have.
+  /// Applies a jump, or possible jump, of the force or the command.
   void jumped(const Instant& now) {
     if (kind_ != Kind::play) return;
     if (word_ == ContactMode::stick) return leave_stick(now, 1);
     // Further zeros at a change of contact are those of the force and the command before the jump.
     zeros_ = std::min(zeros_, mode_ == gap ? 2 : 1);
   }
-  /// The absorber was displaced against the conductor: stick ends, and a stop that was passed is
-  /// found at once, its guard being below zero.
+  /// Applies a displacement of the absorber against the conductor: stick ends, and a passed stop is
+  /// detected at once, since its guard is negative.
   void displaced() {
     if (word_ == ContactMode::stick) change_to(gap, 0);
     zeros_ = 0;
     displaced_ = true;
   }
-  /// Restores what the mode keeps, without rounding: Δż = 0 and Δz in stick.
+  /// Restores the constraints of the mode exactly: Δż = 0 and the former Δz in stick.
   void keep(const State& before, State& after) const {
     if (word_ == ContactMode::stick) readings_.hold_relative_position(before, after);
   }
-  /// Some time has passed since the last change.
+  /// Notes that time has passed since the last change.
   void flowed() {
     zeros_ = 0;
     displaced_ = false;
   }
-  /// The sign, ±1, that a guard has taken whose sign was not known: that of the relative velocity.
+  /// Sets the unknown sign of a guard, ±1: that of the relative velocity.
   void learn_sign(int /*guard*/, double sign) { sign_ = sign; }
-  /// A guard has come to zero: the contact changes. Rounding is taken out of the state.
+  /// Changes the contact after a guard has reached zero; the state is freed from rounding there.
   void reached(int guard, Instant& now) {
     if (kind_ == Kind::stops) {
       sign_ = mode_ - gap;
@@ -189,31 +189,31 @@ class DriveContact {
     if (mode_ == stick) change_to(guard == 0 ? gap : 0, guard == 0 ? 3 : 2);
   }
 
-  /// The mode in which Δż = 0; −1: there is none.
+  /// The mode with Δż = 0; −1: none.
   int sticking_mode() const { return kind_ == Kind::play ? stick : -1; }
-  /// Whether the gap lies where the drive reversed, at Δz = g, in a mode: its surface is that of
-  /// Δz − g, else that of Δż for a moving gap and of Δz for stops.
+  /// Whether the gap in a mode is anchored at the last reversal, Δz = g, so that its surface is Δz
+  /// − g = 0; else it is Δż = 0 for a moving gap and a fixed Δz for stops.
   bool is_anchored(int mode) const { return kind_ == Kind::play && mode != 0; }
-  /// Whether the drive is in a gap that lies where it last reversed.
+  /// Whether the drive is in a gap that is anchored at its last reversal.
   bool remembers_gap() const { return kind_ == Kind::play && mode_ == gap; }
-  /// σ of exact play; 0 before Δż was first unlike zero.
+  /// The sign σ of exact play; 0 before Δż was nonzero for the first time.
   double sign() const { return sign_; }
-  /// Lower end of an exact law's gap, Δz (m); of play it has no meaning while engaged.
+  /// The lower end of an exact law's gap, Δz (m); undefined for play while engaged.
   double lower() const { return lower_; }
-  /// Upper end likewise.
+  /// The upper end of an exact law's gap, Δz (m); undefined for play while engaged.
   double upper() const { return upper_; }
-  /// g, the place of play's last reversal, Δz (m), where its gap begins; while engaged the one
-  /// before.
+  /// The Δz (m) of play's last reversal, g, where its gap begins; while engaged that of the
+  /// previous gap.
   double reversal() const { return sign_ > 0.0 ? upper_ : lower_; }
-  /// Play crosses the gap that began where it reversed.
-  /// @param at    g (m)
-  /// @param sign  ±1, σ: the gap lies below g for +1
+  /// Puts play into the gap that begins at a given reversal.
+  /// @param at    reversal g (m)
+  /// @param sign  σ = ±1: the gap is below g for +1
   void cross_gap(double at, double sign) {
     sign_ = sign;
     open_gap(at);
     change_to(gap, 0);
   }
-  /// Moves both ends by a displacement (m); without effect on another law.
+  /// Shifts both ends of the gap by a displacement (m); no effect on another law.
   void shift_gap(double by) {
     if (kind_ != Kind::play) return;
     lower_ += by;
@@ -235,7 +235,7 @@ class DriveContact {
     return result;
   }
 
-  /// The zeros belong to the end of the gap at which the motion turned or came in.
+  /// The guards of the gap; zeros belong to the end at which the motion reversed or entered.
   ModeGuards gap_guards() const {
     ModeGuards result;
     result.guard[0] = {-readings_.displacement_row(), 0.0, 0.0, upper_, sign_ > 0.0 ? zeros_ : 0};
@@ -269,14 +269,14 @@ class DriveContact {
                                 : ContactMode::engaged;
   }
 
-  /// The gap ends where the drive is, at Δz = `here`, on the side of σ.
+  /// Opens a gap whose end is at the present Δz = `here`, on the side of σ.
   void open_gap(double here) {
     lower_ = sign_ > 0.0 ? here - backlash_.width : here;
     upper_ = sign_ > 0.0 ? here : here + backlash_.width;
   }
 
-  /// Beyond an end of the gap. A drive that was displaced there may move away from the end: it has
-  /// dragged its far side along and is in the gap again.
+  /// Leaves the gap beyond one of its ends. A drive that was displaced there may move away from the
+  /// end: it has carried its far side along and is in the gap again.
   void leave_gap(double side, const Instant& now) {
     sign_ = side;
     if (side * readings_.relative_velocity(now.state) < 0.0) {
@@ -297,10 +297,10 @@ class DriveContact {
     change_to(sticks ? stick : gap, sticks ? 0 : 2);
   }
 
-  /// Ends stick where its condition does not hold any more; else leaves the mode as it is.
-  /// @param now    the instant, under the command and the force from then on
-  /// @param zeros  of the velocity where the drive engages: one where the command jumped past what
-  ///               holds the sides together, two where that came to the command
+  /// Ends stick where its condition is violated; otherwise the mode is unchanged.
+  /// @param now    the instant, with the command and the force from then on
+  /// @param zeros  zeros of the velocity if the drive engages: one where the command jumped beyond
+  ///               the force of stick, two where that force reached the command
   void leave_stick(const Instant& now, int zeros) {
     if (!(sign_ * free_(now) > 0.0))
       change_to(gap, zeros + 1);

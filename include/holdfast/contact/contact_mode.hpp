@@ -6,20 +6,20 @@
 
 namespace holdfast {
 
-/// Contact modes of the drive, when its backlash switches between the samples.
+/// The contact modes of a drive whose backlash switches between the samples.
 enum class ContactMode : std::uint8_t {
-  engaged,  ///< it transmits the command u
-  gap,      ///< it crosses its gap and transmits nothing
-  stick,  ///< its sides stay together, Δż = 0, and it transmits what that takes, between 0 and u
+  engaged,  ///< the command u is transmitted
+  gap,      ///< the drive crosses its gap; no force is transmitted
+  stick,    ///< both sides stay together, Δż = 0, by a transmitted force between 0 and u
 };
 
-/// From an instant on the drive is in another mode.
+/// A change of the drive's contact mode at an instant.
 struct ContactSwitch {
   double time;       ///< s
-  ContactMode mode;  ///< from then on
+  ContactMode mode;  ///< mode that begins
 };
 
-/// "engaged", "gap" or "stick".
+/// The name of a mode: "engaged", "gap" or "stick".
 inline const char* word_for(ContactMode mode) {
   switch (mode) {
     case ContactMode::engaged:

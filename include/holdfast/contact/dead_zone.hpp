@@ -4,17 +4,17 @@
 
 namespace holdfast {
 
-/// Backlash of the drive as a dead zone in Δz = z₂ − z₁: a gap of width r₀ fixed about Δz = 0, with
-/// a stop at each end. What it decides at a sample depends on that sample alone.
+/// The backlash of the drive as a dead zone in Δz = z₂ − z₁: a gap of width r₀ fixed about Δz = 0,
+/// with a stop at each end. Its decision at a sample depends on that sample only.
 ///
 ///     side σ = +1 for Δz > r₀/2, −1 for Δz < −r₀/2, 0 between them (both ends included)
 ///     the control force is transmitted where σ ≠ 0
 ///     the stop adds f = k_c (Δz − σ r₀/2) + c_c Δż where σ ≠ 0 (`dynamics_on_stop`)
 ///
-/// f acts as the plant's spring k₂ and damper c₂ do: +f on the conductor, −f on the absorber. Its
-/// elastic part is continuous in Δz; the damper's part jumps by c_c Δż at the ends, and while the
-/// sides separate it may make the stop pull (c_c |Δż| > k_c (|Δz| − r₀/2)), which a real stop does
-/// not do.
+/// f acts like the plant's spring k₂ and damper c₂: +f on the conductor, −f on the absorber.
+/// Its elastic part is continuous in Δz. The damper's part jumps by c_c Δż at the ends, and
+/// during separation it may make the stop pull (c_c |Δż| > k_c (|Δz| − r₀/2)), unlike a real
+/// stop.
 ///
 /// r₀ = 0 means no gap: σ is never 0 (it is +1 at Δz = 0), the force is always transmitted and the
 /// stops are a spring and a damper between the masses.
@@ -25,14 +25,14 @@ namespace holdfast {
 template <class Scalar>
 class DeadZone {
  public:
-  /// @param width  r₀ (m), ≥ 0
+  /// @param width  gap width r₀ (m), ≥ 0
   explicit DeadZone(const Scalar& width)
       : width_(width),
         half_width_(width / Scalar(2)),
         touched_side_(0),
         inside_(Scalar(0) > Scalar(0)) {}
 
-  /// Takes in one sample; Δż does not matter.
+  /// Processes one sample; Δż is not used.
   /// @return true where the control force is transmitted during the coming period
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& /*relative_velocity*/) {
     touched_side_ = side(relative_displacement);
@@ -40,7 +40,7 @@ class DeadZone {
     return !inside_;
   }
 
-  /// σ: −1, 0 or +1, the stop that is touched at Δz (m).
+  /// The stop σ that is touched at Δz (m): −1, 0 or +1.
   Scalar side(const Scalar& relative_displacement) const {
     const Scalar zero(0), one(1);
     const Mask<Scalar> closed = !(width_ > zero);
@@ -50,9 +50,9 @@ class DeadZone {
     return select(at_upper, one, select(at_lower, Scalar(-one), zero));
   }
 
-  /// True where the last step found neither stop touched.
+  /// Whether no stop was touched at the last step.
   Mask<Scalar> inside() const { return inside_; }
-  /// σ at the last step; 0 before the first one.
+  /// The stop σ touched at the last step; 0 before the first one.
   const Scalar& touched_side() const { return touched_side_; }
 
  private:

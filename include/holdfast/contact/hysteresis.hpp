@@ -5,23 +5,23 @@
 
 namespace holdfast {
 
-/// Memory of the drive of the past samples.
+/// The memory of the drive: its gap and the last velocity.
 template <class Scalar>
 struct BacklashMemory {
-  Mask<Scalar> inside;       ///< in its gap since the last sample
-  Scalar lower,              ///< lower end of the gap, Δz (m); meaningful while inside
-      upper;                 ///< upper end of the gap, Δz (m); meaningful while inside
+  Mask<Scalar> inside;       ///< whether the drive is in its gap since the last sample
+  Scalar lower,              ///< lower end of the gap, Δz (m); valid while inside
+      upper;                 ///< upper end of the gap, Δz (m); valid while inside
   Scalar previous_velocity;  ///< Δż of the last sample (m/s); zero before the first one
 };
 
 /// Whether a sample that leaves the gap may also enter the next one.
 enum class EntryTest {
-  after_exit,  ///< entry is tested only from the sample after it on
+  after_exit,  ///< entry is tested from the next sample on
   at_exit,     ///< entry is tested at that sample too
 };
 
-/// Backlash of the drive, as a hysteresis that steps on sampled Δz = z₂ − z₁ and Δż = ż₂ − ż₁
-/// alone.
+/// The backlash of the drive as a hysteresis in discrete time, a function of the sampled Δz = z₂ −
+/// z₁ and Δż = ż₂ − ż₁ only.
 ///
 /// At every sample j, in this order:
 ///  1. inside the gap with lower ≤ Δz ≤ upper: stay inside, no force is transmitted;
@@ -32,25 +32,25 @@ enum class EntryTest {
 ///  enters the
 ///     gap [Δz − r₀, Δz] if Δż_{j−1} > 0, [Δz, Δz + r₀] if Δż_{j−1} < 0.
 ///
-/// r₀ = 0 means a drive without backlash: it never enters. (The rule itself would drop the force
-/// for one sample at each reversal however small r₀ is.)
+/// r₀ = 0 means a drive without backlash: it never enters. (By the rule itself it would drop the
+/// force for one sample at each reversal, however small r₀ is.)
 ///
-/// Source: Kollár 2022, Eqs. (7)–(8), read so that Fig. 8's switching instants come out
-/// (docs/reading-the-paper.md). One kernel for scalars and SIMD packs: about 12 comparisons and
-/// selects.
+/// Source: Kollár 2022, Eqs. (7)–(8), in the reading that reproduces the switching instants of Fig.
+/// 8 (docs/reading-the-paper.md). The same code serves scalars and SIMD packs: about 12 comparisons
+/// and selects.
 /// @tparam Entry  `at_exit` changes rule 2: see ImmediateBacklash
 template <class Scalar, EntryTest Entry = EntryTest::after_exit>
 class Backlash {
  public:
-  /// @param width  r₀ (m), ≥ 0
+  /// @param width  gap width r₀ (m), ≥ 0
   explicit Backlash(const Scalar& width)
       : Backlash(width, {Scalar(0) > Scalar(0), Scalar(0), Scalar(0), Scalar(0)}) {}
 
-  /// Goes on from what another one of the same width remembered.
+  /// Continues from the memory of a backlash of the same width.
   Backlash(const Scalar& width, const BacklashMemory<Scalar>& memory)
       : width_(width), memory_(memory) {}
 
-  /// Takes in one sample. @return true where the force is transmitted during the coming period
+  /// Processes one sample. @return true where the force is transmitted during the coming period
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& relative_velocity) {
     const Scalar zero(0);
     const Mask<Scalar> stays = memory_.inside & (relative_displacement >= memory_.lower) &
@@ -70,15 +70,15 @@ class Backlash {
     return !memory_.inside;
   }
 
-  /// True where the drive is in its gap since the last step.
+  /// Whether the drive is in its gap since the last step.
   Mask<Scalar> inside() const { return memory_.inside; }
-  /// Lower end of the current gap, Δz in m; meaningful while inside.
+  /// The lower end of the current gap, Δz (m); valid while inside.
   const Scalar& lower() const { return memory_.lower; }
-  /// Upper end of the current gap, Δz in m; meaningful while inside.
+  /// The upper end of the current gap, Δz (m); valid while inside.
   const Scalar& upper() const { return memory_.upper; }
-  /// r₀ (m).
+  /// The width r₀ (m).
   const Scalar& width() const { return width_; }
-  /// All that the coming samples depend on.
+  /// The memory that the coming samples depend on.
   const BacklashMemory<Scalar>& memory() const { return memory_; }
 
  private:
@@ -86,17 +86,17 @@ class Backlash {
   BacklashMemory<Scalar> memory_;
 };
 
-/// Backlash with entry tested at the exit sample too.
+/// The backlash with entry tested at the exit sample too.
 ///
-/// Rule 2 ends otherwise: a sample j that leaves the gap is tested by rule 3 at once, so that with
-/// Δż_{j−1} ≠ 0 and Δż_{j−1} Δż_j ≤ 0 the drive passes from its gap straight into the next one and
-/// transmits nothing in between. From the same memory the two rules decide differently at those
-/// samples and at no others. The words of the source leave both readings open; the switching
-/// instants of its Fig. 8 exclude this one.
+/// Rule 2 is changed: a sample j that leaves the gap is tested by rule 3 at once, so that with
+/// Δż_{j−1} ≠ 0 and Δż_{j−1} Δż_j ≤ 0 the drive passes from its gap directly into the next one
+/// without transmitting. From the same memory the two rules differ at such samples only. The
+/// text of the source permits both readings; the switching instants of its Fig. 8 exclude this
+/// one.
 template <class Scalar>
 using ImmediateBacklash = Backlash<Scalar, EntryTest::at_exit>;
 
-/// @throws InvalidParameter unless 0 ≤ width < ∞
+/// Validates a gap width. @throws InvalidParameter unless 0 ≤ width < ∞
 inline void validate_backlash_width(double width) {
   require_non_negative("backlash width r0", width, "m");
 }

@@ -10,11 +10,11 @@
 
 namespace holdfast {
 
-/// The motion of a plant's state in one mode of its contact.
+/// The equations of motion of a plant in one mode of its contact.
 template <class Plant>
 using DynamicsOf = AffineDynamicsOf<states_of<Plant>>;
 
-/// The motion under a drive that transmits: ẋ = (A + b f) x + (b_u + g b) u + c F.
+/// The equations of motion with an engaged drive: ẋ = (A + b f) x + (b_u + g b) u + c F.
 template <class Plant>
 DynamicsOf<Plant> engaged_dynamics(const Plant& plant) {
   const auto matrix = plant.state_matrix();
@@ -22,7 +22,7 @@ DynamicsOf<Plant> engaged_dynamics(const Plant& plant) {
           StateOf<Plant>::Zero(matrix.rows())};
 }
 
-/// The motion under a drive that crosses its gap: ẋ = A x + b_u u + c F.
+/// The equations of motion with a drive in its gap: ẋ = A x + b_u u + c F.
 template <class Plant>
 DynamicsOf<Plant> released_dynamics(const Plant& plant) {
   const auto& linear = linear_plant(plant);
@@ -30,12 +30,12 @@ DynamicsOf<Plant> released_dynamics(const Plant& plant) {
           StateOf<Plant>::Zero(linear.order())};
 }
 
-/// The motion while the sides of the drive stay together, Δż = 0: with the force that keeps them
-/// so,
+/// The equations of motion in stick, Δż = 0, under the force s that keeps both sides of the drive
+/// together:
 ///
 ///     s = −rᵀ(A x + b_u u + c F) / (rᵀb),   ẋ = (I − b rᵀ/(rᵀb)) (A x + b_u u + c F)
 ///
-/// @param plant  rᵀb ≠ 0 of its relative velocity r
+/// @param plant  a plant with rᵀb ≠ 0 for its relative velocity r
 template <int States>
 AffineDynamicsOf<States> locked_dynamics(const LinearPlant<double, States>& plant) {
   const RowVector<double, States>& r = plant.ports().relative_velocity;
@@ -45,7 +45,7 @@ AffineDynamicsOf<States> locked_dynamics(const LinearPlant<double, States>& plan
           plant.excitation - pushed * r.dot(plant.excitation),
           Vector<double, States>::Zero(plant.order())};
 }
-/// Both masses move as one: the internal forces drop out of m₁ + m₂.
+/// The equations of motion of both masses as one body m₁ + m₂; internal forces cancel.
 template <class Scalar>
 AffineDynamicsOf<4> locked_dynamics(const TwoMass<Scalar>& plant) {
   const Scalar mass = plant.conductor_mass + plant.absorber_mass;
@@ -60,8 +60,8 @@ AffineDynamicsOf<4> locked_dynamics(const TwoMass<Scalar>& plant) {
   return moving;
 }
 
-/// The two masses whose absorber presses on a stop of stiffness k_c and damping c_c: k₂ + k_c,
-/// c₂ + c_c.
+/// The two masses with the absorber on a stop of stiffness k_c and damping c_c: k₂ + k_c, c₂ +
+/// c_c.
 template <class Scalar>
 TwoMass<Scalar> plant_on_stop(TwoMass<Scalar> plant, double stiffness, double damping) {
   plant.absorber_stiffness += stiffness;
@@ -69,8 +69,8 @@ TwoMass<Scalar> plant_on_stop(TwoMass<Scalar> plant, double stiffness, double da
   return plant;
 }
 
-/// The motion on a stop at Δz = `at` (m), whose spring is relaxed there: the stop pushes with
-/// k_c (Δz − at) + c_c Δż as the drive does, through b.
+/// The equations of motion on a stop at Δz = `at` (m): the stop pushes with k_c (Δz − at) + c_c Δż
+/// through b, like the drive.
 template <int States>
 AffineDynamicsOf<States> dynamics_on_stop(const LinearPlant<double, States>& plant,
                                           double stiffness, double damping, double at) {
@@ -81,7 +81,7 @@ AffineDynamicsOf<States> dynamics_on_stop(const LinearPlant<double, States>& pla
   pressed.drift = plant.force_input * (-stiffness * at);
   return pressed;
 }
-/// The dynamics of the two masses on a stop.
+/// The equations of motion of the two masses on a stop.
 template <class Scalar>
 AffineDynamicsOf<4> dynamics_on_stop(const TwoMass<Scalar>& plant, double stiffness, double damping,
                                      double at) {
@@ -90,32 +90,32 @@ AffineDynamicsOf<4> dynamics_on_stop(const TwoMass<Scalar>& plant, double stiffn
           -plant.control_input() * (stiffness * at)};
 }
 
-/// s (N), what a drive transmits that is engaged: f x + g u.
+/// The force s = f x + g u (N) that an engaged drive transmits.
 template <int States>
 double engaged_force(const LinearPlant<double, States>& plant,
                      const ContactInstantOf<States>& now) {
   return plant.drive_force.dot(now.state) + plant.direct_transmission * now.command;
 }
-/// u, the drive of the two masses being ideal.
+/// The force u that the ideal drive of the two masses transmits.
 template <class Scalar>
 double engaged_force(const TwoMass<Scalar>&, const ContactInstantOf<4>& now) {
   return now.command;
 }
 
-/// Δz̈ = state · x + command u + force F (m/s²) in one mode.
+/// The relative acceleration Δz̈ = state · x + command u + force F (m/s²) in one mode.
 template <int States>
 struct GapAcceleration {
   Vector<double, States> state;  ///< N × 1
   double command;                ///< per newton of u
   double force;                  ///< per newton of F
 
-  /// Its value at an instant.
+  /// The value at an instant.
   double operator()(const ContactInstantOf<States>& now) const {
     return state.dot(now.state) + command * now.command + force * now.force;
   }
 };
 
-/// rᵀ ẋ in a mode without drift, r being the plant's relative velocity.
+/// The relative acceleration rᵀ ẋ in a mode without drift, r being the row of Δż.
 template <class Plant>
 GapAcceleration<states_of<Plant>> gap_acceleration(const Plant& plant,
                                                    const DynamicsOf<Plant>& dynamics) {
@@ -123,7 +123,7 @@ GapAcceleration<states_of<Plant>> gap_acceleration(const Plant& plant,
   return {(r * dynamics.state).transpose(), r.dot(dynamics.command), r.dot(dynamics.force)};
 }
 
-/// rᵀb (1/kg): how the force of the drive accelerates its own gap; of the two masses −1/m₂ − 1/m₁.
+/// The mobility rᵀb (1/kg) of the gap under the drive's force; for two masses −1/m₂ − 1/m₁.
 template <class Plant>
 double gap_mobility(const Plant& plant) {
   return ports_of(plant).relative_velocity.dot(linear_plant(plant).force_input);

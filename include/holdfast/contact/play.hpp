@@ -4,24 +4,24 @@
 
 namespace holdfast {
 
-/// Backlash of the drive as a play of half-width r₀/2 on sampled Δz = z₂ − z₁: Δz moves the near
-/// side, y is the far side, which the near side drags along.
+/// The backlash of the drive as a play of half-width r₀/2 on sampled Δz = z₂ − z₁: Δz is the
+/// position of the near side, y that of the far side, which the near side carries along.
 ///
 ///     y_j = max(Δz_j − r₀/2, min(Δz_j + r₀/2, y_{j−1}))
 ///     the force is transmitted from sample j on where y_j ≠ y_{j−1}
 ///
-/// The far side moves exactly where the clamp takes one of its outer branches, Δz_j − r₀/2 >
-/// y_{j−1} or Δz_j + r₀/2 < y_{j−1}; both ends of the gap [y − r₀/2, y + r₀/2] belong to it.
+/// The far side moves exactly where the clamp is active, Δz_j − r₀/2 > y_{j−1} or Δz_j + r₀/2 <
+/// y_{j−1}; both ends of the gap [y − r₀/2, y + r₀/2] belong to it.
 ///
 /// Before the first sample the far side is at neither end. The force is transmitted until a sample
-/// has Δż ≠ 0; that sample puts the far side behind the motion, y = Δz − r₀/2 for Δż > 0 and
-/// y = Δz + r₀/2 for Δż < 0, and transmits. Motion on in that direction keeps transmitting, motion
-/// back crosses the whole gap, as after any other reversal. From rest the first sample transmits,
-/// as with `Backlash`. Δż is used for nothing else.
+/// has Δż ≠ 0; that sample puts the far side behind the motion, y = Δz − r₀/2 for Δż > 0 and y = Δz
+/// + r₀/2 for Δż < 0, and transmits. Further motion in that direction transmits, motion back
+/// crosses the whole gap, as after any other reversal. From rest the first sample transmits, as
+/// with `Backlash`. Δż is not used otherwise.
 ///
-/// The gap at a reversal is [Δz_max − r₀, Δz_max] or [Δz_min, Δz_min + r₀] with the extreme sample.
-/// `Backlash` takes the first sample after the change of sign of Δż instead, whether or not Δz is
-/// farther out there. A near side that passes the whole gap within one sampling period transmits
+/// The gap after a reversal is [Δz_max − r₀, Δz_max] or [Δz_min, Δz_min + r₀] with the extreme
+/// sample. `Backlash` uses the first sample after the change of sign of Δż instead, whether or not
+/// its Δz is extreme. A near side that crosses the whole gap within one sampling period transmits
 /// without a pause. r₀ = 0 means a drive without backlash: it always transmits, at rest too.
 ///
 /// Source: Krasnosel'skii and Pokrovskii, Systems with Hysteresis, Springer 1989; Visintin,
@@ -30,10 +30,10 @@ namespace holdfast {
 template <class Scalar>
 class PlayBacklash {
  public:
-  /// @param width  r₀ (m), ≥ 0
+  /// @param width  gap width r₀ (m), ≥ 0
   explicit PlayBacklash(const Scalar& width) : width_(width), half_width_(width / Scalar(2)) {}
 
-  /// Takes in one sample. @return true where the force is transmitted during the coming period
+  /// Processes one sample. @return true where the force is transmitted during the coming period
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& relative_velocity) {
     const Scalar zero(0);
     const Mask<Scalar> undecided = !decided_, moves_up = relative_velocity > zero;
@@ -53,13 +53,13 @@ class PlayBacklash {
     return !inside_;
   }
 
-  /// True where nothing has been transmitted since the last step.
+  /// Whether nothing is transmitted since the last step.
   Mask<Scalar> inside() const { return inside_; }
-  /// Lower end of the current gap, y − r₀/2, Δz in m; meaningful once decided.
+  /// The lower end of the current gap, y − r₀/2, Δz (m); valid once y is determined.
   Scalar lower() const { return far_side_ - half_width_; }
-  /// Upper end of the current gap, y + r₀/2, Δz in m; meaningful once decided.
+  /// The upper end of the current gap, y + r₀/2, Δz (m); valid once y is determined.
   Scalar upper() const { return far_side_ + half_width_; }
-  /// r₀ (m).
+  /// The width r₀ (m).
   const Scalar& width() const { return width_; }
 
  private:

@@ -13,8 +13,8 @@
 
 namespace holdfast {
 
-/// The derivatives of a controller of M states at one sample, (M + 1) × (M + 2): of [u_j; x_c,j+1]
-/// by [z₁; ż₁; x_c,j].
+/// The Jacobian of a controller of M states at one sample, (M + 1) × (M + 2): derivatives of [u_j;
+/// x_c,j+1] with respect to [z₁; ż₁; x_c,j].
 template <int States>
 using ControllerDerivative = Matrix<double, larger_size(States, 1), larger_size(States, 2)>;
 
@@ -35,7 +35,7 @@ struct HasCommand<
                                std::declval<const ControlSample&>(),
                                std::declval<Vector<double, Law::states>&>()))> {};
 
-/// Whether a type is a controller; the compiler says what it lacks.
+/// Whether a type is a controller; a static assertion names what is missing.
 template <class Law>
 constexpr bool is_controller() {
   static_assert(HasStates<Law>::value,
@@ -54,7 +54,7 @@ struct HasDerivative<Law, std::void_t<decltype(std::declval<const Law&>().deriva
                               std::declval<const Vector<double, Law::states>&>()))>>
     : std::true_type {};
 
-/// M of a controller.
+/// The number M of states of a controller.
 template <class Law>
 Eigen::Index memory_size([[maybe_unused]] const Law& law) {
   if constexpr (Law::states == Eigen::Dynamic) {
@@ -66,8 +66,8 @@ Eigen::Index memory_size([[maybe_unused]] const Law& law) {
 
 }  // namespace detail
 
-/// A controller of the user's own, in the place of u = P z₁ + D ż₁: any type that takes a sample in
-/// and gives a force out, its state being M numbers that the motion keeps for it.
+/// A user-defined controller in place of u = P z₁ + D ż₁: any type that maps a sample to a force;
+/// its state, M numbers, is stored by the motion.
 ///
 ///     struct MyController {
 ///       static constexpr int states = 1;  // M ≥ 0
@@ -78,32 +78,32 @@ Eigen::Index memory_size([[maybe_unused]] const Law& law) {
 ///                                          const Vector<double, 1>& x_c) const;
 ///     };
 ///
-/// Where M is known at run time alone, `states` is Eigen::Dynamic and `order()` says it. PdGains is
-/// one of M = 0, LinearController one of any M, LateController one of dynamic M. This class hides
-/// the type, so that loops under all of them are one type, compiled once.
+/// Where M is known at run time only, `states` is Eigen::Dynamic and `order()` gives it. PdGains is
+/// a controller with M = 0, LinearController one with any M, LateController one with dynamic M.
+/// This class erases the type, so that loops under all controllers have one type, compiled once.
 class OwnController {
  public:
   using Column = Vector<double, Eigen::Dynamic>;      ///< [z₁; ż₁; x_c] or [u; x_c]
   using Derivative = Matrix<double, Eigen::Dynamic>;  ///< a ControllerDerivative
 
-  /// None yet: no loop admits it.
+  /// Constructs an empty object, which no loop accepts.
   OwnController() = default;
 
-  /// Any controller; copied.
+  /// Constructs it from any controller, which is copied.
   template <class Law>
   explicit OwnController(const Law& law) {
     if constexpr (detail::is_controller<Law>()) take(law);
   }
 
-  /// Whether there is one.
+  /// Whether there is a controller.
   bool exists() const { return value_ != nullptr; }
-  /// M.
+  /// The number M of its states.
   Eigen::Index states() const { return at_.size() - 2; }
 
-  /// Takes in sample j. @return [u_j; x_c,j+1]
-  /// @param sample  what is measured of it
-  /// @param state   x_c,j
-  /// @throws InvalidParameter where the law makes no numbers of numbers
+  /// Computes the command of sample j and the next state. @return [u_j; x_c,j+1]
+  /// @param sample  measured values
+  /// @param state   state x_c,j
+  /// @throws InvalidParameter where the law gives a value that is not a number
   template <class State>
   Column command(const ControlSample& sample, const State& state) {
     elapsed_ = sample.elapsed;
@@ -115,8 +115,8 @@ class OwnController {
     return result;
   }
 
-  /// Derivative at the last sample, (M + 1) × (M + 2). Differences are central, over 2⁻¹⁶ of the
-  /// largest that each number has been: of a smooth law to some ten digits.
+  /// The Jacobian at the last sample, (M + 1) × (M + 2). Differences are central, with steps of
+  /// 2⁻¹⁶ of the largest size of each variable so far: some ten digits for a smooth law.
   template <class Result = Derivative>
   Result derivative() const {
     if (derivative_) return derivative_(at_, elapsed_);
@@ -157,21 +157,21 @@ class OwnController {
   Column at_ = Column::Zero(2), largest_ = at_;  // its inputs, and the largest so far
 };
 
-/// A plant under a controller of the user's own.
+/// A plant with a user-defined controller.
 ///
 ///     ImplementedLoopOf<ControlledPlant> loop;
 ///     loop.plant = with_controller(kollar2022_plant(), MyController{});
 ///
-/// The states of the controller stand behind those of the plant, [x; x_c], N + M in all: they stand
-/// still between the samples and are shown as they were before the sample. So event_motion(),
-/// find_event_orbit(), run_event_lyapunov() and classify_motion() take the loop as they take any.
-/// The gains of its DigitalLoop are 0 and its limits ideal (`validate`); `quantised` and std::clamp
-/// in `command` do what those would. Charts and margins are of P and D, and do not take it.
+/// The states of the controller follow those of the plant, [x; x_c], N + M in all. They are
+/// constant between the samples; shown are their values before the sample. event_motion(),
+/// find_event_orbit(), run_event_lyapunov() and classify_motion() accept such a loop like any
+/// other. The gains of its DigitalLoop are 0 and its limits ideal (`validate`); `quantised` and
+/// std::clamp in `command` replace them. Charts and margins refer to P and D and do not accept it.
 struct ControlledPlant : LinearPlant<double> {
-  OwnController controller;  ///< that decides the force
+  OwnController controller;  ///< controller that decides the force
 };
 
-/// @throws InvalidParameter where there is no controller, or the plant is not admissible
+/// Validates a plant. @throws InvalidParameter where it is not admissible or has no controller
 template <class Plant>
 std::enable_if_t<std::is_same_v<Plant, ControlledPlant>> validate(const Plant& plant) {
   if (!plant.controller.exists())
@@ -179,9 +179,9 @@ std::enable_if_t<std::is_same_v<Plant, ControlledPlant>> validate(const Plant& p
   validate<Eigen::Dynamic>(plant);
 }
 
-/// The plant under a controller: the two masses, or a linear plant whose filters and lags come
-/// first.
-/// @throws InvalidParameter where the masses are not admissible, or the parts of the plant are of
+/// The plant with a controller: the two masses, or a linear plant to which filters and lags were
+/// already added.
+/// @throws InvalidParameter where the masses are not admissible, or the parts of the plant have
 /// different orders
 template <class Plant, class Law>
 ControlledPlant with_controller(const Plant& plant, const Law& law) {
@@ -193,25 +193,25 @@ ControlledPlant with_controller(const Plant& plant, const Law& law) {
   }
 }
 
-/// A linear controller of M states, as an observer or a filter is:
+/// A linear controller of M states, such as an observer or a filter:
 ///
 ///     x_c,j+1 = A_c x_c,j + B_c y_j,   u_j = C_c x_c,j + D_c y_j,   y_j = [z₁; ż₁]
 template <int States>
 struct LinearController {
-  static constexpr int states = States;    ///< M
+  static constexpr int states = States;    ///< number M of states
   Matrix<double, States> transition;       ///< A_c, M × M
   Matrix<double, States, 2> input;         ///< B_c, M × 2
   RowVector<double, States> output;        ///< C_c, 1 × M (N)
   RowVector<double, 2> feedthrough{0, 0};  ///< D_c, 1 × 2 (N/m, N s/m)
 
-  /// u_j (N); moves the state on.
+  /// The command u_j (N); updates the state.
   double command(const ControlSample& sample, Vector<double, States>& state) const {
     const Vector<double, 2> read(sample.displacement, sample.velocity);
     const double force = output.dot(state) + feedthrough.dot(read);
     state = (transition * state + input * read).eval();
     return force;
   }
-  /// [D_c, C_c; B_c, A_c].
+  /// The Jacobian [D_c, C_c; B_c, A_c].
   ControllerDerivative<States> derivative(const ControlSample&,
                                           const Vector<double, States>&) const {
     ControllerDerivative<States> result;
@@ -225,7 +225,7 @@ namespace detail {
 template <class Plant>
 using ControllerOf = std::conditional_t<HasController<Plant>::value, OwnController, Controller>;
 
-/// The controller of a loop: P and D within their limits, or the plant's own.
+/// The controller of a loop: P and D with their limits, or the plant's own controller.
 template <class Contact>
 ControllerOf<typename Contact::Plant> controller_of(const DigitalLoop& loop,
                                                     [[maybe_unused]] const Contact& contact) {

@@ -10,23 +10,23 @@
 
 namespace holdfast {
 
-/// Where the controller has the conductor's velocity from.
+/// The source of the controller's velocity of the conductor.
 enum class VelocitySensing {
-  measured,    ///< a sensor of its own
-  difference,  ///< the backward difference of the displacements as read
+  measured,    ///< a velocity sensor
+  difference,  ///< the backward difference of the displacement readings
 };
 
-/// Limits that keep a real controller from u = P z₁ + D ż₁; by default there are none.
+/// The limits by which a real controller deviates from u = P z₁ + D ż₁; by default none.
 struct ControllerLimits {
   double displacement_quantum = 0;  ///< q_z (m), ≥ 0: resolution of the displacement; 0: exact
   double velocity_quantum = 0;  ///< q_v (m/s), ≥ 0: resolution of a measured velocity; 0: exact;
-                                ///< without effect on a difference
-  /// Where v̂_j comes from.
+                                ///< not used for a difference
+  /// The source of the velocity v̂_j.
   VelocitySensing velocity = VelocitySensing::measured;
   double largest_force = std::numeric_limits<double>::infinity();  ///< u_max (N), > 0
 };
 
-/// Whether the limits leave the law u = P z₁ + D ż₁ as it is.
+/// Whether the limits leave the law u = P z₁ + D ż₁ unchanged.
 inline bool is_ideal(const ControllerLimits& limits) {
   return limits.displacement_quantum == 0 && limits.velocity_quantum == 0 &&
          limits.velocity == VelocitySensing::measured &&
@@ -43,10 +43,10 @@ inline void validate(const ControllerLimits& limits) {
   }
 }
 
-/// Memory of a controller of the past samples.
+/// The memory of a controller: its past reading.
 struct ControllerMemory {
-  double previous_displacement = 0;  ///< ẑ_{j−1} (m), as read; meaningful once it has sampled
-  bool has_sampled = false;          ///< there has been a sample
+  double previous_displacement = 0;  ///< ẑ_{j−1} (m), as read; valid once it has sampled
+  bool has_sampled = false;          ///< whether there was a sample
 };
 
 /// The derivatives of a command u_j.
@@ -63,12 +63,12 @@ struct ControllerSlope {
 ///         = (ẑ_j − ẑ_{j−1}) / h_j       difference; 0 at the first sample
 ///     u_j = min(max(P ẑ_j + D v̂_j, −u_max), u_max)
 ///
-/// h_j being the time since the sample before. With ideal limits u_j is P z₁ + D ż₁ to the last
-/// bit, unless the compiler fuses products with sums. A difference of quantised displacements moves
-/// in steps of q_z / h_j, however small q_v is. A sample costs a few operations and allocates
-/// nothing.
+/// h_j is the time since the previous sample. With ideal limits u_j is P z₁ + D ż₁ to the last bit,
+/// unless the compiler fuses products with sums. A difference of quantised displacements changes in
+/// steps of q_z / h_j, however small q_v is. A sample costs a few operations and allocates no
+/// memory.
 ///
-/// Sources: Kollár 2022, Eq. (5), for the law; `quantised` names those of the rounding.
+/// Sources: Kollár 2022, Eq. (5), for the law; for the rounding see `quantised`.
 class Controller {
  public:
   /// @throws InvalidParameter unless gains and limits are admissible
@@ -78,13 +78,13 @@ class Controller {
     validate(limits_);
   }
 
-  /// Takes in sample j. @return u_j (N), within ±u_max
-  /// @param displacement  z₁ (m)
-  /// @param velocity      ż₁ (m/s); not looked at where the velocity is a difference
-  /// @param elapsed       h_j (s), > 0; looked at only where the velocity is a difference, from
-  ///                      the second sample on
-  /// @throws InvalidParameter where h_j is looked at and is not finite and > 0; the controller is
-  /// then as before the call
+  /// Computes the command of sample j. @return u_j (N), within ±u_max
+  /// @param displacement  displacement z₁ (m)
+  /// @param velocity      velocity ż₁ (m/s); not used where the velocity is a difference
+  /// @param elapsed       h_j (s), > 0; used only where the velocity is a difference, from the
+  ///                 second sample on
+  /// @throws InvalidParameter where h_j is used and is not finite and > 0; the controller is then
+  /// unchanged
   double command(double displacement, double velocity, double elapsed) {
     const bool differs = limits_.velocity == VelocitySensing::difference;
     if (differs && memory_.has_sampled)
@@ -99,19 +99,19 @@ class Controller {
     return std::clamp(demand, -limits_.largest_force, limits_.largest_force);
   }
 
-  /// The derivatives of the last command: zero where it saturates, and with respect to what is
-  /// quantised. On the steps of a quantiser and where saturation begins they are those of the side
-  /// that the command is on. All zero before the first command and after `restore`.
+  /// The derivatives of the last command: zero under saturation and for quantised readings. On the
+  /// steps of a quantiser and at the limit of saturation they are one-sided, on the command's side.
+  /// All are zero before the first command and after `restore`.
   const ControllerSlope& slope() const { return slope_; }
 
-  /// All that the coming commands depend on.
+  /// The memory that the coming commands depend on.
   const ControllerMemory& memory() const { return memory_; }
-  /// Goes on from what a controller of the same gains and limits remembered.
+  /// Continues from the memory of a controller with the same gains and limits.
   void restore(const ControllerMemory& memory) {
     memory_ = memory;
     slope_ = {};
   }
-  /// q_z, q_v and u_max, and where the velocity comes from.
+  /// The limits q_z, q_v and u_max, and the source of the velocity.
   const ControllerLimits& limits() const { return limits_; }
 
  private:
@@ -119,7 +119,7 @@ class Controller {
     return memory_.has_sampled ? (read - memory_.previous_displacement) / elapsed : 0.0;
   }
 
-  /// The slope without saturation; before the memory takes the sample in.
+  /// The slope without saturation; to be called before the sample is stored in the memory.
   ControllerSlope free_slope(double elapsed) const {
     const double through_displacement =
         limits_.displacement_quantum > 0 ? 0.0 : gains_.proportional;

@@ -15,18 +15,18 @@
 
 namespace holdfast {
 
-/// The digital side of a loop and its excitation: all that a motion depends on beside its contact
-/// and its initial state.
+/// The digital side of a loop and its excitation: everything that a motion depends on except its
+/// plant, its contact and its initial state.
 struct DigitalLoop {
   Sampling<double> sampling;            ///< τ and δ
   PdGains<double> gains;                ///< P and D
   MultiHarmonicForce force;             ///< F(t), the excitation of the conductor
-  ForceHold hold = ForceHold::sampled;  ///< how F is taken over a sample, a record included
-  ControllerLimits limits = {};         ///< of the sensors and the drive
-  Jitter jitter = {};                   ///< of the clock; 2 J + δ ≤ τ
+  ForceHold hold = ForceHold::sampled;  ///< hold of F over a sample, also of a record
+  ControllerLimits limits = {};         ///< limits of the sensors and the drive
+  Jitter jitter = {};                   ///< jitter of the clock; 2 J + δ ≤ τ
 };
 
-/// @throws InvalidParameter where any part is not admissible
+/// Validates a loop. @throws InvalidParameter where any part is not admissible
 inline void validate(const DigitalLoop& loop) {
   validate(loop.sampling, loop.jitter);
   validate(loop.gains);
@@ -34,11 +34,11 @@ inline void validate(const DigitalLoop& loop) {
   validate(loop.limits);
 }
 
-/// f τ = p/q of the first harmonic, with q the number of samples after which sampling and all
-/// harmonics coincide: q samples are p of its periods; 0/1 without excitation.
-/// @return nothing where they never do, or only after more than 10⁶ samples: incommensurate
-///         frequencies (to the precision of its digits every number is a fraction with a larger
-///         q), a recorded force, or samples that jitter
+/// The ratio f τ = p/q of the first harmonic, where q is the number of samples after which sampling
+/// and all harmonics coincide: q samples are p of its periods; 0/1 without excitation.
+/// @return nothing where they never coincide, or only after more than 10⁶ samples: for
+///         incommensurate frequencies (with a larger q every decimal number is a fraction), a
+///         recorded force, or jittering samples
 inline std::optional<Rational> forcing_ratio(const DigitalLoop& loop) {
   constexpr std::int64_t most_samples = 1'000'000;
   if (loop.force.record != nullptr || loop.jitter.half_width > 0.0) return std::nullopt;

@@ -8,7 +8,7 @@
 
 namespace holdfast {
 
-/// Two masses whose parameters are the decimals to which the given doubles are nearest.
+/// The two masses whose parameters are the decimals nearest to the given doubles.
 /// @throws InvalidParameter where they are not admissible
 inline TwoMass<Enclosure> enclosed(const TwoMass<double>& plant) {
   validate(plant);
@@ -18,7 +18,7 @@ inline TwoMass<Enclosure> enclosed(const TwoMass<double>& plant) {
           decimal(plant.absorber_stiffness), decimal(plant.absorber_damping)};
 }
 
-/// Encloses τ and δ.
+/// The enclosures of τ and δ.
 /// @throws InvalidParameter where they are not admissible
 inline Sampling<Enclosure> enclosed(const Sampling<double>& sampling) {
   validate(sampling);

@@ -7,51 +7,51 @@
 
 namespace holdfast {
 
-/// Readings that a controller is given at sample j.
+/// The readings that a controller receives at sample j.
 struct ControlSample {
-  double displacement;  ///< z₁ (m), or what the plant's ports measure in its place
-  double velocity;      ///< ż₁ (m/s), likewise
-  double elapsed;       ///< h_j (s), the time since the sample before; τ at the first one
+  double displacement;  ///< z₁ (m), or the measured displacement of the plant's ports
+  double velocity;      ///< ż₁ (m/s), or the measured velocity of the plant's ports
+  double elapsed;       ///< h_j (s), time since the previous sample; τ at the first one
 };
 
-/// Gains of the proportional–differential law u = P z₁ + D ż₁, which is also a controller without
-/// states (control/controlled_plant.hpp).
+/// The gains of the proportional–differential law u = P z₁ + D ż₁, which is also a controller
+/// without states (control/controlled_plant.hpp).
 /// Source: Kollár 2022, Eq. (5) and Eq. (11), whose row matrix D is [P, D, 0, 0].
 template <class Scalar>
 struct PdGains {
   static_assert(is_real<Scalar>, "a gain is a real number: PdGains<double>");
-  static constexpr int states = 0;  ///< it remembers nothing
+  static constexpr int states = 0;  ///< a controller without memory
   Scalar proportional = Scalar(0);  ///< P (N/m), finite
   Scalar differential = Scalar(0);  ///< D (N s/m), finite
 
-  /// K = [P, D, 0, 0], 1 × 4, so that u = K z.
+  /// The feedback row K = [P, D, 0, 0], 1 × 4, so that u = K z.
   RowVector<Scalar, 4> feedback_row() const {
     return {proportional, differential, Scalar(0), Scalar(0)};
   }
 
-  /// u_j = P z₁ + D ż₁ (N) of a sample.
+  /// The command u_j = P z₁ + D ż₁ (N) of a sample.
   Scalar command(const ControlSample& sample, const Vector<Scalar, 0>&) const {
     return proportional * sample.displacement + differential * sample.velocity;
   }
-  /// [P, D].
+  /// The Jacobian [P, D].
   RowVector<Scalar, 2> derivative(const ControlSample&, const Vector<Scalar, 0>&) const {
     return {proportional, differential};
   }
 };
 
-/// @throws InvalidParameter unless both gains are finite
+/// Validates the gains. @throws InvalidParameter unless both are finite
 inline void validate(const PdGains<double>& gains) {
   require_finite("proportional gain P", gains.proportional, "N/m");
   require_finite("differential gain D", gains.differential, "N s/m");
 }
 
-/// P = k₂ − m₂ ω², the proportional gain that tunes the absorber to the excitation.
+/// The proportional gain P = k₂ − m₂ ω² that tunes the absorber to the excitation.
 /// Source: Kollár 2022, Eq. (6).
 /// @param absorber_stiffness  k₂ (N/m), > 0
 /// @param absorber_mass       m₂ (kg), > 0
 /// @param frequency           excitation frequency f = ω / 2π (Hz), > 0
-/// @return P in N/m; negative above the absorber's own frequency
-/// @throws InvalidParameter outside these ranges
+/// @return P (N/m); negative above the absorber's own frequency
+/// @throws InvalidParameter where an argument is outside its range
 template <class Scalar>
 Scalar tuned_proportional_gain(const Scalar& absorber_stiffness, const Scalar& absorber_mass,
                                const Scalar& frequency) {

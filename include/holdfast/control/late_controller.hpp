@@ -12,26 +12,26 @@
 
 namespace holdfast {
 
-/// The proportional–differential law of a computer whose force comes whole samples late,
+/// The proportional–differential law of a computer whose force is delayed by whole samples,
 ///
-///     u_j = c_{j−M′},   c_j that of `Controller` with its limits; 0 of the first M′ samples
+/// u_j = c_{j−M′},   c_j that of `Controller` with its limits; 0 for the first M′ samples
 ///
-/// as a controller of one's own (`with_controller`): its states are the M′ commands on their way,
-/// the next one first, and where the velocity is a difference the displacement read before and
+/// as a user-defined controller (`with_controller`): its states are the M′ delayed commands, the
+/// next one first, and, where the velocity is a difference, the previous displacement reading and
 /// whether there was one.
 struct LateController {
-  static constexpr int states = Eigen::Dynamic;             ///< known at run time alone
+  static constexpr int states = Eigen::Dynamic;             ///< known at run time only
   using State = Vector<double, Eigen::Dynamic>;             ///< M × 1
   using Derivative = ControllerDerivative<Eigen::Dynamic>;  ///< (M + 1) × (M + 2)
 
   PdGains<double> gains;         ///< P and D
-  ControllerLimits limits = {};  ///< of readings and force
-  Eigen::Index samples = 0;      ///< M′ ≥ 0
+  ControllerLimits limits = {};  ///< limits of readings and force
+  Eigen::Index samples = 0;      ///< number M′ ≥ 0 of samples
 
-  /// M.
+  /// The number M of states.
   Eigen::Index order() const { return samples + (differs() ? 2 : 0); }
 
-  /// u_j (N); moves the state on.
+  /// The command u_j (N); updates the state.
   double command(const ControlSample& sample, State& state) const {
     const auto [now, controller] = sensed(sample, state);
     if (differs()) state.tail(2) << controller.memory().previous_displacement, 1.0;
@@ -42,7 +42,7 @@ struct LateController {
     return next;
   }
 
-  /// Derivative of u_j and next state by readings and state; steps of the readings have slope 0.
+  /// The Jacobian of u_j and the next state by readings and state; quantiser steps have slope 0.
   Derivative derivative(const ControlSample& sample, const State& state) const {
     const ControllerSlope slope = sensed(sample, state).second.slope();
     Derivative result = Derivative::Zero(order() + 1, order() + 2);
@@ -67,21 +67,21 @@ struct LateController {
   }
 };
 
-/// Part of a delay within a sample, (k − 1) τ being the controller's: τ, and δ less them.
+/// The part of a delay within a sample: τ, and δ minus the (k − 1) τ of the controller.
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
-/// @throws InvalidParameter for another sampling
+/// @throws InvalidParameter where the sampling is not admissible
 inline Sampling<double> within_sample(const Sampling<double>& sampling) {
   const double whole = held_commands(sampling) - 1;
   const double late = sampling.processing_delay - whole * sampling.period;
   return {sampling.period, std::clamp(late, 0.0, sampling.period)};
 }
 
-/// The law of a loop whose delay may exceed a sample: whole samples by the controller, the rest
-/// `within_sample`.
+/// The law of a loop whose delay may exceed a sample: whole samples are delayed by the controller,
+/// the rest `within_sample`.
 /// @param gains     P and D
-/// @param limits    of readings and force
+/// @param limits    limits of readings and force
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
-/// @throws InvalidParameter where one of them is not admissible
+/// @throws InvalidParameter where an argument is not admissible
 inline LateController late_controller(const PdGains<double>& gains, const ControllerLimits& limits,
                                       const Sampling<double>& sampling) {
   validate(gains);

@@ -15,43 +15,43 @@ namespace holdfast {
 
 /// The sampled loop of a plant of order N as one linear map over a sampling period, for any delay.
 ///
-/// A delay δ = (k − 1) τ + δ′, 0 < δ′ ≤ τ, keeps k = max(1, ⌈δ/τ⌉) commands on their way. With
-/// y_j = [x_j; u_{j−k}; …; u_{j−1}], N + k numbers,
+/// With a delay δ = (k − 1) τ + δ′, 0 < δ′ ≤ τ, there are k = max(1, ⌈δ/τ⌉) delayed commands. With
+/// the state y_j = [x_j; u_{j−k}; …; u_{j−1}], N + k numbers,
 ///
 ///     y_{j+1} = (S₀ + s K) y_j + c_y F_j,   K = P h_z + D h_v
 ///
-/// where S₀ holds A_d, Γ₁ and Γ₀ of δ′ and the shift of the commands, s says how u_j enters, and
-/// h_z, h_v read what is measured. k = 1 is S of `SampledLoop`. All |λ(S₀ + s K)| < 1 ⇔
-/// asymptotically stable.
+/// where S₀ contains A_d, Γ₁ and Γ₀ for δ′ and the shift of the commands, s is the input column of
+/// u_j, and h_z, h_v are the measurement rows. For k = 1 it is S of `SampledLoop`. All |λ(S₀ + s
+/// K)| < 1 ⇔ asymptotically stable.
 template <class Scalar>
 struct LoopMap {
   Sampling<Scalar> sampling;                  ///< τ and δ; δ may exceed τ
-  Eigen::Index held_commands;                 ///< k, ≥ 1
+  Eigen::Index held_commands;                 ///< number k of delayed commands, ≥ 1
   Matrix<Scalar, Eigen::Dynamic> open_map;    ///< S₀, (N + k) × (N + k)
   Matrix<Scalar, Eigen::Dynamic> increment;   ///< S₀ − I, to full relative accuracy for any τ
   Vector<Scalar, Eigen::Dynamic> command;     ///< s, (N + k) × 1 per newton of u_j
   Vector<Scalar, Eigen::Dynamic> excitation;  ///< c_y, (N + k) × 1 per newton of F_j, held
-  RowVector<Scalar, Eigen::Dynamic> displacement;  ///< h_z, 1 × (N + k): what P multiplies
-  RowVector<Scalar, Eigen::Dynamic> velocity;      ///< h_v, 1 × (N + k): what D multiplies
-  RowVector<Scalar, Eigen::Dynamic> conductor;     ///< reads z (m) of the conductor, 1 × (N + k)
+  RowVector<Scalar, Eigen::Dynamic> displacement;  ///< h_z, 1 × (N + k): row multiplied by P
+  RowVector<Scalar, Eigen::Dynamic> velocity;      ///< h_v, 1 × (N + k): row multiplied by D
+  RowVector<Scalar, Eigen::Dynamic> conductor;     ///< row of the conductor's z (m), 1 × (N + k)
 
-  /// N + k.
+  /// The number of states N + k.
   Eigen::Index size() const { return open_map.rows(); }
 
-  /// S₀ + s (P h_z + D h_v), (N + k) × (N + k).
+  /// The closed map S₀ + s (P h_z + D h_v), (N + k) × (N + k).
   Matrix<Scalar, Eigen::Dynamic> closed_map(const PdGains<Scalar>& gains) const {
     return open_map + command * (gains.proportional * displacement + gains.differential * velocity);
   }
 
-  /// S₀ − I + s (P h_z + D h_v), (N + k) × (N + k): its eigenvalues are λ − 1.
+  /// The matrix S₀ − I + s (P h_z + D h_v), (N + k) × (N + k), with the eigenvalues λ − 1.
   Matrix<Scalar, Eigen::Dynamic> closed_increment(const PdGains<Scalar>& gains) const {
     return increment +
            command * (gains.proportional * displacement + gains.differential * velocity);
   }
 };
 
-/// k = max(1, ⌈δ/τ⌉), the commands on their way; a delay of a whole number of samples, up to the
-/// round-off of decimal numbers, keeps just that many.
+/// The number k = max(1, ⌈δ/τ⌉) of delayed commands; a delay of a whole number of samples, up to
+/// the round-off of decimal numbers, gives exactly that number.
 /// @throws InvalidParameter unless τ > 0 and 0 ≤ δ ≤ 10⁹ τ
 inline int held_commands(const Sampling<double>& sampling) {
   require_positive("sampling period tau", sampling.period, "s");
@@ -64,8 +64,8 @@ inline int held_commands(const Sampling<double>& sampling) {
 
 namespace detail {
 
-/// The map that keeps k commands, (k − 1) τ ≤ δ ≤ k τ: where δ is a whole number of samples, that
-/// of either side of it.
+/// The map with k delayed commands, (k − 1) τ ≤ δ ≤ k τ: where δ is a whole number of samples, both
+/// neighbouring k are possible.
 template <class Plant, class Scalar>
 LoopMap<Scalar> loop_map_keeping(const Plant& plant, const Sampling<Scalar>& sampling, int k) {
   const Scalar past = std::min(
@@ -105,10 +105,10 @@ LoopMap<Scalar> loop_map_keeping(const Plant& plant, const Sampling<Scalar>& sam
 
 }  // namespace detail
 
-/// The map of a plant's loop over a sampling period.
-/// @param plant     any order; its ports say what is measured
+/// The map of a plant's loop over one sampling period.
+/// @param plant     plant of any order; its ports define the measurement
 /// @param sampling  τ > 0 and δ ≥ 0, which may exceed τ by up to 1000 samples
-/// @throws InvalidParameter where the sampling is another or the state matrix is not finite
+/// @throws InvalidParameter where the sampling is not admissible or the state matrix not finite
 template <class Plant, class Scalar = ScalarOf<Plant>>
 LoopMap<Scalar> loop_map(const Plant& plant, const Sampling<detail::Undeduced<Scalar>>& sampling) {
   require_positive("sampling period tau", static_cast<double>(sampling.period), "s");

@@ -7,21 +7,21 @@
 
 namespace holdfast {
 
-/// Reading of a sensor of finite resolution: the multiple of its quantum that is nearest to the
-/// value (a mid-tread quantiser).
+/// The reading of a sensor of finite resolution: the multiple of its quantum nearest to the value
+/// (a mid-tread quantiser).
 ///
 ///     ẑ = q · round(z / q),   |ẑ − z| ≤ q / 2 up to round-off;   q = 0: ẑ = z
 ///
-/// A value halfway between two multiples goes to the even one, the nearest-even rounding that a
-/// program has unless it changes it. The function is odd and idempotent. Where q is no longer wide
-/// against the spacing of the numbers around z (|z / q| ≥ 2⁵¹ in double precision), ẑ = z.
+/// A value halfway between two multiples is rounded to the even one, the default rounding of
+/// programs. The function is odd and idempotent. Where q is no longer wide compared with the
+/// spacing of the numbers around z (|z / q| ≥ 2⁵¹ in double precision), ẑ = z.
 ///
-/// Where z spreads over more than a quantum, ẑ − z acts like noise that is uniform over
-/// ±q / 2: mean 0, variance q² / 12. In a loop that would be unstable without control the same
-/// rounding makes small chaotic oscillations, micro-chaos; the papers on it cut off the fraction
-/// instead of rounding.
+/// Where z spreads over more than a quantum, ẑ − z acts like noise uniform over ±q / 2: mean 0,
+/// variance q² / 12. In a loop that is unstable without control the rounding causes small
+/// chaotic oscillations, micro-chaos; the papers on it truncate the fraction instead of
+/// rounding.
 ///
-/// @param value    z, any unit
+/// @param value    value z, any unit
 /// @param quantum  q ≥ 0 and finite, in the unit of z
 /// Sources: B. Widrow and I. Kollár, Quantization Noise, Cambridge University Press (2008);
 /// G. Haller and G. Stépán, Micro-chaos in digital control, J. Nonlinear Sci. 6 (1996);

@@ -9,7 +9,7 @@
 
 namespace holdfast {
 
-/// When the computer samples and when its force arrives.
+/// The instants at which the computer samples and its force acts: period and delay.
 template <class Scalar>
 struct Sampling {
   static_assert(is_real<Scalar>, "a time is a real number: Sampling<double>");
@@ -19,13 +19,13 @@ struct Sampling {
       Scalar(0);  ///< δ (s), 0 ≤ δ ≤ τ: from taking a sample to applying its force
 };
 
-/// @throws InvalidParameter unless τ > 0 and 0 ≤ δ ≤ τ, both finite
+/// Validates a sampling. @throws InvalidParameter unless τ > 0 and 0 ≤ δ ≤ τ, both finite
 inline void validate(const Sampling<double>& sampling) {
   require_positive("sampling period tau", sampling.period, "s");
   require_within("processing delay", sampling.processing_delay, "s", 0.0, sampling.period);
 }
 
-/// The plant seen by a computer that samples every τ and applies its force δ later, held for τ.
+/// The plant with a computer that samples every τ and applies its force δ later, held for τ.
 ///
 /// The force is u_{j−1} in [t_j, t_j + δ) and u_j in [t_j + δ, t_{j+1}), so that exactly
 ///
@@ -35,20 +35,20 @@ inline void validate(const Sampling<double>& sampling) {
 ///
 /// With z̃_j = [z_j; u_{j−1}] the step is z̃_{j+1} = S z̃_j + [c_d; 0] F_j outside the backlash and
 /// S* z̃_j + [c_d; 0] F_j inside. δ = τ gives the matrices printed in Kollár 2022, Eqs. (13)–(14);
-/// δ = 0 gives the map that the paper's numbers come from (docs/reading-the-paper.md). A delay of
-/// more than one sample is in control/loop_map.hpp.
-/// @tparam States  N, the order of the plant; 4 is that of the two masses, Eigen::Dynamic any
+/// δ = 0 gives the map behind the paper's numbers (docs/reading-the-paper.md). For a delay of more
+/// than one sample see control/loop_map.hpp.
+/// @tparam States  N, the order of the plant; 4 for the two masses, Eigen::Dynamic for any
 template <class Scalar, int States = 4>
 struct SampledLoop {
-  Sampling<Scalar> sampling;          ///< the τ and δ that the matrices below belong to
+  Sampling<Scalar> sampling;          ///< τ and δ of the matrices below
   Matrix<Scalar, States> transition;  ///< A_d, N × N
   Matrix<Scalar, States> increment;   ///< A_d − I, N × N, to full relative accuracy for any τ
   Vector<Scalar, States> previous_force;   ///< Γ₁, N × 1: response per newton of u_{j−1}
   Vector<Scalar, States> present_force;    ///< Γ₀, N × 1: response per newton of u_j
   Vector<Scalar, States> held_excitation;  ///< c_d, N × 1: response per newton of F held over τ
 
-  /// S of Eq. (14) for any δ, 5 × 5: [A_d + Γ₀ K, Γ₁; K, 0], the control force being transmitted;
-  /// of the two masses, whose K is [P, D, 0, 0]. That of another plant is LoopMap::closed_map().
+  /// The map S of Eq. (14) for any δ, 5 × 5: [A_d + Γ₀ K, Γ₁; K, 0], force transmitted; for the two
+  /// masses with K = [P, D, 0, 0]. For another plant see LoopMap::closed_map().
   Matrix<Scalar, 5> engaged_map(const PdGains<Scalar>& gains) const {
     static_assert(States == 4, "the feedback row of another plant comes from its ports");
     Matrix<Scalar, 5> map = backlash_map();
@@ -57,7 +57,7 @@ struct SampledLoop {
     return map;
   }
 
-  /// S* of Eq. (14) for any δ, (N + 1) × (N + 1): [A_d, Γ₁; 0, 0], the drive being in its backlash.
+  /// The map S* of Eq. (14) for any δ, (N + 1) × (N + 1): [A_d, Γ₁; 0, 0], drive in its backlash.
   Matrix<Scalar, larger_size(States, 1)> backlash_map() const {
     const Eigen::Index n = transition.rows();
     Matrix<Scalar, larger_size(States, 1)> map =
@@ -81,13 +81,13 @@ SampledLoop<To, States> converted(const SampledLoop<From, States>& loop) {
 
 /// The sampled loop of a linear plant.
 ///
-/// With Φ(h) = ∫₀ʰ e^{As} ds, found by one augmented exponential for each of the two parts of the
+/// With Φ(h) = ∫₀ʰ e^{As} ds, from one augmented exponential for each of the two parts of the
 /// period, every matrix of the loop is a product: A_d − I = A Φ(τ), Γ₀ = Φ(τ−δ) b, Γ₁ = e^{A(τ−δ)}
-/// Φ(δ) b, c_d = Φ(τ) c. No small matrix is the difference of large ones.
-/// @param plant     two masses admissible, another one finite
-/// @param sampling  0 ≤ δ ≤ τ; τ = 0, no time at all, gives the identity
-/// @tparam Plant    anything with `state_matrix()`, `control_input()` and `excitation_input()`
-/// @throws InvalidParameter where the sampling or the plant is another, or the sizes disagree
+/// Φ(δ) b, c_d = Φ(τ) c. No small matrix is a difference of large ones.
+/// @param plant     two admissible masses, or another finite plant
+/// @param sampling  0 ≤ δ ≤ τ; τ = 0 gives the identity
+/// @tparam Plant    type with `state_matrix()`, `control_input()` and `excitation_input()`
+/// @throws InvalidParameter where sampling or plant are not admissible, or the sizes disagree
 template <class Plant, class Scalar = ScalarOf<Plant>>
 SampledLoop<Scalar, states_of<Plant>> sampled_loop(
     const Plant& plant, const Sampling<detail::Undeduced<Scalar>>& sampling) {

@@ -10,13 +10,13 @@
 
 namespace holdfast {
 
-/// How far the instants of the samples deviate from their grid. By default, not at all.
+/// The deviation of the sampling instants from their grid; by default zero.
 struct Jitter {
-  double half_width = 0;   ///< J (s), ≥ 0: no sample deviates farther
-  std::uint64_t seed = 1;  ///< which of the random sequences
+  double half_width = 0;   ///< J (s), ≥ 0: largest deviation
+  std::uint64_t seed = 1;  ///< seed of the random sequence
 };
 
-/// Refuses a jitter that could bring a sample before the force of the one before it.
+/// Rejects a jitter by which a sample could precede the force of the previous sample.
 /// @throws InvalidParameter unless the sampling is admissible, J is finite and ≥ 0, J < τ / 2 and
 /// 2 J + δ ≤ τ, the last up to the round-off of decimal numbers
 inline void validate(const Sampling<double>& sampling, const Jitter& jitter) {
@@ -57,46 +57,46 @@ constexpr std::uint64_t split_mix_64(std::uint64_t seed, std::uint64_t index) {
 ///
 ///     t_j = j τ + e_j,   e_0 = 0,   e_j uniform over (−J, J) and independent, j = 1, 2, …
 ///
-/// The deviations do not add up: the clock keeps to its grid. e_j depends on the seed and on j
-/// alone, so that samples may be asked for in any order. All is integer arithmetic and correctly
+/// The deviations do not accumulate: the clock follows its grid. e_j depends on the seed and on j
+/// only, so that samples may be computed in any order. All is integer arithmetic and correctly
 /// rounded multiply-adds: a run is the same on every machine. J = 0 gives t_j = j τ and the period
 /// τ, both to the last bit.
 class SamplingClock {
  public:
   /// @param period  τ (s), > 0
-  /// @param jitter  J < τ / 2, so that every sample comes after the one before; with a processing
-  ///                delay, `validate(sampling, jitter)` asks for more
-  /// @throws InvalidParameter unless both are admissible
+  /// @param jitter  J < τ / 2, so that the samples ascend; with a processing delay,
+  ///                `validate(sampling, jitter)` requires more
+  /// @throws InvalidParameter where an argument is not admissible
   explicit SamplingClock(double period, const Jitter& jitter = {})
       : period_(period), jitter_(jitter) {
     validate(Sampling<double>{period}, jitter);
   }
 
-  /// t_j (s), j ≥ 0.
+  /// The instant t_j (s), j ≥ 0.
   double time(std::int64_t index) const {
     const double on_grid = static_cast<double>(index) * period_;
     if (jitter_.half_width == 0) return on_grid;
     return std::fma(jitter_.half_width, share(index), on_grid);
   }
 
-  /// t_{j+1} − t_j = τ + e_{j+1} − e_j (s), j ≥ 0: rounded once, where the difference of two late
-  /// instants would have lost digits.
+  /// The period t_{j+1} − t_j = τ + e_{j+1} − e_j (s), j ≥ 0, rounded once; a difference of two
+  /// late instants would lose digits.
   double period_of(std::int64_t index) const {
     if (jitter_.half_width == 0) return period_;
     return std::fma(jitter_.half_width, share(index + 1) - share(index), period_);
   }
 
-  /// e_j (s), j ≥ 0.
+  /// The deviation e_j (s), j ≥ 0.
   double deviation(std::int64_t index) const { return jitter_.half_width * share(index); }
 
-  /// τ (s).
+  /// The nominal period τ (s).
   double period() const { return period_; }
-  /// J (s) and the seed of the deviations.
+  /// The half width J (s) and the seed of the deviations.
   const Jitter& jitter() const { return jitter_; }
 
  private:
-  /// e_j / J: an odd multiple of 2⁻⁵³, as many below zero as above, so that the difference of two
-  /// is exact.
+  /// The relative deviation e_j / J: an odd multiple of 2⁻⁵³, symmetric about zero, so that the
+  /// difference of two is exact.
   double share(std::int64_t index) const {
     if (index == 0) return 0;
     const std::uint64_t bits =

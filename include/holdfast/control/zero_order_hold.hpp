@@ -6,7 +6,7 @@
 
 namespace holdfast {
 
-/// Exact solution of ẋ = A x + B w over a time h in which the inputs w are constant.
+/// The exact step of ẋ = A x + B w over a time h with constant inputs w:
 ///
 ///     x(t + h) = transition · x(t) + input · w,
 ///     transition = e^{Ah},   input = ∫₀ʰ e^{As} ds B
@@ -16,14 +16,14 @@ struct HeldStep {
   Matrix<Scalar, States, Inputs> input;  ///< ∫₀ʰ e^{As} ds B, States × Inputs
 };
 
-/// Zero-order hold by one augmented matrix exponential (Van Loan's construction):
+/// Computes the zero-order hold by one augmented matrix exponential (Van Loan's construction):
 ///
 ///     exp([A B; 0 0] h) = [e^{Ah}, ∫₀ʰ e^{As} ds B; 0, I]
 ///
-/// @param a      A, States × States (1/s); either size may be Eigen::Dynamic
-/// @param b      B, States × Inputs
-/// @param period h (s), finite, ≥ 0; h = 0 gives the identity and a zero input
-/// @throws InvalidParameter where A is not square, or B not as high
+/// @param a      matrix A, States × States (1/s); either size may be Eigen::Dynamic
+/// @param b      matrix B, States × Inputs
+/// @param period time h (s), finite, ≥ 0; h = 0 gives the identity and a zero input
+/// @throws InvalidParameter where A is not square, or B has another number of rows
 /// Source: C. F. Van Loan, Computing integrals involving the matrix exponential, IEEE TAC 23
 /// (1978).
 template <class Scalar, int States, int Inputs>

@@ -11,7 +11,7 @@
 
 namespace holdfast {
 
-/// Motion of an EventMotion between two samples, at any instant.
+/// The dense output of an EventMotion: its state between two samples, at any instant.
 ///
 ///     DenseOutput<Contact> trace(motion);
 ///     motion.sense();
@@ -20,47 +20,47 @@ namespace holdfast {
 ///     trace.state(0.5 * tau);
 ///
 /// The motion must outlive the trace and not be moved. Work: one Taylor series (motion/
-/// affine_expansion.hpp) for each part of constant contact, and for every 1/‖A‖ of its length.
+/// affine_expansion.hpp) for each part of constant contact and for every 1/‖A‖ of its length.
 template <class Contact>
 class DenseOutput {
  public:
-  /// x, N × 1, of the motion.
+  /// The state x of the motion, N × 1.
   using State = typename EventMotion<Contact>::State;
 
-  /// A stretch without a change of contact or command, short enough for one series.
+  /// A stretch without change of contact or command, short enough for one series.
   struct Part {
     double begin,                                    ///< s after the sample
         length;                                      ///< s, ≥ 0
-    ContactMode mode;                                ///< all through the stretch
-    typename EventMotion<Contact>::Expansion state;  ///< over the length
+    ContactMode mode;                                ///< mode of the stretch
+    typename EventMotion<Contact>::Expansion state;  ///< its Taylor series
   };
 
-  /// Keeps the address of the motion.
+  /// Constructs a trace that refers to a motion.
   explicit DenseOutput(const EventMotion<Contact>& motion)
       : motion_(&motion), state_(motion.state()) {}
 
-  /// To be called after `sense()` and before `advance(trace)`.
+  /// Starts a sampling period; to be called after `sense()` and before `advance(trace)`.
   void begin() {
     parts_.clear();
     state_ = motion_->state();
     command_ = motion_->previous_command();
   }
 
-  /// The state (N × 1) some time (s) after the sample, up to the next one.
+  /// The state (N × 1) some time (s) after the sample, up to the next sample.
   State state(double after) const {
     const Part& part = part_at(after);
     return part.state.state(
         part.length > 0.0 ? std::clamp((after - part.begin) / part.length, 0.0, 1.0) : 0.0);
   }
 
-  /// The mode there; at a change of contact the one after it.
+  /// The mode at that time; at a change of contact the later one.
   ContactMode mode(double after) const { return part_at(after).mode; }
 
-  /// One after the other, without a space between them.
+  /// The parts of the sampling period, in order and without gaps.
   const std::vector<Part>& parts() const { return parts_; }
 
-  /// For EventMotion::advance: a part of the period has been passed, `length` seconds from `begin`
-  /// (s after the sample) on, in the mode of that number.
+  /// Called by EventMotion::advance: a part of the period of length `length` (s) from `begin` (s
+  /// after the sample) on was passed in the given mode.
   void flowed(int mode, double begin, double length) {
     const double rate = motion_->rate(mode);
     double reached = begin;
@@ -78,9 +78,9 @@ class DenseOutput {
       reached = part == end - reached ? end : reached + part;
     } while (reached < end);
   }
-  /// For EventMotion::advance, at t_j + δ: from here on u_j is in force.
+  /// Called by EventMotion::advance at t_j + δ: from there on u_j is in force.
   void commanded() { command_ = motion_->command(); }
-  /// For EventMotion::advance: a change of contact, which the next part shows.
+  /// Called by EventMotion::advance at a change of contact; the next part shows the new mode.
   template <class Instant>
   void switched(int, int, int, const Instant&) {}
 

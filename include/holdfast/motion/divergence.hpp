@@ -15,8 +15,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// Scale of the static deflection (m) under a force (N): the largest entry of A⁻¹ c F, or of c F
-/// where A has no inverse. States that stand still between the samples bend by nothing.
+/// The scale of the static deflection (m) under a force (N): the largest entry of A⁻¹ c F, or of c
+/// F where A has no inverse. States that are constant between samples are left out.
 template <class Plant>
 double static_deflection(const Plant& plant, double force) {
   const auto& input = plant.excitation_input();
@@ -29,11 +29,11 @@ double static_deflection(const Plant& plant, double force) {
 
 }  // namespace detail
 
-/// A size (m, m/s) that no bounded motion of a loop reaches: 10¹² times all that sets its scale,
-/// the static deflection under the force and its speed, r₀ and the initial state. A motion that
-/// passes it diverges.
-/// @param loop   admissible
-/// @param state  the initial one, N × 1, finite
+/// The size (m, m/s) beyond which a motion of a loop counts as diverging: 10¹² times all that
+/// determines its scale, the static deflection under the force and its speed, r₀ and the initial
+/// state.
+/// @param loop   an admissible loop
+/// @param state  the initial state, N × 1, finite
 template <class Plant>
 double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plant>& state) {
   const MultiHarmonicForce& force = loop.digital.force;
@@ -47,9 +47,9 @@ double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plan
   return 1e12 * std::max(scale, 1e-100);
 }
 
-/// Bound of divergence of a conductor by its modes, with all that the force bends it statically.
-/// @param loop   admissible
-/// @param state  the initial one, of `modal_plant`
+/// The bound of divergence of a conductor by its modes, from all its static deflections.
+/// @param loop   an admissible loop
+/// @param state  the initial state of `modal_plant`
 inline double divergence_bound(const ModalLoop& loop, const NaturalMotions::Full& state) {
   const double bend = receptance(loop.modes, std::complex<double>(0.0)).real();
   const double deflection = loop.excitation.amplitude * bend;

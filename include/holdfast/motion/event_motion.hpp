@@ -28,34 +28,34 @@
 
 namespace holdfast {
 
-/// Sample of a motion, with the mode of its contact from then on.
+/// A sample of a motion, with the mode of its contact from there on.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct EventSampleOf : MotionSample<double, States> {
-  ContactMode mode;  ///< from t_j on; `engaged` of the sample is mode == ContactMode::engaged
+  ContactMode mode;  ///< from t_j on; `engaged` means mode == ContactMode::engaged
 };
 
-/// Sample of the two masses.
+/// A sample of the two masses' motion.
 using EventSample = EventSampleOf<4>;
 
-/// Counts of the contact changes that a motion has met with.
+/// The counts of contact changes in a motion.
 struct SwitchCounts {
-  std::array<std::int64_t, 3> entered{};  ///< how often each ContactMode began
-  std::int64_t grazing = 0;  ///< changes of contact that rounding decides: a guard touches zero
-  bool accumulates = false;  ///< more than `most_switches` changes in one sampling period: those
-                             ///< after them, up to its end, were not followed, and from there on
-                             ///< the motion is not to be trusted
+  std::array<std::int64_t, 3> entered{};  ///< how many times each ContactMode began
+  std::int64_t grazing = 0;  ///< changes of contact within rounding: a guard touches zero
+  bool accumulates = false;  ///< more than `most_switches` changes in one sampling period: the
+                             ///< later ones, up to its end, were not followed, and the motion is
+                             ///< invalid from there on
 };
 
-/// The observer of EventMotion::advance that does not look at what happens between the samples.
+/// The observer of EventMotion::advance that ignores everything between the samples.
 struct IgnoreFlow {
-  /// A part of the sampling period was passed: the mode's number, its begin (s after the sample)
-  /// and its length (s).
+  /// Called for each part of the sampling period: number of the mode, begin (s after the sample)
+  /// and length (s).
   void flowed(int, double, double) const {}
-  /// At t_j + δ u_j took the place of u_{j−1}.
+  /// Called at t_j + δ, where u_j replaces u_{j−1}.
   void commanded() const {}
-  /// The contact changed: the numbers of the mode before and after, that of the guard that came to
-  /// zero (−1: a jump of the command or the force did it), the instant.
+  /// Called at a change of contact: modes before and after, the guard that reached zero (−1: a jump
+  /// of the command or the force), the instant.
   template <class Instant>
   void switched(int, int, int, const Instant&) const {}
 };
@@ -63,34 +63,34 @@ struct IgnoreFlow {
 /// The motion of the sampled loop whose contact may change between the samples.
 ///
 /// The digital side is that of SampledMotion: `sense()` takes a sample and decides the command u_j,
-/// `advance()` moves to the next one, under u_{j−1} until t_j + δ and under u_j from then on. In
-/// between the state follows the mode of the contact: over a whole part of the period by the same
-/// exact matrices if a bound tells that no guard can come to zero in it, else by its Taylor series,
-/// of which the first root of every guard is found (math/roots/first_root.hpp), so that no change
-/// of contact is passed over.
+/// `advance()` moves to the next sample, under u_{j−1} until t_j + δ and then under u_j. In between
+/// the state follows the mode of the contact: over a whole part of the period by constant exact
+/// matrices if a bound excludes that a guard reaches zero, else by its Taylor series, in which the
+/// first root of every guard is found (math/roots/first_root.hpp). So no change of contact is
+/// passed over.
 ///
 /// Work per sample without a change of contact: about 80 multiply-adds and a square root; per
-/// change some 2000 multiply-adds more. Nothing is allocated.
-/// @tparam Contact  DriveContact, or what answers to the same questions
+/// change some 2000 multiply-adds more. No memory is allocated.
+/// @tparam Contact  DriveContact, or a type with the same interface
 template <class Contact = DriveContact<>>
 class EventMotion {
  public:
-  /// The plant that the contact drives.
+  /// The plant with its drive.
   using Plant = typename Contact::Plant;
-  /// N, the order of the plant.
+  /// The order N of the plant.
   static constexpr int states = states_of<Plant>;
   using State = StateOf<Plant>;               ///< x, N × 1
-  using Sample = EventSampleOf<states>;       ///< what `sense` takes
-  using Instant = ContactInstantOf<states>;   ///< what a change of contact depends on
-  using Dynamics = AffineDynamicsOf<states>;  ///< the motion in one mode
-  using Expansion = TaylorStep<states>;       ///< its Taylor series
+  using Sample = EventSampleOf<states>;       ///< result of `sense`
+  using Instant = ContactInstantOf<states>;   ///< data that a change of contact depends on
+  using Dynamics = AffineDynamicsOf<states>;  ///< equations of motion in one mode
+  using Expansion = TaylorStep<states>;       ///< Taylor series of the motion
 
   /// Most changes of contact in one sampling period; beyond them SwitchCounts::accumulates is set.
   static constexpr int most_switches = 1000;
 
-  /// @throws InvalidParameter where the loop is not admissible, or turns more than
-  ///         `ModeMotion::most_turns_per_sample` in one sampling period, or the state is not finite
-  ///         or of another size
+  /// @throws InvalidParameter where the loop is not admissible, makes more than
+  /// `ModeMotion::most_turns_per_sample` turns in a sampling period, or the state is not finite or
+  /// of another size
   EventMotion(const DigitalLoop& loop, const Contact& contact, const State& initial_state)
       : loop_(loop),
         readings_(contact.readings()),
@@ -109,7 +109,7 @@ class EventMotion {
       instants_.push_back(force_.instant(after));
   }
 
-  /// Takes sample j: the command, and the contact where it depends on it. Call once per sample.
+  /// Takes sample j: the command, and the contact if it depends on it; to be called once.
   Sample sense() {
     const double elapsed = index_ > 0 ? clock_.period_of(index_ - 1) : loop_.sampling.period;
     force_.begin_sample(index_, time());
@@ -129,10 +129,10 @@ class EventMotion {
     return sample;
   }
 
-  /// Moves from t_j to t_{j+1} under the command that the last `sense()` decided.
+  /// Advances from t_j to t_{j+1} under the command that the last `sense()` decided.
   void advance() { advance(IgnoreFlow()); }
 
-  /// Moves to the next sample past an observer of the way (motion/variational_flow.hpp):
+  /// Advances to the next sample and reports to an observer (motion/variational_flow.hpp):
   ///
   ///     flowed(mode, begin, length)             a part of the period, s from the sample, in a mode
   ///     commanded()                             at t_j + δ: u_j takes the place of u_{j−1}
@@ -150,50 +150,50 @@ class EventMotion {
     ++index_;
   }
 
-  /// Adds a displacement (m) to the conductor at the present instant; call before `sense()`.
+  /// Adds a displacement (m) to the conductor now; to be called before `sense()`.
   void displace_conductor(double displacement) {
     readings_.displace_conductor(state_, displacement);
     contact_.displaced();
   }
 
-  /// j, the sample that `sense()` will take or has taken.
+  /// The number j of the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
-  /// t_j (s).
+  /// The instant t_j (s) of that sample.
   double time() const { return clock_.time(index_); }
-  /// x_j, N × 1; of the two masses z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
+  /// The state x_j, N × 1; for two masses z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
   const State& state() const { return state_; }
-  /// u_{j−1} (N), which is in force until t_j + δ.
+  /// The command u_{j−1} (N), which is in force until t_j + δ.
   double previous_command() const { return previous_command_; }
-  /// u_j (N), once `sense()` has taken sample j.
+  /// The command u_j (N), available after `sense()` took sample j.
   double command() const { return command_; }
-  /// The contact in its present mode.
+  /// The contact, in its present mode.
   const Contact& contact() const { return contact_; }
-  /// How states of the plant are read.
+  /// The readings of the plant's states.
   const PortReadings<Plant>& readings() const { return readings_; }
-  /// The controller with what it remembers of the past samples.
+  /// The controller with its memory of past samples.
   const auto& controller() const { return controller_; }
   /// The digital side and the excitation, as given.
   const DigitalLoop& loop() const { return loop_; }
-  /// Counts of contact changes since the motion began or since `restart_counts()`.
+  /// The counts of contact changes since the motion began or since `restart_counts()`.
   const SwitchCounts& counts() const { return counts_; }
-  /// The excitation, at the present sample from `sense()` on.
+  /// The excitation; from `sense()` on at the present sample.
   const ForceOverSamples& force() const { return force_; }
-  /// h_j = t_{j+1} − t_j (s).
+  /// The length h_j = t_{j+1} − t_j (s) of the present sampling period.
   double period() const { return clock_.period_of(index_); }
-  /// 1 / the largest length (s) over which a series of `most_terms` terms is exact, in a mode.
+  /// The reciprocal of the largest length (s) over which a series of `most_terms` terms is exact.
   double rate(int mode) const { return modes_[at(mode)].rate(); }
-  /// The motion in one of the modes of the contact.
+  /// The equations of motion in one of the modes of the contact.
   const Dynamics& dynamics(int mode) const { return modes_[at(mode)].dynamics(); }
 
-  /// Forgets what the motion has met with.
+  /// Resets the counts.
   void restart_counts() { counts_ = {}; }
 
-  /// Goes on as if the computer had read a displacement (m) at the sample before.
+  /// Sets the displacement (m) that the computer read at the previous sample.
   void remember_reading(double displacement) { controller_.restore({displacement, true}); }
 
-  /// Goes on at sample `index` from a state, a command in force until t_j + δ, and a contact. What
-  /// the controller last read stays.
-  /// @throws InvalidParameter for a state of another size
+  /// Sets the motion to sample `index` with a state, a command in force until t_j + δ, and a
+  /// contact. The controller's last reading is not changed.
+  /// @throws InvalidParameter where the state has another size
   void restore(std::int64_t index, const State& state, double previous_command,
                const Contact& contact) {
     require_size("size of the state", state.size(), state_.size());
@@ -209,7 +209,7 @@ class EventMotion {
 
   static constexpr std::size_t at(int mode) { return static_cast<std::size_t>(mode); }
 
-  /// The command of a sample; the states of a controller of the plant's own move with it.
+  /// The command of a sample; the states of a controller in the plant are advanced too.
   double read(const ControlSample& sample) {
     if constexpr (detail::HasController<Plant>::value) {
       auto own = state_.tail(controller_.states());
@@ -221,7 +221,7 @@ class EventMotion {
     }
   }
 
-  /// F at one of the ends of the two parts of the period.
+  /// The force F at one of the ends of the two parts of the period.
   double force_at(std::size_t end) const {
     const PeriodInstant& instant = instants_[end];
     return loop_.jitter.half_width > 0.0 ? force_.at(instant.after) : force_.at(instant);
@@ -263,7 +263,7 @@ class EventMotion {
     while (reached < part.end) reached = flow_to_event(part, reached, observer);
   }
 
-  /// A whole part of the period at once, if it is sure that the contact does not change in it.
+  /// Passes a whole part of the period if it is certain that the contact does not change in it.
   bool flow_without_event(double command, double length, std::size_t part) {
     if (!force_.is_regular() || loop_.jitter.half_width > 0.0) return false;
     const int mode = contact_.mode();
@@ -296,7 +296,7 @@ class EventMotion {
     return guard.zeros == 0 && !guard.unsigned_yet;
   }
 
-  /// Goes on to the next change of contact, or to the end of the part. @return where it came to
+  /// Advances to the next change of contact or the end of the part. @return the instant reached
   template <class Observer>
   double flow_to_event(const Part& part, double begin, Observer& observer) {
     const int mode = contact_.mode();

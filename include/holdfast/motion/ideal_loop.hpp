@@ -20,8 +20,8 @@
 
 namespace holdfast {
 
-/// The sampled loop with its excitation and its backlash: all that a motion depends on beside its
-/// initial state.
+/// The sampled loop with its excitation and its backlash: everything that a motion depends on
+/// except its initial state.
 /// @tparam Plant  TwoMass<Scalar> or a LinearPlant<Scalar, N>
 template <class Scalar, class Plant = TwoMass<Scalar>>
 struct IdealLoop {
@@ -29,15 +29,15 @@ struct IdealLoop {
                 "a motion has to know what the drive moves and its gap sees: its plant is a "
                 "TwoMass, a LinearPlant or made by with_controller()");
 
-  Plant plant;                            ///< conductor, absorber and what else has states
+  Plant plant;                            ///< conductor, absorber and further states
   Sampling<Scalar> sampling;              ///< τ and δ
   PdGains<Scalar> gains;                  ///< P and D
   HarmonicExcitation<Scalar> excitation;  ///< F_m and f
   Scalar backlash_width = Scalar(0);      ///< r₀ (m), ≥ 0
-  ForceHold hold = ForceHold::sampled;    ///< how the harmonic force is taken over a sample
+  ForceHold hold = ForceHold::sampled;    ///< hold of the harmonic force over a sample
 };
 
-/// @throws InvalidParameter where any part is not admissible
+/// Validates a loop. @throws InvalidParameter where any part is not admissible
 template <class Plant>
 void validate(const IdealLoop<double, Plant>& loop) {
   validate(loop.plant);
@@ -60,14 +60,14 @@ auto converted(const IdealLoop<From, Plant>& loop) {
       loop.hold};
 }
 
-/// The digital side of a loop of the paper's model: an ideal computer under one harmonic.
+/// The digital side of a loop of the paper's model: an ideal computer, under one harmonic force.
 template <class Plant>
 DigitalLoop digital_loop(const IdealLoop<double, Plant>& loop) {
   return {loop.sampling, loop.gains, multi_harmonic_force(loop.excitation), loop.hold};
 }
 
-/// f τ = p/q in lowest terms: sampling and excitation coincide every q samples, p periods of the
-/// excitation (control/digital_loop.hpp).
+/// The ratio f τ = p/q in lowest terms: sampling and excitation coincide every q samples, p periods
+/// of the excitation (control/digital_loop.hpp).
 template <class Plant>
 std::optional<Rational> forcing_ratio(const IdealLoop<double, Plant>& loop) {
   return forcing_ratio(digital_loop(loop));
@@ -85,7 +85,7 @@ using HarmonicallyForcedMotion =
 
 namespace detail {
 
-/// The motion of a loop under a Forcing made of its harmonic input and of what `more` is.
+/// The motion of a loop under a Forcing, constructed from its harmonic input and `more`.
 template <class Forcing, class Scalar, class Plant, class... More>
 SampledMotion<Scalar, Backlash<Scalar>, Forcing, Plant> forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const StateOf<Plant>& initial_state,
@@ -105,9 +105,9 @@ SampledMotion<Scalar, Backlash<Scalar>, Forcing, Plant> forced_motion(
 
 }  // namespace detail
 
-/// The motion from an initial state, the forcing being exactly periodic.
-/// @param loop           the phases of the forcing come from `ratio`, not from its f
-/// @param ratio          of forcing_ratio()
+/// The motion from an initial state under an exactly periodic forcing.
+/// @param loop           loop whose f is not used: `ratio` determines the phases of the forcing
+/// @param ratio          value of forcing_ratio()
 /// @param initial_state  x₀, N × 1; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 /// @throws InvalidParameter where the loop or the state is not admissible
 template <class Scalar, class Plant>
@@ -117,7 +117,7 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
   return detail::forced_motion<PeriodicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation.amplitude, ratio);
 }
-/// A periodically forced motion from any column of Eigen's.
+/// A periodically forced motion; the initial state is any Eigen column.
 template <class Scalar, class Plant, class Column>
 PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Rational& ratio,
@@ -125,9 +125,9 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
   return periodically_forced_motion(loop, ratio, detail::state_of(loop.plant, initial_state));
 }
 
-/// The motion from an initial state, for any ratio of the frequencies; else as above.
-/// @param loop           with its excitation and backlash
-/// @param initial_state  x₀, N × 1
+/// The motion from an initial state, for any ratio of the frequencies.
+/// @param loop           the loop with its excitation and backlash
+/// @param initial_state  state x₀, N × 1
 /// @throws InvalidParameter where the loop or the state is not admissible
 template <class Scalar, class Plant>
 HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
@@ -135,7 +135,7 @@ HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
   return detail::forced_motion<HarmonicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation, loop.sampling.period);
 }
-/// A harmonically forced motion from any column of Eigen's.
+/// A harmonically forced motion; the initial state is any Eigen column.
 template <class Scalar, class Plant, class Column>
 HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Eigen::MatrixBase<Column>& initial_state) {

@@ -16,8 +16,8 @@
 
 namespace holdfast {
 
-/// A loop with the effects of its implementation: any law of the backlash, switching at samples or
-/// when it happens, any excitation, the limits of its sensors, drive and clock.
+/// A loop with the effects of its implementation: any law of backlash, switching at samples or
+/// exactly, any excitation, and the limits of its sensors, drive and clock.
 /// @tparam Plant  TwoMass<double>, a LinearPlant<double, N> or a ControlledPlant
 template <class Plant>
 struct ImplementedLoopOf {
@@ -25,17 +25,17 @@ struct ImplementedLoopOf {
                 "a motion has to know what the drive moves and its gap sees: its plant is a "
                 "TwoMass, a LinearPlant or made by with_controller()");
 
-  Plant plant;                               ///< conductor, absorber and what else has states
+  Plant plant;                               ///< conductor, absorber and further states
   DigitalLoop digital;                       ///< sampling, gains, limits, clock and excitation
-  BacklashParameters backlash = {};          ///< the law; by itself `kollar` with r₀ = 0
-  Switching switching = Switching::sampled;  ///< when the drive enters and leaves its backlash
+  BacklashParameters backlash = {};          ///< law of backlash; by default `kollar` with r₀ = 0
+  Switching switching = Switching::sampled;  ///< whether the contact changes at samples or exactly
 };
 
-/// Implemented loop of the two masses.
+/// The implemented loop of the two masses.
 using ImplementedLoop = ImplementedLoopOf<TwoMass<double>>;
 
-/// @throws InvalidParameter where any part is not admissible, or where there are gains or limits
-/// beside a controller of the plant's own
+/// Validates a loop. @throws InvalidParameter where any part is not admissible, or where there are
+/// gains or limits beside a controller in the plant
 template <class Plant>
 void validate(const ImplementedLoopOf<Plant>& loop) {
   validate(loop.plant);
@@ -52,7 +52,7 @@ void validate(const ImplementedLoopOf<Plant>& loop) {
   }
 }
 
-/// The loop of the paper's model as one that is built.
+/// The loop of the paper's model as an implemented loop.
 template <class Plant>
 ImplementedLoopOf<Plant> implemented_loop(const IdealLoop<double, Plant>& loop) {
   return {loop.plant,
@@ -61,10 +61,10 @@ ImplementedLoopOf<Plant> implemented_loop(const IdealLoop<double, Plant>& loop) 
           Switching::sampled};
 }
 
-/// The loop in the paper's model, where that says all of it: switching at samples, the paper's
-/// backlash or none, one harmonic that begins at phase 0, an ideal computer and clock. Its motion
-/// is then one of SampledMotion, its orbits and exponents are those of a piecewise affine map.
-/// @return nothing of any other loop
+/// The loop in the paper's model, if it is one: switching at samples, the paper's backlash or none,
+/// one harmonic that begins at phase 0, an ideal computer and clock. Its motion is then a
+/// SampledMotion; its orbits and exponents belong to a piecewise affine map.
+/// @return nothing for any other loop
 template <class Plant>
 std::optional<IdealLoop<double, Plant>> ideal_loop(const ImplementedLoopOf<Plant>& loop) {
   if (detail::HasController<Plant>::value) return std::nullopt;
@@ -86,7 +86,7 @@ std::optional<IdealLoop<double, Plant>> ideal_loop(const ImplementedLoopOf<Plant
                                   digital.hold};
 }
 
-/// The motion of the loop from x₀, N × 1; of the two masses [z₁, ż₁, z₂, ż₂].
+/// The motion of the loop from x₀, N × 1; for two masses [z₁, ż₁, z₂, ż₂].
 /// @throws InvalidParameter where the loop is not admissible, or the state not finite or of another
 /// size
 template <class Plant>
@@ -97,7 +97,7 @@ EventMotion<DriveContact<Plant>> event_motion(const ImplementedLoopOf<Plant>& lo
           DriveContact<Plant>(loop.plant, loop.backlash, loop.switching, initial_state),
           initial_state};
 }
-/// Motion of an implemented loop from any column of Eigen's.
+/// The motion of an implemented loop; the initial state is any Eigen column.
 template <class Plant, class Column>
 EventMotion<DriveContact<Plant>> event_motion(const ImplementedLoopOf<Plant>& loop,
                                               const Eigen::MatrixBase<Column>& initial_state) {

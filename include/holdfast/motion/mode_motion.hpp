@@ -21,8 +21,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// The norm of a plant's own states beside those of its controller, which come last, stand still
-/// between the samples, and are seen by no guard.
+/// The norm of a plant's own states without those of its controller, which come last, are constant
+/// between the samples, and enter no guard.
 /// @tparam any  Eigen::Dynamic
 template <int any>
 class NormBesideController {
@@ -50,7 +50,7 @@ using NormOf = std::conditional_t<
 
 }  // namespace detail
 
-/// How a plant moves in one mode of its contact over the two parts of every sampling period: 0
+/// The motion of a plant in one mode of its contact over the two parts of every sampling period: 0
 /// before t_j + δ, 1 after it.
 template <class Plant>
 class ModeMotion {
@@ -58,14 +58,14 @@ class ModeMotion {
   static constexpr int states = states_of<Plant>;  ///< N, the order of the plant
   /// The norm that bounds the motion: energy, or that of Lyapunov's equation.
   using Norm = detail::NormOf<Plant>;
-  using Bound = NoEventBoundOf<Norm, states>;  ///< tells that no guard comes to zero
+  using Bound = NoEventBoundOf<Norm, states>;  ///< bound that excludes a guard's zero
 
-  /// Most ‖A‖ τ and ω τ: one Taylor series is made for each unit of them, where the contact may
-  /// change.
+  /// The largest admissible ‖A‖ τ and ω τ: one Taylor series is made for each unit of them, where
+  /// the contact may change.
   static constexpr double most_turns_per_sample = 1e6;
 
-  /// @throws InvalidParameter where the mode or the force turns more than `most_turns_per_sample`
-  ///         in one sampling period
+  /// @throws InvalidParameter where the mode or the force makes more than `most_turns_per_sample`
+  /// turns in a sampling period
   ModeMotion(const AffineDynamicsOf<states>& dynamics, const DigitalLoop& loop,
              const ForceOverSamples& force)
       : dynamics_(dynamics),
@@ -76,17 +76,17 @@ class ModeMotion {
                 {dynamics, loop.force.harmonics, loop.sampling.processing_delay,
                  loop.sampling.period - loop.sampling.processing_delay}}} {}
 
-  /// A, b, c and the drift.
+  /// The matrices A, b, c and the drift.
   const AffineDynamicsOf<states>& dynamics() const { return dynamics_; }
-  /// 1 / the largest length (s) over which a series of `most_terms` terms is exact.
+  /// The reciprocal of the largest length (s) over which a series of `most_terms` terms is exact.
   double rate() const { return rate_; }
   /// The exact step over a whole part of the period.
   const SubintervalStep<states>& step(std::size_t part) const { return steps_[part]; }
 
-  /// The bound for the guards of the mode, made when it is first asked for.
-  /// @param law    tells the plant whose energy bounds the motion
-  /// @param mode   its number
-  /// @param guard  one of the mode's
+  /// The bound for the guards of the mode, constructed at the first call.
+  /// @param law    law of contact with the plant whose energy bounds the motion
+  /// @param mode   number of the mode
+  /// @param guard  one of the mode's guards
   /// @param force  the excitation
   template <class Law>
   const Bound& bound(const Law& law, int mode, const GuardOf<states>& guard,

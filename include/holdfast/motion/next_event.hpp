@@ -20,27 +20,27 @@ namespace holdfast {
 /// @tparam States  N, the order of the plant
 template <int States>
 struct ModeStretch {
-  Vector<double, States> state;  ///< x at its begin, N × 1
+  Vector<double, States> state;  ///< x at its beginning, N × 1
   double command;                ///< u in force (N)
-  Series force;   ///< F_k (N) of F(t + y h) = Σ F_k y^k; as many terms as are needed
-  double length;  ///< h (s), ≥ 0
+  Series force;                  ///< F_k (N) of F(t + y h) = Σ F_k y^k; any number of terms
+  double length;                 ///< h (s), ≥ 0
 };
 
-/// The first of a mode's guards that comes to zero over a stretch.
+/// The first guard of a mode that reaches zero over a stretch.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct NextEvent {
-  int guard = -1;                             ///< its number; −1: none comes to zero
-  FirstRoot root{RootOutcome::none, 1.0, 0};  ///< where, in lengths of the stretch
-  std::array<double, 2> signs{};  ///< ±1 that a guard took first whose sign was not known, else 0
+  int guard = -1;                             ///< number of the guard; −1: none reaches zero
+  FirstRoot root{RootOutcome::none, 1.0, 0};  ///< place of the zero, in lengths of the stretch
+  std::array<double, 2> signs{};  ///< ±1, first sign of a guard whose sign was unknown, else 0
   Vector<double, States> state =
-      {};  ///< x there, N × 1; at the end of the stretch where there is none
+      {};  ///< x there, N × 1; at the end of the stretch where there is no zero
 };
 
 namespace detail {
 
-/// Leading coefficients that are nothing but rounding are zero: just after a change of contact
-/// the guard may not have come out of its own rounding yet.
+/// Sets leading coefficients that are mere rounding to zero: just after a change of contact a guard
+/// may still be within its rounding.
 template <int States>
 void clear_rounding(const GuardOf<States>& guard, const ModeStretch<States>& stretch,
                     const TaylorStep<States>& motion, Series& series) {
@@ -54,7 +54,7 @@ void clear_rounding(const GuardOf<States>& guard, const ModeStretch<States>& str
   }
 }
 
-/// g along a stretch.
+/// The power series of a guard g along a stretch.
 template <int States>
 Series guard_series(const GuardOf<States>& guard, const ModeStretch<States>& stretch,
                     const TaylorStep<States>& motion) {
@@ -67,8 +67,8 @@ Series guard_series(const GuardOf<States>& guard, const ModeStretch<States>& str
   return series;
 }
 
-/// The sign that a series takes first; 0 where it stays zero. A force that begins at zero does so
-/// to rounding only: what is that small beside the rest is made zero and decides nothing.
+/// The first nonzero sign of a series; 0 where it stays zero. The zero initial value of a force is
+/// exact to rounding only: coefficients that small beside the rest are set to zero.
 inline double first_sign(Series& series) {
   double size = 0.0;
   for (const double term : series) size += std::abs(term);
@@ -82,14 +82,14 @@ inline double first_sign(Series& series) {
 
 }  // namespace detail
 
-/// Follows a mode to the first root of any of its guards, or to the end of the stretch, by Taylor
-/// series: no root is passed over (math/roots/first_root.hpp). What depends on neither the law nor
-/// who watches the motion.
+/// The first root of any guard of a mode over a stretch, or its end, by Taylor series: no root is
+/// passed over (math/roots/first_root.hpp). The function is independent of the law of contact and
+/// of the observer.
 /// Work: N² + 2 N multiply-adds for each term of the series, 2 N for each guard and term, and the
 /// search for the root.
-/// @param dynamics  of the mode
-/// @param guards    of the mode; none: the stretch is passed as a whole
-/// @param stretch   at most 1/‖A‖ long
+/// @param dynamics  equations of motion in the mode
+/// @param guards    guards of the mode; without any the whole stretch is passed
+/// @param stretch   part of the motion, at most 1/‖A‖ long
 template <int States>
 NextEvent<States> next_event(const AffineDynamicsOf<States>& dynamics,
                              const GuardsOf<States>& guards, const ModeStretch<States>& stretch) {

@@ -10,27 +10,27 @@
 
 namespace holdfast {
 
-/// Tells that a guard cannot come to zero within a length h, from its values at both ends.
+/// A bound that excludes a zero of a guard within a length h, from the guard's values at both ends.
 ///
-/// Between them g lies above the chord less M h²/8, M ≥ |g̈|. From ż = A z + w, w = drift + b u + c
+/// Between them g is above the chord minus M h²/8, M ≥ |g̈|. From ż = A z + w, w = drift + b u + c
 /// F,
 ///
 ///     g̈ = ℓᵀA² z + ℓᵀA w + ℓᵀ ẇ + m F̈     for g = ℓᵀz + m F + const,
 ///
-/// and ‖z‖ in the norm of the energy (plant/energy.hpp), or another that A does not let grow
-/// (plant/decaying_norm.hpp), grows by no more than ‖w‖ h. The bound
-/// holds for every guard of a mode that has the same |ℓ| and |m|. In an infinite norm it holds of
-/// nothing: the sag is infinite or no number.
+/// and ‖z‖ in the norm of the energy (plant/energy.hpp), or another norm that A does not increase
+/// (plant/decaying_norm.hpp), grows by at most ‖w‖ h. The bound is valid for every guard of a mode
+/// with the same |ℓ| and |m|. With an infinite norm it excludes nothing: the depth is infinite or
+/// not a number.
 /// @tparam Norm    EnergyNorm of the two masses, DecayingNorm of a plant of any order
 /// @tparam States  N, the order of the plant
 template <class Norm, int States>
 class NoEventBoundOf {
  public:
-  /// @param dynamics  A, b, c and the drift of a mode
-  /// @param bounded   what the norm is made of: the two masses whose energy bounds the motion in
-  /// that
-  ///                  mode, or A
-  /// @param guard     one of the mode's, of which ℓ and m count
+  /// @param dynamics  matrices A, b, c and the drift of a mode
+  /// @param bounded   data of the norm: the two masses whose energy
+  ///                 bounds the motion in that mode, or the matrix
+  ///                 A
+  /// @param guard     one guard of the mode, which gives ℓ and m
   /// @param force     bounds of the excitation
   template <class Bounded>
   NoEventBoundOf(const AffineDynamicsOf<States>& dynamics, const Bounded& bounded,
@@ -47,20 +47,20 @@ class NoEventBoundOf {
                 std::abs(guard.force) * force.second_rate;
   }
 
-  /// Parts of `drop_below_chord` over one length: by_norm ‖z‖ + by_command |u| + constant.
+  /// The parts of `drop_below_chord` over one length: by_norm ‖z‖ + by_command |u| + constant.
   struct Drop {
-    double by_norm;     ///< of the norm of the state at the begin
+    double by_norm;     ///< per unit of the initial state's norm
     double by_command;  ///< per newton of |u|
     double constant;    ///< in the unit of the guard
   };
-  /// Over a length (s), ≥ 0.
+  /// The parts for a length (s), ≥ 0.
   Drop drop_over(double length) const {
     const double share = length * length / 8.0, by_size = share * by_state_;
     return {by_size, by_size * length * command_growth_ + share * by_command_,
             by_size * length * other_growth_ + share * by_force_};
   }
 
-  /// How far below the chord of its ends a guard may come.
+  /// The largest depth of a guard below the chord of its end values.
   double drop_below_chord(const Vector<double, States>& begin, double command,
                           double length) const {
     const Drop drop = drop_over(length);

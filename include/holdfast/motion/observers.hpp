@@ -12,40 +12,40 @@
 
 namespace holdfast {
 
-/// Keeps every sample of a trajectory. Reserve before the run, so that the loop allocates nothing.
+/// Records every sample of a trajectory; reserved memory avoids allocation during the run.
 class Recorder {
  public:
-  /// @param expected_samples  ≥ 0; room is made for that many, and more may come
-  /// @throws InvalidParameter for another
+  /// @param expected_samples  ≥ 0; memory is reserved for that many, more are possible
+  /// @throws InvalidParameter where the number is negative or too large
   explicit Recorder(std::int64_t expected_samples) {
     require_non_negative("number of samples", static_cast<double>(expected_samples), "");
     samples_.reserve(static_cast<std::size_t>(expected_samples));
   }
 
-  /// Keeps a sample.
+  /// Records a sample.
   void operator()(const MotionSample<double>& sample) { samples_.push_back(sample); }
-  /// All samples, in the order in which they came.
+  /// All samples, in the order of recording.
   const std::vector<MotionSample<double>>& samples() const { return samples_; }
 
  private:
   std::vector<MotionSample<double>> samples_;
 };
 
-/// Largest |z₁| (m) and |ż₁| (m/s) from a given instant on: the box that a steady motion fills.
+/// The largest |z₁| (m) and |ż₁| (m/s) from a given instant on: the extent of a steady motion.
 class PhaseExtent {
  public:
-  /// @param from  s; samples before it are left out
+  /// @param from  instant (s); earlier samples are ignored
   explicit PhaseExtent(double from) : from_(from) {}
 
-  /// Takes in a sample.
+  /// Includes a sample.
   void operator()(const MotionSample<double>& sample) {
     if (!not_before(sample.time, from_)) return;
     displacement_ = std::fmax(displacement_, std::abs(sample.state[0]));
     velocity_ = std::fmax(velocity_, std::abs(sample.state[1]));
   }
-  /// Largest |z₁| (m) so far; 0 before the first sample that counts.
+  /// The largest |z₁| (m) so far; 0 before the first counted sample.
   double displacement() const { return displacement_; }
-  /// Largest |ż₁| (m/s) so far; 0 before the first sample that counts.
+  /// The largest |ż₁| (m/s) so far; 0 before the first counted sample.
   double velocity() const { return velocity_; }
 
  private:
@@ -54,12 +54,12 @@ class PhaseExtent {
   double velocity_ = 0.0;
 };
 
-/// First local maximum and first local minimum of z₁ (m), the two "first peaks" of a vibration from
-/// rest. z is positive downward: the minimum is the peak above the equilibrium.
+/// The first local maximum and the first local minimum of z₁ (m), the "first peaks" of a vibration
+/// from rest. z is positive downward: the minimum is the peak above the equilibrium.
 class FirstPeaks {
  public:
-  /// Takes in the next sample. A peak shows with the sample after it; the first sample is none, nor
-  /// is a top of two equal samples.
+  /// Adds the next sample. A peak is found with the sample after it; the first sample and two equal
+  /// samples in succession are no peak.
   void operator()(const MotionSample<double>& sample) {
     const double value = sample.state[0];
     if (count_ >= 2) {
@@ -72,9 +72,9 @@ class FirstPeaks {
     ++count_;
   }
 
-  /// First local maximum of z₁ (m): below the equilibrium. NaN while there is none.
+  /// The first local maximum of z₁ (m), below the equilibrium; NaN as long as there is none.
   double below_equilibrium() const { return below_; }
-  /// First local minimum of z₁ (m): above the equilibrium. NaN while there is none.
+  /// The first local minimum of z₁ (m), above the equilibrium; NaN as long as there is none.
   double above_equilibrium() const { return above_; }
 
  private:
@@ -85,20 +85,20 @@ class FirstPeaks {
   std::int64_t count_ = 0;
 };
 
-/// Notes when the drive entered or left its backlash, as the samples show it.
+/// Records the samples at which the drive has entered or left its backlash.
 class SwitchLog {
  public:
-  /// One change of contact: at sample `index` the drive is in the backlash (entered) or out of it.
+  /// A change of contact: at sample `index` the drive is in the backlash (entered) or engaged.
   struct Switch {
     std::int64_t index;  ///< j
     double time;         ///< t_j (s)
     bool entered;        ///< true: into the backlash; false: out of it
   };
 
-  /// @param from  s; switches before it are not logged
+  /// @param from  instant (s); earlier changes are ignored
   explicit SwitchLog(double from = 0.0) : from_(from) {}
 
-  /// Takes in the next sample. Before the first one the drive counts as engaged.
+  /// Adds the next sample. Before the first one the drive counts as engaged.
   void operator()(const MotionSample<double>& sample) {
     const bool inside = !sample.engaged;
     if (inside != inside_ && not_before(sample.time, from_))

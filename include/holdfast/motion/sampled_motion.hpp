@@ -18,7 +18,7 @@
 
 namespace holdfast {
 
-/// The motion at one sample.
+/// A sample of a motion.
 /// @tparam States  N, the order of the plant
 template <class Scalar, int States = 4>
 struct MotionSample {
@@ -29,14 +29,14 @@ struct MotionSample {
   Mask<Scalar> engaged;  ///< true where the drive transmits, false in the backlash
 };
 
-/// All that the coming samples of a motion depend on beside the forcing.
-/// @tparam LawMemory  what the backlash remembers
+/// The memory of a motion: everything that its coming samples depend on beside the forcing.
+/// @tparam LawMemory  memory of the backlash
 /// @tparam States     N, the order of the plant
 template <class Scalar, class LawMemory, int States = 4>
 struct MotionMemory {
-  Vector<Scalar, States> state;  ///< x_j, N × 1; of the two masses z_j = [z₁, ż₁, z₂, ż₂]
+  Vector<Scalar, States> state;  ///< x_j, N × 1; for two masses z_j = [z₁, ż₁, z₂, ż₂]
   Scalar previous_force;         ///< u_{j−1} (N), which acts until t_j + δ
-  LawMemory backlash;            ///< before sample j
+  LawMemory backlash;            ///< memory before sample j
 };
 
 /// The motion of the sampled loop with backlash, one sample at a time.
@@ -46,25 +46,25 @@ struct MotionMemory {
 ///
 ///     z_{j+1} = A_d z_j + Γ₁ u_{j−1} + Γ₀ u_j + F_m (g_c cos ω t_j + g_s sin ω t_j)
 ///
-/// Work per sample: 24 multiply-adds of four states (N² + 2 N of N), the hysteresis, and the
-/// forcing (2 N more for a harmonic one). Nothing is allocated. Source: Kollár 2022, Eqs.
+/// Work per sample: 24 multiply-adds for four states (N² + 2 N for N), the hysteresis, and the
+/// forcing (2 N more if harmonic). No memory is allocated. Source: Kollár 2022, Eqs.
 /// (11)–(14).
 /// @tparam Law      the backlash: `step(Δz, Δż)` returns a mask that is true where the force is
 ///                  transmitted
-/// @tparam Forcing  the excitation: `next()` returns what it adds to the state over the present
-///                  sampling period, of scalars also where it is the same in every lane of a pack
-/// @tparam Plant    whose ports are read; those of the two masses by subscripts
+/// @tparam Forcing  the excitation: `next()` returns its contribution to the state over the present
+///                  sampling period, as scalars where it is the same in every lane of a pack
+/// @tparam Plant    plant whose ports are read; those of the two masses are entries of the state
 template <class Scalar, class Law = Backlash<Scalar>, class Forcing = HarmonicForcing<Scalar>,
           class Plant = TwoMass<Scalar>>
 class SampledMotion {
  public:
-  /// N, the order of the plant.
+  /// The order N of the plant.
   static constexpr int states = states_of<Plant>;
   using State = Vector<Scalar, states>;      ///< x, N × 1
-  using Loop = SampledLoop<Scalar, states>;  ///< the matrices of one sampling period
-  using Readings = PortReadings<Plant>;      ///< how states are read
+  using Loop = SampledLoop<Scalar, states>;  ///< matrices of one sampling period
+  using Readings = PortReadings<Plant>;      ///< readings of the states
 
-  /// The motion under a harmonic excitation, which begins at phase 0. Nothing is transmitted before
+  /// The motion under a harmonic excitation that begins at phase 0. Nothing is transmitted before
   /// the first sample: u_{−1} = 0.
   SampledMotion(const Loop& loop, const PdGains<Scalar>& gains,
                 const HarmonicInput<Scalar, states>& input,
@@ -73,8 +73,8 @@ class SampledMotion {
       : SampledMotion(loop, gains, Forcing(input, excitation, loop.sampling.period), law,
                       initial_state, readings) {}
 
-  /// The motion under any forcing, taken up where that stands; u_{−1} = 0.
-  /// @throws InvalidParameter for a state of another size than the loop's
+  /// The motion under any forcing, from its present phase on; u_{−1} = 0.
+  /// @throws InvalidParameter where the state has another size than the loop's
   SampledMotion(const Loop& loop, const PdGains<Scalar>& gains, const Forcing& forcing,
                 const Law& law, const State& initial_state, const Readings& readings = Readings())
       : loop_(loop),
@@ -87,8 +87,8 @@ class SampledMotion {
     require_size("size of the initial state", state_.size(), loop_.transition.rows());
   }
 
-  /// Takes sample j: decides whether the force is transmitted, and how large it is. Call once per
-  /// sample.
+  /// Takes sample j: decides whether the force is transmitted, and its value; to be called once for
+  /// each sample.
   MotionSample<Scalar, states> sense() {
     const Mask<Scalar> engaged =
         law_.step(readings_.relative_displacement(state_), readings_.relative_velocity(state_));
@@ -98,41 +98,41 @@ class SampledMotion {
     return {index_, time(), state_, present_force_, engaged};
   }
 
-  /// Moves from t_j to t_{j+1} under the force that the last `sense()` decided.
+  /// Advances from t_j to t_{j+1} under the force that the last `sense()` decided.
   void advance() {
     move(forcing_.next());
     previous_force_ = present_force_;
     ++index_;
   }
 
-  /// Adds a displacement (m) to the conductor at the present instant; call before `sense()`.
+  /// Adds a displacement (m) to the conductor now; to be called before `sense()`.
   void displace_conductor(const Scalar& displacement) {
     readings_.displace_conductor(state_, displacement);
   }
 
-  /// j, the sample that `sense()` will take or has taken.
+  /// The number j of the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
-  /// t_j (s).
+  /// The instant t_j (s) of that sample.
   Scalar time() const { return Scalar(static_cast<double>(index_)) * loop_.sampling.period; }
-  /// x_j, N × 1; of the two masses z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
+  /// The state x_j, N × 1; for two masses z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
   const State& state() const { return state_; }
   /// The matrices of one sampling period.
   const Loop& loop() const { return loop_; }
-  /// How states of the plant are read.
+  /// The readings of the plant's states.
   const Readings& readings() const { return readings_; }
-  /// P (N/m) and D (N s/m).
+  /// The gains P (N/m) and D (N s/m).
   const PdGains<Scalar>& gains() const { return gains_; }
-  /// The backlash with what it remembers.
+  /// The backlash with its memory.
   const Law& law() const { return law_; }
-  /// The excitation, at the phase that the next `advance()` will use.
+  /// The excitation, at the phase for the next `advance()`.
   const Forcing& forcing() const { return forcing_; }
-  /// Memory of the motion at t_j; ask before `sense()`.
+  /// The memory of the motion at t_j; to be asked for before `sense()`.
   auto memory() const {
     return MotionMemory<Scalar, std::decay_t<decltype(law_.memory())>, states>{
         state_, previous_force_, law_.memory()};
   }
-  /// Goes on from what a motion of the same loop remembered, at the forcing's present phase.
-  /// @throws InvalidParameter for a state of another size
+  /// Continues from the memory of a motion of the same loop, at the forcing's present phase.
+  /// @throws InvalidParameter where the state has another size
   template <class LawMemory>
   void restore(const MotionMemory<Scalar, LawMemory, states>& memory) {
     require_size("size of the state", memory.state.size(), state_.size());
@@ -142,8 +142,8 @@ class SampledMotion {
   }
 
  private:
-  /// Moves to the next sample; the order of the sums over four states is one for all number types.
-  /// @param addition  of the forcing, N × 1
+  /// Advances to the next sample; the order of summation is the same for all number types.
+  /// @param addition  contribution of the forcing, N × 1
   template <class Addition>
   void move(const Addition& addition) {
     const Matrix<Scalar, states>& a = loop_.transition;
@@ -181,9 +181,9 @@ class SampledMotion {
   std::int64_t index_ = 0;
 };
 
-/// A motion of the two masses in every lane of a pack, under the same forcing, which goes on where
-/// it stands.
-/// @param motion          the one of each lane, but for its state
+/// A motion of the two masses in every lane of a pack, under a common forcing, which continues at
+/// its present phase.
+/// @param motion          motion that every lane copies, except for the state
 /// @param initial_states  z₀ of every lane, [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 template <class Pack, class Forcing>
 SampledMotion<Pack, Backlash<Pack>, Forcing> in_every_lane(

@@ -12,7 +12,7 @@
 
 namespace holdfast {
 
-/// The state over a part of every sampling period, t_j + begin … t_j + begin + length, in one mode:
+/// The exact step over t_j + begin … t_j + begin + length of every sampling period, in one mode:
 ///
 ///     z ← transition z + command u + drift + held F_j             (the force held over the sample)
 ///     z ← transition z + command u + drift + Σ_l (g_c cos ω_l t_j + g_s sin ω_l t_j)   (exactly)
@@ -25,19 +25,19 @@ struct SubintervalStep {
   Vector<double, States> held;        ///< N × 1 per newton of a force that is constant
   std::vector<HarmonicInput<double, States>> lines;  ///< one for each harmonic
 
-  /// @param dynamics   of the mode
-  /// @param harmonics  of the excitation, in the order of the phases that `state` is given
-  /// @param begin      s from the sample
-  /// @param length     s, ≥ 0
+  /// @param dynamics   equations of motion in the mode
+  /// @param harmonics  harmonics of the excitation, in the order of the phases passed to `state`
+  /// @param begin      begin of the part, s from the sample
+  /// @param length     length (s), ≥ 0
   SubintervalStep(const AffineDynamicsOf<States>& dynamics, const std::vector<Harmonic>& harmonics,
                   double begin, double length);
 
   /// The state (N × 1) at the end of the part.
-  /// @param before      the state at its begin, N × 1
-  /// @param commanded   u in force all through it (N)
-  /// @param held_force  F_j (N); looked at only where there are no phases
-  /// @param phases      of the harmonics at the sample, times their amplitudes; none: the force is
-  ///                    held
+  /// @param before      state at the beginning, N × 1
+  /// @param commanded   command u in force (N)
+  /// @param held_force  held force F_j (N); used only where there are no phases
+  /// @param phases      phases of the harmonics at the sample, times their amplitudes; empty: the
+  ///                force is held
   Vector<double, States> state(const Vector<double, States>& before, double commanded,
                                double held_force,
                                const std::vector<ExcitationSample<double>>& phases) const {

@@ -8,8 +8,8 @@
 
 namespace holdfast {
 
-/// Fewest terms of e^x, 0 ≤ x ≤ 1, the first one left out being below 2⁻⁶⁰; so all the rest is
-/// below 2⁻⁵⁹.
+/// The smallest number of terms of e^x, 0 ≤ x ≤ 1, such that the first omitted one is below 2⁻⁶⁰;
+/// the whole remainder is then below 2⁻⁵⁹.
 inline int terms_for(double x) {
   constexpr double negligible = 8.7e-19;
   double term = 1.0;
@@ -22,22 +22,22 @@ inline int terms_for(double x) {
 ///
 ///     z_{k+1} = h (A z_k + w_k) / (k + 1),   w_0 = drift + b u + c F_0,  w_k = c F_k
 ///
-/// where F(t + x h) = Σ F_k x^k. With ‖A‖ h ≤ 1 and as many terms as terms_for(‖A‖ h) asks for,
-/// what is left out is less than round-off. Work per term: N² + 2 N
+/// where F(t + x h) = Σ F_k x^k. With ‖A‖ h ≤ 1 and terms_for(‖A‖ h) terms
+/// the truncation error is below round-off. Work per term: N² + 2 N
 /// multiply-adds.
 /// @tparam States  N, the order of the plant
 template <int States>
 class TaylorStep {
  public:
-  /// The z_k as columns, at most `most_terms` of them; never on the heap for a fixed order.
+  /// The coefficients z_k as columns, at most `most_terms`; not on the heap for a fixed order.
   using Coefficients =
       Eigen::Matrix<double, States, Eigen::Dynamic, Eigen::ColMajor, States, most_terms>;
 
-  /// @param dynamics  A, b, c and the drift, constant over the length
-  /// @param state     z(t), N × 1
+  /// @param dynamics  matrices A, b, c and the drift, constant over the length
+  /// @param state     state z(t), N × 1
   /// @param command   u (N)
-  /// @param force     F_k (N), one or more; its size is the number of terms
-  /// @param length    h (s), ≥ 0
+  /// @param force     coefficients F_k (N), one or more; they set the number of terms
+  /// @param length    length h (s), ≥ 0
   TaylorStep(const AffineDynamicsOf<States>& dynamics, const Vector<double, States>& state,
              double command, const Series& force, double length)
       : coefficients_(state.size(), force.size()) {
@@ -51,7 +51,7 @@ class TaylorStep {
     }
   }
 
-  /// z(t + x h).
+  /// The state z(t + x h).
   Vector<double, States> state(double x) const {
     Vector<double, States> value = coefficients_.col(coefficients_.cols() - 1);
     for (Eigen::Index k = coefficients_.cols() - 2; k >= 0; --k)
@@ -59,7 +59,7 @@ class TaylorStep {
     return value;
   }
 
-  /// z_k, N × terms.
+  /// The coefficients z_k, N × terms.
   const Coefficients& coefficients() const { return coefficients_; }
 
  private:

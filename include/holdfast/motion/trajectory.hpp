@@ -30,10 +30,10 @@ struct IsMotion<Motion, std::void_t<decltype(std::declval<Motion&>().sense().sta
 
 }  // namespace detail
 
-/// True of a motion of a sampled loop, which goes from one sample to the next. It has two models:
-/// SampledMotion, the map of one sampling period whose contact changes at samples, and EventMotion,
-/// which follows the contact between them; where the loop is that of the paper's model
-/// (`ideal_loop`) both show the same samples up to rounding. What a motion offers:
+/// Whether a type is a motion of a sampled loop, which advances from one sample to the next. There
+/// are two kinds: SampledMotion, the map of one sampling period with contact changes at samples,
+/// and EventMotion, which follows the contact between samples. For a loop of the paper's model
+/// (`ideal_loop`) both give the same samples up to rounding. The interface of a motion:
 ///
 ///     sense()                  takes sample j: a MotionSample with t_j, x_j (N × 1), the force u_j
 ///                              (N) and whether the drive transmits; once before each `advance()`
@@ -45,21 +45,21 @@ struct IsMotion<Motion, std::void_t<decltype(std::declval<Motion&>().sense().sta
 template <class Motion>
 inline constexpr bool is_motion_v = detail::IsMotion<Motion>::value;
 
-/// A sudden displacement of the conductor, as in Kollár 2022, Fig. 7.
+/// A sudden displacement of the conductor (Kollár 2022, Fig. 7).
 struct Kick {
-  double time;          ///< s; it acts at the first sample not before this instant, round-off apart
+  double time;          ///< s; it acts at the first sample at or after it, up to round-off
   double displacement;  ///< m, added to z₁
 };
 
-/// How a trajectory ended.
+/// The outcome of a trajectory.
 enum class TrajectoryOutcome {
   completed,  ///< all samples were taken
-  diverged,   ///< the state left the range of the number type; the observers saw all samples before
-              ///< that
+  diverged,   ///< the state left the range of the number type; observers received all samples
+              ///< before
 };
 
-/// Number of samples at t = 0, τ, 2τ, … up to the last one not after `duration`.
-/// A duration meant as a whole number of periods counts its last sample in spite of round-off.
+/// The number of samples at t = 0, τ, 2τ, … up to the last one not after `duration`. If the
+/// duration is a whole number of periods up to round-off, the last sample counts.
 /// @throws InvalidParameter unless duration ≥ 0, τ > 0, and fewer than 2⁵³ samples
 inline std::int64_t samples_within(double duration, double sampling_period) {
   require_non_negative("duration", duration, "s");
@@ -69,12 +69,12 @@ inline std::int64_t samples_within(double duration, double sampling_period) {
   return static_cast<std::int64_t>(std::floor(periods * (1.0 + instant_round_off))) + 1;
 }
 
-/// Runs `samples` samples of a motion and shows each to every observer, `observer(const
+/// Runs `samples` samples of a motion and passes each one to every observer, `observer(const
 /// MotionSample&)`.
 ///
-/// The observers decide what is kept; nothing is allocated here. The motion is left at the sample
-/// after the last one shown, so that a further call goes on from there.
-/// @tparam Motion  one of which is_motion_v is true, or that has its `sense`, `advance`,
+/// The observers decide what is stored; nothing is allocated here. The motion ends at the sample
+/// after the last one passed, so that a further call continues from there.
+/// @tparam Motion  type for which is_motion_v is true, or with its `sense`, `advance`,
 ///                 `displace_conductor` and `time`
 template <class Motion, class... Observers>
 TrajectoryOutcome run_trajectory(Motion& motion, std::int64_t samples,

@@ -16,26 +16,26 @@
 
 namespace holdfast {
 
-/// The derivative of an EventMotion from one sample to the next, changes of contact included.
+/// The derivative of an EventMotion from one sample to the next, including changes of contact,
 ///
 ///     X_j = [x; u_{j−1}; g; z₁ as read at sample j − 1],   δX_{j+1} = map · δX_j
 ///
-/// of N + 3 numbers, x being the state of the plant, of the two masses [z₁, ż₁, z₂, ż₂], and z₁
-/// what the computer reads as its displacement. g is the Δz at which the drive last reversed: the
-/// ends of its gap lie at g and g ∓ r₀. While the contact does not change, δz follows e^{A t} and
-/// the held commands; commands change at given times, which adds nothing. At a change of contact at
-/// a surface h the deviation of [z; g] is multiplied by the saltation matrix (saltation.hpp), the
-/// guards being
+/// a vector of N + 3 numbers, x being the state of the plant, for two masses [z₁, ż₁, z₂, ż₂], and
+/// z₁ the displacement read by the computer. g is the Δz at the last reversal of the drive: the
+/// ends of its gap are g and g ∓ r₀. Without change of contact δz follows e^{A t} and the held
+/// commands; commands change at fixed times, which adds nothing. At a change of contact on a
+/// surface h the deviation of [z; g] is multiplied by the saltation matrix (saltation.hpp). The
+/// guards are
 ///
 ///     engaged → gap, stick:   h = Δż,        g ← Δz,   f⁺ − f⁻ = −b u, b (s − u)
 ///     gap → engaged:          h = Δz − g,    g ← 0,    f⁺ − f⁻ = b u
 ///     a stop is met or left:  h = Δz ∓ r₀/2,           f⁺ − f⁻ from the stop's damper and u
 ///
-/// Nothing is added where stick ends: at a surface the transmitted force is continuous, and a
-/// command jumps at a given time. While the drive sticks, δΔż = 0 and δg = δΔz are kept exactly;
-/// where it does so at sample j, the columns are for deviations that have them. What is not used is
-/// zero: the row of g while engaged, and the row of z₁ as read unless the velocity is the
-/// difference of unrounded displacements.
+/// Nothing is added at the end of stick: on a surface the transmitted force is continuous, and a
+/// command jumps at a fixed time. In stick δΔż = 0 and δg = δΔz are exact; where the drive sticks
+/// at sample j, the columns are valid for such deviations only. Unused rows are zero: that of g
+/// while engaged, and that of the z₁ read unless the velocity is the difference of unrounded
+/// displacements.
 ///
 ///     VariationalFlow<DriveContact<>> tangent(motion);
 ///     motion.sense();
@@ -43,22 +43,22 @@ namespace holdfast {
 ///     motion.advance(tangent);
 ///     tangent.map();
 ///
-/// A crossing that touches has no derivative; the entries are not finite then.
+/// A tangential crossing has no derivative; then the entries are not finite.
 /// Work per sample of the two masses: 140 multiply-adds for each of its two parts; per change of
 /// contact 1500 more, most of them for a matrix exponential. Nothing is allocated for a fixed
 /// order.
-/// @tparam Contact  of the motion
+/// @tparam Contact  contact of the motion
 template <class Contact>
 class VariationalFlow {
  public:
-  /// N, the order of the plant.
+  /// The order N of the plant.
   static constexpr int states = EventMotion<Contact>::states;
-  /// N + 3.
+  /// The number of deviations, N + 3.
   static constexpr int size = larger_size(states, 3);
-  /// Map of deviations of X, (N + 3) × (N + 3).
+  /// The map of deviations of X, (N + 3) × (N + 3).
   using Map = Matrix<double, size>;
 
-  /// Goes on from the sample that the motion has come to.
+  /// Constructs the tangent at the present sample of a motion.
   explicit VariationalFlow(const EventMotion<Contact>& motion)
       : readings_(motion.readings()),
         map_(Map::Identity(motion.state().size() + 3, motion.state().size() + 3)),
@@ -75,7 +75,7 @@ class VariationalFlow {
     }
   }
 
-  /// To be called after `sense()` and before `advance(tangent)`.
+  /// Starts a sampling period; to be called after `sense()` and before `advance(tangent)`.
   void begin_sample(const EventMotion<Contact>& motion) {
     period_ = motion.period();
     open_length_ = 0.0;
@@ -92,7 +92,7 @@ class VariationalFlow {
 
   // The observer of EventMotion::advance.
 
-  /// Notes a stretch of one mode, `begin` (s) counting from the sample; it enters the map with the
+  /// Notes a stretch of one mode, from `begin` (s after the sample) on; it enters the map at the
   /// next change, or at the end of the period.
   void flowed(int mode, double begin, double length) {
     if (!(length > 0.0)) return;
@@ -102,7 +102,7 @@ class VariationalFlow {
     if (begin + length >= period_ * (1.0 - same_length)) close_flow();
   }
 
-  /// δu_j takes the place of δu_{j−1}.
+  /// Replaces δu_{j−1} by δu_j.
   void commanded() {
     close_flow();
     map_.row(command_row()) = pending_;
@@ -124,8 +124,8 @@ class VariationalFlow {
   /// The derivative over the sample just advanced, (N + 3) × (N + 3).
   const Map& map() const { return map_; }
 
-  /// The structural rank of the product of all maps since this tangent was made: that of almost
-  /// every product of maps with the same zeros.
+  /// The structural rank of the product of all maps since construction: the rank of almost every
+  /// product of maps with the same zeros.
   int rank_of_product() const { return rank_.rank(); }
 
  private:
@@ -142,8 +142,8 @@ class VariationalFlow {
   Eigen::Index read_row() const { return order() + 2; }
   /// The rows of δx.
   auto states_of_map() { return map_.template topRows<states>(order()); }
-  /// Parts of the period whose lengths differ by less, in periods, are the same: the sum of several
-  /// steps of the motion rounds.
+  /// The difference, in periods, below which two lengths of parts are equal: sums of several steps
+  /// of the motion are rounded.
   static constexpr double same_length = 1e-13;
 
   static constexpr std::size_t at(int mode) { return static_cast<std::size_t>(mode); }
@@ -157,24 +157,24 @@ class VariationalFlow {
                : always;
   }
 
-  /// Whether g is not a function of z.
+  /// Whether g is independent of z, so that its deviation must be stored.
   bool carries_anchor(int mode) const { return anchored(mode) && mode != sticking_; }
 
   bool anchored(int mode) const { return anchored_[at(mode)]; }
 
-  /// By z: of Δz − g where the mode is anchored and of Δz for stops; of Δż while a drive whose gap
-  /// moves is engaged.
+  /// The gradient of the guard by z: of Δz − g where the mode is anchored, of Δz for stops, of Δż
+  /// while a drive with a moving gap is engaged.
   State gradient(int from) const {
     return sticking_ < 0 || anchored(from) ? readings_.displacement_row()
                                            : readings_.velocity_row();
   }
 
-  /// Numbers that the command depends on, and whether the displacement is remembered as read.
+  /// The data that the command depends on, and whether the read displacement is remembered.
   struct Reading {
     bool state, previous, remembered;
   };
 
-  /// δu_j, and what the controller remembers of the sample.
+  /// The deviation δu_j, and the controller's memory of the sample.
   Reading read(const Motion& motion) {
     const Row displacement = readings_.measured_displacements(states_of_map());
     const Row velocity = readings_.measured_velocities(states_of_map());
@@ -201,7 +201,7 @@ class VariationalFlow {
     }
   }
 
-  /// The command depends on z and on what was read, which is then read again.
+  /// Updates the command's row from z and from the previous reading, then that reading.
   void note_sample(const Reading& reading) {
     if (reading.state) rank_.begin(Carried::pending);
     if (reading.previous) rank_.become(Carried::reading, Carried::pending);
@@ -211,7 +211,7 @@ class VariationalFlow {
 
   Step exponential(int mode, double length) const;
 
-  /// δz over what has flowed since the last change of anything.
+  /// Propagates δz over the time since the last change.
   void close_flow() {
     if (open_length_ == 0.0) return;
     for (std::size_t part = 0; part < 2; ++part) {
@@ -231,7 +231,7 @@ class VariationalFlow {
     rank_.pass(directions(open_mode_));
   }
 
-  /// Keeps to what a mode holds: Δż = 0 and Δz = g in stick, no g while engaged.
+  /// Imposes the constraints of a mode: Δż = 0 and Δz = g in stick, no g while engaged.
   void enter(int mode) {
     if (mode == sticking_) {
       readings_.stop_relative_motions(states_of_map());
@@ -263,20 +263,20 @@ class VariationalFlow {
     map_.row(anchor_row()) = rows.row(n);
   }
 
-  /// [x; 0].
+  /// The vector [x; 0].
   static Vector<double, larger_size(states, 1)> with_zero(const State& x) {
     Vector<double, larger_size(states, 1)> longer(x.size() + 1);
     longer << x, 0.0;
     return longer;
   }
 
-  /// From one gap into another that begins at Δz: the rates agree.
+  /// Changes from one gap into another that begins at Δz: the rates agree.
   void anchor_anew() {
     map_.row(anchor_row()) = readings_.relative_displacements(states_of_map());
     rank_.end(Carried::anchor);
   }
 
-  /// ż in a mode.
+  /// The rate ż in a mode.
   State rate(int mode, const Instant& instant) const {
     const Dynamics& dynamics = dynamics_[at(mode)];
     return dynamics.state * instant.state + dynamics.drift + dynamics.command * instant.command +

@@ -10,15 +10,15 @@
 
 namespace holdfast {
 
-/// Products of the maps of successive samples, of few enough each for it to lose no digits.
+/// Products of the maps of successive samples, in blocks so short that no product loses its digits.
 /// @tparam Map  N × N
 template <class Map>
 class BlockProducts {
  public:
-  /// @param most  samples of a block, ≥ 1; a block that has grown a thousandfold is not continued
+  /// @param most  most samples in a block, ≥ 1; a block ends once it has grown a thousandfold
   explicit BlockProducts(std::size_t most) : most_(most), length_(most) {}
 
-  /// The map of the next sample.
+  /// Adds the map of the next sample.
   void append(const Map& map) {
     if (length_ == most_ || !(blocks_.back().cwiseAbs().maxCoeff() < 1e3)) {
       blocks_.push_back(map);
@@ -29,7 +29,7 @@ class BlockProducts {
     }
   }
 
-  /// In the order of the samples.
+  /// The products, one for each block, in the order of the samples.
   const std::vector<Map>& blocks() const { return blocks_; }
 
  private:
@@ -37,9 +37,9 @@ class BlockProducts {
   std::vector<Map> blocks_;
 };
 
-/// A step of Newton's method towards a periodic motion: (I − M)⁻¹ of M = M_{K−1} … M₀, the product
-/// of the maps that linearise it block by block. Of an affine motion the first step is the last but
-/// for rounding.
+/// A step of Newton's method towards a periodic motion: applies (I − M)⁻¹, where M = M_{K−1} … M₀
+/// is the product of the maps that linearise the motion block by block. For an affine motion the
+/// first step is already exact but for rounding.
 ///
 /// The maps x_{k+1} = M_k x_k are one block-bidiagonal system. Its inner unknowns are eliminated
 /// one after the other by orthogonal factorisations,
@@ -59,14 +59,14 @@ class CyclicSystem {
   /// @param maps  N × N, at least one. Work per map: about 16 N³ multiply-adds.
   explicit CyclicSystem(const std::vector<Matrix<Scalar, Size>>& maps);
 
-  /// 1 is a multiplier of the sequence to working precision: no solution, or a continuum of them.
+  /// Whether 1 is a multiplier of the sequence to working precision: no solution, or a continuum.
   bool is_singular() const {
     const Scalar smallest_pivot = closed_.matrixLU().diagonal().cwiseAbs().minCoeff();
     const Scalar rounding = Scalar(64) * std::numeric_limits<Scalar>::epsilon();
     return !(smallest_pivot > rounding * closed_.maxPivot());
   }
 
-  /// Correction of x₀ with which the motion closes: (I − M)⁻¹ open.
+  /// The correction of x₀ that closes the motion: (I − M)⁻¹ open.
   /// @param open  x_K − x₀ of the motion
   Vector<Scalar, Size> correction(const Vector<Scalar, Size>& open) const {
     return closed_.solve(last_ * open);

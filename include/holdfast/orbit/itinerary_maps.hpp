@@ -28,47 +28,47 @@ template <class Scalar>
 class ItineraryMaps {
  public:
   using State = Vector<Scalar, 5>;      ///< z̃
-  using Map = Matrix<Scalar, 5>;        ///< of deviations
-  using System = CyclicSystem<Scalar>;  ///< what is solved for a periodic motion
+  using Map = Matrix<Scalar, 5>;        ///< map of deviations of z̃
+  using System = CyclicSystem<Scalar>;  ///< solver for a periodic motion
 
-  /// @param loop   its backlash width is not looked at
+  /// @param loop   the loop; its backlash width is not used
   /// @param ratio  f τ = p/q, of forcing_ratio()
   ItineraryMaps(const IdealLoop<Scalar>& loop, const Rational& ratio)
       : ItineraryMaps(sampled_loop(loop.plant, loop.sampling), loop, ratio) {}
 
-  /// S or S*, 5 × 5.
+  /// The map S of an engaged drive (1), S* of one in the backlash (0), 5 × 5.
   const Matrix<Scalar, 5>& map(bool engaged) const { return maps_[engaged ? 1 : 0]; }
 
-  /// plant_scaling() of the loop.
+  /// The units of z̃, by plant_scaling() of the loop.
   const Vector<Scalar, 5>& units() const { return units_; }
 
-  /// S or S* of z̃ in the units.
+  /// The map S or S* for z̃ in these units.
   Matrix<Scalar, 5> map_in_units(bool engaged) const {
     return units_.cwiseInverse().asDiagonal() * map(engaged) * units_.asDiagonal();
   }
 
-  /// How many samples may be multiplied without losing the digits of what they contract most. A
-  /// sample stretches directions outside its null space unequally, at most by the largest ratio of
-  /// pivots of the plant's part of either map.
+  /// The largest number of samples whose maps may be multiplied without losing digits of the most
+  /// contracted directions. One sample stretches directions outside its null space unequally, at
+  /// most by the largest ratio of pivots of the plant's part of either map.
   std::size_t samples_of_block() const;
 
-  /// q.
+  /// The number of samples q after which the forcing repeats.
   std::size_t samples_of_forcing() const { return forcing_.samples(); }
 
   /// The excitation's addition to z in each of the q samples, 4 × 1.
   const std::vector<Vector<Scalar, 4>>& additions() const { return forcing_.additions(); }
 
-  /// z̃_{j+1} from z̃_j, phase j of the forcing, 0 ≤ phase < q.
+  /// The next state z̃_{j+1} from z̃_j at phase j of the forcing, 0 ≤ phase < q.
   Vector<Scalar, 5> step(const Vector<Scalar, 5>& state, bool engaged, std::size_t phase) const {
     Vector<Scalar, 5> next = map(engaged) * state;
     next.template head<4>() += forcing_.additions()[phase];
     return next;
   }
 
-  /// All states of an itinerary from a given first one, and the state after its last sample.
+  /// Computes all states of an itinerary from its first one; gives the state after its last sample.
   /// @param first      z̃₀
   /// @param itinerary  its first sample at phase 0 of the forcing
-  /// @param states     takes z̃_j, one a sample
+  /// @param states     filled with z̃_j, one for each sample
   State follow(const State& first, const Itinerary& itinerary, std::vector<State>& states) const {
     states.front() = first;
     std::size_t phase = 0;
@@ -79,9 +79,9 @@ class ItineraryMaps {
     return step(states.back(), itinerary.back() != 0, phase);
   }
 
-  /// At rest.
+  /// The state of rest.
   State rest() const { return State::Zero(); }
-  /// [z; u_{j−1}] of a state: all of it.
+  /// The observed part [z; u_{j−1}] of a state, here the whole of it.
   const State& seen(const State& state) const { return state; }
 
  private:
@@ -116,9 +116,9 @@ std::size_t ItineraryMaps<Scalar>::samples_of_block() const {
       std::clamp(std::log(largest_spread) / std::log(spread), 1.0, most));
 }
 
-/// The maps of some samples of an itinerary, in the units of `maps`: BlockProducts.
-/// @param maps       of the loop
-/// @param itinerary  of all samples
+/// The maps of blocks of samples of an itinerary (BlockProducts), in the units of `maps`.
+/// @param maps       maps of the loop
+/// @param itinerary  contacts of all samples
 template <class Scalar>
 std::vector<Matrix<Scalar, 5>> maps_of_blocks(const ItineraryMaps<Scalar>& maps,
                                               const Itinerary& itinerary) {

@@ -15,8 +15,8 @@
 
 namespace holdfast {
 
-/// The share of its own size (PeriodicOrbit::border_share(), EventOrbit::border_share()) below
-/// which an orbit is near a switching surface: a change of the loop in its fourth digit may end it.
+/// The limit of border_share() (PeriodicOrbit, EventOrbit) below which an orbit is near a switching
+/// surface: a change of the loop in its fourth digit may end it.
 inline constexpr double near_border = 1e-4;
 
 /// Common part of the periodic orbits of the sampled loop, wherever their contact switches.
@@ -26,22 +26,22 @@ struct LoopOrbit {
   Rational ratio;                            ///< f τ = p/q
   double sampling_period;                    ///< τ (s)
   std::vector<Vector<double, Size>> states;  ///< N of them, the first one at phase 0 of the force
-  /// Multipliers of one period, largest first, five, or of many modes ten; −∞ for a null direction.
+  /// Multipliers of one period, largest first: five, with many modes ten; −∞ for a null direction.
   std::vector<Multiplier> multipliers;
   double closure_error;  ///< ‖z_N − z₀‖, SI numbers of m and m/s
 
-  /// N.
+  /// The number N of samples in a period.
   std::int64_t period_samples() const { return static_cast<std::int64_t>(states.size()); }
-  /// N τ (s).
+  /// The period N τ (s).
   double period() const { return static_cast<double>(period_samples()) * sampling_period; }
-  /// N p/q, a whole number; 0 without excitation.
+  /// The number N p/q of periods of the excitation, a whole number; 0 without excitation.
   std::int64_t forcing_periods() const {
     return period_samples() / ratio.denominator * ratio.numerator;
   }
-  /// max |λ|; 0 where that is below the smallest number.
+  /// The largest modulus max |λ| of the multipliers; 0 where it underflows.
   double largest_multiplier() const { return std::exp(multipliers.front().log_modulus); }
-  /// Every neighbour that switches in the same order comes nearer, in the long run; not so where
-  /// the largest modulus is told from 1 by rounding alone.
+  /// Whether every neighbour that switches in the same order comes nearer in the long run: the
+  /// largest modulus is below 1 by more than rounding.
   bool is_attracting() const {
     const double rounding = 64.0 * std::numeric_limits<double>::epsilon();
     return multipliers.front().log_modulus < -rounding * static_cast<double>(states.size());
@@ -54,11 +54,11 @@ struct LoopOrbit {
   }
 };
 
-/// How the search for the periodic orbit of a motion ended, or what one solution of it is.
+/// How the search for the periodic orbit of a motion ended, or what a single solution is.
 enum class OrbitOutcome {
-  certified,       ///< the motion was seen to tend to the orbit; of one solution: it switches as
-                   ///< the motion did for which it was solved
-  approaching,     ///< an attracting orbit was proposed, but the motion was not seen to come to it
+  certified,       ///< the motion was seen to tend to the orbit; for a single solution: it switches
+                   ///< as assumed
+  approaching,     ///< an attracting orbit was found, but the motion was not seen to come to it
   on_surface,      ///< its contacts repeat, but the orbit touches a switching surface: the result
                    ///< depends on rounding, and no certificate can be given
   incommensurate,  ///< f τ is no fraction p/q with q ≤ 10⁶: the forcing's phase is a state that
@@ -68,8 +68,8 @@ enum class OrbitOutcome {
                    ///< of one solution: 1 is a multiplier, so that there is none, or many
   not_reproduced,  ///< the contacts repeat, but the periodic solution switches otherwise
   neutral,         ///< 1 is a multiplier: the motion is on one orbit of a whole family, or drifts
-                   ///< along it, as an integrator does whose state nothing brings back. Give the
-                   ///< state named a leak, leave it out, or take its value from the start as given
+                   ///< along the family like an integrator without restoring term. Give the named
+                   ///< state a leak, leave it out, or prescribe its initial value
 };
 
 /// Result of a search for a periodic orbit, or of solving for one.
@@ -77,20 +77,20 @@ enum class OrbitOutcome {
 template <class Orbit>
 struct OrbitResultOf {
   OrbitOutcome outcome = OrbitOutcome::none_found;  ///< how the search ended
-  std::optional<Orbit> orbit;  ///< certified, approached, touching a surface, not reproduced, or
-                               ///< one of a family
-  std::int64_t samples = 0;    ///< of the motion that was looked at
-  int candidates = 0;          ///< periods that were solved for
-  /// Number, from 0, of the state by which the orbits of the family differ most, where the outcome
-  /// is `neutral`; a controller's states stand behind the plant's.
+  std::optional<Orbit> orbit;  ///< the orbit, unless there was no solution; `outcome` states how
+                               ///< far it is confirmed
+  std::int64_t samples = 0;    ///< number of samples of the motion that were followed
+  int candidates = 0;          ///< number of periods that were solved for
+  /// Index, from 0, of the state by which the orbits of a family differ most, where the outcome is
+  /// `neutral`; the controller's states follow the plant's.
   std::optional<std::int64_t> neutral_state = {};
 };
 
 namespace detail {
 
-/// The shortest period of which states and itinerary are a whole number of repetitions.
-/// @param step    q, samples
-/// @param extent  that of the states, in whose share_of() they are compared
+/// The shortest period such that states and itinerary consist of whole repetitions of it.
+/// @param step    q; the period is a multiple of it (samples)
+/// @param extent  extent of the states, by whose share_of() they are compared
 template <class State, class Symbol, class Extent>
 std::size_t shortest_period(const std::vector<State>& states, const std::vector<Symbol>& itinerary,
                             std::size_t step, const Extent& extent) {
@@ -106,8 +106,8 @@ std::size_t shortest_period(const std::vector<State>& states, const std::vector<
   return samples;
 }
 
-/// Whether a sequence is another one that begins 0, `step`, 2 `step`, … places later.
-/// @param same  of two of its members
+/// Whether a cyclic sequence equals another one that begins 0, `step`, 2 `step`, … places later.
+/// @param same  comparison of two members
 template <class Member, class Same>
 bool is_rotated(const std::vector<Member>& one, const std::vector<Member>& other, std::size_t step,
                 const Same& same) {
@@ -123,10 +123,10 @@ bool is_rotated(const std::vector<Member>& one, const std::vector<Member>& other
 }
 
 /// Whether an orbit comes so near to a switching surface that rounding may decide how it switches.
-/// @param extent        of the orbit's states
-/// @param error         of the states, as a share of the extent
-/// @param displacement  least distance from the end of a gap (m)
-/// @param velocity      from a reversal (m/s)
+/// @param extent        extent of the orbit's states
+/// @param error         error of the states, as a share of the extent
+/// @param displacement  least distance of Δz from an end of the gap (m)
+/// @param velocity      least |Δż| at a decision about a reversal (m/s)
 inline bool touches_surface(const StateScale& extent, double error, double displacement,
                             double velocity) {
   const double share = 256.0 * std::numeric_limits<double>::epsilon() + 64.0 * error;
@@ -134,7 +134,7 @@ inline bool touches_surface(const StateScale& extent, double error, double displ
   return displacement <= rounding(extent.displacement) || velocity <= rounding(extent.velocity);
 }
 
-/// Outcome of one solution.
+/// The outcome of a single solution.
 inline OrbitOutcome outcome_of(bool touches, bool switches_alike) {
   if (touches) return OrbitOutcome::on_surface;
   return switches_alike ? OrbitOutcome::certified : OrbitOutcome::not_reproduced;

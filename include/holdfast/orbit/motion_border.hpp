@@ -20,28 +20,28 @@ enum class BorderKind {
   neimark_sacker,    ///< a pair of multipliers reaches the unit circle
   border_collision,  ///< switching at samples: a sample reaches a switching surface
   grazing,           ///< switching exactly: Δz or Δż only touches where the drive would switch
-  sliding,           ///< switching exactly: whether a reversal begins with stick changes
-  switch_at_sample,  ///< switching exactly: a switch comes to a sample, where the force or the
-                     ///< command jumps and decides otherwise
-  jump,              ///< beyond it no such motion was found, although nothing came to zero
-  window,            ///< the end of what was asked for
+  sliding,           ///< switching exactly: it changes whether a reversal begins with stick
+  switch_at_sample,  ///< switching exactly: a switch reaches a sample, where the force or the
+                     ///< command jumps
+  jump,              ///< no such motion was found beyond, although no margin vanished
+  window,            ///< the end of the given window
 };
 
-/// A piece of that border, and the largest multiplier at a point of it.
+/// A piece of the border of a motion's region, with the largest multiplier at a point of it.
 struct MotionBorder {
   BorderKind kind = BorderKind::window;  ///< what ends the motion there
-  /// Surface of a collision or grazing: `reversal`, or an end of the gap; exactly switched ends of
-  /// a gap are not told apart.
+  /// Surface of a collision or grazing: `reversal` or an end of the gap; for exact switching both
+  /// ends of a gap count as one.
   SwitchingSurface surface = SwitchingSurface::reversal;
-  std::int64_t sample = -1;  ///< of a collision; of a motion that is its own mirror image in the
-                             ///< first half of the period; else −1
-  /// Sector of a pair at angle θ between strong resonances: 0 below π/2, 1, 2 above 2π/3; of the
-  /// window its side.
+  std::int64_t sample = -1;  ///< sample of a collision; of a symmetric motion counted in the first
+                             ///< half of the period; else −1
+  /// Sector of the angle θ of a pair between strong resonances: 0 below π/2, 1, 2 above 2π/3; for
+  /// the window: its side.
   int part = 0;
   Multiplier multiplier{};  ///< not compared
 };
 
-/// Whether they are one piece.
+/// Whether two values belong to the same piece of the border.
 inline bool operator==(const MotionBorder& a, const MotionBorder& b) {
   return a.kind == b.kind && a.surface == b.surface && a.sample == b.sample && a.part == b.part;
 }
@@ -53,36 +53,36 @@ struct MotionBorderPoint {
   MotionBorder border;  ///< what ends the motion there
 };
 
-/// Where in the plane of two parameters a periodic motion is and attracts: the region around the
-/// motion's own point, by its border.
+/// The region of two parameters, around a motion's own point, in which that periodic motion exists
+/// and attracts; given by its border.
 struct MotionRegion {
-  /// Counter-clockwise; where another border takes over, two points lie beside each other, a point
-  /// of codimension two.
+  /// Points of the border, counter-clockwise. Where the kind of border changes, two points lie side
+  /// by side: a point of codimension two.
   std::vector<MotionBorderPoint> border;
-  bool closed = false;  ///< all around; else it was lost at the last point
-  int solutions = 0;    ///< how often the motion was solved for
+  bool closed = false;  ///< whether the border is complete; else it was lost at the last point
+  int solutions = 0;    ///< number of solutions for the motion
 };
 
-/// The window of two parameters that is looked at.
+/// The rectangle of two parameters that is searched.
 struct ParameterWindow {
   double x_from;  ///< least x
   double x_to;    ///< largest x, above x_from
   double y_from;  ///< least y
   double y_to;    ///< largest y, above y_from
 
-  /// The point at some shares, 0 … 1, of the window.
+  /// The point at given shares, 0 … 1, of the window's sides.
   PlanePoint at(const PlanePoint& shares) const {
     return {x_from + shares.x * (x_to - x_from), y_from + shares.y * (y_to - y_from)};
   }
-  /// The shares of a point.
+  /// The position of a point as shares of the window's sides.
   PlanePoint shares_of(const PlanePoint& point) const {
     return {(point.x - x_from) / (x_to - x_from), (point.y - y_from) / (y_to - y_from)};
   }
 };
 
-/// The number k of the strong resonance 1:k at which two pieces of the border meet: a pair of
-/// multipliers comes to 1, −1, e^{±2πi/3} or ±i.
-/// @return nothing where the point has another reason
+/// The number k of the strong resonance 1:k where two pieces of the border meet: a pair of
+/// multipliers reaches 1, −1, e^{±2πi/3} or ±i.
+/// @return nothing where the pieces meet for another reason
 inline std::optional<int> strong_resonance(const MotionBorder& a, const MotionBorder& b) {
   const auto pair = BorderKind::neimark_sacker;
   if (a.kind != pair && b.kind != pair) return std::nullopt;
@@ -94,7 +94,7 @@ inline std::optional<int> strong_resonance(const MotionBorder& a, const MotionBo
 
 namespace detail {
 
-/// The border that the largest multiplier makes on the unit circle.
+/// The border at which the largest multiplier reaches the unit circle.
 inline MotionBorder circle_border(const Multiplier& multiplier) {
   constexpr double pi = 3.14159265358979323846, real = 1e-7;
   const double angle = std::abs(multiplier.angle);
@@ -106,14 +106,14 @@ inline MotionBorder circle_border(const Multiplier& multiplier) {
   return border;
 }
 
-/// How far shares lie within the window.
+/// The distance of a point, in shares, from the border of the window.
 inline RegionLook<MotionBorder> look_at_window(const PlanePoint& shares) {
   const double sides[] = {shares.x, 1.0 - shares.x, shares.y, 1.0 - shares.y};
   const auto least = std::min_element(std::begin(sides), std::end(sides));
   return {*least, {BorderKind::window, {}, -1, static_cast<int>(least - std::begin(sides)), {}}};
 }
 
-/// @throws InvalidParameter where a window is not finite or does not hold a point
+/// @throws InvalidParameter where a window is not finite or does not contain the point
 inline void validate(const ParameterWindow& window, const PlanePoint& at) {
   require_finite("window", window.x_from + window.x_to + window.y_from + window.y_to, "");
   require_within("first parameter", at.x, "", window.x_from, window.x_to);

@@ -11,7 +11,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// Whether a motion is its own mirror image half a period later: then it meets a surface and its
+/// Whether a motion is its own mirror image half a period later, so that it meets a surface and its
 /// mirror image at once.
 inline bool mirrors_itself(const PeriodicOrbit& orbit) {
   const std::size_t samples = orbit.states.size(), half = samples / 2;
@@ -27,7 +27,7 @@ inline bool mirrors_itself(const PeriodicOrbit& orbit) {
 }
 
 /// The nearest border of a solved itinerary, and the margin from it.
-/// @param half  half a period of a motion that mirrors itself, in samples; else 0
+/// @param half  half the period of a symmetric motion in samples; else 0
 inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t half) {
   if (point.by_multiplier == point.margin())
     return {point.margin(), circle_border(point.multiplier)};
@@ -46,12 +46,12 @@ inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t h
 
 }  // namespace detail
 
-/// The region of two parameters in which a periodic motion that switches at samples is and
-/// attracts, by its border: where its itinerary is solved, every sample keeps its side of the
-/// switching surfaces and every multiplier lies inside the unit circle.
+/// The region of two parameters in which a periodic motion that switches at samples exists and
+/// attracts, given by its border: its itinerary has a solution, every sample stays on its side of
+/// the switching surfaces and every multiplier lies inside the unit circle.
 ///
-/// A fold of maps that are affine between switches has no motion beside it: with a multiplier at 1
-/// the solution grows beyond bounds, so that it meets a switching surface before, but where a
+/// For maps that are affine between switches a fold ends the motion differently: as a multiplier
+/// tends to 1 the solution grows beyond bounds and meets a switching surface before, except where a
 /// symmetry breaks.
 ///
 ///     const auto family = [&](double width, double gain) { … return other; };
@@ -61,9 +61,9 @@ inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t h
 /// @param orbit   certified
 /// @param window  around `at`
 /// @param at      (x, y) of the orbit
-/// @param steps   in shares of the window
-/// @throws InvalidParameter where f τ is another one somewhere, the backlash vanishes or appears,
-///         the window is not finite or empty, or does not hold the point
+/// @param steps   as shares of the window
+/// @throws InvalidParameter where f τ changes, the backlash vanishes or appears, or the window is
+/// not finite, is empty or does not contain the point
 template <class Family>
 MotionRegion motion_region(const Family& family, const PeriodicOrbit& orbit,
                            const ParameterWindow& window, const PlanePoint& at,

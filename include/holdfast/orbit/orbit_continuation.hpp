@@ -17,25 +17,25 @@ namespace holdfast {
 
 /// Why an orbit cannot be followed any further along a parameter.
 enum class BranchEndOutcome {
-  border_collision,  ///< a sample comes to lie on a switching surface: its decision would change
+  border_collision,  ///< a sample reaches a switching surface: its decision would change
   unit_circle,       ///< a multiplier reaches modulus 1
-  range_end,         ///< neither: the orbit is there, attracting, at the end of the range
+  range_end,         ///< neither: the orbit exists and attracts up to the end of the range
 };
 
 /// Where and why an orbit ends.
 struct BranchEnd {
   BranchEndOutcome outcome = BranchEndOutcome::range_end;  ///< why it is not followed any further
-  double parameter = 0.0;                                  ///< its value at the end
-  Border border;            ///< of a border collision: which surface at which sample of the orbit
-  Multiplier multiplier{};  ///< the largest there; of `unit_circle`, angle 0: fold, π: flip, else a
-                            ///< pair
-  int solutions = 0;  ///< how often the sequence was solved
+  double parameter = 0.0;                                  ///< value of the parameter at the end
+  Border border;            ///< surface and sample of a border collision
+  Multiplier multiplier{};  ///< largest multiplier at the end; for `unit_circle`, angle 0: fold, π:
+                            ///< flip, else a pair
+  int solutions = 0;  ///< number of solutions for the itinerary
 };
 
 namespace detail {
 
-/// An orbit's itinerary solved at one value of a parameter: all that may end the orbit, the
-/// distances as shares of its own size, each positive while it lasts; −1 where there is no
+/// An orbit's itinerary solved at one value of a parameter: the margins of all causes that may
+/// end the orbit, as shares of its size, each positive while the orbit lasts; −1 without
 /// solution.
 struct BranchPoint {
   Borders borders;
@@ -53,7 +53,7 @@ struct BranchPoint {
   }
 };
 
-/// Continues an orbit along a family of loops, of one parameter or more, by its itinerary.
+/// The continuation of an orbit by its itinerary along a family of loops of one or more parameters.
 template <class Family>
 class OrbitContinuation {
  public:
@@ -87,8 +87,8 @@ class OrbitContinuation {
   int solutions() const { return solutions_; }
 
  private:
-  /// Borders of an orbit that stays in the gap, measured in the gap that holds it best: it is there
-  /// in every gap that holds it.
+  /// The borders of an orbit that stays in the gap, measured in the gap that leaves it most
+  /// clearance: it exists in every gap that contains it.
   static Borders borders_in_best_gap(const std::vector<Vector<double, 5>>& states, double width) {
     const auto less = [](const auto& a, const auto& b) {
       return relative_displacement(a) < relative_displacement(b);
@@ -121,12 +121,12 @@ class OrbitContinuation {
 
 }  // namespace detail
 
-/// Continues an orbit along one parameter by its itinerary, to where it ends.
+/// The continuation of an orbit by its itinerary along one parameter, up to its end.
 ///
-/// At each value the sequence is solved again; the orbit lasts while every sample keeps its side of
-/// the switching surface and every multiplier stays inside the unit circle. The first step at whose
-/// end it does not is narrowed to the rounding of the parameter. An end that comes and goes within
-/// one step is not seen.
+/// At each value the itinerary is solved again; the orbit lasts while every sample stays on its
+/// side of the switching surface and every multiplier stays inside the unit circle. The first step
+/// in which it ends is narrowed to the rounding of the parameter. An end and a return within one
+/// step remain unnoticed.
 ///
 ///     const auto family = [&](double gain) { auto other = loop; other.gains.differential = gain;
 ///                                          return other; };
@@ -137,8 +137,8 @@ class OrbitContinuation {
 /// @param orbit   certified
 /// @param from,to  finite; `to` may lie on either side
 /// @param steps   ≥ 1
-/// @throws InvalidParameter where the range is not finite, f τ is another one, or the backlash
-///         vanishes or appears along the path: without it the rule is another one
+/// @throws InvalidParameter where the range is not finite, f τ changes, or the backlash vanishes or
+/// appears along the path, which changes the law of contact
 template <class Family>
 BranchEnd continue_orbit(const Family& family, const PeriodicOrbit& orbit, double from, double to,
                          int steps = 64) {

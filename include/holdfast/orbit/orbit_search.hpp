@@ -18,13 +18,13 @@ namespace holdfast {
 
 namespace detail {
 
-/// A motion of a sampled loop as ReturnSearch asks for it: a return whose contacts have repeated is
-/// solved for their exact orbit, and the motion has come to an orbit once it lies within the
-/// orbit's region of attraction.
+/// The model of a sampled motion for ReturnSearch. A return whose contacts have repeated is solved
+/// for its exact orbit. The motion has come to an orbit once it lies within the orbit's region of
+/// attraction.
 /// @tparam Loop        IdealLoop or ModalLoop
-/// @tparam MotionOf    its motion
-/// @tparam Attraction  its Maps, `maps()`; `samples_per_solved()`; `surround(orbit)` looks for the
-///                     region, `holds(motion)` tells whether a motion lies in it
+/// @tparam MotionOf    the motion of that loop
+/// @tparam Attraction  its Maps, `maps()`; `samples_per_solved()`; `surround(orbit)` computes the
+///                     region of attraction, `holds(motion)` tests whether a motion lies in it
 template <class Loop, class MotionOf, class Attraction>
 class SampledSearchModel {
  public:
@@ -57,14 +57,14 @@ class SampledSearchModel {
     return memory().backlash.inside == other.backlash.inside;
   }
 
-  /// Whether the contacts since the reference are those of as many samples before it.
+  /// Whether the contacts since the reference equal those of as many samples before it.
   bool may_repeat(const Seen& seen, std::int64_t period) const {
     if (seen.reference < period) return seen.reference == 0 || period == ratio_.denominator;
     const auto end = seen.itinerary.end();
     return std::equal(end - period, end, end - 2 * period);
   }
 
-  /// The orbit of the contacts; none where it touches a surface and the motion does not follow it.
+  /// The orbit with the repeated contacts; none where it touches a surface and is not followed.
   Result solve(Seen& seen, std::int64_t period, const Memory& reference) {
     Result found =
         solved({seen.itinerary.end() - period, seen.itinerary.end()}, reference.backlash);
@@ -86,7 +86,7 @@ class SampledSearchModel {
     return found.outcome == OrbitOutcome::on_surface || attraction_.holds(motion_);
   }
 
-  /// An orbit with its shortest period.
+  /// The given orbit with its shortest period.
   PeriodicOrbit shortened(const PeriodicOrbit& orbit) const {
     const auto step = static_cast<std::size_t>(ratio_.denominator);
     const auto period = static_cast<std::ptrdiff_t>(
@@ -100,7 +100,7 @@ class SampledSearchModel {
   }
 
  private:
-  /// Whether the motion lies on the orbit but for what is still settling, keeps to its contacts for
+  /// Whether the motion is on the orbit except for a decaying part, has the orbit's contacts for
   /// one more period and ends nearer to it.
   bool follows(const PeriodicOrbit& orbit, Seen& seen) {
     const State first = orbit.states.front().template head<4>();
@@ -128,7 +128,7 @@ class SampledSearchModel {
 template <class Scalar>
 class SampledAttraction {
  public:
-  /// A sample solved for costs some ten to fifty samples taken.
+  /// The cost of solving one sample, in samples of motion: between ten and fifty.
   static std::int64_t samples_per_solved() { return 16; }
 
   SampledAttraction(const IdealLoop<Scalar>& loop, const Rational& ratio)
@@ -149,7 +149,7 @@ class SampledAttraction {
   std::vector<AttractionBall> balls_;  // of the proposed orbit
 };
 
-/// The orbit of a motion that stands at a stroboscopic instant.
+/// The orbit of a motion that is at a stroboscopic instant.
 template <class Loop, class Motion, class Attraction>
 OrbitResult orbit_by_returns(const Loop& loop, const Rational& ratio, const OrbitLimits& limits,
                              const Motion& motion, const Attraction& attraction) {
@@ -160,7 +160,7 @@ OrbitResult orbit_by_returns(const Loop& loop, const Rational& ratio, const Orbi
   return found;
 }
 
-/// The orbit of a motion of an IdealLoop that stands at a stroboscopic instant.
+/// The orbit of a motion of an IdealLoop that is at a stroboscopic instant.
 template <class Scalar>
 OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio,
                             const OrbitLimits& limits,
@@ -175,11 +175,11 @@ OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio
 ///     const OrbitResult found = find_periodic_orbit(loop, Vector<double, 4>::Zero());
 ///     if (found.outcome == OrbitOutcome::certified) use(found.orbit->period());
 ///
-/// `certified` means that the motion lies within the orbit's radius of attraction: it tends to it.
+/// `certified` means: the motion lies within the orbit's region of attraction and tends to it.
 ///
 /// Bounded work: at most `most_samples` samples of the motion (one period more where the orbit
-/// touches a surface) and as many to be solved for, one byte each; and 90 bytes a sample of the
-/// orbit.
+/// touches a surface) and as many samples of solutions. Memory: one byte for each of them, and 90
+/// bytes per sample of the orbit.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
 /// @param limits         how long and how far to look
@@ -197,7 +197,7 @@ OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
   return detail::orbit_of_motion(loop, *ratio, limits,
                                  periodically_forced_motion(loop, *ratio, initial_state));
 }
-/// The periodic orbit that a motion comes to, from any column of Eigen's.
+/// The periodic orbit that a motion comes to; the initial state is any Eigen column.
 template <class Scalar, class Column>
 OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
                                 const Eigen::MatrixBase<Column>& initial_state,

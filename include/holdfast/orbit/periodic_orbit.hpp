@@ -20,12 +20,12 @@
 
 namespace holdfast {
 
-/// A periodic motion of the sampled loop with backlash, solved exactly for its itinerary
-/// and found to reproduce it: the certificate of a periodic motion.
+/// A periodic motion of the sampled loop with backlash that is the exact solution for its itinerary
+/// and reproduces that itinerary: the certificate of a periodic motion.
 struct PeriodicOrbit : LoopOrbit<5> {
-  Itinerary itinerary;            ///< of one period, N samples
-  BacklashMemory<double> memory;  ///< of the drive before the first sample
-  Borders borders;                ///< the switching surfaces that it comes nearest to
+  Itinerary itinerary;            ///< contacts of one period, N samples
+  BacklashMemory<double> memory;  ///< memory of the drive before the first sample
+  Borders borders;                ///< the nearest switching surfaces
 
   /// Share of the samples at which the drive transmits.
   double engaged_fraction() const {
@@ -33,8 +33,8 @@ struct PeriodicOrbit : LoopOrbit<5> {
     return static_cast<double>(engaged) / static_cast<double>(itinerary.size());
   }
 
-  /// Its distance from the nearest switching surface as a share of its own size; infinite where it
-  /// comes to none.
+  /// The distance from the nearest switching surface as a share of the orbit's size; infinite where
+  /// there is none.
   double border_share() const {
     const StateScale extent(states);
     return std::min(extent.share_of_displacement(borders.displacement.distance),
@@ -49,24 +49,24 @@ using OrbitResult = OrbitResultOf<PeriodicOrbit>;
 /// @tparam Maps  ItineraryMaps or ModalItineraryMaps
 template <class Maps>
 struct PeriodicSolution {
-  /// z̃.
+  /// The observed state z̃.
   using Seen = std::decay_t<decltype(std::declval<Maps>().seen(std::declval<Maps>().rest()))>;
 
   typename Maps::State first;  ///< the first state
   std::vector<Seen> states;    ///< z̃_j = [z_j; u_{j−1}], one for each sample
   /// ‖z_N − z₀‖ (SI numbers of m and m/s) after one period from z₀.
   typename Seen::Scalar closure_error;
-  /// Error of z₀ that this means, (I − M)⁻¹ (z̃_N − z̃₀), as a share of the states' extent.
+  /// Error of z₀ implied by it, (I − M)⁻¹ (z̃_N − z̃₀), as a share of the states' extent.
   double state_error;
 };
 
-/// Solves z̃_N = z̃₀ for an itinerary, (I − M) z̃₀ = g without forming g: what a motion from rest
-/// leaves open after one period is divided out, three times for the last digits.
-/// @param maps       of the loop
+/// Solves z̃_N = z̃₀ for an itinerary, (I − M) z̃₀ = g. The closure error of a motion from rest
+/// serves as the right side; three such steps give the last digits.
+/// @param maps       maps of the loop
 /// @param itinerary  N samples, N a multiple of the forcing's q, the first one at phase 0
 /// @param blocks     maps_of_blocks() of the sequence
-/// @return nothing where 1 is a multiplier of the sequence to working precision: then it has no
-///         periodic solution, or a continuum of them; or where there are no blocks
+/// @return nothing where 1 is a multiplier of the sequence to working precision, so that there is
+///         no periodic solution or a continuum of them; nothing without blocks
 template <class Maps>
 std::optional<PeriodicSolution<Maps>> periodic_solution(
     const Maps& maps, const Itinerary& itinerary, const std::vector<typename Maps::Map>& blocks) {
@@ -87,7 +87,7 @@ std::optional<PeriodicSolution<Maps>> periodic_solution(
   return solution;
 }
 
-/// Multipliers of one period, five.
+/// The five multipliers of one period.
 template <class Scalar>
 std::vector<Multiplier> multipliers_of(const ItineraryMaps<Scalar>&, const Itinerary&,
                                        const std::vector<Matrix<Scalar, 5>>& blocks) {
@@ -97,8 +97,8 @@ std::vector<Multiplier> multipliers_of(const ItineraryMaps<Scalar>&, const Itine
 /// Solves for the orbit of an itinerary and verifies it.
 ///
 /// @param loop       the loop with its excitation
-/// @param ratio      of forcing_ratio(loop)
-/// @param maps       of the same loop and ratio
+/// @param ratio      value of forcing_ratio(loop)
+/// @param maps       maps of the same loop and ratio
 /// @param itinerary  N samples, N ≥ 1 a multiple of q, the first one at phase 0 of the forcing
 /// @param law        the backlash before the first sample, as the motion that led here left it
 /// @return `certified` where the solution has this itinerary, attracting or not
@@ -123,22 +123,22 @@ OrbitResult orbit_of_itinerary(const Loop& loop, const Rational& ratio, const Ma
   return {detail::outcome_of(touches, has_itinerary(pattern, itinerary)), std::move(orbit)};
 }
 
-/// How a certificate of a periodic orbit stands in another number type.
+/// The certificate of a periodic orbit, checked in another number type.
 struct OrbitVerification {
-  bool same_itinerary = false;  ///< the orbit solved there reproduces the itinerary
+  bool same_itinerary = false;  ///< the orbit solved in that type reproduces the itinerary
   double displacement_difference = std::numeric_limits<double>::infinity();  ///< largest (m)
   double velocity_difference = std::numeric_limits<double>::infinity();      ///< largest (m/s)
-  double closure_error = std::numeric_limits<double>::infinity();  ///< ‖z_N − z₀‖ there (SI)
+  double closure_error = std::numeric_limits<double>::infinity();  ///< ‖z_N − z₀‖ in that type (SI)
 };
 
-/// Computes an orbit again from its itinerary, all of it in the number type `Precise`:
-/// matrix exponentials, forcing, solution and backlash.
+/// Recomputes an orbit from its itinerary entirely in the number type `Precise`: matrix
+/// exponentials, forcing, solution and backlash.
 ///
 ///     verify_orbit<long double>(loop, orbit).same_itinerary
 ///
-/// @param loop   the one that the orbit was found for
+/// @param loop   the loop that the orbit was found for
 /// @param orbit  certified
-/// @return infinite differences where the sequence is singular there
+/// @return infinite differences where the itinerary's system is singular in that type
 template <class Precise>
 OrbitVerification verify_orbit(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
   const ItineraryMaps<Precise> maps(converted<Precise>(loop), orbit.ratio);

@@ -19,26 +19,26 @@ namespace holdfast {
 /// A neighbourhood of one point of an orbit: every motion in it, at the same phase of the forcing,
 /// follows the orbit's itinerary for ever and tends to the orbit.
 ///
-/// Deviations are measured by
+/// The norm of deviations is
 ///
 ///     ‖e‖² = e_z₁² + (e_ż₁/ω)² + e_z₂² + (e_ż₂/ω)² + (e_u/k₁)² + e_gap²   (m²),
 ///
-/// with ω that of the excitation (that of the conductor without one) and e_gap the deviation of the
-/// gap that the drive is in. The drive must be inside or outside as on the orbit, and Δż of the
-/// last sample of the same sign. An orbit that stays in the gap for ever does so in every gap that
-/// holds it: there the radius counts for a metre of clearance between the orbit and the gap's ends.
+/// with ω of the excitation (of the conductor without one) and e_gap the deviation of the gap that
+/// the drive is in. Contact and the sign of Δż of the last sample must agree with the orbit. An
+/// orbit that stays in the gap for ever does so in every gap that contains it: then the radius is
+/// per metre of clearance between the orbit and the gap's ends.
 struct AttractionBall {
-  std::int64_t sample;            ///< on the orbit, a multiple of the forcing's q
+  std::int64_t sample;            ///< sample of the orbit, a multiple of the forcing's q
   Vector<double, 5> state;        ///< z̃ = [z; u_{j−1}] there
-  BacklashMemory<double> memory;  ///< of the drive before that sample
+  BacklashMemory<double> memory;  ///< memory of the drive before that sample
   bool stays_inside;              ///< the drive never leaves its gap
   double lowest,                  ///< least Δz of the orbit (m)
       highest;                    ///< largest Δz of the orbit (m)
-  double radius;                  ///< m, or m a metre of clearance; > 0
+  double radius;                  ///< radius (m), or m per metre of clearance; > 0
 };
 
-/// The weights by which deviations of an orbit are measured, [1, 1/ω, 1, 1/ω, 1/k₁, 1], each in
-/// metres; ω is √(k₁/m₁) where the excitation has no amplitude.
+/// The weights of the norm of deviations, [1, 1/ω, 1, 1/ω, 1/k₁, 1], each in metres; ω is √(k₁/m₁)
+/// where the excitation has no amplitude.
 template <class Scalar>
 Vector<Scalar, 6> deviation_weights(const IdealLoop<Scalar>& loop) {
   const Scalar stiffness = loop.plant.conductor_stiffness;
@@ -48,8 +48,8 @@ Vector<Scalar, 6> deviation_weights(const IdealLoop<Scalar>& loop) {
   return {1.0, 1.0 / angular_frequency, 1.0, 1.0 / angular_frequency, 1.0 / stiffness, 1.0};
 }
 
-/// The radius of the neighbourhood for a drive that remembers this (m); not positive where its gap
-/// does not hold an orbit that stays inside.
+/// The radius of the neighbourhood (m) for a given memory of the drive; not positive where an orbit
+/// that stays inside does not fit into its gap.
 inline double attraction_radius(const AttractionBall& point, const BacklashMemory<double>& drive) {
   if (!point.stays_inside) return point.radius;
   return point.radius * std::min(point.lowest - drive.lower, drive.upper - point.highest);
@@ -74,20 +74,20 @@ bool attracts(const AttractionBall& point, const Memory& motion, const Vector<do
 
 namespace detail {
 
-/// Bounds of a deviation over some samples: the largest first deviation for which no decision
-/// changes within them, and by how much it may have grown at their end.
+/// Bounds of a deviation over some samples: the largest first deviation that changes no decision in
+/// them, and its largest growth until their end.
 struct DeviationSegment {
   double radius = std::numeric_limits<double>::infinity();  // m
   double growth = 1.0;                                      // Frobenius norm
 };
 
-/// Deviations of a motion of an IdealLoop side by side, one a column: z̃ in metres, by its two maps.
+/// Deviations of a motion of an IdealLoop, one in each column: z̃ in metres, by its two maps.
 template <class Scalar>
 class SampledDeviations {
  public:
   using Columns = Matrix<Scalar, 6>;               ///< six deviations e
-  using Row = RowVector<Scalar, 6>;                ///< of each a number
-  using Deviations = Eigen::Matrix<Scalar, 5, 6>;  ///< without their gaps
+  using Row = RowVector<Scalar, 6>;                ///< one number for each deviation
+  using Deviations = Eigen::Matrix<Scalar, 5, 6>;  ///< deviations of z̃ without the gaps
 
   SampledDeviations(const IdealLoop<Scalar>& loop, const ItineraryMaps<Scalar>& maps) {
     const Vector<Scalar, 5> weights = deviation_weights(loop).template head<5>();
@@ -113,7 +113,7 @@ class SampledDeviations {
   Deviations deviations_ = Deviations::Zero();
 };
 
-/// Follows deviations e = [e_x; e_gap], in metres, along an orbit.
+/// The flow of deviations e = [e_x; e_gap], in metres, along an orbit.
 /// @tparam Deviations  SampledDeviations or ModalDeviations: order(), begin(columns), columns(),
 ///                     relative_displacement(), relative_velocity(), advance(engaged)
 template <class Deviations>
@@ -136,23 +136,23 @@ class DeviationFlow {
                     });
   }
 
-  /// Order of e.
+  /// The number of entries of e.
   Eigen::Index order() const { return deviations_.order() + 1; }
 
-  /// The segment of the next `samples` samples.
+  /// The bounds for a deviation over the next `samples` samples.
   DeviationSegment next(std::int64_t samples) {
     DeviationSegment segment;
     segment.growth = follow(unit(), samples, segment).norm();
     return segment;
   }
 
-  /// Φ over the next `samples` samples.
+  /// The flow matrix Φ over the next `samples` samples.
   Columns over(std::int64_t samples) {
     DeviationSegment segment;
     return follow(unit(), samples, segment);
   }
 
-  /// Carries some deviations over the next `samples` samples.
+  /// Propagates some deviations over the next `samples` samples.
   /// @param segment  takes the largest norm for which no combination of them changes a decision
   Columns follow(const Columns& deviations, std::int64_t samples, DeviationSegment& segment) {
     deviations_.begin(deviations.topRows(deviations.rows() - 1));
@@ -167,8 +167,8 @@ class DeviationFlow {
   }
 
  private:
-  /// Distances of a sample from the surfaces that its decision rests on (m, m/s); of an orbit that
-  /// stays inside 1, for a metre of clearance.
+  /// Distances of a sample from the surfaces of its decision (m, m/s); 1 for an orbit that stays
+  /// inside, meaning per metre of clearance.
   struct Distances {
     double displacement = std::numeric_limits<double>::infinity();
     double velocity = std::numeric_limits<double>::infinity();
@@ -203,9 +203,9 @@ class DeviationFlow {
   std::size_t sample_ = 0;
 };
 
-/// Radii at the starts of the segments of one period, or nothing where there are surfaces and the
-/// segments together do not contract. A deviation within a segment's radius stays within the next
-/// one's.
+/// The radii at the starts of the segments of one period; a deviation within a segment's radius
+/// stays within the next one's. Empty where there are surfaces and the segments together do not
+/// contract.
 inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>& segments) {
   constexpr double everywhere = std::numeric_limits<double>::infinity();
   double logarithm = 0.0, smallest = everywhere;
@@ -227,9 +227,9 @@ inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>&
   return radii;
 }
 
-/// The segments of one period, each of `length` common periods of q samples but perhaps a shorter
-/// last one; or one segment of several whole periods.
-/// @param flow  from the first sample on
+/// The segments of one period, each `length` common periods of q samples long, the last one perhaps
+/// shorter; or one segment of several whole periods.
+/// @param flow  flow of deviations from the first sample on
 template <class Deviations>
 std::vector<DeviationSegment> deviation_segments(DeviationFlow<Deviations> flow,
                                                  const PeriodicOrbit& orbit, std::int64_t length) {
@@ -269,19 +269,19 @@ std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
 
 }  // namespace detail
 
-/// Neighbourhoods of an orbit from which every motion tends to it, at the stroboscopic instants,
-/// sampling and forcing in phase.
+/// The neighbourhoods of an orbit at its stroboscopic instants (sampling and forcing in phase) from
+/// which every motion tends to the orbit.
 ///
 /// The period is cut into segments of one common period, or of twice as many until the segments
-/// together contract. Along each, a deviation changes no decision while |h Φ e| stays below the
-/// distance from the surface, h being the surface's normal and Φ the flow of deviations; at its end
+/// together contract. Along each, a deviation changes no decision while |h Φ e| is below the
+/// distance from the surface, h being the surface's normal and Φ the flow of deviations; at the end
 /// it has grown by at most ‖Φ‖. Both bounds together are an induction over all time.
 /// @param loop   the loop that the orbit is of
 /// @param orbit  attracting and certified
-/// @return in the order of the orbit; empty where no segments of up to 64 periods, or 10⁶ samples,
-///         contract
-/// Work: about 300 multiply-adds a sample for every length of segment below a period that is tried,
-/// and for the shortest one above that contracts.
+/// @return neighbourhoods in the order of the orbit; empty where no segments of up to 64 periods,
+///         or 10⁶ samples, contract
+/// Work: about 300 multiply-adds per sample for every length of segment tried below a period, and
+/// for the shortest longer one that contracts.
 template <class Scalar>
 std::vector<AttractionBall> attraction_balls(const IdealLoop<Scalar>& loop,
                                              const PeriodicOrbit& orbit) {

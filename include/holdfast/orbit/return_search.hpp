@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// How long and how far to look for an orbit.
+/// The limits of a search for an orbit: largest period and length of the motion.
 struct OrbitLimits {
   std::int64_t largest_period = 1'000'000;  ///< samples, 1 … 10⁸
   /// Most samples of the motion; 0: eight times the largest period.
@@ -22,7 +22,7 @@ struct OrbitLimits {
   std::function<void()> watch = {};
 };
 
-/// @throws InvalidParameter where the limits are not admissible
+/// Validates the limits. @throws InvalidParameter where they are not admissible
 inline void validate(const OrbitLimits& limits) {
   require_within("largest period", static_cast<double>(limits.largest_period), "samples", 1.0, 1e8);
   require_within("number of samples", static_cast<double>(limits.most_samples), "", 0.0, 1e9);
@@ -30,32 +30,32 @@ inline void validate(const OrbitLimits& limits) {
 
 namespace detail {
 
-/// Motion as a search has seen it so far.
+/// The part of a motion that a search has followed so far.
 /// @tparam Symbol  of the itinerary, one a sample
 template <class Symbol, class Plant>
 struct SeenMotion {
   std::vector<Symbol> itinerary;
   StateScaleOf<Plant> extent;
-  std::int64_t reference = 0;  ///< samples before the one that returns are compared with
+  std::int64_t reference = 0;  ///< sample that later states are compared with
 
-  /// Samples so far.
+  /// The number of samples so far.
   std::int64_t taken() const { return static_cast<std::int64_t>(itinerary.size()); }
 
   /// Whether a motion that was within a millionth of its extent from a state has ended no farther
-  /// from it, but for rounding.
-  /// @param before,after  its distances, as shares of the extent
+  /// from that state, but for rounding.
+  /// @param before,after  distances at beginning and end, as shares of the extent
   bool came_nearer(const StateOf<Plant>& state, double before, double after) const {
     return before <= 1e-6 && after <= std::max(before, 1e-12 * extent.share_of(state));
   }
 };
 
-/// Looks for the orbit that one motion comes to.
+/// The search for the periodic orbit that one motion comes to.
 ///
 /// At every stroboscopic instant (sampling and forcing in phase) the state is compared with a
 /// reference that moves on at powers of two (R. P. Brent, An improved Monte Carlo factorization
 /// algorithm, BIT 20, 1980). A near return proposes a period, which is solved for its orbit. The
-/// orbit is the motion's once that is seen to come to it. Proposals after the first cost about as
-/// much as the motion at most.
+/// search ends when the motion is seen to come to that orbit. Proposals after the first cost at
+/// most about as much as the motion.
 /// @tparam Model  a motion (Plant, readings(), state(), memory(), is_followed(), has_contact_of(),
 ///                take_sample()) with what is particular to it:
 ///
@@ -71,8 +71,8 @@ class ReturnSearch {
  public:
   using Result = typename Model::Result;
 
-  /// @param model  its motion at a stroboscopic instant
-  /// @param ratio  f τ = p/q
+  /// @param model  model with its motion at a stroboscopic instant
+  /// @param ratio  ratio f τ = p/q
   ReturnSearch(const Model& model, const Rational& ratio, const OrbitLimits& limits)
       : model_(model),
         ratio_(ratio),
@@ -85,7 +85,7 @@ class ReturnSearch {
     set_reference();
   }
 
-  /// Looks until the orbit is found or the limits are reached.
+  /// Runs the search until the orbit is found or the limits are reached.
   Result run() {
     while (seen_.taken() + ratio_.denominator <= limits_.most_samples) {
       take_stroboscopic_instant();
@@ -125,7 +125,7 @@ class ReturnSearch {
 
   bool has_come() { return proposed_.orbit && model_.has_come(proposed_, seen_); }
 
-  /// @return whether a return was found to be that of the motion's orbit
+  /// Searches for a near return. @return whether it was found to be that of the motion's orbit
   bool look_for_return() {
     const std::int64_t period = seen_.taken() - seen_.reference;
     if (period > limits_.largest_period || !near_reference() || !model_.may_repeat(seen_, period))

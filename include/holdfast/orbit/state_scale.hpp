@@ -12,13 +12,13 @@
 
 namespace holdfast {
 
-/// How far a motion reaches: displacements and velocities apart, so that no unit of time decides
-/// which of them counts.
+/// The extent of a motion: its largest displacement and its largest velocity, kept apart so that no
+/// unit of time weights one against the other.
 struct StateScale {
   double displacement = 0.0;  ///< largest |z₁|, |z₂| (m)
   double velocity = 0.0;      ///< largest |ż₁|, |ż₂| (m/s)
 
-  /// Nothing yet.
+  /// An extent without any state yet.
   StateScale() = default;
 
   /// The extent of states that begin with [z₁, ż₁, z₂, ż₂].
@@ -27,7 +27,7 @@ struct StateScale {
     for (const auto& state : states) include(state);
   }
 
-  /// One more state, which begins with [z₁, ż₁, z₂, ż₂].
+  /// Extends it by one more state, which begins with [z₁, ż₁, z₂, ż₂].
   template <class Scalar, int Size>
   void include(const Vector<Scalar, Size>& state) {
     using std::abs;
@@ -35,13 +35,13 @@ struct StateScale {
     velocity = std::max({velocity, double(abs(state[1])), double(abs(state[3]))});
   }
 
-  /// A length (m) as a share of the displacements; infinite where there are none, unless it is 0.
+  /// A length (m) as a share of the largest displacement; where that is 0: infinite, or 0 for 0.
   double share_of_displacement(double length) const { return share(length, displacement); }
-  /// A velocity (m/s) as a share of the velocities, in the same way.
+  /// A velocity (m/s) as a share of the largest velocity; where that is 0: infinite, or 0 for 0.
   double share_of_velocity(double speed) const { return share(speed, velocity); }
 
-  /// A state, most often the difference of two: the larger share of its displacements and its
-  /// velocities.
+  /// The size of a state, most often the difference of two, as a share of the extent: the larger
+  /// one of its displacements' and its velocities' shares.
   template <class Scalar, int Size>
   double share_of(const Vector<Scalar, Size>& state) const {
     StateScale size;
@@ -53,8 +53,8 @@ struct StateScale {
   static double share(double part, double whole) { return part == 0.0 ? 0.0 : part / whole; }
 };
 
-/// How far a motion of a plant of order N reaches: max |x_i| of each coordinate, since their units
-/// may be any; of the two masses that of their displacements and of their velocities.
+/// The extent of a motion of a plant of order N: max |x_i| of each coordinate, since their units
+/// are arbitrary; for two masses, of their displacements and of their velocities.
 template <class Plant>
 class StateScaleOf {
  public:
@@ -66,7 +66,7 @@ class StateScaleOf {
     for (const State& state : states) include(state);
   }
 
-  /// One more state.
+  /// Extends it by one more state.
   void include(const State& state) {
     sides_.include(readings_.both_sides(state));
     if constexpr (of_two_masses) {
@@ -77,11 +77,11 @@ class StateScaleOf {
     }
   }
 
-  /// Extent of both sides of the gap: |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s).
+  /// The extent of both sides of the gap: |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s).
   const StateScale& sides() const { return sides_; }
 
-  /// A state, most often the difference of two: max_i |x_i| / largest()_i; infinite where a
-  /// coordinate has always been 0 and is not. Ask once a state is included.
+  /// The size of a state, most often the difference of two, as a share: max_i |x_i| / largest()_i;
+  /// infinite where a coordinate was 0 so far and is not now. Needs at least one state.
   double share_of(const State& state) const {
     double share = 0.0;
     for (Eigen::Index i = 0; i < state.size(); ++i)
@@ -89,11 +89,11 @@ class StateScaleOf {
     return share;
   }
 
-  /// Largest |x_i| of each coordinate, N × 1.
+  /// The largest |x_i| of each coordinate, N × 1.
   const State& largest() const { return largest_; }
 
-  /// Takes each coordinate of another plant than the two masses for no less than a share of its
-  /// size in another motion, so that what has decayed to rounding is measured by what it was.
+  /// Raises each coordinate's extent, for plants other than two masses, to at least a share of that
+  /// in another motion, so that a coordinate decayed to rounding is measured by its former size.
   void widen(double share, const StateScaleOf& other) {
     if constexpr (!of_two_masses) largest_ = largest_.cwiseMax(share * other.largest_);
   }
@@ -119,12 +119,12 @@ Scalar power_of_two_below(const Scalar& size) {
 
 }  // namespace detail
 
-/// Units of z̃ = [z; u_{j−1}] that belong to a plant: 1 m, ω · 1 m and k · 1 m, where a
-/// displacement z₁ of 1 m is pulled back with the acceleration ω² and the force k. What is solved
-/// for in them is the same in any units of mass and time; being powers of two, they round nothing.
+/// The natural units of z̃ = [z; u_{j−1}] for a plant: 1 m, ω · 1 m and k · 1 m, where a
+/// displacement z₁ of 1 m causes the restoring acceleration ω² and force k. Solutions in them do
+/// not depend on the units of mass and time; being powers of two, they cause no rounding.
 /// @param state_matrix      A, 4 × 4
 /// @param excitation_input  c, 4 × 1
-/// @return of [z₁, ż₁, z₂, ż₂, u]; 1 where the plant does not tell
+/// @return units of [z₁, ż₁, z₂, ż₂, u]; 1 where the plant does not determine them
 template <class Scalar>
 Vector<Scalar, 5> plant_scaling(const Matrix<Scalar, 4>& state_matrix,
                                 const Vector<Scalar, 4>& excitation_input) {

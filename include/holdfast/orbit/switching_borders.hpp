@@ -20,31 +20,31 @@ enum class SwitchingSurface {
   gap_upper,  ///< Δz at the upper end of the gap: it leaves
 };
 
-/// How near a motion comes to a switching surface.
+/// The least distance of a motion from a switching surface.
 struct Border {
   double distance = std::numeric_limits<double>::infinity();  ///< m, or m/s for `reversal`
-  SwitchingSurface surface = SwitchingSurface::reversal;      ///< nothing where `sample` is −1
-  std::int64_t sample = -1;  ///< counted from the orbit's first sample; −1 where there is none
+  SwitchingSurface surface = SwitchingSurface::reversal;  ///< meaningless where `sample` is −1
+  std::int64_t sample = -1;  ///< counted from the orbit's first sample; −1: none
 };
 
-/// Decision of one sample about the contact, and what it rests on.
+/// The decision of one sample about the contact, with its reasons.
 struct ContactDecision {
-  bool was_inside;  ///< before the sample
-  bool engaged;     ///< after it
-  /// The sign of Δż where it counts, at this sample or at the next one (that of 0 is 1); 0 inside
+  bool was_inside;  ///< in the backlash before the sample
+  bool engaged;     ///< engaged after the sample
+  /// The sign of Δż where it decides, at this sample or at the next one (that of 0 is 1); 0 inside
   /// the gap and without backlash.
   std::int8_t velocity_sign;
-  /// −1, 1: it left the gap by its lower, upper end; 0: it did not.
+  /// Exit from the gap: −1 by its lower end, 1 by its upper end, 0 none.
   std::int8_t exit_side;
 };
 
-/// The decisions of one period and what the drive remembers before the first of them.
+/// The decisions of one period and the memory of the drive before the first one.
 struct SwitchingPattern {
   std::vector<ContactDecision> decisions;               ///< one for each sample
-  BacklashMemory<double> memory{false, 0.0, 0.0, 0.0};  ///< of the drive before the first sample
-  bool repeats = false;  ///< the drive ends the period as it begins it
+  BacklashMemory<double> memory{false, 0.0, 0.0, 0.0};  ///< memory before the first sample
+  bool repeats = false;  ///< the drive's memory at the end equals that at the beginning
 
-  /// The drive never leaves its gap.
+  /// Whether the drive never leaves its gap.
   bool stays_inside() const {
     return std::all_of(decisions.begin(), decisions.end(), [](const ContactDecision& decision) {
       return decision.was_inside && !decision.engaged;
@@ -68,8 +68,8 @@ ContactDecision decide(Backlash<Scalar>& law, const Vector<Scalar, 5>& state) {
   return decision;
 }
 
-/// Shows every surface that a sample's decision rests on, visit(sample, surface, distance), the
-/// distance as that of Borders.
+/// Visits every surface that a sample's decision depends on, visit(sample, surface, distance); the
+/// distance is that of Borders.
 template <class Scalar, class Visit>
 void for_each_border(const SwitchingPattern& pattern, const std::vector<Vector<Scalar, 5>>& states,
                      double width, const Visit& visit) {
@@ -99,9 +99,9 @@ void for_each_border(const SwitchingPattern& pattern, const std::vector<Vector<S
 
 }  // namespace detail
 
-/// Sends an orbit through the backlash until the drive has come to its own gap, and notes the
-/// decisions of a period that ends as it begins; at most four turns are tried.
-/// @param states  z̃_j of one period
+/// Applies the backlash to an orbit until the drive is in the orbit's own gap, and records the
+/// decisions of a period that ends as it begins; at most four periods are tried.
+/// @param states  states z̃_j of one period
 /// @param law     the backlash before the first sample, as the motion that led here left it
 template <class Scalar>
 SwitchingPattern switching_pattern(const std::vector<Vector<Scalar, 5>>& states,
@@ -122,7 +122,7 @@ SwitchingPattern switching_pattern(const std::vector<Vector<Scalar, 5>>& states,
   return pattern;
 }
 
-/// Whether these are the contacts that the backlash decides, turn after turn.
+/// Whether the backlash decides on exactly these contacts, period after period.
 inline bool has_itinerary(const SwitchingPattern& pattern, const Itinerary& itinerary) {
   return pattern.repeats &&
          std::equal(pattern.decisions.begin(), pattern.decisions.end(), itinerary.begin(),
@@ -131,18 +131,18 @@ inline bool has_itinerary(const SwitchingPattern& pattern, const Itinerary& itin
                     });
 }
 
-/// The nearest of the surfaces of either kind.
+/// The nearest switching surface of each kind.
 struct Borders {
   Border displacement;  ///< an end of a gap (m)
   Border velocity;      ///< a reversal (m/s)
 };
 
-/// How far the states of an orbit are from deciding otherwise than a pattern says; negative where
-/// one does.
+/// The distances of an orbit's states from a decision other than the pattern's; negative where a
+/// state decides otherwise.
 ///
-/// Inside the gap the distance is that of Δz from its nearer end; where the drive leaves it, how
-/// far Δz is beyond; elsewhere that of Δż from zero.
-/// @param pattern  of the orbit, or of one that it is to be compared with
+/// Inside the gap it is the distance of Δz from the nearer end; where the drive leaves the gap, the
+/// excess of Δz beyond the end; elsewhere |Δż|.
+/// @param pattern  pattern of the orbit, or of another one for comparison
 /// @param states   z̃_j, one for each decision, of a motion that repeats them for ever
 /// @param width    r₀ (m)
 template <class Scalar>

@@ -13,9 +13,9 @@
 
 namespace holdfast {
 
-/// How far two orbits of neighbouring loops lie apart: the Hausdorff distance of their states at
-/// the stroboscopic instants (sampling and forcing in phase), as a share of the extent of the
-/// larger one. Shifted copies of one orbit are at distance 0.
+/// The distance of two orbits of neighbouring loops: the Hausdorff distance of their states at the
+/// stroboscopic instants (sampling and forcing in phase), as a share of the extent of the larger
+/// one. Shifted copies of one orbit are at distance 0.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 double orbit_distance(const Orbit& one, const Orbit& other) {
@@ -39,21 +39,21 @@ double orbit_distance(const Orbit& one, const Orbit& other) {
   return std::max(farthest(one, other), farthest(other, one));
 }
 
-/// Gives the attractors of successive loops numbers by which they are recognised.
+/// Numbers the attractors of successive loops so that each one is recognised in the next loop.
 ///
-/// The nearest pair of an attractor and one of the loop before is matched first, then the nearest
-/// of those that are left, up to a largest distance. What is left gets a new number; a number that
-/// has gone is not given again.
+/// The closest pair of an attractor and one of the previous loop is matched first, then the closest
+/// of the remaining ones, up to a largest distance. An unmatched attractor gets a new number; the
+/// number of a vanished attractor is not used again.
 /// Source: G. Datseris, K. Luiz Rossi, A. Wagemakers, Framework for global stability analysis of
 /// dynamical systems, Chaos 33 (2023).
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 class AttractorMatching {
  public:
-  /// @param largest_distance  of orbit_distance(), > 0
+  /// @param largest_distance  largest orbit_distance() of a match, > 0
   explicit AttractorMatching(double largest_distance) : largest_distance_(largest_distance) {}
 
-  /// The numbers, from 0 on, of the attractors of the next loop.
+  /// Matches the attractors of the next loop and gives their numbers, from 0 on.
   std::vector<int> match(std::vector<Orbit> orbits) {
     struct Pair {
       double distance;
@@ -80,9 +80,9 @@ class AttractorMatching {
     return numbers;
   }
 
-  /// Orbits of the last loop.
+  /// The orbits of the latest loop.
   const std::vector<Orbit>& orbits() const { return known_; }
-  /// How many numbers were given.
+  /// How many numbers are in use.
   int count() const { return count_; }
 
  private:
@@ -92,40 +92,40 @@ class AttractorMatching {
   int count_ = 0;
 };
 
-/// An attractor of one of the loops, recognised.
+/// An attractor of one loop, with its number along the parameter.
 template <class Orbit>
 struct FollowedAttractor {
-  int number;             ///< from 0 on, the same as that of the loop before where it is matched
+  int number;             ///< from 0 on; that of the matched attractor of the previous loop
   Orbit orbit;            ///< certified
-  std::size_t states;     ///< how many of the initial states come to it; 0 where a seed alone does
-  double fraction;        ///< of all of them
-  double standard_error;  ///< share_error()
+  std::size_t states;     ///< number of initial states that come to it; 0 where only a seed does
+  double fraction;        ///< share of the initial states that come to it
+  double standard_error;  ///< of the share, by share_error()
 };
 
 /// The attractors of one of the loops.
 template <class Orbit>
 struct FollowedBasins {
-  std::vector<FollowedAttractor<Orbit>> attractors;  ///< by their numbers
-  std::size_t diverging = 0;                         ///< initial states
-  std::size_t unknown = 0;                           ///< initial states of which no orbit was found
+  std::vector<FollowedAttractor<Orbit>> attractors;  ///< in the order of their numbers
+  std::size_t diverging = 0;                         ///< count of initial states that diverge
+  std::size_t unknown = 0;                           ///< count of initial states without an orbit
 };
 
-/// Follows all attractors of a loop along a parameter, with the share of the initial states that
-/// comes to each.
+/// The continuation of all attractors of a loop along a parameter, with the share of the initial
+/// states that come to each.
 ///
-/// Every loop is searched from the same initial states and from one state of each attractor of
-/// the loop before, a seed, so that an attractor is not lost because its basin has become small.
-/// Seeds do not count among the states.
+/// Every loop is searched from the same initial states and from one state of each attractor of the
+/// previous loop, a seed. Thus an attractor is not lost because its basin has become small. Seeds
+/// are not counted among the states.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 class AttractorContinuation {
  public:
   /// @param initial_states    [z₁, ż₁, z₂, ż₂] (m, m/s), at least one
-  /// @param largest_distance  at which an attractor is still the one before
+  /// @param largest_distance  largest orbit_distance() at which two attractors are matched
   AttractorContinuation(std::vector<Vector<double, 4>> initial_states, double largest_distance)
       : states_(std::move(initial_states)), matching_(largest_distance) {}
 
-  /// @param find  states ↦ BasinsOf<Orbit> of the next loop
+  /// Finds the attractors of the next loop. @param find  states ↦ BasinsOf<Orbit> of that loop
   template <class Find>
   FollowedBasins<Orbit> next(const Find& find) {
     std::vector<Vector<double, 4>> starts = states_;

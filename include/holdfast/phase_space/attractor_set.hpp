@@ -14,8 +14,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// Whether `other` with its states multiplied by `sign`, begun at one of the stroboscopic instants
-/// from the sample `shift` on, is `orbit`.
+/// Whether `orbit` equals `other`, its states multiplied by `sign`, started at one of the
+/// stroboscopic instants from the sample `shift` on.
 template <class Orbit>
 bool is_same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, double sign) {
   const std::size_t samples = orbit.states.size();
@@ -36,17 +36,17 @@ bool is_same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, d
 
 }  // namespace detail
 
-/// Whether two orbits of the same loop are one motion, begun at different stroboscopic
-/// instants. Gaps in which the drive stays for ever may differ.
+/// Whether two orbits of one loop are the same motion started at different stroboscopic instants.
+/// The gaps in which the drive stays for ever may differ.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 bool is_phase_shifted_copy(const Orbit& orbit, const Orbit& other) {
   return detail::is_same_course(orbit, other, 0, 1.0);
 }
 
-/// Whether one orbit is the other with all signs changed, half a forcing period later: the loop is
-/// symmetric under that, which sampling keeps where q is even. Without excitation any shift will
-/// do.
+/// Whether one orbit is the other with all signs changed and shifted by half a forcing period. The
+/// loop has this symmetry; sampling preserves it where q is even. Without excitation any shift is
+/// allowed.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 bool is_mirror_image(const Orbit& orbit, const Orbit& other) {
@@ -58,13 +58,13 @@ bool is_mirror_image(const Orbit& orbit, const Orbit& other) {
 
 namespace detail {
 
-/// The neighbourhoods of the orbits of a loop: Orbit, Point, points_of(orbit), reach(point) in z₁
-/// (m) and holds(point, motion).
+/// The neighbourhoods of a loop's orbits: Orbit, Point, points_of(orbit), reach(point) in z₁ (m)
+/// and holds(point, motion).
 /// @tparam Loop  IdealLoop<double>; ImplementedLoopOf<Plant> in event_basins.hpp
 template <class Loop>
 struct Neighbourhoods;
 
-/// Neighbourhoods from which a motion surely tends to the orbit.
+/// Neighbourhoods of an IdealLoop's orbits, from which a motion surely tends to the orbit.
 template <class Scalar>
 struct Neighbourhoods<IdealLoop<Scalar>> {
   using Orbit = PeriodicOrbit;
@@ -74,7 +74,7 @@ struct Neighbourhoods<IdealLoop<Scalar>> {
   Vector<double, 6> weights = deviation_weights(loop);
 
   std::vector<Point> points_of(const Orbit& orbit) const { return attraction_balls(loop, orbit); }
-  /// Inside a gap at most half the gap's width.
+  /// The reach of a neighbourhood in z₁ (m): inside a gap at most half the gap's width.
   double reach(const Point& point) const {
     return point.stays_inside ? point.radius * loop.backlash_width : point.radius;
   }
@@ -86,28 +86,28 @@ struct Neighbourhoods<IdealLoop<Scalar>> {
 
 }  // namespace detail
 
-/// The different orbits of one loop, and the neighbourhoods of their points at the stroboscopic
-/// instants: those from which a motion tends to the orbit (AttractionBall), of an ImplementedLoop
-/// those within a millionth of the orbit's extent.
+/// The set of different orbits of one loop with neighbourhoods of their points at the stroboscopic
+/// instants. For an IdealLoop a motion in such a neighbourhood tends to the orbit (AttractionBall);
+/// for an ImplementedLoop it is within a millionth of the orbit's extent.
 /// @tparam Loop  IdealLoop<double>, ModalLoop or ImplementedLoopOf<Plant>
 template <class Loop>
 class AttractorSet {
   using Neighbourhoods = detail::Neighbourhoods<Loop>;
 
  public:
-  /// PeriodicOrbit or EventOrbit.
+  /// The type PeriodicOrbit or EventOrbit.
   using Orbit = typename Neighbourhoods::Orbit;
 
-  /// A point of an orbit.
+  /// A point of an orbit with its neighbourhood.
   struct Entry {
-    int orbit;                             ///< its number
+    int orbit;                             ///< number of the orbit
     typename Neighbourhoods::Point point;  ///< its neighbourhood
   };
 
-  /// @param loop  of all orbits that will be added
+  /// @param loop  loop of all orbits that will be added
   explicit AttractorSet(const Loop& loop) : neighbourhoods_{loop} {}
 
-  /// @return the orbit's number, that of an earlier one of which it is a copy
+  /// Adds an orbit. @return its number, or that of the earlier orbit of which it is a copy
   int add(Orbit orbit) {
     for (std::size_t k = 0; k < orbits_.size(); ++k)
       if (is_phase_shifted_copy(orbits_[k], orbit)) return static_cast<int>(k);
@@ -122,9 +122,9 @@ class AttractorSet {
     return number;
   }
 
-  /// The point in whose neighbourhood a motion is; null where it is in none. Ask at a stroboscopic
-  /// instant (sampling and forcing in phase), before the sample.
-  /// @param motion  its memory(), or the point() of a RepeatingMotion
+  /// The point whose neighbourhood contains a motion; null without one. To be asked for at a
+  /// stroboscopic instant (sampling and forcing in phase), before the sample.
+  /// @param motion  a motion's memory(), or the point() of a RepeatingMotion
   template <class Memory>
   const Entry* near(const Memory& motion) const {
     const double position = motion.state[0];
@@ -136,14 +136,14 @@ class AttractorSet {
     return nullptr;
   }
 
-  /// The number of the orbit in one of whose neighbourhoods a motion is; −1 where there is none.
+  /// The number of the orbit with a neighbourhood that contains a motion; −1 without one.
   template <class Memory>
   int attracted_by(const Memory& motion) const {
     const Entry* const entry = near(motion);
     return entry != nullptr ? entry->orbit : -1;
   }
 
-  /// Each at the index that is its number.
+  /// The orbits; the index of each is its number.
   const std::vector<Orbit>& orbits() const { return orbits_; }
 
  private:

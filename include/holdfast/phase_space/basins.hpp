@@ -18,9 +18,9 @@
 
 namespace holdfast {
 
-/// Attractor that one initial state comes to.
+/// The attractor that the motion from one initial state comes to.
 struct BasinLabel {
-  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< `certified`, or why it has no attractor
+  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< `certified`, or the reason for no attractor
   int attractor = -1;  ///< index into the attractors of its BasinsOf; −1 unless certified
 };
 
@@ -28,27 +28,27 @@ struct BasinLabel {
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 struct AttractorOf {
-  Orbit orbit;  ///< certified; of copies begun at other stroboscopic instants the one found first
-  std::size_t states;               ///< how many of the initial states come to it
-  double fraction;                  ///< of all of them
-  double standard_error;            ///< share_error(): the states being a sample
-  std::optional<int> mirror_image;  ///< of an earlier attractor
+  Orbit orbit;            ///< certified; among its shifted copies the one that was found first
+  std::size_t states;     ///< number of initial states that come to it
+  double fraction;        ///< share of the initial states that come to it
+  double standard_error;  ///< share_error(), where the states are a random sample
+  std::optional<int> mirror_image;  ///< number of the earlier attractor that it mirrors
 };
 
-/// Which attractor each of many initial states comes to.
+/// The basins of attraction: the attractor that each of many initial states comes to.
 template <class Orbit>
 struct BasinsOf {
-  std::vector<BasinLabel> labels;              ///< in the order of the initial states
-  std::vector<AttractorOf<Orbit>> attractors;  ///< in the order in which the states first meet them
+  std::vector<BasinLabel> labels;              ///< one label for each initial state, in their order
+  std::vector<AttractorOf<Orbit>> attractors;  ///< in the order of their first initial states
 };
 
-/// Basins of an IdealLoop.
+/// The basins of an IdealLoop.
 using BasinMap = BasinsOf<PeriodicOrbit>;
 
 namespace detail {
 
-/// The basins of labels whose attractors are numbered in the order in which their orbits were
-/// found, with the attractors in that in which the states meet them.
+/// The basins made from labels that number the attractors in the order of finding; the attractors
+/// are renumbered in the order of the initial states.
 template <class Orbit>
 BasinsOf<Orbit> numbered_basins(std::vector<BasinLabel> labels, const std::vector<Orbit>& orbits) {
   BasinsOf<Orbit> basins{std::move(labels), {}};
@@ -76,15 +76,15 @@ BasinsOf<Orbit> numbered_basins(std::vector<BasinLabel> labels, const std::vecto
   return basins;
 }
 
-/// Result of a search for the orbit of one motion.
+/// The result of a search for the periodic orbit of one motion.
 template <class Orbit>
 struct FoundOrbit {
-  BasinLabel label;            ///< its attractor is the number of an orbit that was known
-  std::optional<Orbit> orbit;  ///< certified, and not known yet
+  BasinLabel label;            ///< its attractor is the number of an already known orbit
+  std::optional<Orbit> orbit;  ///< a certified orbit that was not known yet
 };
 
-/// A motion's own orbit, from a search for it.
-/// @tparam Result  an OrbitResultOf, or made of one
+/// The motion's orbit as found by a search of its own.
+/// @tparam Result  an OrbitResultOf, or derived from one
 template <class Result>
 auto own_orbit(Result found) {
   using Orbit = typename decltype(found.orbit)::value_type;
@@ -92,10 +92,10 @@ auto own_orbit(Result found) {
   return FoundOrbit<Orbit>{{found.outcome, -1}, std::move(found.orbit)};
 }
 
-/// Finds the labels of many initial states of one loop, in rounds: some of the states that are left
-/// are searched for their own orbits, one by one; then all that are left may move on together past
-/// the orbits known by now. Each round takes twice as many. Nothing depends on the order in which
-/// the parts of a round are done.
+/// The search for the labels of many initial states of one loop, in rounds. In a round some
+/// remaining states are searched for their own orbits, one by one; then all remaining motions may
+/// be followed together towards the orbits known so far. Each round takes twice as many. The result
+/// does not depend on the order in which the parts of a round are executed.
 /// @tparam Model  has search(motion, set), a FoundOrbit, and advance(motions, set, for_tiles),
 /// which
 ///                marks those that are attracted or diverge
@@ -128,7 +128,7 @@ class BasinSearch {
   }
 
  private:
-  /// Some of the motions that are left, evenly spread.
+  /// Takes out some of the remaining motions, evenly spread.
   std::vector<ActiveTrajectory> taken_out(std::size_t most) {
     const std::size_t all = left_.size(), count = std::min(most, all);
     std::vector<ActiveTrajectory> chosen, rest;
@@ -159,7 +159,7 @@ class BasinSearch {
   std::vector<BasinLabel> labels_;
 };
 
-/// The basins of a loop, on the model {loop, ratio, limits, …} of its motions.
+/// The basins of a loop, computed on the model {loop, ratio, limits, …} of its motions.
 template <class Model, class Tiles, class... More>
 auto basins_by(const typename Model::Loop& loop,
                const std::vector<Vector<double, 4>>& initial_states, const OrbitLimits& limits,
@@ -176,12 +176,12 @@ auto basins_by(const typename Model::Loop& loop,
       std::vector<BasinLabel>(initial_states.size(), {outcome, -1}), {}};
 }
 
-/// Motions of a loop that move on together; each may be searched for its own orbit.
+/// The motions of a loop that are followed together; each may be searched for its own orbit.
 /// @tparam LoopModel  IdealLoop<double>; ImplementedLoop in event_basins.hpp
 template <class LoopModel, class Propagator>
 struct BatchedMotions;
 
-/// Motions of an IdealLoop in a batch, each searched from where it stands.
+/// Motions of an IdealLoop followed in a batch; a search for an orbit starts at the present state.
 template <class Scalar, class Propagator>
 struct BatchedMotions<IdealLoop<Scalar>, Propagator> {
   using Loop = IdealLoop<Scalar>;
@@ -218,13 +218,13 @@ struct BatchedMotions<IdealLoop<Scalar>, Propagator> {
 
 }  // namespace detail
 
-/// find_basins() with another way to move the motions on.
-/// @param propagate       propagate(motion) gives what runs as a MotionBatch, to be copied; of an
-///                        ImplementedLoop propagate(loop, scheduler) moves them on
+/// The basins as find_basins() computes them, with another way of following the motions.
+/// @param propagate       propagate(motion) gives an object like MotionBatch, which is copied; for
+///                   an ImplementedLoop propagate(loop, scheduler) follows the motions
 /// @param loop            with its excitation and backlash; an ImplementedLoop has_event_pack()
 /// @param initial_states  each (m, m/s, m, m/s), finite; may be none
-/// @param limits          of each search for one motion's own orbit
-/// @param for_tiles       as find_basins() takes it
+/// @param limits          limits of each search for the orbit of a single motion
+/// @param for_tiles       see find_basins()
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Propagator, class Loop, class Tiles>
 auto find_basins_by(const Propagator& propagate, const Loop& loop,
@@ -236,17 +236,17 @@ auto find_basins_by(const Propagator& propagate, const Loop& loop,
 
 /// The attractor of each of many initial states [z₁, ż₁, z₂, ż₂].
 ///
-/// Distinct attractors are told apart by their orbits; copies of one that run some common periods
-/// of sampling and forcing later are the same attractor. An initial state counts as an attractor's
-/// only once its motion is in a neighbourhood from which it surely tends to it.
+/// Attractors are distinguished by their orbits; copies of an orbit shifted by common periods of
+/// sampling and forcing are the same attractor. An initial state is assigned to an attractor only
+/// once its motion is in a neighbourhood from which it surely tends to it.
 /// @param loop            the loop with its excitation and backlash
 /// @param initial_states  each (m, m/s, m, m/s), finite; may be none
-/// @param limits          of each search for one motion's own orbit; motions travel on in between,
-///                        so that more of them may be found than by searches alone
-/// @tparam Scalar         the lanes: `double`, or a SIMD pack
+/// @param limits          limits of each search for the orbit of a single motion; motions are
+///                followed in between too, so that more of them may be assigned
+/// @tparam Scalar         number type of the parallel motions: `double`, or a SIMD pack
 /// @param for_tiles       for_tiles(count, tile, job) calls job(first, number) for tiles that cover
-///                        0 … count − 1, on as many threads as it likes; the result does not depend
-///                        on it
+///                   0 … count − 1, on any number of threads; the result does not depend on their
+///                   order
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Scalar, class Tiles>
 BasinMap find_basins(const IdealLoop<double>& loop,

@@ -19,25 +19,25 @@ struct PhaseWindow {
       velocity_max;         ///< largest ż (m/s), outside it, > velocity_min
 };
 
-/// @throws InvalidParameter unless both sides of the window are positive and finite
+/// Validates a window. @throws InvalidParameter unless both sides are positive and finite
 inline void validate(const PhaseWindow& window) {
   require_positive("width of the phase window", window.displacement_max - window.displacement_min,
                    "m");
   require_positive("height of the phase window", window.velocity_max - window.velocity_min, "m/s");
 }
 
-/// Which cells of a phase-plane window the samples of a motion have visited.
+/// The set of cells of a phase-plane window that the samples of a motion have visited.
 ///
-/// A motion that is topologically transitive would fill the window as time grows; a periodic one
-/// stops at the cells of its orbit. Source of the question: Kollár 2022, Fig. 12.
+/// A topologically transitive motion would fill the window as time grows; a periodic one visits
+/// only the cells of its orbit. Source of the question: Kollár 2022, Fig. 12.
 /// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>
 template <class Plant>
 class CoverageOf {
  public:
-  /// @param window          with sides longer than zero
-  /// @param cells_per_side  1 … 10 000; the window has its square of cells
-  /// @param readings        how states of the plant are read
-  /// @throws InvalidParameter for an empty window or another number of cells
+  /// @param window          window whose sides are longer than zero
+  /// @param cells_per_side  1 … 10 000; the window has the square of this number of cells
+  /// @param readings        readings of the plant's state
+  /// @throws InvalidParameter where the window is empty or the number of cells is out of range
   CoverageOf(const PhaseWindow& window, std::size_t cells_per_side,
              const PortReadings<Plant>& readings = PortReadings<Plant>())
       : window_(window), side_(cells_per_side), readings_(readings) {
@@ -46,7 +46,7 @@ class CoverageOf {
     visited_cells_.assign(cells_per_side * cells_per_side, false);
   }
 
-  /// Marks the cell of a sample's (z, ż); of one outside the window nothing.
+  /// Marks the cell of a sample's (z, ż); a sample outside the window has no effect.
   /// @tparam Sample  MotionSample<double, N> or EventSampleOf<N>
   template <class Sample>
   void operator()(const Sample& sample) {
@@ -62,11 +62,11 @@ class CoverageOf {
 
   /// Number of cells of the window, visited or not.
   std::size_t cells() const { return visited_cells_.size(); }
-  /// Number of cells in which at least one sample has been.
+  /// Number of cells that contain at least one sample.
   std::size_t visited() const {
     return static_cast<std::size_t>(std::count(visited_cells_.begin(), visited_cells_.end(), true));
   }
-  /// visited() over cells(), 0 … 1.
+  /// The share visited() / cells(), 0 … 1.
   double visited_fraction() const {
     return static_cast<double>(visited()) / static_cast<double>(cells());
   }
@@ -82,7 +82,7 @@ class CoverageOf {
   std::vector<bool> visited_cells_;
 };
 
-/// Coverage of the plane by motions of the two masses.
+/// The coverage of the phase plane by motions of the two masses.
 using Coverage = CoverageOf<TwoMass<double>>;
 
 }  // namespace holdfast

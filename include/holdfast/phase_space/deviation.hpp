@@ -8,25 +8,25 @@
 
 namespace holdfast {
 
-/// How far two motions are apart at one sample.
+/// The difference of two motions at one sample.
 struct Deviation {
   double time;          ///< s
   double displacement;  ///< z of the second motion's conductor minus that of the first (m)
   double state;         ///< Euclidean norm of the difference of the states, N × 1, SI numbers
-  double rounding;  ///< what rounding alone makes of that: 2⁻⁵² times the larger state's norm
+  double rounding;      ///< bound of rounding in `state`: 2⁻⁵² times the larger state's norm
 
-  /// Whether it tells anything.
+  /// Whether the difference exceeds rounding.
   bool is_above_rounding() const { return state > rounding; }
 };
 
-/// Runs two motions of the same loop side by side and shows their deviation at each sample.
+/// Runs two motions of the same loop side by side and reports their difference at each sample.
 ///
-/// Neighbours that separate exponentially are a mark of chaos; Kollár 2022, Fig. 11 starts them
-/// z₁₀,b − z₁₀,a = 10⁻⁵ m apart.
+/// Exponential separation of neighbours is a mark of chaos; Kollár 2022, Fig. 11 starts with z₁₀,b
+/// − z₁₀,a = 10⁻⁵ m.
 /// @tparam Motion   SampledMotion or EventMotion, of a plant of any order
-/// @param first     before a sample, like `second`; both are left before the next one
-/// @param second    the motion whose deviation from the first is shown
-/// @param samples   how many are taken, fewer where the state leaves the range of numbers
+/// @param first     reference motion before a sample, like `second`; both end before the next one
+/// @param second    the motion whose difference from the first is reported
+/// @param samples   number of samples; fewer where a state leaves the range of numbers
 /// @param observer  called with a `Deviation` at each sample
 template <class Motion, class Observer>
 TrajectoryOutcome run_deviation(Motion& first, Motion& second, std::int64_t samples,

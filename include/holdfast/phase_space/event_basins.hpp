@@ -30,15 +30,15 @@ namespace holdfast {
 
 namespace detail {
 
-/// Neighbourhoods within a millionth of how far an orbit reaches (`StateScaleOf`).
+/// Neighbourhoods of an orbit as wide as a millionth of its extent (`StateScaleOf`).
 template <class Plant>
 struct Neighbourhoods<ImplementedLoopOf<Plant>> {
   using Orbit = EventOrbitOf<states_of<Plant>>;
 
   struct Point {
-    std::size_t sample;          ///< of the orbit
-    StateOf<Plant> state;        ///< there
-    StateScaleOf<Plant> extent;  ///< of the orbit
+    std::size_t sample;          ///< sample of the orbit
+    StateOf<Plant> state;        ///< state at that sample
+    StateScaleOf<Plant> extent;  ///< extent of the orbit
 
     double distance(const StateOf<Plant>& other) const { return extent.share_of(other - state); }
   };
@@ -66,24 +66,24 @@ struct Neighbourhoods<ImplementedLoopOf<Plant>> {
   static constexpr double nearness = 1e-6;
 };
 
-/// Whether a motion comes to an orbit of a set, told from its states at the stroboscopic instants
-/// and its modes in between.
-/// @tparam Plant  of an ImplementedLoopOf
+/// The test whether a motion comes to an orbit of a set, by its states at the stroboscopic instants
+/// and its contact modes in between.
+/// @tparam Plant  plant of an ImplementedLoopOf
 template <class Plant>
 class ApproachOf {
   using Attractors = AttractorSet<ImplementedLoopOf<Plant>>;
   using Orbit = typename Attractors::Orbit;
 
  public:
-  /// @param known    at least as long-lived
-  /// @param samples  after which it is given up
+  /// @param known    orbits of the set; they must outlive this object
+  /// @param samples  number of samples after which the test gives up
   /// @param period   q, samples from one stroboscopic instant to the next
   ApproachOf(const Attractors& known, std::int64_t samples, std::int64_t period)
       : known_(&known), samples_(samples), period_(period) {}
 
-  /// Takes the state at a stroboscopic instant, before the sample.
-  /// @param is_followed  the changes of contact do not accumulate
-  /// @return whether the motion is to go on to the next one
+  /// Examines the state at a stroboscopic instant, before the sample.
+  /// @param is_followed  false where changes of contact accumulate
+  /// @return whether the motion is to be followed to the next instant
   bool goes_on(const StateOf<Plant>& state, bool is_followed) {
     const bool followed = is_followed && state.cwiseAbs().maxCoeff() < 1e100;
     if (entry_ != nullptr) {
@@ -102,7 +102,7 @@ class ApproachOf {
     return true;
   }
 
-  /// Takes the mode of a sample.
+  /// Records the contact mode of a sample.
   void took(ContactMode mode) {
     ++taken_;
     if (entry_ == nullptr) return;
@@ -112,9 +112,9 @@ class ApproachOf {
     ++compared_;
   }
 
-  /// The number of the orbit that it comes to; −1: none.
+  /// The number of the orbit that the motion comes to; −1: none.
   int found() const { return orbit_; }
-  /// Samples between two stroboscopic instants.
+  /// The number of samples between two stroboscopic instants.
   std::int64_t period() const { return period_; }
 
  private:
@@ -129,8 +129,8 @@ class ApproachOf {
     keeps_ = true;
   }
 
-  /// After one of two periods of the orbit: whether the motion has kept to its modes and, after the
-  /// second, come nearer over both, over that one as its largest multiplier asks.
+  /// Whether the motion, after one of two orbit periods, has the orbit's modes and, after the
+  /// second, came nearer over both, in the last as fast as the largest multiplier requires.
   bool keeps_course(const StateOf<Plant>& state) {
     if (!keeps_) return false;
     distances_[++periods_] = entry_->point.distance(state);
@@ -154,8 +154,8 @@ class ApproachOf {
   double distances_[3] = {};
 };
 
-/// The number of the orbit of a set that a motion comes to; −1: none in so many samples.
-/// @param start  at a stroboscopic instant (sampling and forcing in phase)
+/// The number of the orbit of a set that a motion comes to; −1: none within the given samples.
+/// @param start  the motion at a stroboscopic instant (sampling and forcing in phase)
 template <class Contact, class Attractors>
 int approached_orbit(const EventMotion<Contact>& start, const Rational& ratio,
                      const Attractors& known, const OrbitLimits& limits, std::int64_t samples) {
@@ -171,8 +171,8 @@ int approached_orbit(const EventMotion<Contact>& start, const Rational& ratio,
   return approach.found();
 }
 
-/// Within so many samples most motions that come to one of the orbits are near it: those in which a
-/// deviation shrinks by 10⁸, and a few periods.
+/// The number of samples in which most motions that come to one of the orbits are near it: as many
+/// as shrink a deviation by 10⁸, and a few periods more.
 template <class Orbit>
 std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limits) {
   double samples = 0.0;
@@ -186,16 +186,16 @@ std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limit
   return static_cast<std::int64_t>(std::min(samples, static_cast<double>(most)));
 }
 
-/// Hands motions of two masses out to lanes that go past the orbits of a set together, and marks
-/// those that come to one.
+/// The lanes' motions of two masses, followed towards the orbits of a set: gives each lane its next
+/// motion and notes the orbit that a motion comes to.
 /// @tparam Plant  TwoMass<double>
 template <class Plant = TwoMass<double>>
 class EventScheduler final : public LaneScheduler {
  public:
   using Approach = ApproachOf<Plant>;
 
-  /// @param motions  `count` of them
-  /// @param fresh    an approach that has not begun
+  /// @param motions  array of `count` motions
+  /// @param fresh    an approach before its first state
   EventScheduler(ActiveTrajectory* motions, std::size_t count, const Approach& fresh,
                  const OrbitLimits& limits)
       : next_(motions), end_(motions + count), fresh_(fresh), limits_(limits) {}
@@ -229,9 +229,9 @@ class EventScheduler final : public LaneScheduler {
   std::array<std::optional<Place>, 8> places_;
 };
 
-/// Motions of an ImplementedLoopOf a plant: each goes past the orbits that the rounds before have
-/// found, and is searched for its own where it comes to none of them.
-/// @tparam Begin  [z₁, ż₁, z₂, ż₂] ↦ x
+/// The motions of an ImplementedLoopOf any plant: each is tested for the orbits found in earlier
+/// rounds and searched for its own orbit where it comes to none of them.
+/// @tparam Begin  map [z₁, ż₁, z₂, ż₂] ↦ x
 template <class LoopModel, class Begin>
 struct SingleMotions {
   using Loop = LoopModel;
@@ -252,13 +252,13 @@ struct SingleMotions {
     return own_orbit(find_event_orbit(motion, limits));
   }
 
-  /// They move on in their searches alone.
+  /// Does nothing: these motions are followed in their searches only.
   template <class Tiles>
   void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
 };
 
-/// Motions of an ImplementedLoop that has_event_pack(): all that are left go past the orbits that
-/// are known by now side by side, from their begins.
+/// The motions of an ImplementedLoop that has_event_pack(): all remaining ones are followed side by
+/// side, from their initial states, towards the orbits known so far.
 template <class Plant, class Propagator>
 struct BatchedMotions<ImplementedLoopOf<Plant>, Propagator> {
   using Loop = ImplementedLoopOf<Plant>;
@@ -293,17 +293,17 @@ struct BatchedMotions<ImplementedLoopOf<Plant>, Propagator> {
 
 }  // namespace detail
 
-/// find_basins() of an implemented loop.
+/// The basins of an implemented loop, as find_basins() of an IdealLoop.
 ///
-/// A motion is an attractor's where its own search certifies that orbit, or where it comes within a
-/// millionth of the extent of an orbit that another search has certified, keeps to its modes for
-/// two periods and comes nearer over both, over the second by 0.9 of the decay (in logarithms) that
-/// the largest multiplier asks.
-/// @param loop            as it is built
+/// A motion is assigned to an attractor where its own search certifies that orbit. It is assigned
+/// too where it comes within a millionth of the extent of an already certified orbit, has its modes
+/// for two periods and comes nearer over both, in the second by 0.9 of the decay (in logarithms)
+/// given by the largest multiplier.
+/// @param loop            the loop with its implemented hardware
 /// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none
-/// @param limits          of each search for one motion's own orbit
-/// @param for_tiles       as find_basins() of an IdealLoop takes it
-/// @param begin           such a state ↦ x of the plant, N × 1
+/// @param limits          limits of each search for the orbit of a single motion
+/// @param for_tiles       see find_basins() of an IdealLoop
+/// @param begin           map from such a state to the plant's state x, N × 1
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Plant, class Tiles, class Begin>
 BasinsOf<EventOrbitOf<states_of<Plant>>> find_basins(
@@ -312,7 +312,7 @@ BasinsOf<EventOrbitOf<states_of<Plant>>> find_basins(
   return detail::basins_by<detail::SingleMotions<ImplementedLoopOf<Plant>, Begin>>(
       loop, initial_states, limits, for_tiles, begin);
 }
-/// Finds the basins of two masses, whose initial states are taken as they are.
+/// The basins of two masses, whose initial states need no conversion.
 template <class Tiles>
 BasinsOf<EventOrbit> find_basins(const ImplementedLoop& loop,
                                  const std::vector<Vector<double, 4>>& initial_states,

@@ -20,23 +20,23 @@ class LaneScheduler {
   LaneScheduler& operator=(const LaneScheduler&) = delete;
   virtual ~LaneScheduler() = default;
 
-  /// Gives a lane its next motion from `start` [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s). @return false
-  /// where none is left
+  /// Assigns a lane its next motion from `start` [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s). @return false
+  /// where no motion is left
   virtual bool next(std::size_t lane, Vector<double, 4>& start) = 0;
-  /// Takes the state of a lane's motion at a stroboscopic instant. @return whether it goes on
+  /// Examines a lane's state at a stroboscopic instant. @return whether the motion continues
   virtual bool goes_on(std::size_t lane, const Vector<double, 4>& state, bool is_followed) = 0;
-  /// Takes the mode of a lane's motion at a sample.
+  /// Records the contact mode of a lane's motion at a sample.
   virtual void took(std::size_t lane, ContactMode mode) = 0;
-  /// q, samples from one stroboscopic instant to the next.
+  /// The number q of samples from one stroboscopic instant to the next.
   virtual std::int64_t period() const = 0;
 };
 
-/// Moves motions of one loop with exact switching on side by side, a lane taking the next one at
-/// the stroboscopic instant at which its own has ended. Samples are counted from each of those
-/// instants, so that no rounding of late instants lets sampling and forcing drift apart.
-/// @param loop        of which has_event_pack(), whose sampling and forcing coincide every
-///                    scheduler.period() samples
-/// @param scheduler  hands the motions out
+/// Follows motions of one loop with exact switching side by side. A lane starts its next motion at
+/// the stroboscopic instant at which the previous one ended. Samples are counted from each of those
+/// instants, so that rounding of late instants cannot shift sampling against forcing.
+/// @param loop        loop that has_event_pack(), whose sampling and forcing coincide every
+///              scheduler.period() samples
+/// @param scheduler  assigns the motions to the lanes
 /// @throws InvalidParameter where the loop is not admissible
 template <class Scalar>
 void run_on_lanes(const ImplementedLoop& loop, LaneScheduler& scheduler) {

@@ -21,17 +21,17 @@
 namespace holdfast {
 namespace detail {
 
-/// The regions of attraction of the orbits of a conductor by its modes, each about the first sample
+/// The regions of attraction of the orbits of a conductor by its modes, each around the first state
 /// of its orbit.
 template <class Loop>
 struct ModalNeighbourhoods {
   using Orbit = PeriodicOrbit;
 
   struct Point {
-    Vector<double, 4> state;  ///< the orbit's first
+    Vector<double, 4> state;  ///< first state of the orbit
     ModalAttraction region;
   };
-  /// A motion at a stroboscopic instant.
+  /// The state of a motion at a stroboscopic instant.
   struct Seen {
     const ModalMotion& motion;
     Vector<double, 4> state;
@@ -52,7 +52,7 @@ struct ModalNeighbourhoods {
     if (!region) return {};
     return {{orbit.states.front().template head<4>(), *region}};
   }
-  /// A region is no ball in z₁: none is passed over.
+  /// Infinite: a region is no ball in z₁, so that every region must be tested.
   double reach(const Point&) const { return std::numeric_limits<double>::infinity(); }
   bool holds(const Point& point, const Seen& seen) const {
     return attracts(point.region, seen.motion, maps->units());
@@ -64,8 +64,8 @@ struct Neighbourhoods<ModalLoop> : ModalNeighbourhoods<ModalLoop> {
   using ModalNeighbourhoods<ModalLoop>::ModalNeighbourhoods;
 };
 
-/// Motions of a conductor by its modes: each goes past the regions that the rounds before have
-/// found, and is searched for its own orbit where it comes into none of them.
+/// Motions of a conductor by its modes: each is tested for the regions found in earlier rounds and
+/// searched for its own orbit where it enters none of them.
 template <class LoopModel>
 struct ModalMotions {
   using Loop = LoopModel;
@@ -87,12 +87,12 @@ struct ModalMotions {
     return own_orbit(orbit_by_returns(loop, ratio, limits, start, ModalRegion<Loop>(loop, maps)));
   }
 
-  /// They move on in their searches alone.
+  /// Does nothing: these motions are followed in their searches only.
   template <class Tiles>
   void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
 
  private:
-  /// The orbit of `known` whose region the motion comes into; −1: none while one may expect it to.
+  /// The orbit of `known` whose region the motion enters; −1: none within the expected time.
   int attracted(ModalMotion motion, const AttractorSet<Loop>& known) const {
     const std::int64_t most = patience(known.orbits(), limits);
     for (std::int64_t j = 0; j < most; ++j) {
@@ -112,14 +112,14 @@ struct ModalMotions {
 
 }  // namespace detail
 
-/// find_basins() of a conductor by its modes: a motion is an attractor's where its own search
-/// certifies that orbit, or once it is in the region of attraction of one that another search has
-/// certified.
+/// The basins of a conductor by its modes, as find_basins(): a motion is assigned to an attractor
+/// where its own search certifies that orbit, or once it is in the region of attraction of an
+/// already certified one.
 /// @param loop            with its excitation and backlash
-/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite: the conductor as a force
-///                        at the absorber bends it, and with the speeds that a blow there gives it
-/// @param limits          of each search for one motion's own orbit
-/// @param for_tiles       as find_basins() of an IdealLoop takes it
+/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite: the conductor bent by a
+///                        force at the absorber, with the velocities that a blow there causes
+/// @param limits          limits of each search for the orbit of a single motion
+/// @param for_tiles       see find_basins() of an IdealLoop
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Loop, class Tiles, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 BasinMap find_basins(const Loop& loop, const std::vector<Vector<double, 4>>& initial_states,

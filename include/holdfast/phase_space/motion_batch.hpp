@@ -16,21 +16,21 @@
 
 namespace holdfast {
 
-/// Memory of a motion of the sampled loop with backlash.
+/// The memory of a motion of the sampled loop with backlash: state and drive.
 template <class Scalar>
 using ForcedMotionMemory = MotionMemory<Scalar, BacklashMemory<Scalar>>;
 
-/// A motion that begins at rest in its drive.
+/// The memory of a motion that begins with its drive at rest.
 inline ForcedMotionMemory<double> memory_of_start(const Vector<double, 4>& initial_state) {
   return {initial_state, 0.0, {false, 0.0, 0.0, 0.0}};
 }
 
-/// One of many motions on its way to an orbit.
+/// One of many motions that are followed towards an orbit.
 struct ActiveTrajectory {
-  std::size_t number;                 ///< the caller's
+  std::size_t number;                 ///< number given by the caller
   ForcedMotionMemory<double> memory;  ///< at a stroboscopic instant (sampling and forcing in phase)
-  int orbit = -1;                     ///< of the set, once attracted
-  bool diverged = false;  ///< an entry of its state has reached 10¹⁰⁰, or is no number
+  int orbit = -1;                     ///< number of the attracting orbit of a set; −1 before
+  bool diverged = false;  ///< an entry of its state has reached 10¹⁰⁰ or is not a number
 };
 
 namespace detail {
@@ -51,7 +51,7 @@ ForcedMotionMemory<Scalar> packed_memory(const OfLane& of_lane) {
            number([](const Memory& of) { return of.backlash.previous_velocity; })}};
 }
 
-/// The memory of one lane.
+/// The memory of a single lane.
 template <class Scalar>
 ForcedMotionMemory<double> memory_of_lane(const ForcedMotionMemory<Scalar>& memory,
                                           std::size_t lane) {
@@ -66,23 +66,23 @@ ForcedMotionMemory<double> memory_of_lane(const ForcedMotionMemory<Scalar>& memo
 
 }  // namespace detail
 
-/// Moves many motions of one loop on until each is attracted by an orbit of a set, diverges,
-/// or has gone a given number of samples: as many at a time as `Scalar` has lanes, a lane taking
-/// the next motion as soon as its own has ended.
+/// The batch of motions of one loop, followed until each is attracted by an orbit of a set,
+/// diverges, or has passed a given number of samples. As many are followed at a time as `Scalar`
+/// has lanes; a lane starts the next motion as soon as its own has ended.
 template <class Scalar>
 class MotionBatch {
  public:
-  /// @param motion  of the loop, at a stroboscopic instant; its state does not matter
+  /// @param motion  any motion of the loop at a stroboscopic instant; its state is not used
   explicit MotionBatch(const PeriodicallyForcedMotion<double>& motion)
       : motion_(in_every_lane(motion, Vector<Scalar, 4>::Constant(Scalar(0)).eval())) {}
 
-  /// @param motions        attracted and diverged ones are marked, the others have moved on by at
-  ///                       least `samples` samples, a whole number of common periods
+  /// @param motions        attracted and diverged ones are marked; the others are advanced by at
+  ///                 least `samples` samples, a whole number of common periods
   /// @param count          number of motions, ≥ 0
-  /// @param samples        ≥ 1
-  /// @param attractor_set  of orbits of the same loop: AttractorSet, or what else has an
+  /// @param samples        number of samples, ≥ 1
+  /// @param attractor_set  orbits of the same loop: an AttractorSet, or any type with
   ///                       attracted_by(memory)
-  /// @throws InvalidParameter for less than one sample
+  /// @throws InvalidParameter where `samples` is less than 1
   template <class Attractors>
   void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
            const Attractors& attractor_set) {
@@ -110,7 +110,7 @@ class MotionBatch {
     std::int64_t looks_left = 0;
   };
 
-  /// Moves all lanes on; an empty one is at rest.
+  /// Advances all lanes; a lane without a motion is at rest.
   void advance(std::int64_t samples) {
     motion_.restore(
         detail::packed_memory<Scalar>([&](std::size_t lane) -> const ForcedMotionMemory<double>& {
@@ -126,7 +126,7 @@ class MotionBatch {
         places_[lane].motion->memory = detail::memory_of_lane(memory, lane);
   }
 
-  /// Whether a lane's motion has ended, or its samples have.
+  /// Whether a lane's motion has ended or used up its samples.
   template <class Attractors>
   static bool has_ended(Place& place, const Attractors& attractor_set) {
     ActiveTrajectory& motion = *place.motion;

@@ -22,43 +22,43 @@
 
 namespace holdfast {
 
-/// Where the search of a periodic motion of a cell began.
+/// The start of the search that found a periodic motion of a cell.
 enum class MotionOrigin {
-  start,      ///< at the initial state
-  state,      ///< at another one that was given
-  continued,  ///< a neighbour's motion, continued by the order in which it switches
-  neighbour,  ///< at the state of a neighbour's motion that does not go on as it is
+  start,      ///< the initial state
+  state,      ///< another given state
+  continued,  ///< a neighbour's motion, continued by the order of its switches
+  neighbour,  ///< the state of a neighbour's motion that has no continuation here
 };
 
-/// A periodic motion of a cell: certified and attracting.
+/// A periodic motion of a cell, certified and attracting.
 struct MappedMotion {
-  std::int64_t period_samples;   ///< N
+  std::int64_t period_samples;   ///< number N of samples in a period
   double period;                 ///< N τ (s)
-  std::int64_t forcing_periods;  ///< in one of the motion
+  std::int64_t forcing_periods;  ///< periods of the forcing in one of the motion
   double amplitude;              ///< largest |z₁| (m) at a sample
-  double largest_multiplier;     ///< largest modulus
+  double largest_multiplier;     ///< largest modulus of the multipliers
   double border_share;           ///< PeriodicOrbit::border_share(), EventOrbit::border_share()
-  MotionOrigin origin;           ///< how it was found
+  MotionOrigin origin;           ///< start of the search that found it
 };
 
 /// One cell of a map and the motions found there.
 struct MapCell {
   /// Outcome of the motion from the initial state: `certified`, or why it has no orbit.
   OrbitOutcome outcome = OrbitOutcome::none_found;
-  std::vector<MappedMotion> motions;  ///< different ones; that from the initial state is the first
+  std::vector<MappedMotion> motions;  ///< distinct; that from the initial state is the first
 
-  /// The motion from the initial state; null where it comes to none.
+  /// The motion from the initial state; null where it comes to no periodic motion.
   const MappedMotion* from_start() const {
     return outcome == OrbitOutcome::certified ? &motions.front() : nullptr;
   }
 };
 
-/// How a plane of two parameters is cut into cells.
+/// The division of a plane of two parameters into cells.
 struct MapShape {
-  std::size_t rows;     ///< of the first parameter, the slower one; ≥ 1
-  std::size_t columns;  ///< of the second one; ≥ 1
+  std::size_t rows;     ///< number of values of the first parameter, the slower one; ≥ 1
+  std::size_t columns;  ///< number of values of the second one; ≥ 1
 
-  /// rows × columns, row by row.
+  /// The number of cells, rows × columns, stored row by row.
   std::size_t cells() const { return rows * columns; }
 };
 
@@ -75,13 +75,13 @@ MappedMotion mapped(const Orbit& orbit, MotionOrigin origin) {
           origin};
 }
 
-/// The motions of IdealLoops: what a cell keeps of one, and how another cell goes on from it.
+/// The map model of IdealLoops: the data kept of a motion and its continuation in another cell.
 template <class Scalar>
 struct SampledMapModel {
   using Loop = IdealLoop<Scalar>;
   using Orbit = PeriodicOrbit;
 
-  /// The itinerary decides the orbit.
+  /// The data from which a motion is continued: its itinerary determines the orbit.
   struct Seed {
     Rational ratio;
     Itinerary itinerary;
@@ -121,7 +121,7 @@ struct SampledMapModel {
   }
 
  private:
-  /// With a gap as wide as the loop's, about the middle of the other one and where the drive is.
+  /// The memory with a gap as wide as the loop's, centred as before as far as Δz stays inside.
   static ForcedMotionMemory<Scalar> resized(ForcedMotionMemory<Scalar> memory, const Loop& loop) {
     auto& gap = memory.backlash;
     const Scalar half = loop.backlash_width / 2.0, here = relative_displacement(memory.state);
@@ -159,14 +159,14 @@ struct EventMapModel {
     return continued_orbit(loop, seed);
   }
 
-  /// It begins engaged.
+  /// The motion in another cell, started from a neighbour's state with the drive engaged.
   Result from_neighbour(const Loop& loop, const Rational&, const Seed& seed) const {
     return from_start(loop, seed.states.front());
   }
 };
 
-/// Finds the motions of all cells: from the initial state first, then in rounds from those that
-/// the neighbours have found in the round before, until there are no new ones.
+/// The search for the motions of all cells: first from the initial state, then in rounds from the
+/// motions that the neighbours found in the previous round, until no new ones appear.
 template <class Model, class LoopAt, class Tiles>
 class MotionMapSearch {
   using Seed = typename Model::Seed;
@@ -177,7 +177,7 @@ class MotionMapSearch {
                   const Tiles& for_tiles)
       : model_(model), loop_at_(loop_at), shape_(shape), for_tiles_(for_tiles) {}
 
-  /// @param starts  the initial state, and others
+  /// @param starts  the initial state, then the other given states
   std::vector<MapCell> run(const std::vector<State>& starts, int most_rounds) {
     cells_.resize(shape_.cells());
     seeds_.resize(shape_.cells());
@@ -202,7 +202,7 @@ class MotionMapSearch {
     });
   }
 
-  /// Makes the finds of a round known to the neighbours. @return whether there are any
+  /// Passes the finds of a round to the neighbours. @return whether there are any
   bool take_over() {
     bool any = false;
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
@@ -278,29 +278,29 @@ class MotionMapSearch {
 
 }  // namespace detail
 
-/// How a map is searched.
+/// The options of the search of a map.
 struct MotionMapOptions {
-  /// Limits of each search; motions of longer periods are not found.
+  /// The limits of each search; motions with longer periods are not found.
   OrbitLimits limits{10000, 0, {}};
-  int most_rounds = 1000;  ///< after the first one; 0: from the initial states alone
+  int most_rounds = 1000;  ///< rounds after the first one; 0: only the initial states are used
   std::vector<Vector<double, 4>> more_starts =
-      {};  ///< other states to search each cell from (m, m/s, m, m/s), finite
+      {};  ///< further initial states for each cell (m, m/s, m, m/s), finite
 };
 
-/// The periodic motions of many loops that lie beside one another in a plane of two parameters.
+/// The map of periodic motions of many loops on a grid in a plane of two parameters.
 ///
-/// Each cell is searched from the initial state and what others are given, then from the motions of
-/// its neighbours: by their itinerary where it is that of a motion here too, else from their state;
-/// so until no cell finds another motion. What a cell does not have may still be there: a motion
-/// that no neighbour and no such start comes to. The result depends on no order in which cells are
-/// done.
-/// @param loop_at    (cell) ↦ std::optional<IdealLoop<double>>, or of an ImplementedLoop: nothing
-///                   where the parameters are not admissible; called from many threads
-/// @param shape      of the plane
+/// Each cell is searched from the initial state and the other given states, then from the motions
+/// of its neighbours: by their itinerary where it is that of a motion here too, else from their
+/// state. This ends when no cell finds another motion. A cell may still lack a motion that no
+/// neighbour has and no given state comes to. The result does not depend on the order in which the
+/// cells are computed.
+/// @param loop_at    (cell) ↦ std::optional<IdealLoop<double>>, or of an ImplementedLoop; empty
+///                 where the parameters are not admissible; called from many threads
+/// @param shape      number of rows and columns
 /// @param start      [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite
-/// @param for_tiles  as find_basins() takes it
-/// @param options    how it is searched
-/// @return a cell for each, row by row
+/// @param for_tiles  see find_basins()
+/// @param options    options of the search
+/// @return one entry for each cell, row by row
 /// @throws InvalidParameter where start or limits are not admissible
 template <class LoopAt, class Tiles>
 std::vector<MapCell> motion_map(const LoopAt& loop_at, const MapShape& shape,

@@ -28,14 +28,14 @@
 
 namespace holdfast {
 
-/// Options of an orbit diagram: what it shows at each value of its parameter.
+/// The options of an orbit diagram for each value of its parameter.
 struct DiagramOptions {
-  double transient = 30.0;           ///< s, ≥ 0: left out at each value
-  int strobes = 50;                  ///< 1 … 10⁶: forcing periods that are shown
-  std::function<void()> watch = {};  ///< called now and then; may throw to end the diagram
+  double transient = 30.0;  ///< s, ≥ 0: time left out at each value
+  int strobes = 50;         ///< 1 … 10⁶: number of forcing periods plotted at each value
+  std::function<void()> watch = {};  ///< called from time to time; may throw to end the diagram
 };
 
-/// @throws InvalidParameter where it is not admissible
+/// Validates the options. @throws InvalidParameter where they are not admissible
 inline void validate(const DiagramOptions& options) {
   require_non_negative("transient", options.transient, "s");
   require_within("number of strobes", options.strobes, "", 1.0, 1e6);
@@ -43,16 +43,16 @@ inline void validate(const DiagramOptions& options) {
 
 /// One point of an orbit diagram.
 struct StrobePoint {
-  std::size_t index;  ///< of the parameter's value
-  bool upward;        ///< on the way up, the values in their order; else on the way back
-  /// [z, ż, z₂, ż₂] (m, m/s, m, m/s), conductor and absorber on both sides of the gap, at a whole
-  /// number of forcing periods.
+  std::size_t index;  ///< index of the parameter's value
+  bool upward;        ///< on the way up through the values; else on the way back
+  /// State [z, ż, z₂, ż₂] (m, m/s, m, m/s) of conductor and absorber, on both sides of the gap,
+  /// after a whole number of forcing periods.
   Vector<double, 4> state;
 };
 
 namespace detail {
 
-/// The state of the loops on a path.
+/// The type of the state of the loops along the parameter.
 template <class Loop>
 struct StateOfLoop {
   using Type = StateOf<std::decay_t<decltype(std::declval<const Loop&>().plant)>>;
@@ -65,18 +65,18 @@ template <class Family>
 using StateOfFamily =
     typename StateOfLoop<std::decay_t<decltype(std::declval<const Family&>()(0.0))>>::Type;
 
-/// Whether a motion of the loop may begin with a state: whether that has its order.
+/// Whether a state has the order of the loop, so that a motion may begin with it.
 template <class Plant>
 bool may_begin_with(const ImplementedLoopOf<Plant>& loop, const StateOf<Plant>& state) {
   return loop.plant.state_matrix().rows() == state.size();
 }
-/// Always so of a conductor: with more or fewer modes it keeps the slow ones (`show_strobes`).
+/// Always true for a conductor: a change of the number of modes preserves the slow ones.
 inline bool may_begin_with(const ModalLoop&, const ModalMotion::Full&) { return true; }
 
-/// Shows both sides of the gap once every forcing period after the transient; leaves the last state
-/// in `state`. @return false where it leaves the range of numbers
-/// @param state  the initial one
-/// @throws InvalidParameter where the force has no harmonic
+/// Reports both sides of the gap once every forcing period after the transient and leaves the last
+/// state in `state`. @return false where it leaves the range of numbers
+/// @param state  the initial state, replaced by the last one
+/// @throws InvalidParameter where the force has no harmonic component
 template <class Plant, class Observer>
 bool show_strobes(const ImplementedLoopOf<Plant>& loop, const DiagramOptions& options,
                   StateOf<Plant>& state, Observer&& observer) {
@@ -114,9 +114,9 @@ bool show_strobes(const ImplementedLoopOf<Plant>& loop, const DiagramOptions& op
   return true;
 }
 
-/// ξ of a motion some time after its present sample, which it has taken.
-/// @param after  s, < τ
-/// @param force  what it has decided at that sample (N)
+/// The modal amplitudes ξ of a motion some time after its present sample, which was already taken.
+/// @param after  time after the sample (s), < τ
+/// @param force  the force decided at that sample (N)
 inline Eigen::VectorXcd amplitudes_after(const NaturalMotions& motions, const ModalMotion& motion,
                                          const HarmonicExcitation<double>& excitation, double after,
                                          double force) {
@@ -133,8 +133,8 @@ inline Eigen::VectorXcd amplitudes_after(const NaturalMotions& motions, const Mo
   return amplitudes;
 }
 
-/// Shows the strobes of a conductor by its modes.
-/// @throws InvalidParameter where its natural motions are not all found
+/// Reports the stroboscopic states of a conductor by its modes.
+/// @throws InvalidParameter where some of its natural motions were not found
 template <class Observer>
 bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMotion::Full& state,
                   Observer&& observer) {
@@ -173,27 +173,27 @@ bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMot
 
 }  // namespace detail
 
-/// An orbit diagram (bifurcation diagram): stroboscopic states against a parameter, the parameter
-/// going up through its values and back, each motion beginning where the last one ended, at the
-/// excitation's peak. Where the two ways differ, attractors may coexist, if the transient is over
-/// and the strobes cover the period.
+/// The orbit diagram (bifurcation diagram): stroboscopic states at the excitation's peak, plotted
+/// against a parameter that goes up through its values and back. Each motion begins where the
+/// previous one ended. Where the two ways differ, attractors may coexist, provided that the
+/// transient is over and the plotted states cover the period.
 ///
-/// The strobes are at whole periods of the first harmonic of the force, from t = 0 on; where there
-/// are more harmonics or a record, a motion begins with them at t = 0 again, and only a common
-/// period keeps their phases from one motion to the next.
+/// The stroboscopic instants are whole periods of the force's first harmonic, counted from t = 0.
+/// With further harmonics or a recorded force each motion restarts them at t = 0; then only a
+/// common period preserves their phases from one motion to the next.
 ///
-/// The drive begins outside its backlash at each value (a dead zone where the state is), the
-/// computer without a memory of the past. A motion that diverges shows no more of itself, and
-/// the next one begins at the initial state; so does one whose loop has another order than that
-/// before, as where commands on their way become more.
+/// At each value the drive begins outside its backlash (a dead zone where the state is) and the
+/// computer without memory of the past. A diverging motion is not plotted further, and the next one
+/// begins at the initial state. This happens too where the loop's order changes, for instance by
+/// more delayed commands.
 /// @param family         parameter ↦ ImplementedLoopOf<Plant>, or ModalLoop
-/// @param values         of the parameter, in their order
-/// @param initial_state  a state, or parameter ↦ state
-/// @param options        how much is left out and shown at each value
+/// @param values         values of the parameter, in their order
+/// @param initial_state  a state, or a map parameter ↦ state
+/// @param options        transient and number of plotted states at each value
 /// @param observer       called with each `StrobePoint`
-/// @return how many of the motions, two for each value, diverged
-/// @throws InvalidParameter where the question or a loop is not admissible, or its force has no
-/// harmonic
+/// @return number of diverged motions; there are two motions for each value
+/// @throws InvalidParameter where an option or a loop is not admissible, or its force has no
+/// harmonic component
 template <class Family, class Initial, class Observer>
 std::size_t run_orbit_diagram(const Family& family, const std::vector<double>& values,
                               const Initial& initial_state, const DiagramOptions& options,

@@ -20,30 +20,30 @@
 
 namespace holdfast {
 
-/// A point of the Poincaré section Δż = 0, where the absorber and the conductor have the same
-/// velocity: the drive reverses there.
+/// A point of the Poincaré section Δż = 0, where absorber and conductor have the same velocity and
+/// the drive reverses.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct SectionPointOf {
   double time;                   ///< s
   Vector<double, States> state;  ///< x, N × 1, with Δż = 0; of the two masses (m, m/s, m, m/s)
-  bool rising;                   ///< Δż goes from negative to positive
-  bool engaged;                  ///< the drive transmits from here on
+  bool rising;                   ///< whether Δż changes from negative to positive
+  bool engaged;                  ///< whether the drive transmits from this instant on
 };
 
-/// Point of the section of the two masses, [z₁, ż₁, z₂, ż₂] with ż₂ = ż₁.
+/// A point of the section of the two masses, [z₁, ż₁, z₂, ż₂] with ż₂ = ż₁.
 using SectionPoint = SectionPointOf<4>;
 
 namespace detail {
 
-/// Sign and zeros of Δż that the contact tells for the part of a sampling period that begins now.
+/// Sign and zeros of Δż that follow from the contact, for the rest of a sampling period.
 struct KnownVelocity {
-  int zeros = 0;      ///< how many of Δż, Δz̈, … are zero at its beginning
-  double sign = 0.0;  ///< the sign that Δż keeps all through it, ±1; 0: not told
+  int zeros = 0;      ///< how many of Δż, Δz̈, … vanish at its beginning
+  double sign = 0.0;  ///< constant sign of Δż in it, ±1; 0: not determined
 };
 
-/// @param guards    of the present mode
-/// @param readings  of the plant
+/// @param guards    guards of the present mode
+/// @param readings  readings of the plant
 template <int States, class Readings>
 KnownVelocity known_velocity(const GuardsOf<States>& guards, const Readings& readings) {
   const Vector<double, States> velocity = readings.velocity_row();
@@ -63,22 +63,22 @@ KnownVelocity known_velocity(const GuardsOf<States>& guards, const Readings& rea
   return known;
 }
 
-/// The sign that p(x) has just after x = 0; 0 where p is zero.
+/// The sign of p(x) just after x = 0; 0 where p vanishes identically.
 inline double leading_sign(const Series& p) {
   for (Eigen::Index k = 0; k < p.size(); ++k)
     if (p[k] != 0.0) return p[k] > 0.0 ? 1.0 : -1.0;
   return 0.0;
 }
 
-/// Follows the sign of Δż along a motion and shows where it changes: an observer of
-/// EventMotion::advance.
+/// The observer of EventMotion::advance that follows the sign of Δż along a motion and reports its
+/// changes.
 template <class Contact, class Observer>
 class TurnFinder {
   using Motion = EventMotion<Contact>;
   using Part = typename DenseOutput<Contact>::Part;
 
  public:
-  /// Both must outlive the finder.
+  /// The motion and the observer must outlive this object.
   TurnFinder(const Motion& motion, Observer& observer)
       : motion_(&motion), observer_(&observer), trace_(motion) {
     const bool sticks = motion.contact().word() == ContactMode::stick;
@@ -118,19 +118,19 @@ class TurnFinder {
     search(part, known.zeros);
   }
 
-  /// The sides of the drive stay together: one turn, however the motion goes on.
+  /// Handles a stretch in which both sides of the drive stay together: it is one turning point.
   void rest(const Part& part) {
     if (sign_ != 0.0) show(part, 0.0, sign_ < 0.0);
     sign_ = 0.0;
   }
 
-  /// From x on Δż has a sign; where it had the other one before, Δz turns at x.
+  /// Sets the sign of Δż from x on; where the sign was the other one before, Δz turns at x.
   void take_sign(const Part& part, double x, double sign) {
     if (sign_ * sign < 0.0) show(part, x, sign > 0.0);
     sign_ = sign;
   }
 
-  /// @param zeros  of Δż and its derivatives at the beginning of the part
+  /// @param zeros  how many of Δż and its derivatives vanish at the beginning of the part
   void search(const Part& part, int zeros) {
     const auto& states = part.state.coefficients();
     const double size = velocity_size(states);
@@ -158,7 +158,7 @@ class TurnFinder {
     }
   }
 
-  /// Σ |r_i| Σ_k |x_ik| of the coefficients x of a state, Δż = r x: no Δż in the part is larger.
+  /// The bound Σ |r_i| Σ_k |x_ik| of |Δż| = |r x| in a part, x_ik being the coefficients of x.
   template <class Coefficients>
   double velocity_size(const Coefficients& states) const {
     const typename Motion::State row = motion_->readings().velocity_row();
@@ -183,23 +183,23 @@ class TurnFinder {
 
 }  // namespace detail
 
-/// Runs a motion and shows every turn of Δz: every change of the sign of Δż, found between the
-/// samples as a first root of its Taylor series (math/roots/first_root.hpp), so that none is
-/// missed.
+/// Runs a motion and reports every turning point of Δz: every change of sign of Δż, found between
+/// the samples as a first root of its Taylor series (math/roots/first_root.hpp), so that none is
+/// passed over.
 ///
 ///     auto motion = event_motion(implemented_loop(loop), Vector<double, 4>::Zero().eval());
 ///     run_section(motion, samples, [](const SectionPoint& at) { … });
 ///
-/// A stick, Δż = 0 for some time, is one point, at its beginning, whether Δz goes back or on
-/// afterwards (the next point then has the same `rising`); `rising` tells that Δż came to zero from
-/// below. A point is `engaged` where the drive transmits all of the command from it on: with exact
-/// switching and a gap never. Where Δż only touches zero, but for rounding, there is no point, and
-/// a motion that begins with Δż = 0 does not begin with one.
-/// @param motion    before the first sample to be looked at; a further call goes on from there
-/// @param samples   how many sampling periods
-/// @param observer  called with each `SectionPointOf` the plant's order, in the order of time
-/// Work: a Taylor series (motion/taylor_step.hpp) and a root for every part of constant
-/// contact, beside the motion's own.
+/// Stick, Δż = 0 for some time, is one point at its beginning, whether Δz then reverses or
+/// continues (the next point then has the same `rising`); `rising` means that Δż came to zero from
+/// below. A point is `engaged` where the drive transmits the whole command from there on: never
+/// with exact switching and a gap. Where Δż only touches zero, up to rounding, there is no point. A
+/// motion that begins with Δż = 0 does not begin with a point.
+/// @param motion    motion before the first sample; a further call continues from there
+/// @param samples   number of sampling periods
+/// @param observer  called with each point, a `SectionPointOf` the plant's order, in order of time
+/// Work: beside that of the motion, a Taylor series (motion/taylor_step.hpp) and a root for every
+/// part of constant contact.
 template <class Contact, class Observer>
 TrajectoryOutcome run_section(EventMotion<Contact>& motion, std::int64_t samples,
                               Observer&& observer) {

@@ -10,21 +10,21 @@
 
 namespace holdfast {
 
-/// A conductor by its modes with the absorber, the natural motions of the two, and what of the
-/// loop's hardware is late.
+/// A conductor by its modes with the absorber, their common natural motions, and the lags of the
+/// loop's hardware.
 struct ConductorWithAbsorber {
-  std::vector<PlaceMode<double>> modes;  ///< as the absorber's place sees them
+  std::vector<PlaceMode<double>> modes;  ///< modes at the absorber's place
   Absorber<double> absorber;             ///< with its clamp
-  std::vector<PlantPole> poles;          ///< `plant_poles` of the two, all of them or none
+  std::vector<PlantPole> poles;          ///< all `plant_poles` of both, or none
   LoopHardware hardware = {};            ///< measurement filter and drive
   bool has_devices = false;              ///< on the span, which the poles know and the modes do not
 };
 
-/// It has no state of its own: its loop is known by its poles.
+/// Whether a state of it has closed forms: no, its loop is given by its poles.
 template <>
 inline constexpr bool has_closed_forms<ConductorWithAbsorber> = false;
 
-/// z/F (m/N) at s of the absorber's place under a force there, without control (unchecked).
+/// The receptance z/F (m/N) at s of the absorber's place, without control (unchecked).
 inline std::complex<double> place_receptance(const ConductorWithAbsorber& conductor,
                                              const std::complex<double>& s) {
   if (!conductor.has_devices)
@@ -34,8 +34,8 @@ inline std::complex<double> place_receptance(const ConductorWithAbsorber& conduc
   return to_drive / detail::transmitted_share(conductor.absorber, s);
 }
 
-/// It as a plant of order 2N + 2 and what states the hardware has.
-/// @param conductor  whose poles do not count
+/// The conductor with absorber as a plant of order 2N + 2, and the states of the hardware.
+/// @param conductor  conductor; its poles are not used
 /// @throws InvalidParameter where modes, absorber or hardware are not admissible, and with devices
 template <class Scalar = double>
 LinearPlant<Scalar> linear_plant(const ConductorWithAbsorber& conductor) {

@@ -9,22 +9,22 @@
 
 namespace holdfast {
 
-/// A norm ‖x‖² = xᵀW x in which the motion ẋ = A x never grows, ‖e^{At}‖ ≤ 1: W solves
+/// A norm ‖x‖² = xᵀW x that decreases along ẋ = A x, ‖e^{At}‖ ≤ 1; W solves
 ///
 ///     AᵀW + W A = −I     in balanced coordinates
 ///
-/// so that ‖x(t)‖ ≤ ‖x(0)‖ + ∫ ‖b u + c F‖ ds, as of EnergyNorm, for a stable plant of any order.
-/// Where A is not stable there is no such norm; all lengths are then infinite.
+/// so that ‖x(t)‖ ≤ ‖x(0)‖ + ∫ ‖b u + c F‖ ds, as for EnergyNorm, for a stable plant of any order.
+/// If A is not stable there is no such norm; all lengths are then infinite.
 ///
-/// W is the sum Σ MᵏᵀQ Mᵏ of the Cayley transform M = (p + A)(p − A)⁻¹, Q = 2 p (p − A)⁻ᵀ (p −
-/// A)⁻¹, by doubling, and is checked: it has a Cholesky factor, and what is left of the equation
-/// lies below half of I, so that rounding cannot have spoilt the claim. Work: some 15 products N ×
-/// N. Source: R. A. Smith, Matrix equation XA + BX = C, SIAM J. Appl. Math. 16 (1968).
-/// @tparam States  N; Eigen::Dynamic where it is known at run time alone
+/// W is the sum Σ MᵏᵀQ Mᵏ for the Cayley transform M = (p + A)(p − A)⁻¹, Q = 2 p (p − A)⁻ᵀ (p −
+/// A)⁻¹, computed by doubling, and checked: it has a Cholesky factor, and the residual of the
+/// equation is below half of I, so that rounding does not invalidate the bound. Work: some 15
+/// products N × N. Source: R. A. Smith, Matrix equation XA + BX = C, SIAM J. Appl. Math. 16 (1968).
+/// @tparam States  N; Eigen::Dynamic where it is known at run time only
 template <int States>
 class DecayingNorm {
  public:
-  /// @param a  A, N × N (1/s), finite
+  /// @param a  matrix A, N × N (1/s), finite
   explicit DecayingNorm(const Matrix<double, States>& a) {
     const BalancedMatrix<double, States> similar(a);
     const Matrix<double, States> identity = Matrix<double, States>::Identity(a.rows(), a.cols());
@@ -39,10 +39,10 @@ class DecayingNorm {
     exists_ = true;
   }
 
-  /// Whether A is stable, so that there is such a norm.
+  /// Whether A is stable, so that the norm exists.
   bool exists() const { return exists_; }
 
-  /// ‖x‖; infinite where there is no norm.
+  /// The norm ‖x‖; infinite where it does not exist.
   double operator()(const Vector<double, States>& state) const {
     if (!exists_) return std::numeric_limits<double>::infinity();
     return (factor_.transpose() * state).norm();

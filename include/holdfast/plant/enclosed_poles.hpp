@@ -16,28 +16,28 @@
 
 namespace holdfast {
 
-/// A natural motion of a plant of which it is proved where it lies, with its part in the transfer
-/// function from the command to the reading: that of `PlantPole`, enclosed.
+/// A pole of a plant whose location is proved, with its residue in the transfer function from the
+/// command to the reading: a `PlantPole` in enclosures.
 struct EnclosedPole {
-  ComplexEnclosure s;        ///< 1/s; of a pair that with Im s > 0, without a partner real
-  ComplexEnclosure residue;  ///< r, m/(N s); real without a partner
+  ComplexEnclosure s;        ///< 1/s; for a pair the one with Im s > 0, for a single pole real
+  ComplexEnclosure residue;  ///< r, m/(N s); real for a single pole
   bool is_pair;              ///< whether its conjugate is a pole too
 };
 
 namespace detail {
 
-/// The transfer function from the command to the reading of z of a conductor with its absorber and
-/// hardware, as a quotient of polynomials of which no coefficient is formed:
+/// The transfer function from the command to the reading of z for a conductor with its absorber and
+/// hardware, as a quotient of polynomials whose coefficients are never formed:
 ///
 ///     D = Π d_n,  S = Σ φ_n²/M_n Π_{j≠n} d_j,  d_n = s² + 2ζ_n ω_n s + ω_n²,
 ///     Q = m₂s² + c₂s + k₂ p = (Q D + (M_c s² Q + m₂ s² (k₂ + c₂ s)) S) h(s),
 ///     n = m₂ s² S h(0)
 ///
-/// h holds the poles of filter and drive. Numbers of modes are those doubles themselves, all others
-/// the decimals to which the doubles are nearest.
+/// where h contains the poles of filter and drive. The modes' numbers are exactly the given
+/// doubles, all others the decimals nearest to the given doubles.
 class EnclosedTransfer {
  public:
-  /// The values p and n divided by the same product.
+  /// The values of p and n divided by a common product.
   struct Value {
     ComplexEnclosure denominator, numerator;
   };
@@ -50,7 +50,7 @@ class EnclosedTransfer {
            square(shape) / Enclosure(mode.mass)});
     }
   }
-  /// Transfer of two masses, all of whose numbers are decimals.
+  /// The transfer function of two masses, all of whose numbers are decimals.
   EnclosedTransfer(const TwoMass<double>& masses, const LoopHardware& hardware)
       : EnclosedTransfer(Absorber<double>{masses.absorber_mass, masses.absorber_stiffness,
                                           masses.absorber_damping},
@@ -62,11 +62,11 @@ class EnclosedTransfer {
 
   /// The degree of p.
   std::size_t degree() const { return 2 * modes_.size() + 2 + lag_states_; }
-  /// p's coefficient of the highest power.
+  /// The leading coefficient of p.
   Enclosure leading() const { return mass_ * (1.0 + clamp_mass_ * mobility_); }
 
-  /// At s, both divided by Π (s − z_j) over all but one.
-  /// @param others  z_j, fewer than the degree
+  /// The values at s, both divided by Π (s − z_j) over all z_j but one.
+  /// @param others  points z_j, fewer than the degree
   Value at(const ComplexEnclosure& s, const std::vector<ComplexEnclosure>& others) const {
     ComplexEnclosure product(1.0), sum;
     auto next = others.begin();
@@ -101,7 +101,7 @@ class EnclosedTransfer {
   struct Mode {
     Enclosure damping, stiffness, mobility;  // 2ζω, ω², φ²/M
   };
-  /// a s² + b s + c, a = 1, or a = 0 and b = 1.
+  /// A lag a s² + b s + c with a = 1, or a = 0 and b = 1.
   struct Lag {
     Enclosure inertia, damping, stiffness;
   };
@@ -121,7 +121,7 @@ class EnclosedTransfer {
 
   static Enclosure decimal(double nearest) { return Enclosure::of_decimal(nearest); }
 
-  /// 2π f.
+  /// The angular frequency 2π f.
   static Enclosure rate_of(double frequency) {
     const Enclosure turn(2.0 * 0x1.921fb54442d18p1, 2.0 * 0x1.921fb54442d19p1);
     return turn * decimal(frequency);
@@ -149,7 +149,7 @@ class EnclosedTransfer {
   std::size_t lag_states_ = 0;
 };
 
-/// Approximate poles in conjugate pairs, the upper ones first, then those of the real axis.
+/// The approximate poles in conjugate pairs, upper ones first, followed by the real ones.
 struct PairedPoles {
   std::vector<std::complex<double>> upper, real;
 
@@ -163,7 +163,7 @@ struct PairedPoles {
   }
   std::size_t size() const { return 2 * upper.size() + real.size(); }
 
-  /// All of them, each pair as two neighbours.
+  /// All poles, each pair as two neighbours.
   std::vector<std::complex<double>> all() const {
     std::vector<std::complex<double>> list;
     for (const auto& s : upper) list.insert(list.end(), {s, std::conj(s)});
@@ -172,7 +172,7 @@ struct PairedPoles {
   }
 };
 
-/// All but one.
+/// All points but one.
 inline std::vector<ComplexEnclosure> others_of(const std::vector<ComplexEnclosure>& all,
                                                std::size_t but) {
   std::vector<ComplexEnclosure> others = all;
@@ -180,8 +180,8 @@ inline std::vector<ComplexEnclosure> others_of(const std::vector<ComplexEnclosur
   return others;
 }
 
-/// Radii of discs about the approximate poles, which hold all poles together, and one each where
-/// they are apart.
+/// The radii of discs about the approximate poles that together contain all poles, and one pole
+/// each where they are disjoint.
 inline std::vector<double> disc_radii(const EnclosedTransfer& transfer,
                                       const std::vector<ComplexEnclosure>& centres) {
   std::vector<double> radii;
@@ -194,7 +194,7 @@ inline std::vector<double> disc_radii(const EnclosedTransfer& transfer,
   return radii;
 }
 
-/// Whether it is proved that no two discs touch.
+/// Whether it is proved that all discs are disjoint.
 inline bool are_apart(const std::vector<ComplexEnclosure>& centres,
                       const std::vector<double>& radii) {
   for (std::size_t k = 0; k < centres.size(); ++k)
@@ -205,7 +205,7 @@ inline bool are_apart(const std::vector<ComplexEnclosure>& centres,
   return true;
 }
 
-/// The poles of a transfer function whose approximations are given.
+/// The enclosed poles of a transfer function, from their approximations.
 inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer,
                                                 const std::vector<PlantPole>& approximate) {
   const PairedPoles paired(approximate);
@@ -233,8 +233,8 @@ inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer
 
 }  // namespace detail
 
-/// Where the poles from the command to the reading of a conductor with its absorber and hardware
-/// lie, and their residues, all proved: about approximations z_k stand discs of radius
+/// The poles and residues of the transfer function from the command to the reading of a conductor
+/// with its absorber and hardware, all proved. About approximations z_k there are discs of radius
 ///
 ///     m |p(z_k) / (p_m Π_{j≠k} (z_k − z_j))|
 ///
@@ -242,11 +242,11 @@ inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer
 /// hold all roots, and where no two touch one each; one about a real z_k holds a real root. The
 /// residue is n(s)/p′(s), p′ = p_m Π_{j≠k} (s_k − s_j). Work: 10 m² complex operations.
 ///
-/// It is of the plant with the modes whose numbers are those doubles, and with the decimals of
-/// absorber and hardware. Source: B. T. Smith, Error bounds for zeros of a polynomial based upon
-/// Gerschgorin's theorems, J. ACM 17 (1970), pp. 661–674.
-/// @param conductor  with its approximate poles
-/// @return nothing where the poles are not all known, or two are too close to be told apart
+/// It refers to the plant whose modes have exactly the given doubles, and whose absorber and
+/// hardware have the nearest decimals. Source: B. T. Smith, Error bounds for zeros of a polynomial
+/// based upon Gerschgorin's theorems, J. ACM 17 (1970), pp. 661–674.
+/// @param conductor  conductor with its approximate poles
+/// @return nothing where not all poles are known, or two are too close to be separated
 /// @throws InvalidParameter where conductor, absorber or hardware are not admissible
 inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& conductor) {
   validate(conductor.modes, conductor.absorber);
@@ -254,7 +254,7 @@ inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& con
                                 with_hardware(conductor.poles, conductor.hardware));
 }
 
-/// Encloses the poles of two masses with hardware, all of whose numbers are decimals.
+/// The enclosed poles of two masses with hardware, all of whose numbers are decimals.
 /// @throws InvalidParameter where masses or hardware are not admissible
 inline std::vector<EnclosedPole> enclosed_poles(const TwoMass<double>& masses,
                                                 const LoopHardware& hardware = {}) {

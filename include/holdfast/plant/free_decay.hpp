@@ -12,12 +12,12 @@
 
 namespace holdfast {
 
-/// z(t) = e^{At} z(0) of the plant without control that starts at rest, conductor and absorber both
-/// displaced by z₀: what is left when a load on the conductor is removed.
-/// @param plant         admissible
+/// The free decay z(t) = e^{At} z(0) of the plant without control from rest, conductor and absorber
+/// both displaced by z₀, as after the removal of a load on the conductor.
+/// @param plant         an admissible plant
 /// @param displacement  z₀ (m)
 /// @param time          t (s), ≥ 0
-/// @throws InvalidParameter for another plant; z₀ and t are unchecked
+/// @throws InvalidParameter where the plant is not admissible; z₀ and t are unchecked
 template <class Scalar>
 Vector<Scalar, 4> free_decay_at(const TwoMass<Scalar>& plant, const Scalar& displacement,
                                 const Scalar& time) {
@@ -27,9 +27,9 @@ Vector<Scalar, 4> free_decay_at(const TwoMass<Scalar>& plant, const Scalar& disp
          Vector<Scalar, 4>(displacement, Scalar(0), displacement, Scalar(0));
 }
 
-/// z₁ (m) of that motion at the given instants (s), ascending from the first, which is the start.
-/// The transition e^{Ah} is made again only where the interval h changes.
-/// @throws InvalidParameter for a plant that is not admissible or times that are not finite and
+/// The displacement z₁ (m) of that motion at the given instants (s), ascending from its start. The
+/// transition e^{Ah} is computed again only where the interval h changes.
+/// @throws InvalidParameter where the plant is not admissible or the times are not finite and
 /// ascending
 template <class Scalar>
 std::vector<Scalar> free_decay(const TwoMass<Scalar>& plant, const Scalar& displacement,
@@ -63,12 +63,12 @@ struct RelativeDecay {
   Scalar first_peak;             ///< < 0
   Scalar first_peak_time;        ///< s
   Scalar period;                 ///< s
-  Scalar logarithmic_decrement;  ///< per cycle, of the first four peaks
+  Scalar logarithmic_decrement;  ///< per cycle, from the first four peaks
 };
 
-/// The crossings and peaks of the plant's decay from 1 m, sampled 400 times in the period of both
+/// The crossings and peaks of the plant's decay from 1 m, sampled 400 times per period of both
 /// masses on the conductor's spring, over four such periods.
-/// @throws InvalidParameter for a plant that is not admissible
+/// @throws InvalidParameter where the plant is not admissible
 template <class Scalar>
 DecayEvents free_decay_events(const TwoMass<Scalar>& plant) {
   detail::require_admissible(plant);
@@ -83,11 +83,11 @@ DecayEvents free_decay_events(const TwoMass<Scalar>& plant) {
   return decay_events(record);
 }
 
-/// The measures of `decay_measures`, to round-off and for any number type: each crossing and peak
-/// found on samples is moved by Newton's method on the closed-form motion.
+/// The measures of `decay_measures` to round-off and for any number type: each crossing and peak
+/// found from samples is refined by Newton's method on the closed-form motion.
 /// @param plant   the two masses, without control
 /// @param events  `free_decay_events` of the same plant's values
-/// @return nothing for a decay with fewer than five crossings in four periods (overdamped)
+/// @return nothing where the decay has fewer than five crossings in four periods (overdamped)
 template <class Scalar>
 std::optional<RelativeDecay<Scalar>> relative_decay(const TwoMass<Scalar>& plant,
                                                     const DecayEvents& events) {

@@ -15,49 +15,49 @@ namespace holdfast {
 ///
 ///     ẋ = A x + b s + b_u u + c F,    s = f x + g u  where the drive transmits,  s = 0 in its gap
 ///
-/// u is the computer's command, s the force (N) that conductor and absorber feel of it. An ideal
-/// drive has s = u (f = 0, g = 1, b_u = 0); one that lags has states of its own, which the command
-/// moves through b_u and from which f reads the force. What is measured, and what the gap sees, are
-/// ports of the plant: no coordinate has a fixed place.
-/// @tparam States  N; Eigen::Dynamic where it is known at run time alone
+/// u is the computer's command, s the force (N) on conductor and absorber. An ideal drive has s = u
+/// (f = 0, g = 1, b_u = 0); a drive with a lag has states of its own, on which the command acts by
+/// b_u and from which f gives the force. The measured quantities and the relative motion at the gap
+/// are ports of the plant: no coordinate has a fixed place.
+/// @tparam States  N; Eigen::Dynamic where it is known at run time only
 template <class Number, int States = Eigen::Dynamic>
 struct LinearPlant {
   static_assert(is_real<Number>, "the numbers of a plant are real: LinearPlant<double>");
 
-  Matrix<Number, States> released_matrix;  ///< A, N × N (1/s), no force being transmitted
+  Matrix<Number, States> released_matrix;  ///< A, N × N (1/s), without transmitted force
   Vector<Number, States> force_input;      ///< b, N × 1 per newton of s
-  Vector<Number, States> command_input;    ///< b_u, N × 1 per newton of u; 0 of an ideal drive
+  Vector<Number, States> command_input;    ///< b_u, N × 1 per newton of u; 0 for an ideal drive
   Vector<Number, States> excitation;       ///< c, N × 1 per newton of F
-  RowVector<Number, States> drive_force;   ///< f, 1 × N; 0 of an ideal drive
-  Number direct_transmission{1};           ///< g: 1 of an ideal drive, 0 of one that lags
-  Ports<Number, States> connections;       ///< what is measured, and what the gap sees
+  RowVector<Number, States> drive_force;   ///< f, 1 × N; 0 for an ideal drive
+  Number direct_transmission{1};           ///< g: 1 for an ideal drive, 0 for one with a lag
+  Ports<Number, States> connections;       ///< measured quantities and relative motion at the gap
 
-  /// A + b f, N × N: the state while the drive transmits.
-  /// @throws InvalidParameter as `require_one_order`; so do all that follow
+  /// The state matrix A + b f of an engaged drive, N × N.
+  /// @throws InvalidParameter as `require_one_order`; this applies to all functions below
   Matrix<Number, States> state_matrix() const {
     require_one_order();
     return released_matrix + force_input * drive_force;
   }
-  /// b_u + g b, N × 1 per newton of the command while the drive transmits.
+  /// The input b_u + g b of the command with an engaged drive, N × 1 per newton.
   Vector<Number, States> control_input() const {
     require_one_order();
     return command_input + direct_transmission * force_input;
   }
-  /// c, N × 1 per newton of F.
+  /// The input c of the excitation, N × 1 per newton of F.
   const Vector<Number, States>& excitation_input() const {
     require_one_order();
     return excitation;
   }
-  /// Rows of the measurement and of the relative motion at the gap.
+  /// The rows of the measurement and of the relative motion at the gap.
   const Ports<Number, States>& ports() const {
     require_one_order();
     return connections;
   }
-  /// N.
+  /// The order N.
   Eigen::Index order() const { return released_matrix.rows(); }
 
-  /// Refuses parts of different orders, which no sum of them may meet.
-  /// @throws InvalidParameter unless A is N × N, N ≥ 1, and all else N long
+  /// Rejects a plant whose parts have different orders.
+  /// @throws InvalidParameter unless A is N × N, N ≥ 1, and all other parts have length N
   void require_one_order() const {
     if constexpr (States == Eigen::Dynamic) {
       const Eigen::Index n = order();
@@ -72,7 +72,7 @@ struct LinearPlant {
 };
 
 /// The two masses as a plant of order 4, x = [z₁, ż₁, z₂, ż₂].
-/// @throws InvalidParameter where they are not admissible
+/// @throws InvalidParameter where the masses are not admissible
 template <class Scalar>
 LinearPlant<Scalar, 4> linear_plant(const TwoMass<Scalar>& plant) {
   detail::require_admissible(plant);
@@ -80,7 +80,7 @@ LinearPlant<Scalar, 4> linear_plant(const TwoMass<Scalar>& plant) {
           plant.excitation_input(), RowVector<Scalar, 4>::Zero(), Scalar(1),
           two_mass_ports<Scalar>()};
 }
-/// A linear plant itself.
+/// The linear plant itself.
 template <class Scalar, int States>
 const LinearPlant<Scalar, States>& linear_plant(const LinearPlant<Scalar, States>& plant) {
   return plant;
@@ -90,13 +90,13 @@ namespace detail {
 
 template <class Plant, class = void>
 struct IsDriven : std::false_type {};
-/// Whether a plant says what the force of its drive moves and what the gap sees.
+/// Whether a plant defines the input of its drive's force and the relative motion at the gap.
 template <class Plant>
 struct IsDriven<Plant, std::void_t<decltype(linear_plant(std::declval<const Plant&>()))>>
     : std::true_type {};
 
-/// The plant with `more` further states that nothing moves yet, behind its own.
-/// @tparam More  the same, or Eigen::Dynamic
+/// The plant with `more` further states behind its own, which nothing acts on yet.
+/// @tparam More  the same number, or Eigen::Dynamic
 template <int More, class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, More)> enlarged(const LinearPlant<Scalar, States>& plant,
                                                         Eigen::Index more = More) {
@@ -128,14 +128,14 @@ LinearPlant<Scalar, larger_size(States, More)> enlarged(const LinearPlant<Scalar
 
 }  // namespace detail
 
-/// The plant behind a measurement filter of first order:
+/// The plant with a measurement filter of first order:
 ///
 ///     ż_f = ω_f (z − z_f);   the computer reads z_f and ż_f
 ///
-/// One state more.
-/// @param plant   whose readings are filtered
+/// The filter adds one state.
+/// @param plant   plant whose readings are filtered
 /// @param cutoff  ω_f / 2π (Hz), > 0
-/// @throws InvalidParameter for another cutoff
+/// @throws InvalidParameter where the cutoff is not admissible
 template <class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, 1)> with_measurement_filter(
     const LinearPlant<Scalar, States>& plant, const Scalar& cutoff) {
@@ -151,11 +151,11 @@ LinearPlant<Scalar, larger_size(States, 1)> with_measurement_filter(
   return filtered;
 }
 
-/// The plant driven by a motor that follows its command with a lag of first order,
-/// ṡ = ω_d (u − s). One state more, s (N).
-/// @param plant      with an ideal drive
+/// The plant with a motor that follows its command with a lag of first order, ṡ = ω_d (u − s). It
+/// has one more state, s (N).
+/// @param plant      plant with an ideal drive
 /// @param bandwidth  ω_d / 2π (Hz), > 0
-/// @throws InvalidParameter for another bandwidth
+/// @throws InvalidParameter where the bandwidth is not admissible
 template <class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, 1)> with_drive_lag(const LinearPlant<Scalar, States>& plant,
                                                            const Scalar& bandwidth) {
@@ -170,12 +170,12 @@ LinearPlant<Scalar, larger_size(States, 1)> with_drive_lag(const LinearPlant<Sca
   return driven;
 }
 
-/// The plant driven by a motor that follows its command with a lag of second order,
-/// s̈ = ω_d² (u − s) − 2 ζ_d ω_d ṡ. Two states more, s (N) and ṡ/ω_d (N).
-/// @param plant      with an ideal drive
+/// The plant with a motor that follows its command with a lag of second order, s̈ = ω_d² (u − s) −
+/// 2 ζ_d ω_d ṡ. It has two more states, s (N) and ṡ/ω_d (N).
+/// @param plant      plant with an ideal drive
 /// @param bandwidth  ω_d / 2π (Hz), > 0
 /// @param damping    ζ_d, > 0
-/// @throws InvalidParameter outside these ranges
+/// @throws InvalidParameter where an argument is outside its range
 template <class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, 2)> with_drive_lag(const LinearPlant<Scalar, States>& plant,
                                                            const Scalar& bandwidth,
@@ -194,10 +194,10 @@ LinearPlant<Scalar, larger_size(States, 2)> with_drive_lag(const LinearPlant<Sca
   return driven;
 }
 
-/// Refuses a plant that a loop cannot be closed on.
-/// @throws InvalidParameter unless all is finite, the sizes agree, the drive's force is one of the
-/// command or of the state, and it moves its own gap (Δz̈ answers to s at once: rᵀb ≠ 0 of the
-/// relative velocity r)
+/// Rejects a plant for which no loop can be closed.
+/// @throws InvalidParameter unless all is finite, the sizes agree, the drive's force depends on
+/// either the command or the state, and it accelerates its own gap directly (rᵀb ≠ 0 for the row r
+/// of the relative velocity)
 template <int States>
 void validate(const LinearPlant<double, States>& plant) {
   const Ports<double, States>& ports = plant.ports();

@@ -14,24 +14,24 @@
 
 namespace holdfast {
 
-/// Hardware between plant and computer: a measurement filter of first order, a drive that follows
-/// its command with a lag, and whether there is a sensor of the velocity,
+/// The hardware between plant and computer: a measurement filter of first order, a drive that
+/// follows its command with a lag, and the presence of a velocity sensor,
 ///
 ///     F(s) = ω_f/(s + ω_f),   D(s) = ω_d/(s + ω_d)  or  ω_d²/(s² + 2 ζ_d ω_d s + ω_d²)
 ///
-/// The computer reads ẑ = F z and its rate, or has (ẑ_j − ẑ_{j−1})/τ in place of that; the
-/// conductor and the absorber feel D u.
+/// where the computer reads ẑ = F z and its rate, or uses (ẑ_j − ẑ_{j−1})/τ instead; the force on
+/// conductor and absorber is D u.
 struct LoopHardware {
-  static constexpr double ideal = std::numeric_limits<double>::infinity();  ///< without a lag
+  static constexpr double ideal = std::numeric_limits<double>::infinity();  ///< value for no lag
 
   double measurement_filter = ideal;  ///< ω_f/2π (Hz), > 0
   double drive_bandwidth = ideal;     ///< ω_d/2π (Hz), > 0
   double drive_damping = ideal;       ///< ζ_d, > 0; infinity: a lag of first order
-  bool has_velocity_sensor = true;    ///< else D multiplies a backward difference of readings
+  bool has_velocity_sensor = true;    ///< false: D multiplies a backward difference of readings
 };
 
-/// Refuses hardware outside the ranges that its members state.
-/// @throws InvalidParameter naming the first one
+/// Rejects hardware outside the ranges stated at its members.
+/// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const LoopHardware& hardware) {
   const auto require = [](const char* name, double value, const char* unit) {
     if (!(value > 0.0)) throw InvalidParameter(name, value, unit, "> 0");
@@ -41,10 +41,10 @@ inline void validate(const LoopHardware& hardware) {
   require("drive damping", hardware.drive_damping, "");
 }
 
-/// The plant behind such filter and drive, as `with_drive_lag` and `with_measurement_filter` have
-/// it.
-/// @param plant     with an ideal drive
-/// @param hardware  up to three states more
+/// The plant with such a filter and drive, as with `with_drive_lag` and
+/// `with_measurement_filter`.
+/// @param plant     plant with an ideal drive
+/// @param hardware  hardware, which adds up to three states
 /// @throws InvalidParameter where the hardware is not admissible
 template <class Scalar>
 LinearPlant<Scalar> with_hardware(LinearPlant<Scalar> plant, const LoopHardware& hardware) {
@@ -62,7 +62,7 @@ LinearPlant<Scalar> with_hardware(LinearPlant<Scalar> plant, const LoopHardware&
 
 namespace detail {
 
-/// The poles p of D(s) and of F(s): each factor is −p/(s − p), of a pair both together.
+/// The poles p of D(s) and of F(s); each factor is −p/(s − p), for a pair the product of both.
 struct HardwarePoles {
   std::vector<std::complex<double>> drive, filter;
 
@@ -84,7 +84,7 @@ struct HardwarePoles {
     part_equals();
   }
 
-  /// D(s) or F(s) of its poles.
+  /// The lag D(s) or F(s) from its poles.
   static std::complex<double> lag(const std::vector<std::complex<double>>& poles,
                                   const std::complex<double>& s) {
     std::complex<double> product(1.0);
@@ -93,8 +93,8 @@ struct HardwarePoles {
   }
 
  private:
-  /// Equal poles have no partial fractions. Two are taken apart by ε of themselves each way, which
-  /// changes the response by ε² of itself and costs 1/ε of its digits; so are three.
+  /// Separates equal poles, which have no partial fractions. Two are moved by ±ε relative, which
+  /// changes the response by ε² relative and costs a factor 1/ε in accuracy; three likewise.
   void part_equals() {
     std::vector<std::complex<double>*> all;
     all.reserve(drive.size() + filter.size());
@@ -118,7 +118,7 @@ struct HardwarePoles {
   }
 };
 
-/// The partial fractions of G(s) Π (−p)/(s − p), given those of G and all p.
+/// The partial fractions of G(s) Π (−p)/(s − p), from those of G and all p.
 inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles,
                                      const std::vector<std::complex<double>>& lags) {
   for (const std::complex<double>& p : lags) {
@@ -135,12 +135,12 @@ inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles,
 
 }  // namespace detail
 
-/// The poles of the plant behind such hardware, from the command to what is read: those of the
-/// plant, then the drive's and the filter's.
-/// @param poles     `plant_poles`, all of them
-/// @param hardware  its lags; poles of it that are equal are taken apart by a part in 10⁵ (three of
-///                  them by one in 10³), which moves the response by a part in 10¹⁰ (10⁶)
-/// @return nothing where the plant has no poles of its own, or one of them is one of the hardware's
+/// The poles of the plant with such hardware, from the command to the reading: those of the plant,
+/// then those of drive and filter.
+/// @param poles     all `plant_poles`
+/// @param hardware  its lags; equal poles of it are separated by 10⁻⁵ relative (three by 10⁻³),
+///                  which changes the response by 10⁻¹⁰ (10⁻⁶)
+/// @return nothing where the plant has no poles, or shares one with the hardware
 /// @throws InvalidParameter where the hardware is not admissible
 inline std::vector<PlantPole> with_hardware(const std::vector<PlantPole>& poles,
                                             const LoopHardware& hardware) {

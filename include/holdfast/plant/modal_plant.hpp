@@ -10,36 +10,36 @@
 
 namespace holdfast {
 
-/// A mode of a conductor as its place with the absorber sees it:
+/// A mode of a conductor with its shape at the absorber's place:
 ///
 ///     M_n (q̈_n + 2 ζ_n ω_n q̇_n + ω_n² q_n) = φ_n f,   z = Σ φ_n q_n
 ///
-/// f is the force (N) on the conductor at that place and z its displacement (m).
+/// where f is the force (N) on the conductor at that place and z its displacement (m).
 template <class Scalar>
 struct PlaceMode {
   Scalar angular_frequency;  ///< ω_n (rad/s), > 0
   Scalar damping_ratio;      ///< ζ_n, ≥ 0
-  Scalar shape;              ///< φ_n at the absorber, in any unit: M_n goes with its square
+  Scalar shape;              ///< φ_n at the absorber, in any unit: M_n scales with its square
   Scalar mass;               ///< M_n (kg), > 0
 
-  /// s² + 2 ζ_n ω_n s + ω_n² (1/s²), by which a force is divided.
+  /// The divisor s² + 2 ζ_n ω_n s + ω_n² (1/s²) of a force.
   std::complex<Scalar> divisor(const std::complex<Scalar>& s) const {
     return s * (s + Scalar(2) * damping_ratio * angular_frequency) +
            angular_frequency * angular_frequency;
   }
 };
 
-/// The absorber on a conductor, its drive being apart.
+/// The absorber on a conductor, without its drive.
 template <class Scalar>
 struct Absorber {
   Scalar mass;            ///< m₂ (kg), > 0
   Scalar stiffness;       ///< k₂ (N/m), ≥ 0
   Scalar damping;         ///< c₂ (N s/m), ≥ 0
-  Scalar clamp_mass = 0;  ///< M_c (kg), ≥ 0: what of it moves with the conductor
+  Scalar clamp_mass = 0;  ///< M_c (kg), ≥ 0: mass fixed to the conductor
 };
 
-/// Refuses modes and an absorber outside the ranges that their members state.
-/// @throws InvalidParameter naming the first one
+/// Rejects modes and an absorber outside the ranges stated at their members.
+/// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const std::vector<PlaceMode<double>>& modes,
                      const Absorber<double>& absorber) {
   require_within("number of modes", static_cast<double>(modes.size()), "", 1, 10000);
@@ -55,10 +55,10 @@ inline void validate(const std::vector<PlaceMode<double>>& modes,
   require_non_negative("clamp mass", absorber.clamp_mass, "kg");
 }
 
-/// H(s) = Σ φ_n² / (M_n (s² + 2 ζ_n ω_n s + ω_n²)) (m/N), the receptance of the bare conductor at
-/// the absorber's place, by these modes (unchecked).
-/// @param modes  as its place sees them
-/// @param s      1/s
+/// The receptance H(s) = Σ φ_n² / (M_n (s² + 2 ζ_n ω_n s + ω_n²)) (m/N) of the bare conductor at
+/// the absorber's place, from these modes (unchecked).
+/// @param modes  modes at the absorber's place
+/// @param s      complex frequency (1/s)
 template <class Scalar>
 std::complex<Scalar> receptance(const std::vector<PlaceMode<Scalar>>& modes,
                                 const std::complex<Scalar>& s) {
@@ -71,7 +71,7 @@ std::complex<Scalar> receptance(const std::vector<PlaceMode<Scalar>>& modes,
 
 namespace detail {
 
-/// T_a(s) = m₂ s²/(m₂ s² + c₂ s + k₂): how much of the drive's force reaches the conductor.
+/// The share T_a(s) = m₂ s²/(m₂ s² + c₂ s + k₂) of the drive's force that acts on the conductor.
 template <class Scalar>
 std::complex<Scalar> transmitted_share(const Absorber<Scalar>& absorber,
                                        const std::complex<Scalar>& s) {
@@ -79,8 +79,8 @@ std::complex<Scalar> transmitted_share(const Absorber<Scalar>& absorber,
   return inertia / (inertia + absorber.stiffness + absorber.damping * s);
 }
 
-/// M_c s² + K_p(s), K_p = T_a (k₂ + c₂ s) (N/m): what the absorber presses back with, its drive
-/// apart.
+/// The dynamic stiffness M_c s² + K_p(s), K_p = T_a (k₂ + c₂ s) (N/m), of the absorber without its
+/// drive.
 template <class Scalar>
 std::complex<Scalar> passive_stiffness(const Absorber<Scalar>& absorber,
                                        const std::complex<Scalar>& s) {
@@ -90,11 +90,11 @@ std::complex<Scalar> passive_stiffness(const Absorber<Scalar>& absorber,
 
 }  // namespace detail
 
-/// Responses of the conductor at the absorber's place to a force there, and to the drive.
+/// The responses of the conductor at the absorber's place to a force there and to the drive.
 template <class Scalar>
 struct PlaceResponse {
   std::complex<Scalar> to_force;  ///< z/F (m/N)
-  std::complex<Scalar> to_drive;  ///< G_z = z/s (m/N), the drive pushing the absorber back
+  std::complex<Scalar> to_drive;  ///< G_z = z/s (m/N), with the drive's reaction on the absorber
 };
 
 /// The conductor with its absorber by the receptance of the bare one, without sampling (unchecked):
@@ -102,11 +102,11 @@ struct PlaceResponse {
 ///     1/H′ = 1/H + M_c s²,  K_p = m₂ s² (k₂ + c₂ s)/(m₂ s² + c₂ s + k₂),  T_a = m₂ s²/(…)
 ///     z/F = H′/(1 + H′ K_p),   G_z = T_a z/F
 ///
-/// The route to a plant's transfer functions that forms no matrix; H may be that of all modes at
+/// It gives a plant's transfer functions without any matrix; H may include all modes at
 /// once.
-/// @param bare      H (m/N) at s
-/// @param absorber  with its clamp
-/// @param s         1/s
+/// @param bare      receptance H (m/N) at s
+/// @param absorber  absorber with its clamp
+/// @param s         complex frequency (1/s)
 template <class Scalar>
 PlaceResponse<Scalar> place_response(const std::complex<Scalar>& bare,
                                      const Absorber<Scalar>& absorber,
@@ -118,8 +118,8 @@ PlaceResponse<Scalar> place_response(const std::complex<Scalar>& bare,
 
 namespace detail {
 
-/// Participation of modes, N × 1, scaled so that the place itself has 1.
-/// @param share  of a mode
+/// The participation of the modes, N × 1, scaled to 1 at the place itself.
+/// @param share  share of a mode
 template <class Scalar, class Share>
 Vector<Scalar, Eigen::Dynamic> scaled_at_place(const std::vector<PlaceMode<Scalar>>& modes,
                                                const Share& share) {
@@ -135,8 +135,8 @@ Vector<Scalar, Eigen::Dynamic> scaled_at_place(const std::vector<PlaceMode<Scala
 
 }  // namespace detail
 
-/// The conductor as a force at the place bends it by 1 m there: q of each mode, N × 1 (unchecked).
-/// @param modes  as its place sees them, not all with a node there
+/// The modal coordinates q of the conductor bent by a force to 1 m at the place, N × 1 (unchecked).
+/// @param modes  modes at the place, at least one without a node there
 template <class Scalar>
 Vector<Scalar, Eigen::Dynamic> bent_conductor(const std::vector<PlaceMode<Scalar>>& modes) {
   return detail::scaled_at_place(modes, [](const PlaceMode<Scalar>& mode) {
@@ -144,20 +144,20 @@ Vector<Scalar, Eigen::Dynamic> bent_conductor(const std::vector<PlaceMode<Scalar
   });
 }
 
-/// The conductor as a blow at the place leaves it, with 1 m/s there: q̇ of each mode, N × 1
+/// The modal velocities q̇ of the conductor after a blow that gives the place 1 m/s, N × 1
 /// (unchecked).
-/// @param modes  as above
+/// @param modes  modes at the place
 template <class Scalar>
 Vector<Scalar, Eigen::Dynamic> struck_conductor(const std::vector<PlaceMode<Scalar>>& modes) {
   return detail::scaled_at_place(
       modes, [](const PlaceMode<Scalar>& mode) { return mode.shape / mode.mass; });
 }
 
-/// A state of `modal_plant`, [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂], that shows [z, ż, z₂, ż₂]: the
-/// conductor as a force at the place bends it to z, with the speeds that a blow there gives it
+/// The state of `modal_plant`, [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂], with given [z, ż, z₂, ż₂]: the
+/// conductor is bent to z by a force at the place, with the velocities after a blow there
 /// (unchecked).
-/// @param modes  as above
-/// @param seen   [z, ż, z₂, ż₂] (m, m/s, m, m/s)
+/// @param modes  modes at the place
+/// @param seen   observed state [z, ż, z₂, ż₂] (m, m/s, m, m/s)
 template <class Scalar>
 Vector<Scalar, Eigen::Dynamic> modal_state(const std::vector<PlaceMode<Scalar>>& modes,
                                            const Vector<Scalar, 4>& seen) {
@@ -171,7 +171,7 @@ Vector<Scalar, Eigen::Dynamic> modal_state(const std::vector<PlaceMode<Scalar>>&
 
 namespace detail {
 
-/// How the modes of a conductor move by themselves, and by what its place moves and is moved.
+/// The equations of motion of a conductor's modes, with input and output at its place.
 template <class Scalar>
 struct ModesAtPlace {
   Matrix<Scalar, Eigen::Dynamic> released;      // of the bare modes
@@ -180,7 +180,7 @@ struct ModesAtPlace {
   Vector<Scalar, Eigen::Dynamic> receptive;     // φ/M on the velocities
   Scalar mobility{0};                           // Σ φ²/M, 1/kg
 
-  /// @param order  2N and the states behind them, which are left at zero
+  /// @param order  2N plus the number of states behind them, which are left at zero
   ModesAtPlace(const std::vector<PlaceMode<Scalar>>& modes, Eigen::Index order)
       : released(Matrix<Scalar, Eigen::Dynamic>::Zero(order, order)),
         z(RowVector<Scalar, Eigen::Dynamic>::Zero(order)),
@@ -211,8 +211,8 @@ struct ModesAtPlace {
 ///     x = [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂]
 ///     f = F + s + k₂ (z₂ − z) + c₂ (ż₂ − ż) − M_c z̈,   m₂ z̈₂ = −s − k₂ (z₂ − z) − c₂ (ż₂ − ż)
 ///
-/// with s the force of the drive. The clamp mass couples the modes; since it acts at one place, the
-/// mass matrix diag(M_n) + M_c φ φᵀ has the closed inverse of Sherman and Morrison.
+/// where s is the force of the drive. The clamp mass couples the modes; since it acts at one place,
+/// the mass matrix diag(M_n) + M_c φ φᵀ has the closed inverse of Sherman and Morrison.
 /// The computer reads z and ż of the conductor at the absorber.
 /// @throws InvalidParameter where modes or absorber are not admissible
 template <class Scalar>

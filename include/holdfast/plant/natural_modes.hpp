@@ -12,20 +12,20 @@
 
 namespace holdfast {
 
-/// A mode that oscillates freely: the eigenvalue s of positive imaginary part, in rad/s.
+/// An oscillating mode: its eigenvalue s with positive imaginary part (rad/s).
 struct NaturalMode {
   std::complex<double> eigenvalue;  ///< s = −ζω ± iω√(1 − ζ²), rad/s
 
-  /// |s|/2π, Hz: the natural frequency, for small damping also that of the vibration.
+  /// The natural frequency |s|/2π (Hz); for small damping also that of the free vibration.
   double frequency() const { return std::abs(eigenvalue) / (2.0 * pi<double>); }
-  /// ζ = −Re s/|s|; below 1, negative for a mode that grows.
+  /// The damping ratio ζ = −Re s/|s|, below 1; negative for a growing mode.
   double damping_ratio() const { return -eigenvalue.real() / std::abs(eigenvalue); }
 };
 
 /// The oscillating modes of a plant without control and force, the slowest first.
-/// A mode of overcritical damping (ζ ≥ 1) is two real eigenvalues and not among them.
-/// @param plant  has state_matrix(), in 1/s
-/// @throws InvalidParameter for two masses that are not admissible, or a matrix that is not finite
+/// An overdamped mode (ζ ≥ 1) has two real eigenvalues and is not among them.
+/// @param plant  plant with state_matrix(), in 1/s
+/// @throws InvalidParameter where two masses are not admissible, or a matrix is not finite
 template <class Plant>
 std::vector<NaturalMode> natural_modes(const Plant& plant) {
   detail::require_admissible(plant);

@@ -13,8 +13,8 @@
 
 namespace holdfast {
 
-/// A natural motion e^{st} of a plant and its part in the transfer function from the drive to the
-/// conductor: G_z = Σ r/(s − s_k), G_v = Σ s_k r/(s − s_k).
+/// A pole s of a plant with its residue in the transfer function from the drive to the conductor:
+/// G_z = Σ r/(s − s_k), G_v = Σ s_k r/(s − s_k).
 struct PlantPole {
   std::complex<double> s;        ///< 1/s
   std::complex<double> residue;  ///< r, m/(N s)
@@ -22,7 +22,7 @@ struct PlantPole {
 
 namespace detail {
 
-/// dH/ds of `receptance`.
+/// The derivative dH/ds of `receptance`.
 inline std::complex<double> receptance_slope(const std::vector<PlaceMode<double>>& modes,
                                              const std::complex<double>& s) {
   std::complex<double> sum(0);
@@ -34,7 +34,7 @@ inline std::complex<double> receptance_slope(const std::vector<PlaceMode<double>
   return sum;
 }
 
-/// dK/ds of `passive_stiffness`, with N = m₂ s² (k₂ + c₂ s), Q = m₂ s² + c₂ s + k₂.
+/// The derivative dK/ds of `passive_stiffness`, N = m₂ s² (k₂ + c₂ s), Q = m₂ s² + c₂ s + k₂.
 inline std::complex<double> passive_slope(const Absorber<double>& absorber,
                                           const std::complex<double>& s) {
   const double m = absorber.mass, k = absorber.stiffness, c = absorber.damping;
@@ -43,7 +43,7 @@ inline std::complex<double> passive_slope(const Absorber<double>& absorber,
   return 2.0 * absorber.clamp_mass * s + (dn * q - n * dq) / (q * q);
 }
 
-/// The poles of a conductor with its absorber, one after the other.
+/// The search for the poles of a conductor with its absorber, one after the other.
 class PoleFinder {
  public:
   using Complex = std::complex<double>;
@@ -51,25 +51,25 @@ class PoleFinder {
   PoleFinder(const std::vector<PlaceMode<double>>& modes, const Absorber<double>& absorber)
       : modes_(modes), absorber_(absorber) {}
 
-  /// s of one natural motion of a bare mode, and of its other one.
+  /// One eigenvalue s of a bare mode, with the mode's other eigenvalue.
   struct BarePair {
     Complex s, partner;
-    /// The other one, with this one as its partner.
+    /// The other eigenvalue, with this one as its partner.
     BarePair other() const { return {partner, s}; }
   };
 
-  /// A mode that the absorber hardly moves, as one with a node there: what is needed of it beside
-  /// what the others do.
+  /// A mode that the absorber hardly changes, for example with a node there: the data of its own
+  /// contribution and of the others'.
   struct Weak {
     std::size_t mode;   ///< n
-    Complex apart;      ///< s_n less the mode's other one
+    Complex apart;      ///< s_n minus the mode's other eigenvalue
     Complex residue;    ///< ρ of H = ρ/(s − s_n) + b
     Complex stiffness;  ///< K
     Complex divisor;    ///< 1 + bK
   };
 
-  /// The n-th mode, if it is weak: |ρK/(1 + bK)| < 10⁻⁸ |s_n|.
-  /// @param begin  one of `bare`
+  /// The n-th mode, if it is weakly coupled: |ρK/(1 + bK)| < 10⁻⁸ |s_n|.
+  /// @param begin  one of the two eigenvalues of `bare`
   std::optional<Weak> weak(std::size_t n, const BarePair& begin) const {
     const PlaceMode<double>& mode = modes_[n];
     const Complex s = begin.s, apart = s - begin.partner;
@@ -86,7 +86,7 @@ class PoleFinder {
     return found;
   }
 
-  /// The mode that the k-th of `plant_poles` is, if it is weak.
+  /// The weakly coupled mode of the k-th of `plant_poles`, if it has one.
   std::optional<Weak> weak_of_pole(std::size_t k) const {
     if (k < modes_.size()) return weak(k, bare(modes_[k]));
     const std::size_t n = k - modes_.size();
@@ -101,9 +101,9 @@ class PoleFinder {
     return weak_of_pole(modes_[n].damping_ratio < 1.0 ? n : k).has_value();
   }
 
-  /// Pole that one of the n-th mode's two natural motions becomes; of a weak mode by its own
-  /// residue, s = s_n − ρK/(1 + bK).
-  /// @param begin  one of `bare`
+  /// The pole that one eigenvalue of the n-th mode changes into; for a weakly coupled mode by its
+  /// own residue, s = s_n − ρK/(1 + bK).
+  /// @param begin  one of the two eigenvalues of `bare`
   PlantPole of_mode(std::size_t n, const BarePair& begin) const {
     const Complex s = begin.s;
     const std::optional<Weak> mode = weak(n, begin);
@@ -112,7 +112,7 @@ class PoleFinder {
             transmitted_share(absorber_, s) * mode->residue / (mode->divisor * mode->divisor)};
   }
 
-  /// The natural motions of a bare mode: the one with Im s > 0 first, or the slower one of two.
+  /// The eigenvalues of a bare mode: the one with Im s > 0 first, or the slower one of two.
   static BarePair bare(const PlaceMode<double>& mode) {
     const double omega = mode.angular_frequency, zeta = mode.damping_ratio;
     const double apart = std::sqrt(std::abs(1.0 - zeta * zeta));
@@ -120,7 +120,7 @@ class PoleFinder {
     return {-omega / (zeta + apart), -omega * (zeta + apart)};
   }
 
-  /// The pole near s, by Newton on 1/H + K.
+  /// The pole near s, by Newton's method on 1/H + K.
   PlantPole near(Complex s) const {
     Complex slope;
     bool settled = false;
@@ -136,8 +136,8 @@ class PoleFinder {
     return {s, transmitted_share(absorber_, s) / slope};
   }
 
-  /// p′/p of the polynomial whose roots are the poles, p = Π (s − b_k) (1 + HK), b_k where the bare
-  /// modes and the absorber on a fixed conductor move by themselves.
+  /// The quotient p′/p of the polynomial with the poles as roots, p = Π (s − b_k) (1 + HK), b_k
+  /// being the eigenvalues of the bare modes and of the absorber on a fixed conductor.
   Complex logarithmic_derivative(const std::vector<Complex>& bare_motions, const Complex& s) const {
     const Complex h = receptance(modes_, s), k = passive_stiffness(absorber_, s);
     Complex sum =
@@ -146,7 +146,7 @@ class PoleFinder {
     return sum;
   }
 
-  /// Pole that begins at s, a pole of the conductor alone or of the absorber on a fixed one.
+  /// The pole continued from s, a pole of the conductor alone or of the absorber on a fixed one.
   PlantPole from(const Complex& begin) const {
     const Complex s = root_from_pole(
         [&](const Complex& at) {
@@ -161,7 +161,7 @@ class PoleFinder {
   const Absorber<double>& absorber_;
 };
 
-/// Whether these are all poles: as |s| → ∞ G_z goes as a/s², a the acceleration per newton of the
+/// Whether these are all poles: as |s| → ∞, G_z ~ a/s² with the acceleration a per newton of the
 /// drive, so that Σ r = 0 and Σ s r = a.
 inline bool are_all_poles(const std::vector<PlantPole>& poles, double acceleration) {
   std::complex<double> sum(0), moment(0);
@@ -175,11 +175,11 @@ inline bool are_all_poles(const std::vector<PlantPole>& poles, double accelerati
   return std::abs(sum) < 1e-7 * size && std::abs(moment - acceleration) < 1e-8 * moment_size;
 }
 
-/// Moves those apart that came to one pole or to none: each that is not apart from one before it
-/// begins anew beside where it began, and all are improved together, each by Newton's step for what
-/// is left of their polynomial when the others are divided out (Ehrlich 1967, Aberth 1973). Weak
-/// ones stay.
-/// @param begins  where each pole began
+/// Separates poles that coincide or were not found: each one that is not distinct from an earlier
+/// one restarts near its beginning. Then all are improved together, each by Newton's step for the
+/// polynomial divided by the other roots (Ehrlich 1967, Aberth 1973). Poles of weakly coupled modes
+/// are not changed.
+/// @param begins  start of each pole
 inline void separate(std::vector<PlantPole>& poles, const std::vector<std::complex<double>>& begins,
                      const PoleFinder& finder) {
   using Complex = std::complex<double>;
@@ -217,13 +217,13 @@ inline void separate(std::vector<PlantPole>& poles, const std::vector<std::compl
 
 }  // namespace detail
 
-/// The poles of a conductor by its modes with the absorber, all 2N + 2 of them, by following each
-/// from where it is without the other (`root_from_pole`): first the one of each mode with Im s > 0,
-/// of an overdamped one the slower, in order, then the other ones and the absorber's two. Where two
-/// were followed to one, all are improved together, and which of them is whose is a matter of name.
-/// N² operations where the eigenvalues of `modal_plant` take N³; that all were found is tested by
-/// two sums over them.
-/// @return nothing where they were not all found, as where a damper is critical or two coincide
+/// All 2N + 2 poles of a conductor by its modes with the absorber, each continued from its value
+/// for the uncoupled system (`root_from_pole`): first that of each mode with Im s > 0, or the
+/// slower one of an overdamped mode, in order, then the other ones and the absorber's two. Where
+/// two continuations end at one pole, all are improved together, and their assignment is arbitrary.
+/// N² operations, where the eigenvalues of `modal_plant` take N³; completeness is tested by two
+/// sums over the poles.
+/// @return nothing where not all were found, as with a critical damper or coinciding poles
 /// @throws InvalidParameter where modes or absorber are not admissible
 inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& modes,
                                           const Absorber<double>& absorber) {
@@ -262,8 +262,8 @@ inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& 
   return poles;
 }
 
-/// The longest sampling period (s) that shows every one of some natural motions: π over their
-/// largest |s|.
+/// The longest sampling period (s) that resolves all given natural motions: π over their largest
+/// |s|.
 inline double nyquist_period(const std::vector<PlantPole>& poles) {
   double fastest = 0.0;
   for (const PlantPole& pole : poles) fastest = std::max(fastest, std::abs(pole.s));

@@ -6,80 +6,80 @@
 
 namespace holdfast {
 
-/// Reads the states of a plant of order N through its ports, and moves them there.
-/// @tparam Plant  with `ports()`; the two masses have their own readings, by subscripts
+/// The readings of the states of a plant of order N through its ports, and changes of them.
+/// @tparam Plant  plant with `ports()`; the two masses have their own readings
 template <class Plant>
 class PortReadings {
  public:
   using Scalar = ScalarOf<Plant>;  ///< the number type of the plant
   using State = StateOf<Plant>;    ///< x, N × 1
 
-  /// Copies the ports.
+  /// Constructs the readings by copying the ports.
   explicit PortReadings(const Plant& plant) : ports_(plant.ports()) {}
 
-  /// z of the conductor at the absorber (m).
+  /// The displacement z of the conductor at the absorber (m).
   Scalar displacement(const State& x) const { return ports_.displacement.dot(x); }
-  /// ż there (m/s).
+  /// The velocity ż of the conductor at the absorber (m/s).
   Scalar velocity(const State& x) const { return ports_.velocity.dot(x); }
-  /// [z, ż, z + Δz, ż + Δż], both sides of the gap (m, m/s, m, m/s).
+  /// The state [z, ż, z + Δz, ż + Δż] of both sides of the gap (m, m/s, m, m/s).
   Vector<Scalar, 4> both_sides(const State& x) const {
     const Scalar displacement = ports_.displacement.dot(x), velocity = ports_.velocity.dot(x);
     return {displacement, velocity, displacement + relative_displacement(x),
             velocity + relative_velocity(x)};
   }
-  /// Measured displacement, which P multiplies (m).
+  /// The measured displacement, which P multiplies (m).
   Scalar measured_displacement(const State& x) const { return ports_.measured_displacement.dot(x); }
-  /// Measured velocity, which D multiplies (m/s).
+  /// The measured velocity, which D multiplies (m/s).
   Scalar measured_velocity(const State& x) const { return ports_.measured_velocity.dot(x); }
-  /// Δz (m).
+  /// The relative displacement Δz (m).
   Scalar relative_displacement(const State& x) const { return ports_.relative_displacement.dot(x); }
-  /// Δż (m/s).
+  /// The relative velocity Δż (m/s).
   Scalar relative_velocity(const State& x) const { return ports_.relative_velocity.dot(x); }
-  /// Δz as a functional of the state, N × 1.
+  /// The functional Δz of the state, N × 1.
   State displacement_row() const { return ports_.relative_displacement.transpose(); }
-  /// Δż as a functional of the state, N × 1.
+  /// The functional Δż of the state, N × 1.
   State velocity_row() const { return ports_.relative_velocity.transpose(); }
 
-  /// Adds a displacement (m) to the conductor's z: the least change of the state that does so.
+  /// Adds a displacement (m) to the conductor's z by the least change of the state.
   void displace_conductor(State& x, const Scalar& by) const {
     x += ports_.displacement.transpose() * (by / ports_.displacement.squaredNorm());
   }
-  /// Makes Δż zero, Δz as it is.
+  /// Sets Δż to zero without changing Δz.
   void stop_relative_motion(State& x) const {
     x -= ports_.velocity_lift * ports_.relative_velocity.dot(x);
   }
-  /// Makes Δż zero, and Δz what it was before.
+  /// Sets Δż to zero and Δz to its value before.
   void hold_relative_position(const State& before, State& x) const {
     x += ports_.displacement_lift * (relative_displacement(before) - relative_displacement(x));
     stop_relative_motion(x);
   }
 
-  /// ż of states as columns of a matrix, N × M. @return 1 × M
+  /// The velocities ż of states, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.velocity * x);
   }
-  /// Measured displacements of deviations, the columns of an N × M matrix. @return 1 × M
+  /// The measured displacements of deviations, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto measured_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.measured_displacement * x);
   }
-  /// Measured velocities of deviations likewise.
+  /// The measured velocities of deviations, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto measured_velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.measured_velocity * x);
   }
-  /// Δz, of deviations likewise.
+  /// The relative displacements Δz of deviations, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto relative_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.relative_displacement * x);
   }
-  /// Δż, of deviations likewise.
+  /// The relative velocities Δż of deviations, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto relative_velocities(const Columns& x) const {
     return (ports_.relative_velocity * x).eval();
   }
-  /// Makes Δż zero of deviations likewise.
+  /// Sets Δż to zero in deviations, the columns of an N × M matrix.
   template <class Columns>
   void stop_relative_motions(Columns&& x) const {
     x -= ports_.velocity_lift * (ports_.relative_velocity * x).eval();
@@ -89,73 +89,73 @@ class PortReadings {
   Ports<Scalar, states_of<Plant>> ports_;
 };
 
-/// Readings of the two masses.
+/// The readings of the two masses.
 template <class Number>
 class PortReadings<TwoMass<Number>> {
  public:
   using Scalar = Number;            ///< the number type of the plant
   using State = Vector<Number, 4>;  ///< [z₁, ż₁, z₂, ż₂]
 
-  /// All plants of this type have the same readings.
+  /// Constructs the readings, which are the same for all plants of this type.
   PortReadings() = default;
-  /// The same.
+  /// Constructs the readings, which are the same for all plants of this type.
   explicit PortReadings(const TwoMass<Number>&) {}
 
-  /// z₁ (m).
+  /// The displacement z₁ (m).
   const Scalar& displacement(const State& x) const { return x[0]; }
-  /// ż₁ (m/s).
+  /// The velocity ż₁ (m/s).
   const Scalar& velocity(const State& x) const { return x[1]; }
-  /// x itself.
+  /// The state of both sides of the gap: x itself.
   const State& both_sides(const State& x) const { return x; }
-  /// z₁ (m).
+  /// The measured displacement z₁ (m).
   const Scalar& measured_displacement(const State& x) const { return x[0]; }
-  /// ż₁ (m/s).
+  /// The measured velocity ż₁ (m/s).
   const Scalar& measured_velocity(const State& x) const { return x[1]; }
-  /// Δz = z₂ − z₁ (m).
+  /// The relative displacement Δz = z₂ − z₁ (m).
   Scalar relative_displacement(const State& x) const { return holdfast::relative_displacement(x); }
-  /// Δż = ż₂ − ż₁ (m/s).
+  /// The relative velocity Δż = ż₂ − ż₁ (m/s).
   Scalar relative_velocity(const State& x) const { return holdfast::relative_velocity(x); }
-  /// [−1, 0, 1, 0].
+  /// The row [−1, 0, 1, 0] of Δz.
   State displacement_row() const { return {Scalar(-1), Scalar(0), Scalar(1), Scalar(0)}; }
-  /// [0, −1, 0, 1].
+  /// The row [0, −1, 0, 1] of Δż.
   State velocity_row() const { return {Scalar(0), Scalar(-1), Scalar(0), Scalar(1)}; }
 
   /// Adds a displacement (m) to z₁.
   void displace_conductor(State& x, const Scalar& by) const { x[0] += by; }
-  /// ż₂ = ż₁.
+  /// Sets Δż to zero: ż₂ = ż₁.
   void stop_relative_motion(State& x) const { x[3] = x[1]; }
-  /// ż₂ = ż₁, and z₂ − z₁ what it was before.
+  /// Sets ż₂ = ż₁, and z₂ − z₁ to its value before.
   void hold_relative_position(const State& before, State& x) const {
     x[2] = x[0] + relative_displacement(before);
     x[3] = x[1];
   }
 
-  /// The second row of a matrix whose columns are states, 4 × M. @return 1 × M
+  /// The velocities ż₁ of states, the columns of a 4 × M matrix. @return 1 × M
   template <class Columns>
   auto velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(1));
   }
-  /// The first row of a matrix whose columns are deviations of the state, 4 × M. @return 1 × M
+  /// The measured displacements of deviations, the columns of a 4 × M matrix. @return 1 × M
   template <class Columns>
   auto measured_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(0));
   }
-  /// Its second row.
+  /// The measured velocities of deviations: the second row.
   template <class Columns>
   auto measured_velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(1));
   }
-  /// Its third row less the first.
+  /// The relative displacements of deviations: the third row minus the first.
   template <class Columns>
   auto relative_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(2) - x.row(0));
   }
-  /// Its last row less the second.
+  /// The relative velocities of deviations: the last row minus the second.
   template <class Columns>
   auto relative_velocities(const Columns& x) const {
     return (x.row(3) - x.row(1)).eval();
   }
-  /// Makes the last row the second.
+  /// Sets Δż to zero in deviations: the last row becomes the second.
   template <class Columns>
   void stop_relative_motions(Columns&& x) const {
     x.row(3) = x.row(1).eval();

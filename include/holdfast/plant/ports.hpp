@@ -14,7 +14,7 @@ struct Identity {
   using type = Type;
 };
 
-/// A parameter type from which a template argument is not deduced: braces may stand for it.
+/// A parameter type from which no template argument is deduced, so that braces may replace it.
 template <class Type>
 using Undeduced = typename Identity<Type>::type;
 
@@ -27,7 +27,7 @@ template <class Plant>
 struct HasPorts<Plant, std::void_t<decltype(std::declval<const Plant&>().ports())>>
     : std::true_type {};
 
-/// Whether a plant has a controller of its own (control/controlled_plant.hpp).
+/// Whether a plant has its own controller (control/controlled_plant.hpp).
 template <class Plant, class = void>
 struct HasController : std::false_type {};
 template <class Plant>
@@ -40,39 +40,39 @@ struct HasController<Plant, std::void_t<decltype(std::declval<const Plant&>().co
 template <class Plant>
 using ScalarOf = typename detail::StateMatrixOf<Plant>::Scalar;
 
-/// N, the order of a plant; Eigen::Dynamic where it is known at run time alone.
+/// The order N of a plant; Eigen::Dynamic where it is known at run time only.
 template <class Plant>
 inline constexpr int states_of = detail::StateMatrixOf<Plant>::RowsAtCompileTime;
 
-/// True of a plant of four states that says nothing of its ports: those are the two masses', of
-/// whose sampled loop all is known in closed form (order 4 + 1). Any other is answered by its map.
+/// Whether a plant has four states and no ports of its own: then they are the two masses', whose
+/// sampled loop has closed forms (order 4 + 1). Any other loop is computed from its map.
 template <class Plant>
 inline constexpr bool has_closed_forms = states_of<Plant> == 4 && !detail::HasPorts<Plant>::value;
 
-/// The state of a plant, N × 1.
+/// The state type of a plant, N × 1.
 template <class Plant>
 using StateOf = Vector<ScalarOf<Plant>, states_of<Plant>>;
 
-/// Where a loop is connected to a plant of order N: what its sensors read, what is asked of the
-/// conductor, and what the drive's gap sees. Rows are functionals of the state x, 1 × N.
+/// The connections of a loop to a plant of order N: sensor readings, the conductor's motion and the
+/// relative motion at the drive's gap. Rows are functionals of the state x, 1 × N.
 template <class Scalar, int States>
 struct Ports {
   RowVector<Scalar, States> displacement;           ///< z (m) of the conductor at the absorber
   RowVector<Scalar, States> velocity;               ///< ż (m/s)
-  RowVector<Scalar, States> measured_displacement;  ///< what P multiplies (m): z, or filtered
-  RowVector<Scalar, States> measured_velocity;      ///< what D multiplies (m/s): ż, or filtered
+  RowVector<Scalar, States> measured_displacement;  ///< row multiplied by P (m): z, or filtered
+  RowVector<Scalar, States> measured_velocity;      ///< row multiplied by D (m/s): ż, or filtered
   RowVector<Scalar, States> relative_displacement;  ///< Δz (m), absorber against conductor
   RowVector<Scalar, States> relative_velocity;      ///< Δż (m/s)
-  Vector<Scalar, States> displacement_lift;  ///< e_z, N × 1: moves Δz by 1 m, and Δż not at all
-  Vector<Scalar, States> velocity_lift;  ///< e_v, N × 1: changes Δż by 1 m/s, and Δz not at all
+  Vector<Scalar, States> displacement_lift;  ///< e_z, N × 1: changes Δz by 1 m without changing Δż
+  Vector<Scalar, States> velocity_lift;  ///< e_v, N × 1: changes Δż by 1 m/s without changing Δz
 
-  /// K = P h_z + D h_v, 1 × N, so that u = K x.
+  /// The feedback row K = P h_z + D h_v, 1 × N, so that u = K x.
   RowVector<Scalar, States> feedback_row(const Scalar& proportional,
                                          const Scalar& differential) const {
     return proportional * measured_displacement + differential * measured_velocity;
   }
 
-  /// Whether all are of a plant of that order.
+  /// Whether all ports belong to a plant of the given order.
   bool are_of(Eigen::Index order) const {
     const auto fits = [order](const auto&... of) { return ((of.size() == order) && ...); };
     return fits(displacement, velocity, measured_displacement, measured_velocity,
@@ -80,8 +80,8 @@ struct Ports {
   }
 };
 
-/// The ports of a state that begins with [z₁, ż₁, z₂, ż₂], the two masses'; those of a plant that
-/// says nothing of its own.
+/// The ports of a state that begins with [z₁, ż₁, z₂, ż₂], the two masses'; used for plants without
+/// ports of their own.
 template <class Scalar, int States = 4>
 Ports<Scalar, States> two_mass_ports(Eigen::Index states = States) {
   const auto unit = [&](Eigen::Index k) {
@@ -99,7 +99,7 @@ Ports<Scalar, States> two_mass_ports(Eigen::Index states = States) {
 
 /// The ports of a plant: its own, or those of the two masses where it has four states and no
 /// `ports()`.
-/// @throws InvalidParameter where one of them is of another order than the plant
+/// @throws InvalidParameter where one of them has another order than the plant
 template <class Plant>
 Ports<ScalarOf<Plant>, states_of<Plant>> ports_of(const Plant& plant) {
   if constexpr (detail::HasPorts<Plant>::value) {
@@ -119,8 +119,8 @@ Ports<ScalarOf<Plant>, states_of<Plant>> ports_of(const Plant& plant) {
 
 namespace detail {
 
-/// Any column of Eigen's as a state of a plant.
-/// @throws InvalidParameter where it is of another size
+/// The state of a plant from any Eigen column.
+/// @throws InvalidParameter where it has another size
 template <class Plant, class Derived>
 StateOf<Plant> state_of(const Plant& plant, const Eigen::MatrixBase<Derived>& column) {
   constexpr int states = states_of<Plant>, size = Derived::RowsAtCompileTime;
@@ -136,7 +136,7 @@ StateOf<Plant> state_of(const Plant& plant, const Eigen::MatrixBase<Derived>& co
   }
 }
 
-/// Refuses a state of a plant that is of another size or not finite.
+/// Rejects a state of a plant that has another size or is not finite.
 template <class Plant>
 void require_state(const StateOf<Plant>& state, const Plant& plant) {
   require_size("size of the initial state", state.size(), plant.excitation_input().size());

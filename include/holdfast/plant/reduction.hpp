@@ -11,7 +11,7 @@
 
 namespace holdfast {
 
-/// Natural frequencies that the two-mass plant is to have, and the numbers that are given.
+/// The prescribed natural frequencies of a two-mass plant, with its given parameters.
 template <class Scalar>
 struct FrequencyReduction {
   Scalar conductor_stiffness;  ///< k₁ (N/m), > 0
@@ -24,39 +24,39 @@ struct FrequencyReduction {
 struct ReducedMasses {
   double absorber_stiffness;  ///< k₂ (N/m)
   double conductor_mass;      ///< m₁ (kg)
-  /// Condition number Σ |∂ ln k₂/∂ ln p| over p = k₁, m₂, ω₁, ω₂: how many times a relative error
-  /// of the inputs comes out larger.
+  /// The condition number Σ |∂ ln k₂/∂ ln p| over p = k₁, m₂, ω₁, ω₂: the factor by which relative
+  /// errors of the inputs are amplified.
   double stiffness_condition;
-  double mass_condition;     ///< the same of m₁, Σ |∂ ln m₁/∂ ln p|
-  double damping_condition;  ///< the same of c₁ by Eq. (3), besides the 1 that ζ counts
+  double mass_condition;     ///< condition number of m₁, Σ |∂ ln m₁/∂ ln p|
+  double damping_condition;  ///< condition number of c₁ by Eq. (3), besides the 1 of ζ
 
-  /// An error of 1 % of the inputs may be one of 100 % of k₂ or m₁, as it is near the double
-  /// solution, where the conditions have no bound. False without solution.
+  /// Whether 1 % error of the inputs may cause 100 % error of k₂ or m₁, as near the double
+  /// solution, where the condition numbers are unbounded. False without solution.
   bool is_ill_conditioned() const {
     constexpr double largest_condition = 100.0;
     return stiffness_condition > largest_condition || mass_condition > largest_condition;
   }
 };
 
-/// How many two-mass plants have the natural frequencies asked for.
+/// The number of two-mass plants with the prescribed natural frequencies.
 enum class ReductionOutcome {
-  two_solutions,    ///< both roots are real and apart
-  double_solution,  ///< they coincide: the outputs answer to no finite error of the inputs
+  two_solutions,    ///< both roots are real and distinct
+  double_solution,  ///< both roots coincide: outputs have unbounded condition numbers
   no_solution,      ///< no real plant has these frequencies
 };
 
-/// m₁ and k₂ from two natural frequencies.
+/// The solutions m₁ and k₂ of the reduction to two natural frequencies.
 struct ReductionResult {
-  ReductionOutcome outcome;  ///< whether `solutions` holds numbers, and two different ones
-  /// ((1/ω₁ − 1/ω₂)² k₁/m₂) − 1: the room before the two roots meet; negative without solution.
+  ReductionOutcome outcome;  ///< number of solutions in `solutions`
+  /// The discriminant ((1/ω₁ − 1/ω₂)² k₁/m₂) − 1: 0 for a double root; negative without solution.
   double discriminant;
-  /// The smaller k₂ first; NaN without solution. The paper's Table 1 takes the smaller.
+  /// The solutions, smaller k₂ first; NaN without one. The paper's Table 1 uses the smaller k₂.
   std::array<ReducedMasses, 2> solutions;
-  double largest_absorber_mass;         ///< kg, the largest m₂ for which a plant exists
-  double smallest_conductor_stiffness;  ///< N/m, the smallest k₁ for which one exists
+  double largest_absorber_mass;         ///< kg, largest m₂ for which a plant exists
+  double smallest_conductor_stiffness;  ///< N/m, smallest k₁ for which a plant exists
 };
 
-/// k₁ (1/ω₁ − 1/ω₂)² (kg), the largest m₂ for which a plant exists.
+/// The largest m₂ for which a plant exists, k₁ (1/ω₁ − 1/ω₂)² (kg).
 template <class Scalar>
 Scalar largest_absorber_mass(const FrequencyReduction<Scalar>& asked) {
   const Scalar room = (Scalar(1) / asked.first_frequency - Scalar(1) / asked.second_frequency) /
@@ -64,13 +64,13 @@ Scalar largest_absorber_mass(const FrequencyReduction<Scalar>& asked) {
   return asked.conductor_stiffness * room * room;
 }
 
-/// ((1/ω₁ − 1/ω₂)² k₁/m₂) − 1, negative where no real plant exists.
+/// The discriminant ((1/ω₁ − 1/ω₂)² k₁/m₂) − 1, negative where no real plant exists.
 template <class Scalar>
 Scalar reduction_discriminant(const FrequencyReduction<Scalar>& asked) {
   return largest_absorber_mass(asked) / asked.absorber_mass - Scalar(1);
 }
 
-/// k₂, a root of the condition that the undamped plant has the frequencies ω₁ and ω₂:
+/// The stiffness k₂, a root of the condition that the undamped plant has the frequencies ω₁ and ω₂:
 ///
 ///     k₂²/m₂ + k₂ (m₂ ω₁²ω₂²/k₁ − ω₁² − ω₂²) + m₂ ω₁²ω₂² = 0,
 ///
@@ -90,7 +90,7 @@ Scalar absorber_stiffness_root(const FrequencyReduction<Scalar>& asked, bool lar
   return larger ? Scalar(scale * grown) : Scalar(scale / grown);
 }
 
-/// m₁ = k₁ k₂/(m₂ ω₁²ω₂²) (kg), the product of the two squared frequencies.
+/// The conductor mass m₁ = k₁ k₂/(m₂ ω₁²ω₂²) (kg), from the product of the squared frequencies.
 template <class Scalar>
 Scalar reduced_conductor_mass(const FrequencyReduction<Scalar>& asked,
                               const Scalar& absorber_stiffness) {
@@ -99,8 +99,8 @@ Scalar reduced_conductor_mass(const FrequencyReduction<Scalar>& asked,
   return asked.conductor_stiffness * absorber_stiffness / (asked.absorber_mass * product * product);
 }
 
-/// c₁ = 2 m₁ ω ζ (N s/m), Eq. (3), ω = √(k₁/m₁) of the conductor without absorber.
-/// @throws InvalidParameter for non-positive m₁, k₁ or ζ outside 0 … 1
+/// The conductor damping c₁ = 2 m₁ ω ζ (N s/m), Eq. (3), ω = √(k₁/m₁) without absorber.
+/// @throws InvalidParameter where m₁ or k₁ is not positive or ζ is outside 0 … 1
 inline double conductor_damping(double conductor_mass, double conductor_stiffness_value,
                                 double damping_ratio) {
   require_positive("conductor mass m1", conductor_mass, "kg");
@@ -111,7 +111,7 @@ inline double conductor_damping(double conductor_mass, double conductor_stiffnes
 
 namespace detail {
 
-/// A number that carries its derivatives by ln k₁, ln m₂, ln ω₁, ln ω₂.
+/// A number with its derivatives by ln k₁, ln m₂, ln ω₁, ln ω₂ (a dual number).
 template <class Scalar>
 using ReductionDual = Eigen::AutoDiffScalar<Vector<Scalar, 4>>;
 
@@ -139,9 +139,9 @@ ReducedMasses reduced_masses(const FrequencyReduction<Scalar>& asked, bool large
 
 }  // namespace detail
 
-/// m₁ and k₂ of the plant with the natural frequencies asked for. A real plant exists only if
-/// 1/ω₁ − 1/ω₂ ≥ √(m₂/k₁); otherwise the outcome says so and names the largest m₂ and the smallest
-/// k₁ that have one.
+/// The solutions m₁ and k₂ of a plant with the prescribed natural frequencies. A real plant exists
+/// only if 1/ω₁ − 1/ω₂ ≥ √(m₂/k₁); otherwise the outcome is `no_solution`, with the largest m₂ and
+/// the smallest k₁ for which one exists.
 /// @throws InvalidParameter unless all inputs are finite and > 0 and the frequencies ascend
 template <class Scalar = double>
 ReductionResult reduce_to_frequencies(const FrequencyReduction<Scalar>& asked) {

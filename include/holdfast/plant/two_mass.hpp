@@ -15,7 +15,7 @@ namespace holdfast {
 ///
 /// With z = [z₁, ż₁, z₂, ż₂]ᵀ (m, m/s, m, m/s; positive downward) this is ż = A z + b u + c F.
 /// Source: Kollár 2022, Eqs. (9)–(10). The printed fourth row of A lost a sign and a column; the
-/// row used here, [k₂/m₂, c₂/m₂, −k₂/m₂, −c₂/m₂], is what the equations of motion above give.
+/// row used here, [k₂/m₂, c₂/m₂, −k₂/m₂, −c₂/m₂], follows from the equations of motion above.
 template <class Scalar>
 struct TwoMass {
   static_assert(is_real<Scalar>, "the numbers of a plant are real: TwoMass<double>");
@@ -27,7 +27,7 @@ struct TwoMass {
   Scalar absorber_stiffness;   ///< k₂ (N/m), > 0
   Scalar absorber_damping;     ///< c₂ (N s/m), ≥ 0
 
-  /// A of Eq. (10), 4 × 4.
+  /// The state matrix A of Eq. (10), 4 × 4.
   Matrix<Scalar, 4> state_matrix() const {
     const Scalar zero(0), one(1);
     const Scalar &m1 = conductor_mass, &k1 = conductor_stiffness, &c1 = conductor_damping;
@@ -40,18 +40,18 @@ struct TwoMass {
     return a;
   }
 
-  /// b of Eq. (10), 4 × 1: how the control force u (N) accelerates the two masses.
+  /// The input b of the control force u (N) in Eq. (10), 4 × 1.
   Vector<Scalar, 4> control_input() const {
     return {Scalar(0), Scalar(1) / conductor_mass, Scalar(0), -Scalar(1) / absorber_mass};
   }
 
-  /// c of Eq. (10), 4 × 1: how the excitation F (N) accelerates the conductor.
+  /// The input c of the excitation F (N) in Eq. (10), 4 × 1.
   Vector<Scalar, 4> excitation_input() const {
     return {Scalar(0), Scalar(1) / conductor_mass, Scalar(0), Scalar(0)};
   }
 };
 
-/// Refuses a plant outside the ranges that its members state.
+/// Rejects a plant outside the ranges stated at its members.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const TwoMass<double>& plant) {
   require_positive("conductor mass m1", plant.conductor_mass, "kg");
@@ -62,7 +62,7 @@ inline void validate(const TwoMass<double>& plant) {
   require_non_negative("absorber damping c2", plant.absorber_damping, "N s/m");
 }
 
-/// Whether `validate` would take a plant.
+/// Whether a plant passes `validate`.
 inline bool is_admissible(const TwoMass<double>& plant) {
   try {
     validate(plant);
@@ -72,13 +72,13 @@ inline bool is_admissible(const TwoMass<double>& plant) {
   }
 }
 
-/// Δz = z₂ − z₁ (m) of a state that begins with [z₁, ż₁, z₂, ż₂].
+/// The relative displacement Δz = z₂ − z₁ (m) of a state that begins with [z₁, ż₁, z₂, ż₂].
 template <class Scalar, int Size>
 Scalar relative_displacement(const Vector<Scalar, Size>& state) {
   return state[2] - state[0];
 }
 
-/// Δż = ż₂ − ż₁ (m/s) of a state that begins with [z₁, ż₁, z₂, ż₂].
+/// The relative velocity Δż = ż₂ − ż₁ (m/s) of a state that begins with [z₁, ż₁, z₂, ż₂].
 template <class Scalar, int Size>
 Scalar relative_velocity(const Vector<Scalar, Size>& state) {
   return state[3] - state[1];
@@ -93,8 +93,8 @@ TwoMass<To> converted(const TwoMass<From>& plant) {
 
 namespace detail {
 
-/// Refuses two masses outside their ranges; of packs and duals, and of other plants, nothing is
-/// asked here.
+/// Rejects two masses outside their ranges; packs, dual numbers and other plants are not checked
+/// here.
 template <class Plant>
 void require_admissible(const Plant&) {}
 template <class Scalar>

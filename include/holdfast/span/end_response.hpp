@@ -12,42 +12,42 @@
 
 namespace holdfast {
 
-/// Response of an end of a span with its devices to the waves of one frequency that come to it.
-/// Motions are given for a free span that vibrates with 1 m at its antinodes.
+/// The response of an end of a span with its devices to incident waves of one frequency. Motions
+/// are relative to a free span that vibrates with 1 m at its antinodes.
 struct EndResponse {
   std::complex<double> reflection;  ///< r of the displacement, at the outermost device
-  /// Z of the end as the outermost device's place sees it (N s/m), Z_c (1 − r)/(1 + r); without
-  /// device that of the support is infinite
+  /// The impedance Z of the end at the outermost device's place (N s/m), Z_c (1 − r)/(1 + r);
+  /// without device that of the support, which is infinite.
   std::complex<double> impedance;
   double support_angle;         ///< slope of the conductor at the support (rad/m)
-  std::vector<double> motions;  ///< of the devices, outward from the support (m/m)
-  std::vector<double> kinks;    ///< of the conductor at the devices, |Z v|/T (rad/m)
+  std::vector<double> motions;  ///< motions of the devices, outward from the support (m/m)
+  std::vector<double> kinks;    ///< kinks of the conductor at the devices, |Z v|/T (rad/m)
 
-  /// 1 − |r|²: of the incident power the part that does not come back.
+  /// The absorbed fraction 1 − |r|² of the incident power.
   double absorbed_fraction() const { return 1.0 - std::norm(reflection); }
 
-  /// S = (1 − |r|)/(1 + |r|), the inverse standing-wave ratio: node over antinode. Negative where
-  /// the devices feed the wave.
+  /// The inverse standing-wave ratio S = (1 − |r|)/(1 + |r|): node over antinode. Negative where
+  /// the devices supply power.
   double inverse_standing_wave_ratio() const {
     return (1.0 - std::abs(reflection)) / (1.0 + std::abs(reflection));
   }
 
-  /// ½ Z_c ω² S: what the devices take from an antinode of 1 m (W/m²).
+  /// The power ½ Z_c ω² S that the devices absorb at an antinode amplitude of 1 m (W/m²).
   double absorbed_power(double wave_impedance, double angular_frequency) const {
     return 0.5 * wave_impedance * angular_frequency * angular_frequency *
            inverse_standing_wave_ratio();
   }
 };
 
-/// An end of a span: the distances of its devices from the support, ascending, and the devices.
+/// An end of a span: its devices with their distances from the support, ascending.
 struct SpanEnd {
   std::vector<double> distances;           ///< m, > 0
-  std::vector<const SpanDevice*> devices;  ///< at these
+  std::vector<const SpanDevice*> devices;  ///< devices at these distances
 };
 
-/// The devices nearer to the left support, and to the right one. They must outlive what is
-/// returned.
-/// @param devices  `in_order`
+/// The devices nearer to the left support, and those nearer to the right one; they must outlive the
+/// result.
+/// @param devices  sorted by `in_order`
 /// @param span     L (m)
 inline std::array<SpanEnd, 2> span_ends(const std::vector<SpanDevice>& devices, double span) {
   std::array<SpanEnd, 2> ends;
@@ -65,14 +65,14 @@ inline std::array<SpanEnd, 2> span_ends(const std::vector<SpanDevice>& devices, 
 }
 
 /// The waves e^{iωt} at an end of a taut string, from its fixed support outward: between devices
-/// the string keeps y and its slope turns, y″ = −k² y with k = ω/c; at a device the slope jumps by
-/// Z iω y/T. Beyond the last one what runs in and what comes back are told apart,
+/// the string satisfies y″ = −k² y with k = ω/c; at a device the slope jumps by Z iω y/T. Beyond
+/// the last one incident and reflected wave are separated,
 ///
 ///     r = (1 − ζ_t)/(1 + ζ_t),  ζ_t = Z/Z_c − i cot ka   for one device at a
 ///
-/// The string itself is taken without damping: over the few metres of an end it takes nothing.
-/// @param string             tension and mass; its damping and bending stiffness do not count
-/// @param end                its devices (unchecked)
+/// The string itself is undamped here: over the few metres of an end it absorbs nothing.
+/// @param string             tension and mass; damping and bending stiffness are not used
+/// @param end                end with its devices (unchecked)
 /// @param angular_frequency  ω (rad/s), > 0
 inline EndResponse end_response(const TautString<double>& string, const SpanEnd& end,
                                 double angular_frequency) {

@@ -7,7 +7,7 @@
 
 namespace holdfast {
 
-/// A mode of a conductor as several places see it.
+/// A mode of a conductor with its shapes at several places.
 struct ModeAtPlaces {
   double angular_frequency;    ///< ω_n (rad/s), > 0
   double damping_ratio;        ///< ζ_n, ≥ 0, ≠ 1
@@ -15,15 +15,15 @@ struct ModeAtPlaces {
   std::vector<double> shapes;  ///< φ_n at each place
 };
 
-/// The modes of a taut string as several places see them: the sines 1 … count, and what is above
-/// them in bundles (`bundled_string_modes`) that each place has for itself, since waves so short
-/// are damped out between two places. Those of one place lie a thousandth above those of the one
-/// before: bundles at one frequency could not be told apart.
-/// @param string   any
+/// The modes of a taut string at several places: the sines 1 … count, and higher modes in bundles
+/// (`bundled_string_modes`), separate for each place, since such short waves are damped out between
+/// two places. The bundles of successive places differ by a thousandth in frequency: equal
+/// frequencies could not be separated.
+/// @param string   a taut string
 /// @param places   m from the left support, inside the span
 /// @param count    sines, 1 … 10⁴
 /// @param highest  ω (rad/s) up to which bundles are formed
-/// @throws InvalidParameter as `bundled_string_modes`
+/// @throws InvalidParameter under the conditions of `bundled_string_modes`
 inline std::vector<ModeAtPlaces> string_modes_at(const TautString<double>& string,
                                                  const std::vector<double>& places, int count,
                                                  double highest) {

@@ -10,13 +10,13 @@
 
 namespace holdfast {
 
-/// The impedance that lets no wave of one frequency come back from a support at a distance,
-/// Z* = Z_c (1 + i cot ka), k = ω/c (N s/m).
+/// The impedance at a distance from a support with which no wave of one frequency is reflected, Z*
+/// = Z_c (1 + i cot ka), k = ω/c (N s/m).
 /// @param string             tension and mass
 /// @param distance           a (m) from the support, > 0; sin ka ≠ 0
 /// @param angular_frequency  ω (rad/s), > 0
-/// @throws InvalidParameter where the place is a node of that frequency, or the samples do not show
-///         it
+/// @throws InvalidParameter where the place is a node of that frequency, or the samples do not
+/// resolve it
 inline std::complex<double> matched_impedance(const TautString<double>& string, double distance,
                                               double angular_frequency) {
   const double phase = angular_frequency * distance / string.wave_speed();
@@ -26,18 +26,18 @@ inline std::complex<double> matched_impedance(const TautString<double>& string, 
   return string.wave_impedance() * std::complex<double>(1.0, 1.0 / std::tan(phase));
 }
 
-/// The gains with which the absorber under its computer absorbs a wave of one frequency whole:
+/// The gains with which the absorber under its computer absorbs a wave of one frequency completely:
 ///
 ///     Z_eff = (Z* − (M_c s² + K_p)/s)/T_a,   s = iω
 ///     −(D d + P/s) Λ = Z_eff,   Λ = F D e^{−s(δ + τ/2)} sinc(ωτ/2)
 ///
-/// d being 1, or (1 − e^{−sτ})/(sτ) of a velocity by difference: two real equations.
+/// where d is 1, or (1 − e^{−sτ})/(sτ) for a velocity by difference: two real equations.
 ///
-/// Whether the loop is stable with them, at all other frequencies, is another question.
+/// The stability of the loop with these gains must be examined separately.
 /// @param string             tension and mass
 /// @param distance           a (m) from the support, > 0; sin ka ≠ 0
-/// @param device             its gains do not count
-/// @param angular_frequency  ω (rad/s), > 0, no multiple of 2π/τ, of a difference of π/τ
+/// @param device             absorber with its computer; its gains are not used
+/// @param angular_frequency  ω (rad/s), > 0, no multiple of 2π/τ, with a difference of π/τ
 /// @throws InvalidParameter where the place is a node of that frequency
 inline PdGains<double> perfect_absorption(const TautString<double>& string, double distance,
                                           const ActiveAbsorber& device, double angular_frequency) {

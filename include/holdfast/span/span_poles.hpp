@@ -19,20 +19,20 @@
 
 namespace holdfast {
 
-/// The natural motions of a conductor to which one device after the other is attached, as all its
-/// places see them:
+/// The natural motions of a conductor to which devices are attached one after the other, with the
+/// receptances between their places:
 ///
 ///     H_il(s) = Σ_k φ_ik φ_lk/(s − s_k)  (m/N, force at l, displacement at i)
 ///
-/// A device with K at place j makes of it H_il − H_ij K H_jl/(1 + K H_jj): its poles are the roots
-/// of 1 + K H_jj, each followed from where conductor or device moves alone (`root_from_pole`), and
-/// stay of rank one. N² operations a device.
+/// A device with K at place j changes it to H_il − H_ij K H_jl/(1 + K H_jj): its poles are the
+/// roots of 1 + K H_jj, each continued from a pole of conductor or device alone (`root_from_pole`);
+/// the residues remain of rank one. N² operations per device.
 class SpanPoles {
  public:
-  using Complex = std::complex<double>;  ///< of s and of what moves
+  using Complex = std::complex<double>;  ///< type of s and of receptances
 
-  /// @param modes  of the bare conductor, all with the same number of places, none damped
-  ///               critically
+  /// @param modes  modes of the bare conductor, all with the same number of places, none critically
+  ///               damped
   /// @throws InvalidParameter where there is no mode or one is not admissible
   explicit SpanPoles(const std::vector<ModeAtPlaces>& modes) {
     require_within("number of modes", static_cast<double>(modes.size()), "", 1, 10000);
@@ -41,7 +41,7 @@ class SpanPoles {
     for (const ModeAtPlaces& mode : modes) add(mode);
   }
 
-  /// H_il at s.
+  /// The receptance H_il at s.
   Complex receptance(std::size_t i, std::size_t l, const Complex& s) const {
     Complex sum(0.0);
     for (const Pole& pole : poles_) sum += part(pole, i, l, s);
@@ -49,7 +49,7 @@ class SpanPoles {
   }
 
   /// Attaches a device.
-  /// @param device  any
+  /// @param device  a lumped device
   /// @param place   index of its place
   /// @throws InvalidParameter where the device is not admissible
   void attach(const LumpedDevice& device, std::size_t place) {
@@ -66,8 +66,8 @@ class SpanPoles {
     }());
   }
 
-  /// Attaches an absorber, and returns the poles from its drive to its place as `plant_poles` does:
-  /// of each pair both, nothing where they were not all found.
+  /// Attaches an absorber and gives the poles from its drive to its place in the form of
+  /// `plant_poles`: both of each pair; nothing where not all were found.
   /// @throws InvalidParameter where the absorber is not admissible
   std::vector<PlantPole> attach(const Absorber<double>& absorber, std::size_t place) {
     validate({{1.0, 0.0, 1.0, 1.0}}, absorber);
@@ -85,7 +85,7 @@ class SpanPoles {
     return found;
   }
 
-  /// The s with Im s > 0 of each pair; in the order of the modes, then of what was attached.
+  /// The s with Im s > 0 of each pair, in the order of the modes, then of the attached devices.
   std::vector<Complex> roots() const {
     std::vector<Complex> found;
     for (const Pole& pole : poles_) found.push_back(pole.s);
@@ -106,7 +106,7 @@ class SpanPoles {
     return pole.is_pair ? own + std::conj(product) / (s - std::conj(pole.s)) : own;
   }
 
-  /// dH_jj/ds.
+  /// The derivative dH_jj/ds.
   Complex slope(std::size_t j, const Complex& s) const {
     Complex sum(0.0);
     for (const Pole& pole : poles_) {
@@ -144,7 +144,7 @@ class SpanPoles {
       for (std::size_t l = 0; l < row.size(); ++l) mobility_[i][l] -= share * row[i] * row[l];
   }
 
-  /// Where a motion is with a new device, and where it began without.
+  /// A pole with a new device, and its start without it.
   struct Followed {
     Complex begin, s;
     bool is_pair;
@@ -172,7 +172,7 @@ class SpanPoles {
     poles_ = std::move(poles);
   }
 
-  /// How far a pole goes by its own residue, all others staying.
+  /// The shift of a pole by its own residue, with all others constant.
   struct PoleShift {
     Complex change;                              // s_k less where it comes
     bool is_weak;                                // so little that this is all
@@ -198,7 +198,7 @@ class SpanPoles {
     return {change, is_weak, stiffness_here, denominator, shape, std::move(others)};
   }
 
-  /// A pole that the device hardly moves.
+  /// The pole with a device that hardly moves it.
   static Pole weakly(const Pole& pole, const PoleShift& shift) {
     Pole result{pole.s - shift.change, pole.is_pair, pole.shapes};
     for (std::size_t i = 0; i < result.shapes.size(); ++i)
@@ -223,7 +223,7 @@ class SpanPoles {
     return s;
   }
 
-  /// Adds the motion that begins at s; of a pair that meets on the real axis the other one too.
+  /// Adds the pole continued from s; for a pair that meets on the real axis both poles.
   template <class Stiffness>
   void follow(std::vector<Followed>& found, const Stiffness& stiffness, const Complex& begin,
               bool is_pair, std::size_t place) const {
@@ -238,10 +238,10 @@ class SpanPoles {
     found.push_back({std::conj(begin), other, false, std::nullopt});
   }
 
-  /// The root that stands for its pair.
+  /// The root that represents its pair.
   static Complex upper(const Complex& s) { return s.imag() < 0.0 ? std::conj(s) : s; }
 
-  /// Σ 1/(s − s_k) over motions, pairs counted twice.
+  /// The sum Σ 1/(s − s_k) over poles, pairs counted twice.
   template <class Motions>
   static Complex pull(const Motions& motions, const Complex& s, std::size_t but) {
     Complex sum(0.0);
@@ -252,9 +252,9 @@ class SpanPoles {
     return sum;
   }
 
-  /// Separates motions that came to one or to none: each that is not apart from one before it
-  /// begins anew, and goes by Newton's steps for what is left of the polynomial of all motions when
-  /// the others are divided out (Ehrlich 1967, Aberth 1973).
+  /// Separates poles that coincide or were not found: each one that is not distinct from an earlier
+  /// one restarts, with Newton's steps for the polynomial of all poles divided by the other roots
+  /// (Ehrlich 1967, Aberth 1973).
   template <class Stiffness>
   void separate(std::vector<Followed>& found, const std::vector<Complex>& own,
                 const Stiffness& stiffness, std::size_t place) const {
@@ -287,7 +287,7 @@ class SpanPoles {
     }
   }
 
-  /// Whether the k-th is known, and no one before it.
+  /// Whether the k-th pole is known and distinct from all before it.
   static bool is_apart(const std::vector<Followed>& found, std::size_t k) {
     constexpr double same = 1e-7;
     if (!std::isfinite(std::abs(found[k].s))) return false;
@@ -301,7 +301,7 @@ class SpanPoles {
     return true;
   }
 
-  /// By Newton on 1/H + K.
+  /// The pole refined by Newton's method on 1/H + K.
   template <class Stiffness>
   Complex polished(Complex s, const Stiffness& stiffness, std::size_t place) const {
     for (int turn = 0; turn < 12; ++turn) {

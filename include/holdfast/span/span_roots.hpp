@@ -13,18 +13,18 @@
 
 namespace holdfast {
 
-/// The deflection at the right support of a string that leaves the left one with slope 1, in waves
-/// e^{st}: zero where s is a natural motion of the span with its devices.
+/// The deflection at the right support of a string that starts at the left one with slope 1, for
+/// waves e^{st}: zero where s is an eigenvalue of the span with its devices.
 ///
-/// The string's damping is that of a complex stiffness, T e^{2iφ} with sin φ = ζ, so that each mode
-/// alone has s = iω e^{iφ} and the damping ratio ζ exactly; it holds for Im s > 0.
+/// The string's damping is a complex stiffness, T e^{2iφ} with sin φ = ζ, so that each mode alone
+/// has s = iω e^{iφ} and exactly the damping ratio ζ; this is valid for Im s > 0.
 class SpanWaves {
  public:
-  using Complex = std::complex<double>;  ///< of s and of deflections
+  using Complex = std::complex<double>;  ///< type of s and of deflections
 
-  /// @param string   its bending stiffness does not count
-  /// @param devices  `in_order`; they must outlive this
-  /// @throws InvalidParameter for an inadmissible string
+  /// @param string   taut string; its bending stiffness is not used
+  /// @param devices  sorted by `in_order`; they must outlive this object
+  /// @throws InvalidParameter where the string is not admissible
   SpanWaves(const TautString<double>& string, const std::vector<SpanDevice>& devices)
       : string_(string), devices_(devices) {
     validate(string);
@@ -32,12 +32,12 @@ class SpanWaves {
     turn_ = Complex(std::sqrt(1.0 - zeta * zeta), zeta);
   }
 
-  /// s of mode n without devices (1/s), ζ_n its damping.
+  /// The eigenvalue s of mode n without devices (1/s), with its damping ratio ζ_n.
   Complex bare_root(int n) const {
     return Complex(0.0, n * pi<double> * string_.wave_speed() / string_.span) * turn_;
   }
 
-  /// y(L) over what it is without devices, at s.
+  /// The ratio of y(L) at s to its value without devices.
   Complex held(const Complex& s) const {
     const Complex rate = s / (string_.wave_speed() * turn_);
     const Complex tension = string_.tension * turn_ * turn_;
@@ -53,7 +53,7 @@ class SpanWaves {
   }
 
  private:
-  /// Carries y and its slope along the string.
+  /// Propagates y and its slope along the string.
   static void run(double way, const Complex& rate, Complex& y, Complex& slope) {
     const Complex sine = std::sinh(rate * way), cosine = std::cosh(rate * way);
     const Complex moved = y * cosine + slope * sine / rate;
@@ -66,22 +66,22 @@ class SpanWaves {
   Complex turn_;  // e^{iφ}
 };
 
-/// A natural motion of a span with its devices.
+/// An eigenvalue of a span with its devices.
 struct SpanRoot {
   std::complex<double> bare;  ///< s of the mode without devices (1/s)
-  std::complex<double> root;  ///< s with them; NaN where it could not be followed
-  /// ζ of the bare mode and what light devices add: Σ sin²(nπa/L) Re Z(iω_n)/(μ L ω_n)
+  std::complex<double> root;  ///< s with devices; NaN where the continuation failed
+  /// The ζ of the bare mode plus that of light devices: Σ sin²(nπa/L) Re Z(iω_n)/(μ L ω_n).
   double first_order;
-  /// ζ of the bare mode and what devices near the supports add by Krenk's asymptote,
-  /// Σ (a/L) Im iη/(1 + iη) with η = (Z/Z_c) nπ a/L and a from the nearer support
+  /// The ζ of the bare mode plus that of devices near the supports by Krenk's asymptote, Σ (a/L) Im
+  /// iη/(1 + iη), with η = (Z/Z_c) nπ a/L and a from the nearer support.
   double asymptotic;
 
   double damping() const { return -root.real() / std::abs(root); }          ///< ζ = −Re s/|s|
   double frequency() const { return std::abs(root) / (2.0 * pi<double>); }  ///< |s|/2π (Hz)
 };
 
-/// Laws of few or near devices for mode n of a taut string, without its root.
-/// @param string   its bending stiffness does not count; its damping is that of mode n
+/// The damping of mode n of a taut string by the laws for light or near devices, without its root.
+/// @param string   its bending stiffness is not used; its damping is that of mode n
 /// @param devices  inside the span (unchecked)
 /// @param n        number of half-waves, ≥ 1
 inline SpanRoot span_root_laws(const TautString<double>& string,
@@ -102,11 +102,11 @@ inline SpanRoot span_root_laws(const TautString<double>& string,
   return found;
 }
 
-/// Root of mode n of a taut string with devices, as `span_roots` has it.
-/// @param string   its bending stiffness does not count; its damping is that of mode n
+/// The root of mode n of a taut string with devices, see `span_roots`.
+/// @param string   its bending stiffness is not used; its damping is that of mode n
 /// @param devices  `in_order` (unchecked)
 /// @param n        number of half-waves, ≥ 1
-/// @throws InvalidParameter for an inadmissible string
+/// @throws InvalidParameter where the string is not admissible
 inline SpanRoot span_root(const TautString<double>& string, const std::vector<SpanDevice>& devices,
                           int n) {
   const SpanWaves waves(string, devices);
@@ -117,21 +117,21 @@ inline SpanRoot span_root(const TautString<double>& string, const std::vector<Sp
   return found;
 }
 
-/// The natural motions of a taut string with devices, all modes at once: roots of
+/// The eigenvalues of a taut string with devices, for many modes: roots of
 ///
 ///     sinh γL + Σ_j (Z_j/Z_c) sinh γa_j sinh γ(L − a_j) + …,   γ = s/c
 ///
-/// of one dashpot to the ground sin βL + i (c/Z_c) sin βa sin β(L − a) = 0, s = iβc (Krenk, J. Eng.
-/// Mech. 126 (2000)). Each is followed from a mode of the bare string as its devices grow.
+/// for example, with one dashpot to the ground, sin βL + i (c/Z_c) sin βa sin β(L − a) = 0, s = iβc
+/// (Krenk, J. Eng. Mech. 126 (2000)). Each is continued from a mode of the bare string.
 ///
-/// A mode is followed, not proved: where two roots meet on their way, which of them is whose is a
-/// matter of name. Of an ActiveAbsorber the part of its force at the frequency of the motion
-/// counts; of a measured one its impedance at |s|.
-/// @param string   its bending stiffness does not count
+/// The continuation is no proof: where two roots meet on their way, their assignment is arbitrary.
+/// For an ActiveAbsorber only the part of its force at the frequency of the motion is included; for
+/// a measured device the impedance at |s|.
+/// @param string   taut string; its bending stiffness is not used
 /// @param devices  in any order
 /// @param count    modes 1 … count
-/// @throws InvalidParameter for an inadmissible string, a device outside it or a count outside
-///         1 … 10⁵
+/// @throws InvalidParameter where the string is not admissible, a device is outside it or the count
+/// is outside 1 … 10⁵
 inline std::vector<SpanRoot> span_roots(const TautString<double>& string,
                                         const std::vector<SpanDevice>& devices, int count) {
   require_within("number of modes", count, "", 1, 100000);

@@ -13,13 +13,13 @@ namespace holdfast {
 
 namespace detail {
 
-/// Not below a sum of up to ten products of up to four numbers ≥ 0, each a modulus, that was
-/// computed as x: 20 roundings.
+/// An upper bound of a sum of up to ten products of up to four non-negative numbers, each a
+/// modulus, computed as x with 20 roundings.
 inline double above_roundings(double x) {
   return rounded_up(x * (1.0 + 0x1.0p-48)) + std::numeric_limits<double>::denorm_min();
 }
 
-/// |z| but for a few roundings; no less than half of it where squares vanish.
+/// The modulus |z| up to a few roundings; at least half of it where squares underflow.
 inline double rounded_modulus(const std::complex<double>& z) {
   const double x = std::abs(z.real()), y = std::abs(z.imag());
   const double most = std::max(x, y);
@@ -28,18 +28,18 @@ inline double rounded_modulus(const std::complex<double>& z) {
 
 }  // namespace detail
 
-/// A complex number that is proved to lie within a radius of a centre: a disc, as its products do
-/// not widen when they turn.
+/// A complex number proved to lie within a radius of a centre: a disc, whose products do not widen
+/// by rotation.
 ///
-/// Every operation gives a disc that holds its result on all numbers that its arguments may be;
-/// after a division by 0 or an overflow its radius is infinite.
+/// Every operation gives a disc that contains its result for all numbers in its arguments; after a
+/// division by 0 or an overflow its radius is infinite.
 class ComplexEnclosure {
  public:
-  /// 0.
+  /// The number 0.
   ComplexEnclosure() = default;
-  /// That number itself; implicit, as in formulas a double is such a number.
+  /// The exact value of a double; implicit, so that doubles may be used in formulas.
   ComplexEnclosure(double exact) : centre_(exact) {}  // NOLINT(google-explicit-constructor)
-  /// Within a distance of a centre; a NaN: nothing is known.
+  /// The disc around a centre; with a NaN nothing is known.
   ComplexEnclosure(const std::complex<double>& centre, double radius)
       : centre_(centre), radius_(radius) {
     const bool known = std::isfinite(centre.real()) && std::isfinite(centre.imag());
@@ -47,49 +47,49 @@ class ComplexEnclosure {
     centre_ = 0.0;
     radius_ = std::numeric_limits<double>::infinity();
   }
-  /// x + iy; implicit without y, as a real number is a complex one.
+  /// The number x + iy; implicit without y, as a real number is complex too.
   ComplexEnclosure(const Enclosure& x, const Enclosure& y = {})  // NOLINT(google-explicit-*)
       : ComplexEnclosure({x.middle(), y.middle()}, (Enclosure(x.radius()) + y.radius()).upper()) {}
 
-  /// A number inside.
+  /// The centre of the disc.
   const std::complex<double>& middle() const { return centre_; }
-  /// At least the distance of every number inside from the middle.
+  /// An upper bound of the distance of any number in the disc from the centre.
   double radius() const { return radius_; }
-  /// At least the modulus of every number inside.
+  /// An upper bound of the modulus of any number in the disc.
   double magnitude() const {
     return detail::above_roundings(detail::rounded_modulus(centre_) + radius_);
   }
-  /// Not above the modulus of any number inside.
+  /// A lower bound of the modulus of any number in the disc.
   double least_modulus() const {
     const double modulus = detail::rounded_modulus(centre_);
     const double below = modulus * (1.0 - 0x1.0p-48) - detail::above_roundings(radius_);
     // Neither where squares vanish nor where they overflow.
     return modulus > 2e-140 && modulus < 1e150 && below > 0.0 ? below : 0.0;
   }
-  /// Re z.
+  /// The real part Re z.
   Enclosure real() const { return centre_.real() + Enclosure(-radius_, radius_); }
-  /// Im z.
+  /// The imaginary part Im z.
   Enclosure imaginary() const { return centre_.imag() + Enclosure(-radius_, radius_); }
 
-  /// −a, exact.
+  /// The negative −a, exact.
   ComplexEnclosure operator-() const { return {-centre_, radius_}; }
-  /// i a, exact.
+  /// The product i a, exact.
   ComplexEnclosure times_i() const { return {{-centre_.imag(), centre_.real()}, radius_}; }
-  /// a + b.
+  /// Adds b.
   ComplexEnclosure& operator+=(const ComplexEnclosure& b) { return *this = *this + b; }
-  /// a b.
+  /// Multiplies by b.
   ComplexEnclosure& operator*=(const ComplexEnclosure& b) { return *this = *this * b; }
 
-  /// a + b.
+  /// The sum a + b.
   friend ComplexEnclosure operator+(const ComplexEnclosure& a, const ComplexEnclosure& b) {
     const std::complex<double> sum = a.centre_ + b.centre_;
     return {sum, detail::above_roundings(a.radius_ + b.radius_ + unit * size(sum))};
   }
-  /// a − b.
+  /// The difference a − b.
   friend ComplexEnclosure operator-(const ComplexEnclosure& a, const ComplexEnclosure& b) {
     return a + (-b);
   }
-  /// a b. Of the centres' product each part is wrong by 2 roundings of what it is made of.
+  /// The product a b. Each part of the centres' product has an error of 2 roundings of its terms.
   friend ComplexEnclosure operator*(const ComplexEnclosure& a, const ComplexEnclosure& b) {
     const std::complex<double>&x = a.centre_, &y = b.centre_;
     const double of_x = detail::rounded_modulus(x), of_y = detail::rounded_modulus(y);
@@ -98,7 +98,7 @@ class ComplexEnclosure {
     return {{x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()},
             detail::above_roundings(radius) + least};
   }
-  /// a / b; unknown where b may be 0.
+  /// The quotient a / b; unknown where b may be 0.
   friend ComplexEnclosure operator/(const ComplexEnclosure& a, const ComplexEnclosure& b) {
     return a * inverse(b);
   }
@@ -107,7 +107,7 @@ class ComplexEnclosure {
   friend ComplexEnclosure conj(const ComplexEnclosure& a) {
     return {std::conj(a.centre_), a.radius_};
   }
-  /// 1/a; unknown where a may be 0. With y near 1/c, c the centre,
+  /// The reciprocal 1/a; unknown where a may be 0. With y near 1/c, c being the centre,
   ///
   ///     |1/(c + w) − y| ≤ (|1 − c y| + |w y|)/|c + w|
   friend ComplexEnclosure inverse(const ComplexEnclosure& a) {
@@ -130,8 +130,8 @@ class ComplexEnclosure {
   double radius_ = 0.0;
 };
 
-/// e^z of every number inside.
-/// @param z  not finite, or of a radius of 1 and more: unknown
+/// The exponential e^z of every number in a disc.
+/// @param z  disc; not finite, or with a radius of 1 or more, it gives an unknown result
 inline ComplexEnclosure exponential(const ComplexEnclosure& z) {
   const double x = z.middle().real(), y = z.middle().imag();
   Matrix<Enclosure, 2> turning;
@@ -143,9 +143,9 @@ inline ComplexEnclosure exponential(const ComplexEnclosure& z) {
   return ComplexEnclosure(power(0, 0), power(1, 0)) * ComplexEnclosure({1.0, 0.0}, around.upper());
 }
 
-/// zⁿ of every number inside.
+/// The power zⁿ of every number in a disc.
 /// @param z      a disc
-/// @param count  n ≥ 0
+/// @param count  exponent n ≥ 0
 inline ComplexEnclosure power(ComplexEnclosure z, int count) {
   ComplexEnclosure result(1.0);
   for (; count > 0; count /= 2) {

@@ -10,17 +10,17 @@
 
 namespace holdfast {
 
-/// A curve z(t) in the complex plane, −1 ≤ t ≤ 1, enclosed to the second order: by z(0), z′(0) and
-/// what |z″| is at most. Every operation gives one that holds its result on all curves that its
-/// arguments may be.
+/// A curve z(t) in the complex plane, −1 ≤ t ≤ 1, enclosed to second order: by z(0), z′(0) and a
+/// bound of |z″|. Every operation gives an enclosure of its result for all curves in its
+/// arguments.
 class EnclosedCurve {
  public:
-  /// That number, which does not move; implicit, as in formulas it is such a curve.
+  /// The constant curve of a number; implicit, so that numbers may be used in formulas.
   EnclosedCurve(const ComplexEnclosure& number)  // NOLINT(google-explicit-constructor)
       : EnclosedCurve(number, {}, 0.0) {}
-  /// @param value  z(0)
-  /// @param slope  z′(0)
-  /// @param bend   at least |z″| everywhere; a NaN: nothing is known of it
+  /// @param value  value z(0)
+  /// @param slope  derivative z′(0)
+  /// @param bend   bound of |z″| for all t; NaN: unknown
   EnclosedCurve(const ComplexEnclosure& value, const ComplexEnclosure& slope, double bend)
       : value_(value),
         slope_(slope),
@@ -28,33 +28,33 @@ class EnclosedCurve {
         slope_size_(slope.magnitude()),
         size_(value.magnitude()) {}
 
-  /// z(0).
+  /// The value z(0).
   const ComplexEnclosure& value() const { return value_; }
-  /// z′(0).
+  /// The derivative z′(0).
   const ComplexEnclosure& slope() const { return slope_; }
-  /// At least |z| everywhere.
+  /// An upper bound of |z| for all t.
   double most() const { return detail::above_roundings(size_ + slope_size_ + 0.5 * bend_); }
-  /// Not above |z| anywhere; 0 where z may pass 0.
+  /// A lower bound of |z| for all t; 0 where z may be 0.
   double least() const {
     const double left = value_.least_modulus() - detail::above_roundings(slope_size_ + 0.5 * bend_);
     return left > 0.0 ? left * (1.0 - 0x1.0p-50) : 0.0;
   }
-  /// At least |z′| everywhere.
+  /// An upper bound of |z′| for all t.
   double steepest() const { return detail::above_roundings(slope_size_ + bend_); }
-  /// At least |z″| everywhere.
+  /// An upper bound of |z″| for all t.
   double bend() const { return bend_; }
 
-  /// −z.
+  /// The negative −z.
   EnclosedCurve operator-() const { return {-value_, -slope_, bend_}; }
-  /// a + b.
+  /// The sum a + b.
   friend EnclosedCurve operator+(const EnclosedCurve& a, const EnclosedCurve& b) {
     return {a.value_ + b.value_, a.slope_ + b.slope_, detail::above_roundings(a.bend_ + b.bend_)};
   }
-  /// a − b.
+  /// The difference a − b.
   friend EnclosedCurve operator-(const EnclosedCurve& a, const EnclosedCurve& b) {
     return a + (-b);
   }
-  /// a b: (ab)″ = a″b + 2a′b′ + ab″.
+  /// The product a b: (ab)″ = a″b + 2a′b′ + ab″.
   friend EnclosedCurve operator*(const EnclosedCurve& a, const EnclosedCurve& b) {
     const double bend = a.bend_ * b.most() + 2.0 * a.steepest() * b.steepest() + a.most() * b.bend_;
     return {a.value_ * b.value_, a.slope_ * b.value_ + a.value_ * b.slope_,
@@ -74,36 +74,36 @@ class EnclosedCurve {
   double bend_, slope_size_, size_;
 };
 
-/// A spiral c e^{σt}, −1 ≤ t ≤ 1.
+/// The spiral c e^{σt}, −1 ≤ t ≤ 1.
 class EnclosedSpiral {
  public:
-  /// @param start  c
-  /// @param rate   σ
+  /// @param start  value c at t = 0
+  /// @param rate   rate σ
   EnclosedSpiral(const ComplexEnclosure& start, const ComplexEnclosure& rate)
       : start_(start), rate_(rate), turn_(rate.magnitude()) {
     const Matrix<Enclosure, 1> growth(Enclosure(rate.real().magnitude()));
     most_ = (Enclosure(start.magnitude()) * exponential(growth)(0, 0)).upper();
   }
 
-  /// c.
+  /// The value c at t = 0.
   const ComplexEnclosure& start() const { return start_; }
-  /// σ.
+  /// The rate σ.
   const ComplexEnclosure& rate() const { return rate_; }
-  /// At least |z| everywhere.
+  /// An upper bound of |z| for all t.
   double most() const { return most_; }
-  /// At least |z − c| everywhere.
+  /// An upper bound of |z − c| for all t.
   double way() const { return detail::above_roundings(turn_ * most_); }
 
   /// This spiral as a curve.
   EnclosedCurve curve() const { return {start_, start_ * rate_, bend()}; }
-  /// cⁿ e^{nσt}.
+  /// The power cⁿ e^{nσt}.
   EnclosedSpiral to_the(int n) const {
     return {power(start_, n), rate_ * ComplexEnclosure(static_cast<double>(n))};
   }
-  /// The one on the other side of the real line.
+  /// The conjugate spiral.
   friend EnclosedSpiral conj(const EnclosedSpiral& z) { return {conj(z.start_), conj(z.rate_)}; }
 
-  /// a − b. Little is lost where both turn alike, ν = σ_a − σ_b:
+  /// The difference a − b as a curve. Little accuracy is lost with similar rates, ν = σ_a − σ_b:
   ///
   ///     z′ = ν a + σ_b z,   |z| ≤ (|z(0)| + |ν||a|)/(1 − |σ_b|),   z″ = ν (σ_a + σ_b) a + σ_b² z
   friend EnclosedCurve difference(const EnclosedSpiral& a, const EnclosedSpiral& b) {
@@ -120,7 +120,7 @@ class EnclosedSpiral {
 
  private:
   double bend() const { return detail::above_roundings(turn_ * turn_ * most_); }
-  /// At least a/(1 − x), a and x ≥ 0; ∞ where x may be 1.
+  /// An upper bound of a/(1 − x), a and x ≥ 0; ∞ where x may be 1.
   static double over_what_is_left(double a, double x) {
     const double left = (1.0 - x) * (1.0 - 0x1.0p-50);
     return left > 0.0 ? detail::above_roundings(a / left) : std::numeric_limits<double>::infinity();

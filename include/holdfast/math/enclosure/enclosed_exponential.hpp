@@ -10,7 +10,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// At least the norm ‖M‖∞ of every matrix inside.
+/// An upper bound of the norm ‖M‖∞ of every matrix in an enclosure.
 template <int Rows, int Columns>
 double norm_bound(const Matrix<Enclosure, Rows, Columns>& matrix) {
   double norm = 0.0;
@@ -22,18 +22,18 @@ double norm_bound(const Matrix<Enclosure, Rows, Columns>& matrix) {
   return norm;
 }
 
-/// Numbers of a size up to a bound.
+/// The matrix of all entries with moduli up to a bound.
 template <int Size>
 Matrix<Enclosure, Size> ball(Eigen::Index order, double bound) {
   return Matrix<Enclosure, Size>::Constant(order, order, Enclosure(-bound, bound));
 }
 
-/// e^X of every matrix inside, ‖X‖∞ ≤ 1/2: the Taylor polynomial and a bound of what is left,
+/// The exponential e^X of every enclosed matrix, ‖X‖∞ ≤ 1/2: Taylor polynomial and remainder,
 ///
 ///     ‖e^X − Σ_{k ≤ m} Xᵏ/k!‖ ≤ ‖X‖^{m+1}/(m+1)! / (1 − ‖X‖/(m+2))
 ///
-/// @param norm   a bound of ‖X‖
-/// @param terms  m
+/// @param norm   bound of ‖X‖
+/// @param terms  degree m of the polynomial
 template <int Size>
 Matrix<Enclosure, Size> exponential_series(const Matrix<Enclosure, Size>& matrix, double norm,
                                            int terms) {
@@ -48,7 +48,7 @@ Matrix<Enclosure, Size> exponential_series(const Matrix<Enclosure, Size>& matrix
   return sum + ball<Size>(n, rest.upper());
 }
 
-/// e^M by the series of M/2^s, ‖M‖/2^s ≤ 1/2, squared s times; `norm` bounds ‖M‖.
+/// The exponential e^M from the series of M/2^s, ‖M‖/2^s ≤ 1/2, squared s times; `norm` bounds ‖M‖.
 template <int Size>
 Matrix<Enclosure, Size> exponential_by_squarings(Matrix<Enclosure, Size> matrix, double norm) {
   int squarings = 0;
@@ -61,10 +61,10 @@ Matrix<Enclosure, Size> exponential_by_squarings(Matrix<Enclosure, Size> matrix,
 
 }  // namespace detail
 
-/// e^M of every matrix inside, entry by entry: the series of M/2^s, balanced, squared s times.
-/// Work: 20 + s products. The width grows with that of M and, by a factor of about ‖e^M‖ n, with
-/// each squaring.
-/// @param matrix  square, of fixed or dynamic size; not finite: unknown entries
+/// The exponential e^M of every matrix in an enclosure, entry by entry: the series of the balanced
+/// M/2^s, squared s times. Work: 20 + s products. The width of the result grows with that of M and,
+/// by a factor of about ‖e^M‖ n, with each squaring.
+/// @param matrix  square, of fixed or dynamic size; if not finite the result is unknown
 template <int Size>
 Matrix<Enclosure, Size> exponential(const Matrix<Enclosure, Size>& matrix) {
   if (!(detail::norm_bound(matrix) < 1e6))

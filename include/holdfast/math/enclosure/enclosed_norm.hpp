@@ -8,8 +8,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// Next to the largest eigenvalue of a form FᵀF ≠ 0, in doubles: the Rayleigh quotient of a column
-/// of a high power.
+/// An approximation of the largest eigenvalue of a form FᵀF ≠ 0, in doubles: the Rayleigh quotient
+/// of a column of a high power.
 template <int Size>
 double largest_eigenvalue_near(const Matrix<double, Size>& form) {
   Matrix<double, Size> power = form / form.trace();
@@ -28,8 +28,8 @@ double largest_eigenvalue_near(const Matrix<double, Size>& form) {
 
 }  // namespace detail
 
-/// At least ‖M‖₂ of every matrix inside: σ of the middle M₀, of which σ² − M₀ᵀM₀ > 0 is proved by
-/// elimination, and the Frobenius norm of what the matrices may differ from it.
+/// An upper bound of ‖M‖₂ of every matrix in an enclosure: a σ with σ² − M₀ᵀM₀ > 0, proved by
+/// elimination for the midpoint M₀, and the Frobenius norm of the deviations from M₀.
 /// @param matrix  N × N
 /// @return ∞ where nothing was proved
 template <int Size>

@@ -10,20 +10,20 @@ namespace holdfast {
 
 namespace detail {
 
-/// At least half the distance to the neighbours of a double, and of 0: what a sum, product,
-/// quotient or root, rounded to the nearest double, is wrong by at most.
+/// A bound of half the distance from a double to its neighbours, for 0 too: the largest error of a
+/// sum, product, quotient or root rounded to the nearest double.
 /// Source: S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond, Computing predecessor and successor
 /// in rounding to nearest, BIT 49 (2009), Algorithm 1.
 inline double rounding_of(double x) {
   constexpr double unit = 0x1.0000000000001p-53, least = std::numeric_limits<double>::denorm_min();
   return unit * std::abs(x) + least;
 }
-/// Not above any number that rounds to x; −∞ where x is no number.
+/// A lower bound of all numbers that round to x; −∞ where x is not a number.
 inline double rounded_down(double x) {
   const double below = x - rounding_of(x);
   return below == below ? below : -std::numeric_limits<double>::infinity();
 }
-/// Not below any number that rounds to x; ∞ where x is no number.
+/// An upper bound of all numbers that round to x; ∞ where x is not a number.
 inline double rounded_up(double x) {
   const double above = x + rounding_of(x);
   return above == above ? above : std::numeric_limits<double>::infinity();
@@ -31,31 +31,31 @@ inline double rounded_up(double x) {
 
 }  // namespace detail
 
-/// A real number of which it is proved that lower ≤ x ≤ upper: interval arithmetic on doubles.
+/// A real number x proved to satisfy lower ≤ x ≤ upper: interval arithmetic on doubles.
 ///
-/// Every operation gives an enclosure of the operation's result on all numbers that its arguments
-/// may be; bounds are rounded outward by one neighbour, in any rounding of the processor's that is
-/// to nearest, and with or without contracted multiply-adds. What divides by 0, or overflows, ends
-/// at ±∞. There is no `<`: what is not proved is not false. It is a number type of Eigen's matrices
-/// and of the library's templates that need no order.
-/// Source: IEEE 1788-2015 for the set that each operation encloses; the note of `rounding_of`.
+/// Every operation gives an enclosure of its result for all numbers in its arguments. Bounds are
+/// rounded outward by one neighbour, valid for every round-to-nearest mode of the processor, with
+/// or without fused multiply-adds. Division by 0 and overflow give ±∞. There is no `<`, since an
+/// unproved inequality need not be false. The class serves as a number type of Eigen's matrices and
+/// of the library's templates that need no order.
+/// Source: IEEE 1788-2015 for the set that each operation encloses; see also `rounding_of`.
 class Enclosure {
  public:
-  /// 0.
+  /// The number 0.
   Enclosure() = default;
-  /// That double itself; implicit, as in formulas a double is such a number.
+  /// The exact value of a double; implicit, so that doubles may be used in formulas.
   Enclosure(double exact) : Enclosure(exact, exact) {}  // NOLINT(google-explicit-constructor)
-  /// Between two doubles, lower ≤ upper; a NaN: nothing is known.
+  /// The interval between two doubles, lower ≤ upper; with a NaN nothing is known.
   Enclosure(double lower, double upper) : lower_(lower), upper_(upper) {
     if (!(lower <= upper)) *this = unknown();
   }
 
-  /// The decimal number to which a double is nearest, whatever its further digits; 0 is exact.
+  /// The interval of all decimals whose nearest double is the given one; 0 is exact.
   static Enclosure of_decimal(double nearest) {
     if (nearest == 0.0) return {};
     return {detail::rounded_down(nearest), detail::rounded_up(nearest)};
   }
-  /// (−∞, ∞).
+  /// The interval (−∞, ∞).
   static Enclosure unknown() {
     Enclosure all;
     all.lower_ = -std::numeric_limits<double>::infinity();
@@ -63,25 +63,25 @@ class Enclosure {
     return all;
   }
 
-  /// Not above the number.
+  /// A lower bound of the number.
   double lower() const { return lower_; }
-  /// Not below the number.
+  /// An upper bound of the number.
   double upper() const { return upper_; }
-  /// A double inside, next to the middle where both bounds are finite.
+  /// A double in the interval, near the midpoint where both bounds are finite.
   double middle() const {
     const double half = 0.5 * lower_ + 0.5 * upper_;
     return half == half ? std::clamp(half, lower_, upper_) : 0.0;
   }
-  /// At least the distance of every number inside from the middle.
+  /// An upper bound of the distance of any number in the interval from the middle.
   double radius() const {
     const double centre = middle();
     return detail::rounded_up(std::max(upper_ - centre, centre - lower_));
   }
-  /// At least the modulus of every number inside.
+  /// An upper bound of the modulus of any number in the interval.
   double magnitude() const { return std::max(std::abs(lower_), std::abs(upper_)); }
-  /// Whether the number may be x.
+  /// Whether x is in the interval.
   bool contains(double x) const { return lower_ <= x && x <= upper_; }
-  /// The middle, for messages and checks of plausibility.
+  /// The middle of the interval, for messages and plausibility checks.
   explicit operator double() const { return middle(); }
 
   /// Whether it is proved that the number is > 0.
@@ -89,66 +89,66 @@ class Enclosure {
   /// Whether it is proved that the number is < 0.
   bool is_negative() const { return upper_ < 0.0; }
 
-  /// −a, exact.
+  /// The negative −a, exact.
   Enclosure operator-() const { return {-upper_, -lower_}; }
-  /// a + b.
+  /// Adds b.
   Enclosure& operator+=(const Enclosure& b) { return *this = *this + b; }
-  /// a − b.
+  /// Subtracts b.
   Enclosure& operator-=(const Enclosure& b) { return *this = *this - b; }
-  /// a b.
+  /// Multiplies by b.
   Enclosure& operator*=(const Enclosure& b) { return *this = *this * b; }
-  /// a / b.
+  /// Divides by b.
   Enclosure& operator/=(const Enclosure& b) { return *this = *this / b; }
 
-  /// a + b.
+  /// The sum a + b.
   friend Enclosure operator+(const Enclosure& a, const Enclosure& b) {
     return {detail::rounded_down(a.lower_ + b.lower_), detail::rounded_up(a.upper_ + b.upper_)};
   }
-  /// a − b.
+  /// The difference a − b.
   friend Enclosure operator-(const Enclosure& a, const Enclosure& b) { return a + (-b); }
-  /// a b.
+  /// The product a b.
   friend Enclosure operator*(const Enclosure& a, const Enclosure& b) {
     return hull_of(a.lower_ * b.lower_, a.lower_ * b.upper_, a.upper_ * b.lower_,
                    a.upper_ * b.upper_);
   }
-  /// a / b; unknown where b may be 0.
+  /// The quotient a / b; unknown where b may be 0.
   friend Enclosure operator/(const Enclosure& a, const Enclosure& b) {
     if (b.contains(0.0)) return unknown();
     return hull_of(a.lower_ / b.lower_, a.lower_ / b.upper_, a.upper_ / b.lower_,
                    a.upper_ / b.upper_);
   }
-  /// Whether the bounds are the same; two equal enclosures may be of different numbers.
+  /// Whether the bounds are equal; equal enclosures may contain different numbers.
   friend bool operator==(const Enclosure& a, const Enclosure& b) {
     return a.lower_ == b.lower_ && a.upper_ == b.upper_;
   }
-  /// Other bounds.
+  /// Whether the bounds differ.
   friend bool operator!=(const Enclosure& a, const Enclosure& b) { return !(a == b); }
 
-  /// x².
+  /// The square x².
   friend Enclosure square(const Enclosure& a) {
     const double most = a.magnitude();
     const double least = a.contains(0.0) ? 0.0 : std::min(std::abs(a.lower_), std::abs(a.upper_));
     return {std::max(detail::rounded_down(least * least), 0.0), detail::rounded_up(most * most)};
   }
-  /// √a of what is not negative in a; unknown where all of it is.
+  /// The root √a of the non-negative part of a; unknown where there is none.
   friend Enclosure sqrt(const Enclosure& a) {
     if (a.upper_ < 0.0) return unknown();
     const double least = std::sqrt(std::max(a.lower_, 0.0));
     return {std::max(detail::rounded_down(least), 0.0), detail::rounded_up(std::sqrt(a.upper_))};
   }
-  /// |a|.
+  /// The modulus |a|.
   friend Enclosure abs(const Enclosure& a) {
     if (a.contains(0.0)) return {0.0, a.magnitude()};
     return a.lower_ > 0.0 ? a : -a;
   }
-  /// The numbers that are in both; nothing is known where that is none, for then a premiss is
-  /// wrong.
+  /// The intersection of two enclosures; an empty one means a wrong premiss and gives an unknown
+  /// result.
   friend Enclosure intersection(const Enclosure& a, const Enclosure& b) {
     return {std::max(a.lower_, b.lower_), std::min(a.upper_, b.upper_)};
   }
 
  private:
-  /// 0 · ∞ has no bound.
+  /// The hull of the four products of bounds; 0 · ∞ makes it unbounded.
   static Enclosure hull_of(double a, double b, double c, double d) {
     if (!(a == a && b == b && c == c && d == d)) return unknown();
     return {detail::rounded_down(std::min({a, b, c, d})),
@@ -158,7 +158,7 @@ class Enclosure {
   double lower_ = 0.0, upper_ = 0.0;
 };
 
-/// π lies between two neighbours.
+/// The number π, enclosed by two neighbouring doubles.
 template <>
 inline const Enclosure pi<Enclosure> = Enclosure(0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1);
 

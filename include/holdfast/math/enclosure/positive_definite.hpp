@@ -5,9 +5,9 @@
 
 namespace holdfast {
 
-/// Whether it is proved that every symmetric matrix inside is positive definite: the pivots of
-/// Gauss's elimination without exchanges, in enclosures, are all positive.
-/// @param matrix  N × N; its lower triangle is looked at, the upper one is the same
+/// Whether every symmetric matrix in an enclosure is proved to be positive definite: the pivots of
+/// Gaussian elimination without exchanges, in enclosures, are all positive.
+/// @param matrix  N × N; only its lower triangle is used
 /// Work: N³/3 operations.
 template <int Size>
 bool is_positive_definite(Matrix<Enclosure, Size> matrix) {

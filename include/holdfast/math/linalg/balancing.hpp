@@ -10,7 +10,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// k of the power 4ᵏ nearest to a ratio ≥ 0 (on a logarithmic scale), within ±`most`.
+/// The exponent k of the power 4ᵏ nearest to a ratio ≥ 0 (on a logarithmic scale), within ±`most`.
 template <class Scalar>
 int nearest_power_of_four(Scalar ratio, int most) {
   int power = 0;
@@ -23,11 +23,11 @@ int nearest_power_of_four(Scalar ratio, int most) {
 
 /// Powers of two t_i for which row i and column i of diag(t)⁻¹ M diag(t) have about the same size.
 ///
-/// Scaling and squaring and the QR algorithm err by a fraction of the matrix norm, which balancing
-/// brings close to the spectral radius. Powers of two round nothing. The numbers need the four
-/// operations and a comparison; the powers of dual numbers are constants.
+/// Scaling and squaring and the QR algorithm have errors relative to the matrix norm, which
+/// balancing reduces almost to the spectral radius. Powers of two cause no rounding. The number
+/// type needs the four operations and a comparison; for dual numbers the powers are constants.
 /// Source: B. N. Parlett, C. Reinsch, Balancing a matrix, Numer. Math. 13 (1969).
-/// @throws InvalidParameter where the matrix is empty or not square; so does all that balances
+/// @throws InvalidParameter where the matrix is empty or not square, as do all users of balancing
 template <class Scalar, int Size>
 Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
   // Entries at the end of the range of numbers would carry the factors beyond it.
@@ -71,7 +71,7 @@ struct BalancedMatrix {
       : factors(balancing(original)),
         balanced(factors.cwiseInverse().asDiagonal() * original * factors.asDiagonal()) {}
 
-  /// Carries a function of the balanced matrix back to the original: diag(factors) · f ·
+  /// Transforms a function of the balanced matrix back to that of the original: diag(factors) · f ·
   /// diag(factors)⁻¹.
   Matrix<Scalar, Size> restored(const Matrix<Scalar, Size>& function) const {
     return factors.asDiagonal() * function * factors.cwiseInverse().asDiagonal();

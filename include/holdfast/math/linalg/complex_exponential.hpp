@@ -11,7 +11,7 @@
 
 namespace holdfast {
 
-/// e^x − 1 of a complex number to full relative accuracy.
+/// The number e^x − 1 for complex x, to full relative accuracy.
 template <class Scalar>
 std::complex<Scalar> complex_expm1(const std::complex<Scalar>& x) {
   const Scalar half_sine = std::sin(x.imag() / Scalar(2)), grown = std::expm1(x.real());
@@ -19,16 +19,16 @@ std::complex<Scalar> complex_expm1(const std::complex<Scalar>& x) {
           (grown + Scalar(1)) * std::sin(x.imag())};
 }
 
-/// e^{iθ} − 1 to full relative accuracy: how far a point of the unit circle is from 1.
+/// The number e^{iθ} − 1 to full relative accuracy, for points of the unit circle near 1.
 /// @param angle  θ (rad)
 template <class Scalar>
 std::complex<Scalar> circle_increment(const Scalar& angle) {
   return complex_expm1(std::complex<Scalar>(0, angle));
 }
 
-/// ∫₀^t e^{s r} dr = (e^{st} − 1)/s, also near s = 0.
-/// @param s  1/s
-/// @param t  s
+/// The integral ∫₀^t e^{s r} dr = (e^{st} − 1)/s, accurate near s = 0 too.
+/// @param s  rate (1/s)
+/// @param t  time (s)
 template <class Scalar>
 std::complex<Scalar> exponential_integral(const std::complex<Scalar>& s, const Scalar& t) {
   return s == std::complex<Scalar>(0) ? std::complex<Scalar>(t) : complex_expm1(s * t) / s;
@@ -36,11 +36,11 @@ std::complex<Scalar> exponential_integral(const std::complex<Scalar>& s, const S
 
 namespace detail {
 
-/// Complex numbers side by side in vectors of the processor, for sums over many poles.
+/// Complex numbers in parallel in vectors of the processor, for sums over many poles.
 /// @tparam Scalar  double
 template <class Scalar>
 struct ComplexLanes {
-  static constexpr int size = EIGEN_MAX_STATIC_ALIGN_BYTES > 16  ///< how many of them
+  static constexpr int size = EIGEN_MAX_STATIC_ALIGN_BYTES > 16  ///< number of lanes
                                   ? EIGEN_MAX_STATIC_ALIGN_BYTES / sizeof(Scalar)
                                   : 2;
   using Reals = Eigen::Array<Scalar, size, 1>;  ///< a real number in each lane
@@ -56,7 +56,7 @@ struct ComplexLanes {
   std::complex<Scalar> operator[](Eigen::Index lane) const { return {re[lane], im[lane]}; }
   /// The sum of all lanes.
   std::complex<Scalar> sum() const { return {re.sum(), im.sum()}; }
-  /// 1/z.
+  /// The reciprocal 1/z in every lane.
   EIGEN_ALWAYS_INLINE ComplexLanes inverse() const {
     const Reals scale = (re * re + im * im).inverse();
     return {re * scale, -im * scale};
@@ -87,10 +87,10 @@ struct ComplexLanes {
 template <class Scalar, std::size_t Columns>
 class ComplexRows {
  public:
-  using Row = std::array<std::complex<Scalar>, Columns>;    ///< a row
-  using Block = std::array<ComplexLanes<Scalar>, Columns>;  ///< several of them
+  using Row = std::array<std::complex<Scalar>, Columns>;    ///< one row
+  using Block = std::array<ComplexLanes<Scalar>, Columns>;  ///< as many rows as fill a vector
 
-  /// @param first  what the last block, which is filled up with zeros, has in the first column
+  /// @param first  first-column value of the rows that only fill up the last block
   explicit ComplexRows(const Scalar& first = Scalar(0)) : first_(first) {}
 
   /// Adds a row.
@@ -111,11 +111,11 @@ class ComplexRows {
     for (std::size_t c = 0; c < Columns; ++c) row[c] = blocks_[k / lanes][c][lane_of(k)];
     return row;
   }
-  /// How many rows there are.
+  /// The number of rows.
   std::size_t size() const { return size_; }
-  /// All rows.
+  /// All rows, in blocks.
   std::vector<Block>& blocks() { return blocks_; }
-  const std::vector<Block>& blocks() const { return blocks_; }  ///< likewise
+  const std::vector<Block>& blocks() const { return blocks_; }  ///< all rows, in blocks
 
  private:
   static constexpr std::size_t lanes = ComplexLanes<Scalar>::size;

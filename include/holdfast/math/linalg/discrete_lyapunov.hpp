@@ -8,17 +8,17 @@
 
 namespace holdfast {
 
-/// A quadratic measure that a linear map M makes smaller: V = Σ_l (Mˡ)ᵀ Mˡ, which solves the
-/// discrete Lyapunov equation V − MᵀV M = I, so that eᵀVe falls by ‖e‖² from e to M e.
+/// A quadratic form that a linear map M decreases: V = Σ_l (Mˡ)ᵀ Mˡ, the solution of the discrete
+/// Lyapunov equation V − MᵀV M = I, so that eᵀVe falls by ‖e‖² from e to M e.
 ///
-/// The sum is doubled, V ← V + PᵀV P, P ← P², P = M at first (R. A. Smith, Matrix equation XA + BX
-/// = C, SIAM J. Appl. Math. 16 (1968)). What is found is put into the equation: the answer is one
-/// for which V − MᵀV M differs from I by less than a half, rounding included.
-/// @param map  M, n × n
+/// The sum is doubled, V ← V + PᵀV P, P ← P², starting from P = M (R. A. Smith, Matrix equation XA
+/// + BX = C, SIAM J. Appl. Math. 16 (1968)). The result is checked in the equation: V − MᵀV M
+/// differs from I by less than a half, including rounding.
+/// @param map  matrix M, n × n
 /// @return nothing where M does not contract, or so slowly that rounding hides it
 /// @throws InvalidParameter where M is not square
-/// Work: 4 n³ multiply-adds for each doubling, of which there are log₂ of the steps that M takes to
-/// forget.
+/// Work: 4 n³ multiply-adds for each doubling; their number is log₂ of the steps in which M
+/// decays.
 template <class Scalar>
 std::optional<Matrix<Scalar, Eigen::Dynamic>> discrete_lyapunov(
     const Matrix<Scalar, Eigen::Dynamic>& map) {

@@ -15,8 +15,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// M = U T U* with T upper triangular and U unitary: the real Schur form, whose 2 × 2 blocks are
-/// turned into triangles.
+/// The Schur form M = U T U* with T upper triangular and U unitary, from the real Schur form, whose
+/// 2 × 2 blocks are rotated into triangles.
 template <class Scalar>
 struct TriangularForm {
   using Complex = std::complex<Scalar>;
@@ -24,10 +24,10 @@ struct TriangularForm {
 
   Matrix<Complex, Eigen::Dynamic> triangle;  ///< T
   Matrix<Complex, Eigen::Dynamic> basis;     ///< U
-  bool converged;                            ///< whether the QR algorithm did
+  bool converged;                            ///< whether the QR algorithm converged
 
-  /// @param matrix  M, n × n, finite
-  /// @param scale   by which it is divided for the QR algorithm
+  /// @param matrix  matrix M, n × n, finite
+  /// @param scale   divisor of the matrix for the QR algorithm
   explicit TriangularForm(const Square& matrix, const Scalar& scale = Scalar(1)) {
     const HessenbergForm<Square> hessenberg(matrix / scale);
     Eigen::RealSchur<Square> schur(matrix.rows());
@@ -39,7 +39,7 @@ struct TriangularForm {
   }
 
  private:
-  /// Turns each 2 × 2 block of the real Schur form by a unitary rotation into a triangle.
+  /// Rotates each 2 × 2 block of the real Schur form into a triangle by a unitary rotation.
   void make_triangular() {
     const Eigen::Index n = triangle.rows();
     for (Eigen::Index m = n - 1; m > 0; --m) {
@@ -69,41 +69,41 @@ struct TriangularForm {
 
 }  // namespace detail
 
-/// The eigenvalues and eigenvectors of a real square matrix, A V = V diag(s), as a basis in which
-/// ẋ = A x + b u, y = h x falls into N scalar equations:
+/// The eigenvalues and eigenvectors of a real square matrix, A V = V diag(s), as a basis in which ẋ
+/// = A x + b u, y = h x is N scalar equations:
 ///
 ///     η̇_k = s_k η_k + β_k u,   y = Σ γ_k η_k,   β = V⁻¹ b,   γ = h V
 ///
-/// By the real Schur form of the balanced matrix and back substitution; V is triangular in the
-/// Schur basis, so nothing dense is inverted. Work: about 30 N³. Eigenvalues that (nearly) coincide
-/// leave V (nearly) singular: `is_sound()` says so.
+/// They come from the real Schur form of the balanced matrix by back substitution; V is triangular
+/// in the Schur basis, so that no dense matrix is inverted. Work: about 30 N³. For (nearly)
+/// coinciding eigenvalues V is (nearly) singular: see `is_sound()`.
 template <class Scalar>
 class EigenBasis {
  public:
-  using Complex = std::complex<Scalar>;                   ///< of eigenvalues and coordinates
+  using Complex = std::complex<Scalar>;                   ///< type of eigenvalues and coordinates
   using ComplexVector = Vector<Complex, Eigen::Dynamic>;  ///< N × 1
   using ComplexMatrix = Matrix<Complex, Eigen::Dynamic>;  ///< N × N
 
-  /// @param matrix  A, N × N, finite, N ≥ 1
-  /// @throws InvalidParameter where it is empty or not square; `coordinates` and `readings` for
-  /// another N
+  /// @param matrix  matrix A, N × N, finite, N ≥ 1
+  /// @throws InvalidParameter where it is empty or not square; `coordinates` and `readings` throw
+  /// for arguments of another size
   explicit EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix);
 
-  /// s, N × 1; those of a conjugate pair side by side.
+  /// The eigenvalues s, N × 1; conjugate pairs side by side.
   ComplexVector values() const { return triangle_.diagonal(); }
 
-  /// β = V⁻¹ b, N × 1.
+  /// The coordinates β = V⁻¹ b, N × 1.
   ComplexVector coordinates(const Vector<Scalar, Eigen::Dynamic>& b) const;
 
-  /// γ = h V, as N × 1.
+  /// The readings γ = h V, as N × 1.
   ComplexVector readings(const RowVector<Scalar, Eigen::Dynamic>& h) const;
 
-  /// Whether coordinates and readings have nine digits and more: no two eigenvectors are nearly
-  /// one, and the QR algorithm has converged.
+  /// Whether coordinates and readings have nine digits or more: no two eigenvectors nearly
+  /// coincide, and the QR algorithm has converged.
   bool is_sound() const;
 
  private:
-  /// Column k solves (T − t_kk) x = 0 with x_k = 1.
+  /// Computes the eigenvectors: column k solves (T − t_kk) x = 0 with x_k = 1.
   void find_vectors() {
     const Eigen::Index n = triangle_.rows();
     const Scalar least = std::numeric_limits<Scalar>::epsilon() *

@@ -14,7 +14,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// The eigenvalues of a triangle with 2 × 2 blocks on its diagonal, a real Schur form.
+/// The eigenvalues of a real Schur form, a triangle with 2 × 2 blocks on its diagonal.
 template <class Scalar, int Size, int Most>
 Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1> eigenvalues_of_schur_form(
     const Eigen::Matrix<Scalar, Size, Size, 0, Most, Most>& form) {
@@ -42,11 +42,11 @@ Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1> eigenvalues_of_schur_fo
 
 /// Eigenvalues of a real square matrix of fixed, bounded or dynamic size, by the QR algorithm.
 ///
-/// Compiled in half the time of Eigen's EigenSolver. The error is some 10⁻¹⁶ of the largest entry
-/// in `double`: where rows bear different units, balance the matrix first, as `spectral_radius`
+/// Compiles in half the time of Eigen's EigenSolver. The error is some 10⁻¹⁶ of the largest entry
+/// in `double`: where rows have different units, balance the matrix first, as `spectral_radius`
 /// does. Work: about 10 n³.
 /// @param matrix  finite, square, not empty
-/// @return each as often as its multiplicity, complex pairs side by side, otherwise in no order;
+/// @return eigenvalues with their multiplicity, complex pairs side by side, otherwise unordered;
 ///         NaN where the QR algorithm does not converge within 40 n steps
 /// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size, int Most>

@@ -12,13 +12,13 @@ namespace holdfast {
 
 namespace detail {
 
-/// Size by which a pivot is judged, for numbers that compare: |x|.
+/// The size |x| by which pivots are compared, for ordered numbers.
 template <class Scalar>
 Scalar pivot_size(const Scalar& x) {
   return x < Scalar(0) ? Scalar(-x) : x;
 }
 
-/// |z|², which needs no root.
+/// The size |z|² by which complex pivots are compared; it needs no root.
 template <class Scalar>
 Scalar pivot_size(const std::complex<Scalar>& z) {
   return std::norm(z);
@@ -26,14 +26,14 @@ Scalar pivot_size(const std::complex<Scalar>& z) {
 
 }  // namespace detail
 
-/// X of M X = B by Gaussian elimination with row exchanges, for real and complex numbers and any
-/// other type with the four operations and a comparison, dual numbers among them.
+/// The solution X of M X = B by Gaussian elimination with row exchanges, for real and complex
+/// numbers and any other type with the four operations and a comparison, such as dual numbers.
 ///
 /// For small systems; compiles faster than Eigen's decompositions. Work: n³/3 + n² c multiply-adds
 /// for c columns.
-/// @param matrix  M, n × n; where it is singular the result is not finite
-/// @param right   B, n × c
-/// @throws InvalidParameter where the sizes are others
+/// @param matrix  matrix M, n × n; where it is singular the result is not finite
+/// @param right   right side B, n × c
+/// @throws InvalidParameter where the sizes disagree
 template <class Square, class Columns>
 Columns eliminated(Square matrix, Columns right) {
   using Scalar = typename Square::Scalar;
@@ -66,13 +66,13 @@ Columns eliminated(Square matrix, Columns right) {
   return right;
 }
 
-/// How an eigenvalue of M moves with M, λ′ = tr(R M′)/tr R for the resolvent R = (νI − M)⁻¹ at a ν
-/// next to it, where R is all but the projector on its eigenvectors; of several that coincide, the
-/// mean. To about 10⁻⁸ of itself in `double`.
-/// @param matrix  M, n × n
-/// @param rate    M′, n × n, per unit of whatever varies
-/// @param value   the eigenvalue λ
-/// @return        λ′; NaN or infinite for λ = 0, where no ν lies next to it
+/// The derivative of an eigenvalue of M, λ′ = tr(R M′)/tr R with the resolvent R = (νI − M)⁻¹ at a
+/// ν close to λ, where R is almost the projector on its eigenvectors; for coinciding eigenvalues
+/// the mean. Accurate to about 10⁻⁸ relative in `double`.
+/// @param matrix  matrix M, n × n
+/// @param rate    derivative M′, n × n, per unit of the varying quantity
+/// @param value   eigenvalue λ
+/// @return        derivative λ′; NaN or infinite for λ = 0, where no ν is close
 /// @throws InvalidParameter where the matrix is not square, or its rate of another size
 /// Work: the inverse of one complex matrix.
 template <class Scalar>

@@ -41,7 +41,7 @@ struct PadeApproximant {
 inline constexpr std::array<PadeApproximant, 4> pade_approximants{
     PadeApproximant(3), PadeApproximant(5), PadeApproximant(7), PadeApproximant(13)};
 
-/// a b, column by column.
+/// The product a b, column by column.
 template <class Square>
 Square square_product(const Square& a, const Square& b) {
   Square product = Square::Zero(a.rows(), a.cols());
@@ -51,8 +51,8 @@ Square square_product(const Square& a, const Square& b) {
   return product;
 }
 
-/// Σ b_{2k + parity} M^{2k}, the even or odd half of an approximant (over M).
-/// @param powers  I, M², M⁴, M⁶ as far as the degree asks for them
+/// The sum Σ b_{2k + parity} M^{2k}, the even or odd half of an approximant (over M).
+/// @param powers  I, M², M⁴, M⁶ as far as the degree needs them
 template <class Square>
 Square pade_half(const PadeApproximant& approximant, int parity,
                  const std::array<Square, 4>& powers) {
@@ -70,7 +70,7 @@ Square pade_half(const PadeApproximant& approximant, int parity,
   return sum(parity, 0) + square_product(powers[3], sum(parity + 6, 1));
 }
 
-/// The approximant at M.
+/// The value of the approximant at M.
 template <class Square>
 Square approximated(const PadeApproximant& approximant, const Square& matrix) {
   const Square square = square_product(matrix, matrix);
@@ -84,16 +84,16 @@ Square approximated(const PadeApproximant& approximant, const Square& matrix) {
 
 }  // namespace detail
 
-/// e^M for any number type with the four operations and a comparison, `long double` and the dual
-/// numbers of an automatic differentiation among them.
+/// The matrix exponential e^M for any number type with the four operations and a comparison, such
+/// as `long double` and the dual numbers of automatic differentiation.
 ///
-/// Scaling and squaring of the balanced matrix, e^M = (e^{M/2^s})^{2^s}, by the diagonal Padé
+/// Scaling and squaring of the balanced matrix, e^M = (e^{M/2^s})^{2^s}, with the diagonal Padé
 /// approximant of the least degree among 3, 5, 7 and 13 that is exact to round-off; s > 0 only with
-/// degree 13. Balanced, since the squarings that a norm far above the eigenvalues asks for would
-/// cost as many digits. Work: up to 6 + s products and one elimination.
+/// degree 13. Without balancing, a norm far above the eigenvalues would need squarings that cost as
+/// many digits. Work: up to 6 + s products and one elimination.
 /// Source: N. J. Higham, The scaling and squaring method for the matrix exponential revisited,
 /// SIAM J. Matrix Anal. Appl. 26 (2005).
-/// @param matrix  square, of fixed or dynamic size; not finite, or of a sum |M_ij| that is not: NaN
+/// @param matrix  square, of fixed or dynamic size; NaN if it or Σ |M_ij| is not finite
 /// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size>
 Matrix<Scalar, Size> exponential(const Matrix<Scalar, Size>& matrix) {

@@ -9,15 +9,15 @@
 
 namespace holdfast {
 
-/// Tangent vectors beside each other, 5 × `Columns`; its rows are contiguous.
+/// The tangent vectors as columns, 5 × `Columns`; rows are contiguous.
 template <class Number, int Columns>
 using TangentBasis =
     Eigen::Matrix<Number, 5, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
 
-/// For each tangent vector whether it still has a length; false where a map has taken it to zero.
+/// For each tangent vector, whether its length is nonzero; false where a map annihilated it.
 using Alive = std::array<bool, 5>;
 
-/// Sizes of R in B = Q R.
+/// The sizes of R in B = Q R.
 template <class Number, int Columns>
 struct Stretches {
   Vector<Number, Columns> squares;  ///< R_ii²; 0 where a column vanishes, 1 where one is not alive
@@ -26,7 +26,7 @@ struct Stretches {
 
 namespace detail {
 
-/// ‖(D N)⁻¹‖_F² of N unit upper triangular and D diagonal.
+/// The squared norm ‖(D N)⁻¹‖_F², N unit upper triangular and D diagonal.
 /// @param inverse_squares  1 / D_i²
 template <class Number, std::size_t Columns>
 Number inverse_square_norm(const Number (&unit_upper)[Columns][Columns],
@@ -48,12 +48,12 @@ Number inverse_square_norm(const Number (&unit_upper)[Columns][Columns],
 
 /// Orthonormalises the columns of B in place, B = Q R, by the modified Gram–Schmidt process.
 ///
-/// R = D N with D diagonal and N unit upper triangular, N_ij = ⟨b_i, b_j⟩ / D_i²: no root is in the
-/// way of the products. R errs by round-off times ‖B‖ ‖R⁻¹‖, column by column, and Q fails to be
-/// orthogonal by as much. Source: Å. Björck, BIT 7 (1967).
-/// @param basis  B, replaced by Q
-/// @param alive  columns that are not are replaced by zeros; from the first one on that vanishes
-///               they are no more
+/// R = D N with D diagonal and N unit upper triangular, N_ij = ⟨b_i, b_j⟩ / D_i²: the products need
+/// no roots. The error of R is round-off times ‖B‖ ‖R⁻¹‖, column by column, and Q deviates from
+/// orthogonality by as much. Source: Å. Björck, BIT 7 (1967).
+/// @param basis  matrix B, replaced by Q
+/// @param alive  columns that are not alive are replaced by zeros; from the first vanishing column
+///               on they are set to not alive
 template <class Number, int Columns>
 Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, Alive& alive) {
   Stretches<Number, Columns> result;
@@ -75,9 +75,9 @@ Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, 
   return result;
 }
 
-/// Orthonormalises columns of any length by the classical process, twice for the last digits.
-/// @param basis  B, replaced by Q; a column that vanishes stays 0
-/// @return R
+/// Orthonormalises columns of any length by the classical process, repeated for the last digits.
+/// @param basis  matrix B, replaced by Q; a column that vanishes stays 0
+/// @return the triangle R
 inline Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& basis) {
   Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(basis.cols(), basis.cols());
   for (Eigen::Index i = 0; i < basis.cols(); ++i) {

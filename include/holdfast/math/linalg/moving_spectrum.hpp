@@ -16,7 +16,7 @@
 
 namespace holdfast {
 
-/// A real matrix that moves with a number x, −1 ≤ x ≤ 1, about the one at x = 0:
+/// A real matrix as a function of a number x, −1 ≤ x ≤ 1: a Taylor series about x = 0,
 ///
 ///     S(x) = I + Σ_k terms[k] xᵏ + R(x),   |R_ij(x)| ≤ remainder_ij
 struct TaylorMatrix {
@@ -24,54 +24,54 @@ struct TaylorMatrix {
   Eigen::MatrixXd remainder;           ///< n × n, ≥ 0
 };
 
-/// A complex quantity of n entries that moves with a number x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ and what
-/// is not in it, entry by entry.
+/// A complex vector of n entries as a function of a number x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ and a
+/// bound of the remainder of every entry.
 struct MovingVector {
   std::vector<Eigen::VectorXcd> terms;  ///< n × 1 each, as many as those of the matrix
   Eigen::VectorXd remainder;            ///< n × 1, ≥ 0
 };
 
-/// A proof that all eigenvalues of a moving matrix stay inside the unit circle, or that there is
-/// none of this kind.
+/// The proof that all eigenvalues of a matrix moving with x stay inside the unit circle, if it
+/// succeeds.
 ///
 /// In the coordinates Q of a triangular form of S(0) the terms are T_k. A unit lower triangular
 /// W(x) = I + Σ W_k xᵏ and an upper triangular D(x) = Σ D_k xᵏ are found, order by order, so that
 ///
-///     S W = W D + E,   E of the first order that was not asked for,
+/// S W = W D + E,   E beginning with the first omitted order,
 ///
-/// whence W⁻¹ S W = D + W⁻¹E and, W − I being nilpotent, |W⁻¹| ≤ (I − Σ|W_k|)⁻¹. The diagonal of D
-/// holds the eigenvalues as they move, so that |D_ii|² is bounded by its own Taylor polynomial and
-/// a root that goes round the circle costs nothing. With B ≥ |D| + |W⁻¹E| for all x,
+/// so that W⁻¹ S W = D + W⁻¹E and, W − I being nilpotent, |W⁻¹| ≤ (I − Σ|W_k|)⁻¹. The diagonal of D
+/// approximates the moving eigenvalues; |D_ii|² is bounded by its own Taylor polynomial, so that a
+/// root moving along the circle does not widen the bound. With B ≥ |D| + |W⁻¹E| for all x,
 ///
 ///     ρ(S(x)) ≤ ρ(B) < 1   where (I − B) v = 1 has a solution v > 0       (Perron, Frobenius)
 ///
-/// Where two eigenvalues come so near to one another that their entry of W would not converge, it
-/// stays 0 and the entry of D below the diagonal is kept. Nothing of this can pass over an exit;
-/// the round-off of the products is bounded as well and counted as part of R. Work: about 3 m²
+/// Where two eigenvalues are so near to one another that their entry of W would not converge,
+/// it stays 0 and the entry of D below the diagonal is kept. No exit from the circle can be
+/// missed; the round-off of the products is bounded too and included in R. Work: about 3 m²
 /// products n × n for m terms. Source: R. A. Horn, C. R. Johnson, Matrix Analysis, 2nd ed., 8.1
 /// and 8.3.
 template <class Scalar = double>
 class MovingSpectrum {
  public:
-  using Complex = std::complex<Scalar>;  ///< of the triangular form
+  using Complex = std::complex<Scalar>;  ///< type of the triangular form
 
-  /// @param matrix  finite; a matrix that is not has no proof
+  /// @param matrix  moving matrix; one that is not finite has no proof
   /// @throws InvalidParameter for fewer than two terms, or where the sizes disagree
   explicit MovingSpectrum(const TaylorMatrix& matrix);
 
   /// Whether all eigenvalues of S(0) are computed to lie inside the unit circle.
   bool inside_at_centre() const { return inside_at_centre_; }
 
-  /// Whether all of S(x) are shown to, for −1 ≤ x ≤ 1.
+  /// Whether all eigenvalues of S(x) are proved to be so, for −1 ≤ x ≤ 1.
   bool inside() const { return inside_; }
 
-  /// c (λI − S(x))⁻¹ g(x) for rows c, where |λ(x)| = 1 and `inside`: term by term in the
-  /// coordinates of the proof, in which |(λI − S)⁻¹| ≤ (I + Σ|W_k|) (I − B)⁻¹ (I − Σ|W_k|)⁻¹ bounds
-  /// what is missed, but for the round-off of these sums themselves.
-  /// @param from_one  λ(x) − 1, of as many terms as S
-  /// @param source    g(x), likewise
-  /// @param rows      c, any number of them, each n wide
-  /// @throws InvalidParameter for another number of terms, or rows of another width
+  /// The responses c (λI − S(x))⁻¹ g(x) for rows c, where |λ(x)| = 1 and `inside`: term by term in
+  /// the coordinates of the proof. There |(λI − S)⁻¹| ≤ (I + Σ|W_k|) (I − B)⁻¹ (I − Σ|W_k|)⁻¹
+  /// bounds the truncation error, but not the round-off of these sums.
+  /// @param from_one  λ(x) − 1, with as many terms as S
+  /// @param source    g(x), with as many terms as S
+  /// @param rows      rows c, any number of them, each n wide
+  /// @throws InvalidParameter where the number of terms or the width of a row is another
   std::vector<TaylorNumber> responses(const TaylorNumber& from_one, const MovingVector& source,
                                       const Eigen::MatrixXd& rows) const;
 
@@ -83,8 +83,8 @@ class MovingSpectrum {
   Eigen::Index size() const { return terms_.front().rows(); }
   std::size_t order() const { return terms_.size() - 1; }
 
-  /// The terms in the coordinates V = Q X, in which S(0) is diagonal but for the pairs that are not
-  /// apart, and what is not in them.
+  /// Transforms the terms to the coordinates V = Q X, in which S(0) is diagonal except for pairs of
+  /// close eigenvalues, and their remainders.
   void take(const TaylorMatrix& matrix) {
     const Eigen::Index n = matrix.remainder.rows();
     const BalancedMatrix<double, Eigen::Dynamic> similar(matrix.terms.front());
@@ -112,15 +112,15 @@ class MovingSpectrum {
     terms_[0].template triangularView<Eigen::StrictlyLower>().setZero();
   }
 
-  /// Round-off, as a share, of a sum of as many products as there are here.
+  /// The relative round-off of a sum of as many products as here.
   Scalar rounding() const {
     return Scalar(4) * static_cast<Scalar>(static_cast<std::size_t>(size()) + terms_.size()) *
            std::numeric_limits<Scalar>::epsilon();
   }
 
-  /// Counts that `back` is the inverse of the basis but for round-off: of back·V = I + G the
-  /// similarity with V makes (I + G)⁻¹T of what is computed as T. Nothing is shown where |G| is
-  /// not small.
+  /// Includes the error of `back` as the inverse of the basis: with back·V = I + G the similarity
+  /// with V gives (I + G)⁻¹T in place of the computed T. Nothing is proved where |G| is not
+  /// small.
   void count_inverse(const Form& back, const Form& basis) {
     const Bound identity = Bound::Identity(size(), size());
     off_ = (back * basis - Form::Identity(size(), size())).cwiseAbs() +
@@ -135,7 +135,7 @@ class MovingSpectrum {
     remainder_ += off_ * all;
   }
 
-  /// Which pairs of eigenvalues are to be uncoupled: those so far apart that this converges.
+  /// Selects the pairs of eigenvalues to be uncoupled: those far enough apart for convergence.
   void find_cleared(const Form& form, const Form& moved) {
     const Eigen::Index n = form.rows();
     cleared_ = Pairs::Constant(n, n, false);
@@ -171,7 +171,7 @@ class MovingSpectrum {
     return right;
   }
 
-  /// (νI − T₀)⁻¹ of a column, T₀ being upper triangular.
+  /// The solution (νI − T₀)⁻¹ of a column, T₀ being upper triangular.
   Eigen::VectorXcd solved(const Complex& nu, Eigen::VectorXcd right) const {
     for (Eigen::Index i = size() - 1; i >= 0; --i) {
       for (Eigen::Index p = i + 1; p < size(); ++p) right[i] += terms_[0](i, p) * right[p];
@@ -214,14 +214,14 @@ class MovingSpectrum {
     }
   }
 
-  /// Σ_{k > s} |F_k| for every s.
+  /// The sums Σ_{k > s} |F_k| for every s.
   static std::vector<Bound> sums_beyond(const std::vector<Form>& forms) {
     std::vector<Bound> sums(forms.size(), Bound::Zero(forms[0].rows(), forms[0].cols()));
     for (std::size_t s = forms.size() - 1; s > 0; --s) sums[s - 1] = sums[s] + forms[s].cwiseAbs();
     return sums;
   }
 
-  /// 1 − |D_ii(x)|, at least; not positive where that is not shown.
+  /// A lower bound of 1 − |D_ii(x)|; not positive where none is proved.
   double distance(Eigen::Index i) const {
     const std::size_t m = order();
     double outside = 0.0;  // |D|² − 1, at most

@@ -14,34 +14,34 @@
 
 namespace holdfast {
 
-/// An eigenvalue of a product of many matrices, by its logarithm since it may be far below the
-/// range of the number type.
+/// An eigenvalue of a product of many matrices, stored by its logarithm since it may
+/// underflow.
 struct Multiplier {
   double log_modulus;  ///< ln |λ|; −∞ for a null direction
   double angle;        ///< arg λ (rad), in (−π, π]
 
-  /// λ itself; 0 where it is below the smallest number.
+  /// The eigenvalue λ itself; 0 where it underflows.
   std::complex<double> value() const { return std::polar(std::exp(log_modulus), angle); }
 };
 
 namespace detail {
 
 /// The product R = R_K … R₁ of upper triangular matrices as D U with D = diag(± e^{l_i}) and U of
-/// unit diagonal, so that no entry leaves the range of numbers.
+/// unit diagonal, so that no entry overflows or underflows.
 template <class Scalar, int Size>
 struct ScaledTriangle {
   Vector<Scalar, Size> logarithms, signs;
   Matrix<Scalar, Size> unit;
-  Eigen::Index rank;  ///< leading rows that no map takes to zero
+  Eigen::Index rank;  ///< number of leading rows that no map annihilates
 
-  /// The unit matrix, order × order.
+  /// Constructs the unit matrix, order × order.
   explicit ScaledTriangle(Eigen::Index order)
       : logarithms(Vector<Scalar, Size>::Zero(order)),
         signs(Vector<Scalar, Size>::Ones(order)),
         unit(Matrix<Scalar, Size>::Identity(order, order)),
         rank(order) {}
 
-  /// R ← next · R. A diagonal entry below the round-off of `size` ends the rank.
+  /// Replaces R by next · R. A diagonal entry below the round-off of `size` ends the rank.
   void multiply_from_left(const Matrix<Scalar, Size>& next, const Scalar& size) {
     const Scalar round_off = Scalar(8) * std::numeric_limits<Scalar>::epsilon() * size;
     for (Eigen::Index i = 0; i < rank; ++i) {
@@ -63,7 +63,7 @@ struct ScaledTriangle {
   }
 };
 
-/// Columns in no special position, so that no coordinate axis that the maps keep is mistaken for
+/// Columns in general position, so that no coordinate axis invariant under the maps is taken for
 /// the leading direction.
 template <class Columns>
 Columns generic_columns(Eigen::Index rows, Eigen::Index columns) {
@@ -77,8 +77,8 @@ Columns generic_columns(Eigen::Index rows, Eigen::Index columns) {
   return dense;
 }
 
-/// One turn of orthogonal iteration around the period: Q ← the orthogonal factor after the last
-/// map.
+/// Performs one cycle of orthogonal iteration over the period: Q becomes the orthogonal factor
+/// after the last map.
 template <class Scalar, int Size>
 ScaledTriangle<Scalar, Size> turn_basis(const std::vector<Matrix<Scalar, Size>>& maps,
                                         Matrix<Scalar, Size>& basis) {
@@ -91,8 +91,8 @@ ScaledTriangle<Scalar, Size> turn_basis(const std::vector<Matrix<Scalar, Size>>&
   return triangle;
 }
 
-/// Whether the first `leading` directions turn among themselves: what the turn W = Q₀ᵀQ_N mixes
-/// into the others is small.
+/// Whether the first `leading` directions are invariant: the part of the turn W = Q₀ᵀQ_N that mixes
+/// them into the others is small.
 template <class Scalar, int Size>
 bool decoupled(const Matrix<Scalar, Size>& turn, Eigen::Index leading) {
   const Eigen::Index others = turn.rows() - leading;
@@ -100,8 +100,8 @@ bool decoupled(const Matrix<Scalar, Size>& turn, Eigen::Index leading) {
          turn.bottomLeftCorner(others, leading).cwiseAbs().maxCoeff() < Scalar(1e-10);
 }
 
-/// Whether no three neighbours beginning at an odd one are left together: most often a pair is left
-/// that no further turn separates.
+/// Whether no three neighbouring directions remain coupled, starting at an odd one: usually a pair
+/// is left that no further cycle separates.
 template <class Scalar, int Size>
 bool settled(const Matrix<Scalar, Size>& turn, Eigen::Index rank) {
   for (Eigen::Index k = 1; k == 1 || k < rank; k += 2)
@@ -109,7 +109,7 @@ bool settled(const Matrix<Scalar, Size>& turn, Eigen::Index rank) {
   return true;
 }
 
-/// Eigenvalues of rows and columns first … last − 1 of W D U.
+/// Appends the eigenvalues of rows and columns first … last − 1 of W D U.
 template <class Scalar, int Size>
 void append_multipliers(const Matrix<Scalar, Size>& turn,
                         const ScaledTriangle<Scalar, Size>& triangle, Eigen::Index first,
@@ -126,8 +126,8 @@ void append_multipliers(const Matrix<Scalar, Size>& turn,
                            static_cast<double>(std::arg(value))});
 }
 
-/// The eigenvalues of W D U, largest first.
-/// @param turn  W = Q₀ᵀQ_K
+/// The eigenvalues of W D U, by descending modulus.
+/// @param turn  rotation W = Q₀ᵀQ_K
 template <class Scalar, int Size>
 std::vector<Multiplier> multipliers_of_turn(const Matrix<Scalar, Size>& turn,
                                             const ScaledTriangle<Scalar, Size>& triangle) {
@@ -147,14 +147,14 @@ std::vector<Multiplier> multipliers_of_turn(const Matrix<Scalar, Size>& turn,
 
 }  // namespace detail
 
-/// The eigenvalues of M = M_K … M₁, largest first, without forming it.
+/// The eigenvalues of M = M_K … M₁, by descending modulus, without forming the product.
 ///
-/// Orthogonal iteration around the period, Q₀ → Q_K with M_k Q_{k−1} = Q_k R_k, brings M to
-/// Q₀ᵀ M Q₀ = (Q₀ᵀQ_K) R_K … R₁, where Q₀ᵀQ_K falls into diagonal blocks for the groups of
-/// eigenvalues whose moduli are apart. Each block is scaled by its own exponent.
-/// @param maps  at least one, N × N, N ≥ 2; each well enough conditioned to be factorised alone
-/// @return N of them; those of null directions have log_modulus −∞
-/// @throws InvalidParameter where there is no map, or one of another size
+/// Orthogonal iteration around the period, Q₀ → Q_K with M_k Q_{k−1} = Q_k R_k, transforms M to Q₀ᵀ
+/// M Q₀ = (Q₀ᵀQ_K) R_K … R₁, where Q₀ᵀQ_K is block diagonal for groups of eigenvalues with distinct
+/// moduli. Each block is scaled by its own exponent.
+/// @param maps  at least one, N × N, N ≥ 2; each conditioned well enough for its factorisation
+/// @return N eigenvalues; those of null directions have log_modulus −∞
+/// @throws InvalidParameter where there is no map, or the sizes disagree
 template <class Scalar = double, int Size = 5>
 std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<Scalar, Size>>& maps) {
   constexpr int most_turns = 40;

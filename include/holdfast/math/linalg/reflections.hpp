@@ -10,18 +10,18 @@ namespace holdfast {
 
 namespace detail {
 
-/// Householder's reflection H = I − τ v vᵀ of the last rows of a matrix, that takes what of one of
-/// its columns lies in them to β e₁, |β| the length of that.
+/// The Householder reflection H = I − τ v vᵀ of the last rows of a matrix that maps the part of one
+/// of its columns in these rows to β e₁, |β| being the length of that part.
 ///
-/// It goes column by column and number by number: of small matrices faster than by blocks, compiled
-/// in a twentieth of the time, and without the packets that GCC 12 takes for reads out of bounds.
+/// It works column by column: for small matrices this is faster than blocks, compiles in a
+/// twentieth of the time, and avoids the packets that GCC 12 reports as reads out of bounds.
 /// Source: A. S. Householder, J. ACM 5 (1958).
 template <class Any>
 class Reflection {
  public:
   using Scalar = typename Any::Scalar;
 
-  /// Takes that column to its β e₁. @param first  of the rows
+  /// Constructs the reflection of a column. @param first  first of the reflected rows
   Reflection(Any& matrix, Eigen::Index first, Eigen::Index column)
       : first_(first), direction_(matrix.rows() - first) {
     Scalar below(0);
@@ -36,7 +36,7 @@ class Reflection {
     factor_ = -Scalar(1) / (matrix(first, column) * direction_[0]);
   }
 
-  /// The columns of M from `column` on ← H M.
+  /// Replaces the columns of M from `column` on by H M.
   template <class Square>
   void reflect_columns(Square& matrix, Eigen::Index column) const {
     if (factor_ == Scalar(0)) return;
@@ -50,7 +50,7 @@ class Reflection {
     }
   }
 
-  /// M ← M H, of as many columns as the other had rows.
+  /// Replaces M by M H, for as many columns as the other matrix had rows.
   template <class Square>
   void reflect_rows(Square& matrix) const {
     using Column = Vector<Scalar, Square::RowsAtCompileTime>;
@@ -70,12 +70,12 @@ class Reflection {
 
 }  // namespace detail
 
-/// A ← R = QᵀA with R upper triangular, and B ← QᵀB, of orthogonal Q.
+/// Replaces A by R = QᵀA with R upper triangular, and B by QᵀB, with Q orthogonal.
 ///
-/// Backward stable, of matrices of any rank; |R_ii| need not fall. Work: 2 n m² for A of n × m and
-/// 4 n m c for c columns of B.
-/// @param matrix  A, finite, at least as many rows as columns
-/// @param others  B, as many rows as A
+/// It is backward stable, for matrices of any rank; |R_ii| need not decrease. Work: 2 n m² for A of
+/// n × m and 4 n m c for c columns of B.
+/// @param matrix  matrix A, finite, at least as many rows as columns
+/// @param others  matrix B, as many rows as A
 template <class Tall, class Others>
 void reflect_to_triangle(Tall& matrix, Others& others) {
   for (Eigen::Index k = 0; k < matrix.cols() && k + 1 < matrix.rows(); ++k) {
@@ -85,7 +85,7 @@ void reflect_to_triangle(Tall& matrix, Others& others) {
   }
 }
 
-/// A ← R as above. @return Q, with A = Q R
+/// Replaces A by R as above. @return Q, with A = Q R
 template <class Square>
 Square orthogonal_factor(Square& matrix) {
   Square transposed = Square::Identity(matrix.rows(), matrix.rows());
@@ -93,15 +93,15 @@ Square orthogonal_factor(Square& matrix) {
   return transposed.transpose();
 }
 
-/// M = Q H Qᵀ with H zero below the diagonal beside the main one, and Q orthogonal.
+/// The Hessenberg form M = Q H Qᵀ with H zero below the subdiagonal and Q orthogonal.
 /// @tparam Square  a square matrix of fixed, bounded or dynamic size
 template <class Square>
 struct HessenbergForm {
   Square form;   ///< H
-  Square basis;  ///< Q; I where it is not wanted
+  Square basis;  ///< Q; I if not computed
 
-  /// @param matrix      M, finite
-  /// @param with_basis  whether Q is wanted, a third of the work
+  /// @param matrix      matrix M, finite
+  /// @param with_basis  whether Q is computed, a third of the work
   explicit HessenbergForm(const Square& matrix, bool with_basis = true)
       : form(matrix), basis(Square::Identity(matrix.rows(), matrix.rows())) {
     for (Eigen::Index k = 0; k + 2 < matrix.rows(); ++k) {

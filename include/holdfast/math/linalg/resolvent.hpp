@@ -27,7 +27,7 @@ struct Resolvent {
   }
 };
 
-/// Resolvent polynomials by the Faddeev–LeVerrier recurrence, N matrix products.
+/// The resolvent polynomials by the Faddeev–LeVerrier recurrence, N matrix products.
 ///
 ///     A_{N−1} = I,   d_{k} = −tr(M A_k) / (N − k),   A_{k−1} = M A_k + d_k I
 ///

@@ -11,12 +11,12 @@
 
 namespace holdfast {
 
-/// A complex number that moves with a number x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ and what is not in it.
+/// A complex number as a function of x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ and a bound of the remainder.
 struct TaylorNumber {
   std::vector<std::complex<double>> terms;  ///< at least one
   double remainder;                         ///< ≥ 0
 
-  /// Σ |terms|, what the polynomial is at most.
+  /// The sum Σ |terms|, an upper bound of the polynomial.
   double size() const {
     double sum = 0.0;
     for (const std::complex<double>& term : terms) sum += std::abs(term);
@@ -24,7 +24,7 @@ struct TaylorNumber {
   }
 };
 
-/// The product of two moving numbers.
+/// The product of two Taylor numbers.
 inline TaylorNumber operator*(const TaylorNumber& a, const TaylorNumber& b) {
   TaylorNumber product{std::vector<std::complex<double>>(a.terms.size() + b.terms.size() - 1),
                        a.remainder * (b.size() + b.remainder) + a.size() * b.remainder};
@@ -34,7 +34,7 @@ inline TaylorNumber operator*(const TaylorNumber& a, const TaylorNumber& b) {
   return product;
 }
 
-/// The sum of two moving numbers, the second being taken `factor` times.
+/// The sum of two Taylor numbers, the second one multiplied by `factor`.
 inline TaylorNumber sum_of(TaylorNumber a, const TaylorNumber& b, double factor) {
   a.terms.resize(std::max(a.terms.size(), b.terms.size()));
   for (std::size_t k = 0; k < b.terms.size(); ++k) a.terms[k] += factor * b.terms[k];
@@ -42,13 +42,13 @@ inline TaylorNumber sum_of(TaylorNumber a, const TaylorNumber& b, double factor)
   return a;
 }
 
-/// |a|² − |b|² at x = 0, and what it is at least for all x.
+/// The difference |a|² − |b|² at x = 0, and its lower bound for all x.
 struct SquaresDifference {
-  double at_centre,  ///< at x = 0
-      least;         ///< of −1 ≤ x ≤ 1, a lower bound
+  double at_centre,  ///< value at x = 0
+      least;         ///< lower bound for −1 ≤ x ≤ 1
 };
 
-/// @param a, b  of as many terms
+/// |a|² − |b|² of two Taylor numbers with as many terms each.
 inline SquaresDifference squares_difference(const TaylorNumber& a, const TaylorNumber& b) {
   const std::size_t last = a.terms.size() - 1;
   double first = 0.0, fall = 0.0;

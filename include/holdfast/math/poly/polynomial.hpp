@@ -11,12 +11,12 @@
 
 namespace holdfast {
 
-/// Coefficients of p(x) = c₀ + c₁ x + … + c_n xⁿ, constant term first.
+/// The coefficients of p(x) = c₀ + c₁ x + … + c_n xⁿ, constant term first.
 template <class Scalar, int Degree>
 using Polynomial = Vector<Scalar, Degree + 1>;
 
-/// p(x) by Horner's rule: `degree` multiply-adds. `Point` may be complex where the coefficients are
-/// real.
+/// The value p(x) by Horner's rule: `degree` multiply-adds. `Point` may be complex with real
+/// coefficients.
 template <class Coefficients, class Point>
 Point evaluate(const Eigen::MatrixBase<Coefficients>& polynomial, const Point& x) {
   Point value = Point(polynomial[polynomial.size() - 1]);
@@ -37,7 +37,7 @@ Vector<Scalar, DegreePlusOneA + DegreePlusOneB - 1> multiply(
   return product;
 }
 
-/// p′(x); a constant has none.
+/// The derivative p′(x); not for a constant.
 template <class Scalar, int Size>
 Vector<Scalar, Size - 1> derivative(const Vector<Scalar, Size>& polynomial) {
   Vector<Scalar, Size - 1> result;
@@ -45,7 +45,7 @@ Vector<Scalar, Size - 1> derivative(const Vector<Scalar, Size>& polynomial) {
   return result;
 }
 
-/// p(x₀ + x) in powers of x (Taylor shift): from powers of μ = λ − 1 to powers of λ with x₀ = −1.
+/// The polynomial p(x₀ + x) in powers of x (Taylor shift): from μ = λ − 1 to λ with x₀ = −1.
 template <class Coefficients>
 Coefficients shifted(Coefficients p, const typename Coefficients::Scalar& by) {
   for (Eigen::Index start = 0; start + 1 < p.size(); ++start)
@@ -53,7 +53,7 @@ Coefficients shifted(Coefficients p, const typename Coefficients::Scalar& by) {
   return p;
 }
 
-/// p(unit · x).
+/// The polynomial p(unit · x).
 template <class Coefficients>
 Coefficients rescaled(Coefficients p, const typename Coefficients::Scalar& unit) {
   typename Coefficients::Scalar power(1);
@@ -63,19 +63,19 @@ Coefficients rescaled(Coefficients p, const typename Coefficients::Scalar& unit)
 
 namespace detail {
 
-/// a b without the standard's care for infinities, which costs several times the product.
+/// The product a b without the standard's treatment of infinities, which costs several times more.
 template <class Scalar>
 std::complex<Scalar> plain_product(const std::complex<Scalar>& a, const std::complex<Scalar>& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
-/// 1 / z, likewise; the roots are scaled to moduli about one.
+/// The reciprocal 1 / z without that treatment; the roots are scaled to moduli about one.
 template <class Scalar>
 std::complex<Scalar> inverse(const std::complex<Scalar>& z) {
   return std::conj(z) / std::norm(z);
 }
 
-/// p(x) / p′(x) and whether p(x) is down to its rounding error.
+/// The Newton step p(x) / p′(x), and whether p(x) is within its rounding error.
 template <class Scalar>
 struct NewtonStep {
   std::complex<Scalar> ratio;
@@ -97,7 +97,7 @@ NewtonStep<Scalar> newton_step(const std::vector<Scalar>& coefficients,
   return {plain_product(value, inverse(slope)), std::norm(value) <= rounding * rounding};
 }
 
-/// Moves all approximations once, Gauss–Seidel fashion; true when none moved any more.
+/// Updates all approximations once, in Gauss–Seidel order; true when none changes any more.
 template <class Scalar>
 bool aberth_sweep(const std::vector<Scalar>& coefficients,
                   std::vector<std::complex<Scalar>>& roots) {
@@ -117,7 +117,7 @@ bool aberth_sweep(const std::vector<Scalar>& coefficients,
   return settled;
 }
 
-/// Starting points of moduli about that of the roots, spread so that no symmetry can hold them.
+/// Starting points with moduli about those of the roots, spread without symmetry.
 template <class Scalar>
 std::vector<std::complex<Scalar>> spread_circle(std::size_t count) {
   std::vector<std::complex<Scalar>> points;
@@ -165,8 +165,8 @@ std::vector<std::complex<typename Coefficients::Scalar>> roots(
   return result;
 }
 
-/// The positive roots of a real polynomial of low degree, ascending. A pair that is a double root
-/// split by round-off, by √ε off the real axis, counts as two of them.
+/// The positive roots of a real polynomial of low degree, ascending. A double root that round-off
+/// has split into a pair, by √ε off the real axis, counts as two of them.
 /// @param polynomial  coefficients, lowest degree first
 /// @param split       the largest |Im x/Re x| of such a pair
 template <class Coefficients>
@@ -182,7 +182,7 @@ std::vector<typename Coefficients::Scalar> positive_roots(
   return result;
 }
 
-/// Number of roots in the open right half-plane Re w > 0, by finding all roots.
+/// The number of roots in the open right half-plane Re w > 0, from all roots.
 /// @param polynomial  degree 4 or 5, in s, or in w after `in_half_plane`, where Re w > 0 is |λ| > 1
 template <class Coefficients>
 int unstable_roots(const Eigen::MatrixBase<Coefficients>& polynomial) {
@@ -192,7 +192,7 @@ int unstable_roots(const Eigen::MatrixBase<Coefficients>& polynomial) {
   return count;
 }
 
-/// The polynomial divided by x − root, its last coefficient 0; the remainder is dropped.
+/// The polynomial divided by x − root, its last coefficient set to 0; the remainder is dropped.
 template <class Scalar, int Size>
 Vector<Scalar, Size> without_root(const Vector<Scalar, Size>& polynomial, const Scalar& root) {
   Vector<Scalar, Size> quotient = Vector<Scalar, Size>::Zero();
@@ -202,7 +202,7 @@ Vector<Scalar, Size> without_root(const Vector<Scalar, Size>& polynomial, const 
 
 namespace detail {
 
-/// Coefficients of the even (parity 0) or odd (parity 1) part of a(iy) as a polynomial in Y = y².
+/// The coefficients of the even (parity 0) or odd (parity 1) part of a(iy), in powers of Y = y².
 template <class Scalar, int Size>
 Vector<Scalar, 3> parity_part(const Vector<Scalar, Size>& a, int parity) {
   static_assert(Size == 5 || Size == 6, "the loop has 4 (continuous) or 5 (sampled) roots");
@@ -212,17 +212,17 @@ Vector<Scalar, 3> parity_part(const Vector<Scalar, Size>& a, int parity) {
   return part;
 }
 
-/// Mean modulus of the roots, (|a₀| / |a_n|)^{1/n}: the unit in which w is of order one. 1 where it
-/// has none.
+/// The mean modulus of the roots, (|a₀| / |a_n|)^{1/n}, the unit in which w is of order one; 1
+/// without roots.
 template <class Scalar, int Size>
 Scalar mean_root_modulus(const Vector<Scalar, Size>& a) {
   const Scalar modulus = std::pow(std::abs(a[0] / a[Size - 1]), Scalar(1) / Scalar(Size - 1));
   return std::isfinite(modulus) && modulus > Scalar(0) ? modulus : Scalar(1);
 }
 
-/// Replaces coefficients that are only round-off by zeros, w being measured in `unit`: first and
-/// last below 1e−12 of the largest, which are small differences of large numbers when sampling is
-/// fast, others below 1e−14.
+/// Replaces coefficients that are mere round-off by zeros, w being in units of `unit`: the first
+/// and the last below 1e−12 of the largest, which are small differences of large numbers with fast
+/// sampling, others below 1e−14.
 template <class Scalar, int Size>
 Vector<Scalar, Size> without_round_off(Vector<Scalar, Size> a, const Scalar& unit) {
   const Vector<Scalar, Size> size = rescaled(a, unit).cwiseAbs();
@@ -241,23 +241,23 @@ Vector<Scalar, Size> without_round_off(Vector<Scalar, Size> a, const Scalar& uni
 template <class Scalar>
 struct ParityParts {
   Vector<Scalar, 3> even;  ///< a_e: coefficients of Y⁰, Y¹, Y²
-  Vector<Scalar, 3> odd;   ///< a_o: likewise, of degree ≤ 1 in Y where a has degree 4
+  Vector<Scalar, 3> odd;   ///< a_o: coefficients of Y⁰, Y¹, Y²; degree ≤ 1 if a has degree 4
 
   /// @param a     degree 4 or 5, constant coefficient first
-  /// @param unit  the modulus of w in which y is measured
+  /// @param unit  modulus of w that is the unit of y
   template <int Size>
   ParityParts(const Vector<Scalar, Size>& a, const Scalar& unit)
       : even(detail::parity_part<Scalar, Size>(rescaled(a, unit), 0)),
         odd(detail::parity_part<Scalar, Size>(rescaled(a, unit), 1)) {}
 };
 
-/// Möbius–Zhukovsky transformation of a polynomial given in powers of μ = λ − 1.
+/// The Möbius–Zhukovsky transform of a polynomial in powers of μ = λ − 1:
 ///
 ///     λ = (1 + w) / (1 − w),   μ = 2w / (1 − w),   q(w) = (1 − w)ⁿ p(2w / (1 − w))
 ///
-/// maps |λ| < 1 onto Re w < 0, so that Hurwitz's conditions on q decide the sampled loop:
-/// q₀ = 0 is a root λ = +1, q_n = 0 a root λ = −1 (w = ∞), and H_{n−1} = 0 a pair on the unit
-/// circle. Source: Kollár 2022, §4.1; times (1 + w), its b_j for δ = 0 having no root λ = 0.
+/// It maps |λ| < 1 onto Re w < 0, so that Hurwitz's conditions on q decide the sampled loop: q₀ = 0
+/// is a root λ = +1, q_n = 0 a root λ = −1 (w = ∞), and H_{n−1} = 0 a pair on the unit circle.
+/// Source: Kollár 2022, §4.1; times (1 + w), its b_j for δ = 0 having no root λ = 0.
 /// @return q, constant coefficient first, same degree as p
 template <class Scalar, int Size>
 Vector<Scalar, Size> in_half_plane(const Vector<Scalar, Size>& in_powers_of_mu) {

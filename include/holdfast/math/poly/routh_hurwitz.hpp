@@ -5,15 +5,15 @@
 
 namespace holdfast {
 
-/// True (lane by lane) when all roots lie in Re s < 0, for either sign of the leading
+/// Whether (lane by lane) all roots have Re s < 0, for either sign of the leading
 /// coefficient.
 ///
-/// Liénard and Chipart's half of Hurwitz's conditions (Kollár 2022, Eq. (15)), which suffices:
+/// Liénard and Chipart's half of Hurwitz's conditions (Kollár 2022, Eq. (15)) is sufficient:
 ///
 ///     a_n a_j > 0 for j = 0, 2 and n − 1,
 ///     H₂ > 0 (degree 3),   a_n H₃ > 0 (degree 4),   H₂ > 0 and H₄ > 0 (degree 5)
 ///
-/// Work: 4, 9 or 11 multiply-adds, no division. A NaN is "not stable".
+/// Work: 4, 9 or 11 multiply-adds, no division. A NaN gives "not stable".
 /// Source: A. Liénard, M. H. Chipart, Journal de Mathématiques Pures et Appliquées 10 (1914).
 template <class Scalar, int Size>
 Mask<Scalar> lienard_chipart_stable(const Vector<Scalar, Size>& a) {
@@ -40,8 +40,8 @@ Mask<Scalar> lienard_chipart_stable(const Vector<Scalar, Size>& a) {
   }
 }
 
-/// `lienard_chipart_stable` for one polynomial of any size of coefficients: they are first divided
-/// by the largest, so that no product overflows.
+/// The test `lienard_chipart_stable` for one polynomial with coefficients of any size: they are
+/// divided by the largest first, so that no product overflows.
 template <class Scalar, int Size>
 bool is_hurwitz(const Vector<Scalar, Size>& a) {
   const Scalar largest = a.cwiseAbs().maxCoeff();

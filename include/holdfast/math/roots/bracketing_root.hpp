@@ -9,14 +9,14 @@
 
 namespace holdfast {
 
-/// Two arguments between which a function changes sign, and its values there.
+/// A bracket: two arguments between which a function changes sign, with its values there.
 template <class Scalar>
 struct SignChange {
   Scalar lower,           ///< the smaller argument
       upper;              ///< the larger one, or equal where the function is exactly zero
   Scalar value_at_lower;  ///< of the sign opposite to value_at_upper, or zero
   Scalar value_at_upper;  ///< of the sign opposite to value_at_lower, or zero
-  int evaluations = 0;    ///< calls of the function so far
+  int evaluations = 0;    ///< number of function calls so far
 };
 
 namespace detail {
@@ -26,8 +26,8 @@ struct Ordinate {
   Scalar x, value;
 };
 
-/// Where between `near` (0) and `far` (1) to look next: by inverse quadratic interpolation through
-/// the last three points if that is monotone there, else in the middle.
+/// The next position between `near` (0) and `far` (1): by inverse quadratic interpolation through
+/// the last three points if it is monotone there, else the middle.
 template <class Scalar>
 Scalar chandrupatla_share(const Ordinate<Scalar>& near, const Ordinate<Scalar>& far,
                           const Ordinate<Scalar>& old) {
@@ -42,14 +42,14 @@ Scalar chandrupatla_share(const Ordinate<Scalar>& near, const Ordinate<Scalar>& 
 
 }  // namespace detail
 
-/// Narrows a change of sign to at most `tolerance`, or to two neighbouring numbers, by
-/// Chandrupatla's method: inverse quadratic interpolation where three points say that it can be
-/// trusted, bisection elsewhere.
+/// Narrows a bracket to at most `tolerance`, or to two neighbouring numbers, by Chandrupatla's
+/// method: inverse quadratic interpolation where three points make it reliable, bisection
+/// elsewhere.
 ///
-/// Its order is about 1.8 at a simple zero; on a jump it bisects. Where the function is exactly
-/// zero it ends with that argument at both ends.
-/// @param function   Scalar → Scalar; a value that is not positive, NaN too, counts as negative
-/// @param bracket    lower < upper, values of opposite sign; returned as it is where they are not
+/// The order of convergence is about 1.8 at a simple zero; at a jump it bisects. If the function is
+/// exactly zero, both ends become that argument.
+/// @param function   Scalar → Scalar; zero, negative values and NaN count as negative
+/// @param bracket    lower < upper, values of opposite sign; otherwise returned unchanged
 /// @param tolerance  ≥ 0, in the unit of the argument
 /// Source: T. R. Chandrupatla, A new event quadratic/bisection algorithm for finding the zero of
 /// a nonlinear function without using derivatives, Advances in Engineering Software 28 (1997).

@@ -8,48 +8,48 @@
 
 namespace holdfast {
 
-/// Outcome of a test on a stretch |x − centre| ≤ radius.
+/// The outcome of a test on an interval |x − centre| ≤ radius.
 enum class Stretch {
-  holds,  ///< the condition is shown to hold all over it
-  fails,  ///< it fails at the centre
-  open,   ///< neither: a shorter stretch may tell
+  holds,  ///< the condition is proved on the whole interval
+  fails,  ///< the condition fails at the centre
+  open,   ///< undecided: a shorter interval may be decided
 };
 
-/// How a walk ended.
+/// The outcome of a walk.
 enum class WalkOutcome {
-  clear,    ///< the condition is shown to hold to the end
-  exit,     ///< it fails at `first_outside`, the end of what is shown but for `smallest`
-  open,     ///< from `last_inside` on neither can be told: round-off decides, or the work is done
+  clear,    ///< the condition is proved up to the end
+  exit,     ///< it fails at `first_outside`, the end of the proved range up to `smallest`
+  open,     ///< from `last_inside` on it is undecided, by round-off or by the limit of work
   blocked,  ///< it fails at the start
 };
 
-/// Where a walk ended.
+/// The end of a walk.
 struct FirstCrossing {
-  WalkOutcome outcome;   ///< how; `first_outside` is a number for `exit` alone
-  double last_inside;    ///< the condition is shown to hold from the start to here
-  double first_outside;  ///< the nearest argument at which it fails; NaN without an exit
-  int evaluations;       ///< stretches that were examined, ≥ 1
+  WalkOutcome outcome;   ///< outcome; `first_outside` is a number for `exit` only
+  double last_inside;    ///< the condition is proved from the start to here
+  double first_outside;  ///< the nearest argument where it fails; NaN without an exit
+  int evaluations;       ///< number of intervals examined, ≥ 1
 };
 
-/// How finely and how long a walk goes on.
+/// The resolution and the work of a walk.
 struct WalkLimits {
-  double smallest;  ///< > 0; what of the argument may stay unknown before an exit, as a share of
-                    ///< |argument| or, if that is larger, of the first step
-  int most_evaluations;  ///< ≥ 1; stretches that are examined at the most
+  double smallest;  ///< > 0; share of |argument| or, if larger, of the first step that may remain
+                    ///< unproved before an exit
+  int most_evaluations;  ///< ≥ 1; most intervals to be examined
 };
 
-/// The first argument on the way from `from` to `to` (which may lie below) at which a condition
-/// fails, stretch by stretch, each of them proved: no exit can be passed over.
+/// The first argument on the way from `from` to `to` (which may be smaller) at which a condition
+/// fails, found by proofs on successive intervals: no exit is passed over.
 ///
-/// A stretch that joins what is known is examined; where it is shown the next is twice as long,
-/// else half as long. Once an argument is known at which the condition fails, the stretches
-/// approach the edge that lies before it, each leaving about a tenth of the way.
-/// @param examine  centre, radius ≥ 0 → Stretch
-/// @param edge     shown, failing → where between the two the condition begins to fail
-/// @param from     argument at which the walk begins
-/// @param to       argument at which it ends, at the latest
+/// Each interval adjoins the proved range. After a proof the next one is twice as long, else half
+/// as long. Once a failing argument is known, the intervals approach the edge before it, each
+/// leaving about a tenth of the distance.
+/// @param examine  (centre, radius ≥ 0) → Stretch
+/// @param edge     (proved, failing) → estimate of the argument where the condition begins to fail
+/// @param from     argument at the start
+/// @param to       argument at the end
 /// @param first    length of the first step, > 0
-/// @param limits   how finely and how long
+/// @param limits   resolution and work
 template <class Examine, class Edge>
 FirstCrossing first_crossing(const Examine& examine, const Edge& edge, double from, double to,
                              double first, const WalkLimits& limits) {

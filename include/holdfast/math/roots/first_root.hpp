@@ -9,24 +9,24 @@
 
 namespace holdfast {
 
-/// How a polynomial that begins above zero meets it.
+/// The ways in which a polynomial that begins above zero reaches zero.
 enum class RootOutcome {
   none,      ///< it stays above zero up to x = 1
   crossing,  ///< it falls through zero
-  grazing,   ///< it comes so near to zero with so small a slope that rounding decides whether it
-             ///< falls through, touches or turns before
+  grazing,   ///< it is so near to zero with so small a slope that within rounding it may cross,
+             ///< touch or turn before
 };
 
-/// Where a polynomial that begins above zero first meets it in [0, 1].
+/// The first zero in [0, 1] of a polynomial that begins above zero.
 struct FirstRoot {
-  RootOutcome outcome;  ///< whether it does, and how
-  double at;            ///< 0 ≤ x ≤ 1; 1 where there is none
-  int evaluations;      ///< of the polynomial and its slope
+  RootOutcome outcome;  ///< existence and kind of the zero
+  double at;            ///< 0 ≤ x ≤ 1; 1 without a zero
+  int evaluations;      ///< number of evaluations of polynomial and slope
 };
 
 namespace detail {
 
-/// From x to where value + slope s − bend s² / 2 comes to zero; value > 0.
+/// The distance s from x at which value + slope s − bend s² / 2 is zero; value > 0.
 inline double safe_step(const ValueAndSlope& at, double height, double bend) {
   const double root = std::sqrt(at.slope * at.slope + 2.0 * bend * height);
   // Each form where nothing cancels in it.
@@ -34,8 +34,8 @@ inline double safe_step(const ValueAndSlope& at, double height, double bend) {
   return std::isnan(step) ? 1.0 : step;
 }
 
-/// The first root in a stretch 0 ≤ x ≤ 1 of a polynomial, or how far it has none.
-/// @param rounding  of its values
+/// The first root of a polynomial in 0 ≤ x ≤ 1, or the length that is free of roots.
+/// @param rounding  rounding error of its values
 inline FirstRoot root_in_stretch(const Series& q, double rounding, int most_evaluations) {
   double bend = 0.0;
   for (Eigen::Index k = 2; k < q.size(); ++k)
@@ -57,8 +57,8 @@ inline FirstRoot root_in_stretch(const Series& q, double rounding, int most_eval
 
 /// The first root of q(x), q(0) > 0.
 ///
-/// Where the bound M is far too large, the terms cancelling each other, the steps are too short:
-/// then the polynomial is written again about the place reached, over a shorter stretch.
+/// Where cancelling terms make the bound M far too large, the steps are too short: then the
+/// polynomial is expanded again about the point reached, over a shorter interval.
 inline FirstRoot first_root_of_positive(const Series& q) {
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * q.cwiseAbs().sum();
   constexpr int most_evaluations = 2048, patience = 16;
@@ -80,16 +80,16 @@ inline FirstRoot first_root_of_positive(const Series& q) {
 
 }  // namespace detail
 
-/// The first x in [0, 1] at which a polynomial that is above zero just after x = 0 comes down to
-/// it; none can be passed over.
+/// The first root in [0, 1] of a polynomial that is above zero just after x = 0; no root is passed
+/// over.
 ///
-/// With M = Σ k (k − 1) |c_k| ≥ |p″| on [0, 1], p(x + s) ≥ p(x) + p′(x) s − M s²/2. The search goes
-/// from x to the root of that parabola, before which p has none: in quadratic convergence where p
-/// crosses, by a constant factor where it touches. Leading coefficients that are exactly zero are
-/// divided out; a polynomial that is or falls below zero at 0 has its root there.
+/// With M = Σ k (k − 1) |c_k| ≥ |p″| on [0, 1], p(x + s) ≥ p(x) + p′(x) s − M s²/2. The search
+/// moves from x to the root of that parabola, before which p has none: it converges quadratically
+/// to a crossing, linearly to a touching. Leading coefficients that are exactly zero are divided
+/// out; a polynomial that is or falls below zero at 0 has its root there.
 ///
-/// Work: one Horner evaluation of p and p′ a step; some five for a crossing, at most 2048.
-/// @param p  one coefficient or more; where one is not finite there is no root
+/// Work: one Horner evaluation of p and p′ per step; some five for a crossing, at most 2048.
+/// @param p  one coefficient or more; if one is not finite there is no root
 inline FirstRoot first_root(const Series& p) {
   Eigen::Index first = 0;
   while (first < p.size() && p[first] == 0.0) ++first;

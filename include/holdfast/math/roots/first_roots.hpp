@@ -12,20 +12,20 @@
 
 namespace holdfast {
 
-/// Coefficients c₀, c₁, … of a polynomial in every lane; those beyond its terms mean nothing.
+/// The coefficients c₀, c₁, … of a polynomial in every lane; those beyond its terms are unused.
 template <class Scalar>
 using LaneSeries = std::array<Scalar, most_terms>;
 
-/// Where the polynomial of each lane first meets zero in [0, 1]: FirstRoot of every lane.
+/// The first zero in [0, 1] of each lane's polynomial, FirstRoot in every lane.
 template <class Scalar>
 struct FirstRoots {
-  Mask<Scalar> found;  ///< it does, by falling through or by grazing
-  Scalar at;           ///< 0 ≤ x ≤ 1; 1 where there is none
+  Mask<Scalar> found;  ///< whether there is one, crossing or grazing
+  Scalar at;           ///< 0 ≤ x ≤ 1; 1 without a zero
 };
 
 namespace detail {
 
-/// k (k − 1), k < most_terms: the second derivatives of x^k at 1.
+/// The numbers k (k − 1), k < most_terms: the second derivatives of x^k at 1.
 constexpr std::array<double, most_terms> curvatures_of_powers() {
   std::array<double, most_terms> result{};
   for (std::size_t k = 1; k < result.size(); ++k)
@@ -40,7 +40,7 @@ struct RootSearch {
   Mask<Scalar> active = Scalar(0) > Scalar(0), found = active;
   Scalar x = Scalar(0), at = Scalar(1), rounding = Scalar(0), bend = Scalar(0), sag = Scalar(0);
 
-  /// Divides leading coefficients out that are exactly zero; what is left begins above zero.
+  /// Divides out leading coefficients that are exactly zero; the remainder begins above zero.
   RootSearch(LaneSeries<Scalar>& polynomial, int terms, const Mask<Scalar>& lanes)
       : p(polynomial), active(lanes) {
     divide_out_zeros(terms);
@@ -52,7 +52,7 @@ struct RootSearch {
     active = active & (p[0] > zero);
   }
 
-  /// p(x) and p′(x) are known: takes the root, or goes to where none can lie before.
+  /// Uses p(x) and p′(x): accepts the root, or moves to the end of an interval without root.
   void step(const Scalar& value, const Scalar& slope) {
     using std::max;
     using std::min;
@@ -78,7 +78,7 @@ struct RootSearch {
   }
 
  private:
-  /// From x to where value + slope s + sag s²/2 comes to zero; infinite where it does not.
+  /// The distance from x at which value + slope s + sag s²/2 is zero; infinite without one.
   Scalar safe_way(const Scalar& height, const Scalar& slope) const {
     using std::max;
     using std::sqrt;
@@ -103,7 +103,7 @@ struct RootSearch {
     }
   }
 
-  /// Takes the sizes of the polynomial, so scaled that their squares are numbers.
+  /// Computes the sizes of the polynomial, scaled so that their squares do not overflow.
   void scale(int terms) {
     using std::abs;
     using std::max;
@@ -129,7 +129,7 @@ struct RootSearch {
   }
 };
 
-/// The scalar search of a lane, for a polynomial that is hard.
+/// Runs the scalar search in a lane whose polynomial is difficult.
 template <class Scalar>
 void search_alone(RootSearch<Scalar>& search, int terms, std::size_t lane) {
   typename Lanes<Scalar>::Value at[Lanes<Scalar>::count], found[Lanes<Scalar>::count];
@@ -145,7 +145,7 @@ void search_alone(RootSearch<Scalar>& search, int terms, std::size_t lane) {
   search.found = Lanes<Scalar>::load(found) > Scalar(0.5);
 }
 
-/// p(x) and p′(x) of all searches, side by side, so that none waits for its own last term.
+/// Evaluates p(x) and p′(x) of all searches in parallel, to hide the latency of each.
 template <class Scalar, std::size_t Count>
 void step_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
   std::array<Scalar, Count> value, slope;
@@ -162,7 +162,7 @@ void step_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
   for (std::size_t g = 0; g < Count; ++g) searches[g].step(value[g], slope[g]);
 }
 
-/// All searches to their ends.
+/// Runs all searches to their ends.
 template <class Scalar, std::size_t Count>
 void search_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
   constexpr int patience = 16;
@@ -187,14 +187,14 @@ void search_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
 
 }  // namespace detail
 
-/// first_root() of `Count` polynomials in every lane: the lanes step together until each has its
-/// root or has shown that it has none; a lane that is not through after 16 steps goes on alone.
+/// The search first_root() for `Count` polynomials in every lane. The lanes step together until
+/// each is decided; one that needs more than 16 steps continues alone.
 ///
-/// Work: `terms` multiply-adds twice for each step and polynomial; some five steps where a lane has
-/// a root, mostly none where no lane has one.
-/// @param polynomials  of each its coefficients in all lanes, one or two; they are worked upon
-/// @param terms        of all of them, 1 … `most_terms`
-/// @param lanes        that are searched, for each polynomial; the others have no root
+/// Work: 2 `terms` multiply-adds for each step and polynomial; some five steps if any lane has a
+/// root, mostly none otherwise.
+/// @param polynomials  one or two, coefficients in all lanes; they are modified
+/// @param terms        common number of terms, 1 … `most_terms`
+/// @param lanes        lanes to be searched, for each polynomial; the others have no root
 template <class Scalar, std::size_t Count>
 std::array<FirstRoots<Scalar>, Count> first_roots(
     std::array<LaneSeries<Scalar>, Count>& polynomials, int terms,

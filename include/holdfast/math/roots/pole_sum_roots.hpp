@@ -13,46 +13,46 @@
 
 namespace holdfast {
 
-/// A characteristic function whose poles are known, those of a sampled plant in a loop:
+/// A characteristic function given by its poles, for a sampled plant in a loop:
 ///
 ///     p(λ) = 1 − λ^{−n} w(rλ) (g/λ + Σ (a_k + b_k/λ)/(λ − 1 − ε_k)),   w(λ) = c + d (1 − 1/λ)
 template <class Scalar>
 struct PoleSum {
   using Complex = std::complex<Scalar>;  ///< of poles and residues
 
-  /// The part of one pole.
+  /// The term of one pole.
   struct Part {
-    Complex increment;  ///< ε, so that nothing is lost where sampling is fast
+    Complex increment;  ///< ε, accurate with fast sampling too
     Complex present;    ///< a
     Complex past;       ///< b
   };
 
-  /// A filter of what is read.
+  /// A filter of the readings.
   struct Weight {
-    Scalar constant;  ///< c, of the reading
-    Scalar change;    ///< d, of its change within a sample
+    Scalar constant;  ///< c, factor of the reading
+    Scalar change;    ///< d, factor of its change per sample
   };
 
-  std::vector<Part> parts;              ///< of all poles
+  std::vector<Part> parts;              ///< terms of all poles
   Complex past{0};                      ///< g
-  Weight weight{Scalar(1), Scalar(0)};  ///< w, common to all
-  Scalar radius{1};                     ///< r, λ being that of the loop divided by it
+  Weight weight{Scalar(1), Scalar(0)};  ///< w, common to all terms
+  Scalar radius{1};                     ///< r; λ is that of the loop divided by r
   int power = 0;                        ///< n ≥ 0
 };
 
 namespace detail {
 
-/// The roots of a PoleSum, all at once (Ehrlich 1967, Aberth 1973): each is improved by Newton's
-/// step for what is left of the polynomial when all others are divided out. Each root but the extra
-/// ones is kept as its distance d from a pole, in which nothing cancels where the sum hardly moves
-/// it.
+/// The simultaneous iteration for all roots of a PoleSum (Ehrlich 1967, Aberth 1973): each root is
+/// improved by Newton's step for the polynomial divided by all other roots. Each root but the
+/// extra ones is stored as its distance d from a pole, which is accurate where the root hardly
+/// moves.
 template <class Scalar>
 class RootIteration {
  public:
   using Complex = std::complex<Scalar>;
 
-  /// @param extra     roots beyond those of the poles: the order of the pole at λ = 0
-  /// @param mirrored  the roots of two conjugate poles are taken to be conjugate, too, at first
+  /// @param extra     number of roots beyond those of the poles: order of the pole at λ = 0
+  /// @param mirrored  whether roots of conjugate poles are first assumed to be conjugate
   RootIteration(const PoleSum<Scalar>& sum, int extra, bool mirrored)
       : weight_(sum.weight),
         radius_(sum.radius),
@@ -75,8 +75,8 @@ class RootIteration {
           Scalar(0.3), Scalar(0.7) + Scalar(2) * pi<Scalar> * Scalar(j) / Scalar(extra)));
   }
 
-  /// @param enough  how far a root may be off, as a share of its distance from the unit circle
-  /// @return whether all of them settled, and their sum is what the polynomial says
+  /// @param enough  admissible error of a root, as a share of its distance from the unit circle
+  /// @return whether all roots converged and their sum agrees with the polynomial
   bool converge(const Scalar& enough) {
     enough_ = enough;
     std::vector<char> settled(steps_.size(), 0);
@@ -97,7 +97,7 @@ class RootIteration {
     return false;
   }
 
-  /// λ of all roots.
+  /// The values λ of all roots.
   std::vector<Complex> roots() const {
     std::vector<Complex> found = extras_;
     for (std::size_t i = 0; i < poles_; ++i)
@@ -109,13 +109,13 @@ class RootIteration {
   using Row = typename ComplexRows<Scalar, 4>::Row;  // e − 1, a, b and d
   static constexpr Scalar parked{-8};                // an e − 1 that no root is near
 
-  /// Sums over all poles at λ = e + d, and their slopes.
+  /// The sums over all poles at λ = e + d, with their derivatives.
   struct Sums {
     Complex a, b, slope_a, slope_b;  ///< Σ a/(λ − e) and g + Σ b/(λ − e)
     Complex divided_out;             ///< Σ (1/(λ − e) − 1/(λ − z)), z being the roots
   };
 
-  /// λ^{−n} w and λ^{−n−1} w, which stand before these, and their slopes.
+  /// The factors λ^{−n} w and λ^{−n−1} w of these sums, with their derivatives.
   struct Factors {
     Complex a, b, slope_a, slope_b;
 
@@ -125,12 +125,12 @@ class RootIteration {
     }
   };
 
-  /// p and its slope.
+  /// The value of p with its derivative.
   struct Value {
     Complex value, slope;
   };
 
-  /// For each pole that of which it is the conjugate, or itself.
+  /// Finds for each pole its conjugate, or itself.
   void find_mirrors(bool mirrored) {
     for (std::size_t i = 0; i < poles_; ++i) mirrors_.push_back(i);
     std::size_t begin = 0;  // both kinds mostly come in the same order
@@ -147,7 +147,7 @@ class RootIteration {
     }
   }
 
-  /// Where a root begins: off the axis of symmetry, on which a pair could not leave the real line.
+  /// The start of a root: off the real axis, which a pair could not leave by symmetry.
   Complex first_of(std::size_t i) {
     Row own = parts_[i];
     own[3] = Complex(0);
@@ -157,7 +157,7 @@ class RootIteration {
     return std::isfinite(std::abs(first)) ? first : Complex(1e-3, 1e-3);
   }
 
-  /// Lets the roots of conjugate poles that have not settled, and may be real, begin anew singly.
+  /// Restarts the roots of conjugate poles that have not converged, and may be real, separately.
   void part_mirrors(std::vector<char>& settled) {
     for (std::size_t i = 0; i < poles_; ++i) {
       const std::size_t other = std::exchange(mirrors_[i], i);
@@ -190,7 +190,7 @@ class RootIteration {
     return {a.sum(), b.sum() + past_, -slope_a.sum(), -slope_b.sum(), -divided_out.sum()};
   }
 
-  /// The sums over all other poles at the root of one.
+  /// The sums over all other poles at the root of one pole.
   Sums without(std::size_t i, const Row& own) {
     parts_.set(i, {Complex(parked), Complex(0), Complex(0), Complex(0)});
     const Sums others = sums_at(own[0], own[3]);
@@ -198,7 +198,7 @@ class RootIteration {
     return others;
   }
 
-  /// At λ = 1 + μ.
+  /// The factors at λ = 1 + μ.
   Factors factors_at(const Complex& mu) const {
     const Complex back = inverse(Complex(1) + mu);
     Complex before(1);
@@ -215,7 +215,7 @@ class RootIteration {
             -at.slope_of(sums.a, sums.b) - at.of(sums.slope_a, sums.slope_b)};
   }
 
-  /// Σ (1/λ − 1/(λ − z)) over the extra roots but the i-th of all.
+  /// The sum Σ (1/λ − 1/(λ − z)) over the extra roots except root i.
   Complex extras_divided_out(std::size_t i, const Complex& lambda) const {
     Complex sum(0);
     for (std::size_t j = 0; j < extras_.size(); ++j) {
@@ -225,7 +225,7 @@ class RootIteration {
     return sum;
   }
 
-  /// @return whether it has settled
+  /// Improves root i. @return whether it has converged
   bool improve(std::size_t i) {
     if (i >= poles_) {
       Complex& root = extras_[i - poles_];
@@ -246,8 +246,8 @@ class RootIteration {
     return settled;
   }
 
-  /// Takes a step from a root λ, of which one at 0 has none.
-  /// @return whether the root has settled: the step, or the next one as they shrink, is nothing
+  /// Takes a step from a root λ, except for a root at 0.
+  /// @return whether the root has converged: this step, or the next shrinking one, is negligible
   bool take(std::size_t i, Complex& unknown, const Value& p, const Sums& others,
             const Complex& lambda) {
     const Complex divided_out = others.divided_out + extras_divided_out(i, lambda);
@@ -260,7 +260,7 @@ class RootIteration {
            size < enough_ * std::abs(Scalar(1) - std::abs(lambda));
   }
 
-  /// Σ z = Σ e + w(∞) (g + Σ a), or Σ e where n > 0.
+  /// Whether the roots' sum is right: Σ z = Σ e + w(∞) (g + Σ a), or Σ e where n > 0.
   bool has_their_sum() const {
     const Scalar weight = weight_.constant + weight_.change;
     Complex sum = power_ == 0 ? -weight * past_ : Complex(0);
@@ -294,14 +294,14 @@ class RootIteration {
 
 }  // namespace detail
 
-/// The roots λ of a PoleSum, all of them. Some 3 to 30 sweeps of N² operations, where the
-/// eigenvalues of a matrix take N³.
-/// @param sum   its complex poles in conjugate pairs, as of what is real
-/// @param late    whether there are b
-/// @param enough  how far a root may be off, as a share of its way to the unit circle; 0: all
-/// digits
-/// @return nothing where they do not settle or their sum is not that of the polynomial: where roots
-///         coincide, or n > 19
+/// All roots λ of a PoleSum, in some 3 to 30 sweeps of N² operations; the eigenvalues of a matrix
+/// take N³.
+/// @param sum   the function; complex poles are in conjugate pairs
+/// @param late    whether there are coefficients b
+/// @param enough  admissible error of a root, as a share of its distance from the unit circle; 0:
+///                full precision
+/// @return nothing where they do not converge or their sum is wrong: for coinciding roots, or n >
+///         19
 template <class Scalar>
 std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late,
                                                  const Scalar& enough = Scalar(0)) {

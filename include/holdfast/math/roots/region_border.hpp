@@ -14,47 +14,47 @@ namespace holdfast {
 
 /// A point of a plane.
 struct PlanePoint {
-  double x = 0.0;  ///< to the right
-  double y = 0.0;  ///< upward
+  double x = 0.0;  ///< coordinate to the right
+  double y = 0.0;  ///< coordinate upward
 };
 
-/// Margin of a point of a plane inside a region, and the condition nearest to failing.
-/// @tparam Label  what ends the region nearby; compared by ==
+/// The margin of a point in a region, with the condition nearest to failing.
+/// @tparam Label  name of a condition that ends the region; compared by ==
 template <class Label>
 struct RegionLook {
-  double margin = -1.0;  ///< > 0 inside; continuous where the border is to be found fast
-  Label label{};         ///< of the condition that has this margin
+  double margin = -1.0;  ///< > 0 inside; a continuous margin makes the search fast
+  Label label{};         ///< condition with this margin
 };
 
 /// A point of a region's border, on its inner side.
 template <class Label>
 struct BorderPoint {
-  PlanePoint at;  ///< where it lies
-  Label label{};  ///< what ends the region there; at a jump of the margin that of the outer side
+  PlanePoint at;  ///< position
+  Label label{};  ///< condition that ends the region; at a jump of the margin that outside
 };
 
-/// The border of a region, the region at its left.
+/// The border of a region, with the region on its left.
 template <class Label>
 struct RegionBorder {
-  std::vector<BorderPoint<Label>> points;  ///< where it closes the first one is the last one again
-  bool closed = false;  ///< it came back to where it began; else it was lost, or went round another
-                        ///< part that touches this one
-  int looks = 0;        ///< points that were looked at
+  std::vector<BorderPoint<Label>> points;  ///< if closed, the last point repeats the first one
+  bool closed = false;  ///< it returned to its start; else it was lost, or followed another part
+                        ///< that touches this one
+  int looks = 0;        ///< number of points examined
 };
 
-/// How a border is followed.
+/// The parameters for following a border.
 struct BorderSteps {
-  double longest = 0.02;       ///< of a step, in the unit of the plane
-  double shortest = 1e-9;      ///< of a step, which is how well a corner is found
-  double tolerance = 1e-13;    ///< of a point
-  double jump = 1e-4;          ///< margin inside at a point of the border above which it is a jump
-  int most_looks = 1'000'000;  ///< at points, after which the border is left open
+  double longest = 0.02;       ///< longest step, in the unit of the plane
+  double shortest = 1e-9;      ///< shortest step, the accuracy of a corner
+  double tolerance = 1e-13;    ///< accuracy of a point
+  double jump = 1e-4;          ///< margin just inside the border above which it counts as a jump
+  int most_looks = 1'000'000;  ///< limit of points examined, after which the border is left open
 };
 
 namespace detail {
 
-/// Follows a border by circles: of one about a point of the border the next point is where it
-/// leaves the region first, seen clockwise from where the border came.
+/// The walk along a border by circles: on a circle about a point of the border the next point is
+/// the first exit from the region, seen clockwise from where the border came.
 template <class Label, class Look>
 class BorderWalk {
  public:
@@ -98,8 +98,8 @@ class BorderWalk {
   }
   static double turned(double angle) { return std::remainder(angle, 2.0 * pi<double>); }
 
-  /// The last point inside on the way from `in` (inside) to `out` (not) of place(parameter); none
-  /// where rounding says otherwise of the two.
+  /// The last point inside on the path place(parameter) from `in` (inside) to `out` (outside); none
+  /// where rounding contradicts this.
   template <class Place>
   std::optional<BorderPoint<Label>> last_inside(double in, double out, double tolerance,
                                                 const Place& place) {
@@ -128,7 +128,7 @@ class BorderWalk {
     return BorderPoint<Label>{last, inner.margin > steps_.jump ? outer.label : inner.label};
   }
 
-  /// Where a ray leaves the region.
+  /// The exit of a ray from the region.
   std::optional<BorderPoint<Label>> ray(const PlanePoint& from, double angle) {
     for (double near = 0.0; border_.looks < steps_.most_looks;) {
       const double far = near + steps_.longest;
@@ -140,7 +140,7 @@ class BorderWalk {
     return std::nullopt;
   }
 
-  /// The farthest that the region reaches from a point along the axes.
+  /// The largest extent of the region from a point along the axes.
   double reach_from(const PlanePoint& start) {
     double reach = 0.0;
     for (const double angle : {0.0, pi<double> / 2.0, pi<double>, -pi<double> / 2.0})
@@ -156,8 +156,8 @@ class BorderWalk {
                        [&](double angle) { return moved(here, step, angle); });
   }
 
-  /// The next point of the border at a distance; none where the circle does not leave the region or
-  /// does not enter it.
+  /// The next point of the border at a distance; none where the circle has no exit or no
+  /// entry.
   std::optional<BorderPoint<Label>> next(double step) {
     const PlanePoint here = border_.points.back().at;
     const auto is_inside = [&](double angle) { return inside(moved(here, step, angle)); };
@@ -176,7 +176,7 @@ class BorderWalk {
     return std::nullopt;
   }
 
-  /// Tries one step. @return the length of the next one
+  /// Tries one step. @return length of the next step
   double go_on(double step) {
     const auto shorter = [&](double share) { return std::max(share * step, steps_.shortest); };
     const bool least = step <= steps_.shortest;
@@ -202,8 +202,8 @@ class BorderWalk {
     return least ? longest_ : std::min(2.0 * step, longest_);
   }
 
-  /// Whether a corner was met before and left since: where parts of a region touch, the way may
-  /// have gone on around another part, which it would never leave.
+  /// Whether a corner was passed before and is reached again: where parts of a region touch, the
+  /// walk may have changed to another part and would never leave it.
   bool meets_again(const BorderPoint<Label>& before, const BorderPoint<Label>& after) {
     const auto is_left = [&](const BorderPoint<Label>& point) {
       return distance(point.at, after.at) > 100.0 * steps_.shortest;
@@ -240,18 +240,18 @@ class BorderWalk {
 
 }  // namespace detail
 
-/// Follows the border of the plane region {margin > 0} around a point inside, until it closes.
+/// Follows the border of the plane region {margin > 0} around an inner point until it closes.
 ///
-/// Each point is the root of the margin on a circle about the one before, so that corners, where
-/// another condition takes over, need nothing else: the circles become smaller until the two
-/// successive points of different labels are `shortest` apart. What is narrower than a step
-/// may be passed over, and so is a hole of the region.
+/// Each point is the root of the margin on a circle about the previous one. Corners, where another
+/// condition takes over, need no special treatment: the circles shrink until two successive points
+/// of different labels are `shortest` apart. Parts narrower than a step may be missed, and holes of
+/// the region too.
 ///
 ///     const auto border = region_border<int>(look, {0.5, 0.5});
-/// @tparam Label  of the conditions
+/// @tparam Label  name of a condition
 /// @param look   PlanePoint ↦ RegionLook<Label>; the region must be bounded
-/// @param start  inside; else the border is empty
-/// @param steps  how long they may be, and how well a point is found
+/// @param start  inner point; otherwise the border is empty
+/// @param steps  lengths of steps and accuracy of points
 template <class Label, class Look>
 RegionBorder<Label> region_border(const Look& look, const PlanePoint& start,
                                   const BorderSteps& steps = {}) {

@@ -9,19 +9,19 @@
 
 namespace holdfast {
 
-/// The root of 1 − ε g(s) at ε = 1 that begins at a pole p of g at ε = 0: how a natural motion
-/// moves as what acts on it grows from nothing to what it is.
+/// The root of 1 − ε g(s) at ε = 1 that starts at a pole p of g at ε = 0: the change of a natural
+/// motion while the acting device grows from zero to its full size.
 ///
-/// It is followed along 1/g(s) = ε, which is smooth at the pole, by Euler's step and the secant. ε
-/// goes a little beside the real axis, where a root that meets its conjugate has a direction all
-/// the same. Steps are shortened while the root turns. A pole so weak that it moves by less than
-/// 10⁻⁷ of itself is moved by its residue alone.
+/// It is continued along 1/g(s) = ε, which is smooth at the pole, by Euler's step and the secant. ε
+/// takes a path slightly off the real axis, so that a root meeting its conjugate has a unique
+/// direction. Steps are shortened while the root turns. A pole that moves by less than 10⁻⁷ of
+/// itself is moved by its residue alone.
 ///
-/// This follows and proves nothing: where two roots meet on the way, which is whose is a matter of
-/// name.
-/// @param loop_gain  g: a complex number to one; some hundred values of it are taken
+/// The continuation is no proof: where two roots meet on their way, their assignment is
+/// arbitrary.
+/// @param loop_gain  function g of a complex number; it is evaluated some hundred times
 /// @param pole       p ≠ 0, simple, exact to round-off
-/// @return NaN where 1000 steps do not do (unchecked)
+/// @return NaN where 1000 steps are not sufficient (unchecked)
 template <class LoopGain>
 std::complex<double> root_from_pole(const LoopGain& loop_gain, const std::complex<double>& pole) {
   using Complex = std::complex<double>;

@@ -6,19 +6,19 @@
 
 namespace holdfast {
 
-/// Most coefficients of a series.
+/// The largest number of coefficients of a series.
 inline constexpr int most_terms = 20;
 
-/// Coefficients of p(x) = c₀ + c₁ x + … , at most `most_terms` of them; never on the heap.
+/// The coefficients of p(x) = c₀ + c₁ x + … , at most `most_terms`; not on the heap.
 using Series = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_terms, 1>;
 
-/// p(x) and p′(x).
+/// The value p(x) and the slope p′(x).
 struct ValueAndSlope {
   double value,  ///< p(x)
       slope;     ///< p′(x)
 };
 
-/// p(x) and p′(x) by Horner's rule.
+/// The value p(x) and the slope p′(x) by Horner's rule.
 /// @param polynomial  c₀, c₁, …, one coefficient or more
 /// @param x           any number
 template <class Coefficients>
@@ -31,7 +31,7 @@ ValueAndSlope value_and_slope(const Eigen::MatrixBase<Coefficients>& polynomial,
   return result;
 }
 
-/// Rest of p(x), 0 ≤ x ≤ 1, from some x on: the coefficients of p(from + y (1 − from)).
+/// The series on the rest of [0, 1] from some x on: coefficients of p(from + y (1 − from)).
 inline Series rest_of(const Series& p, double from) {
   return rescaled(shifted(p, from), 1.0 - from);
 }

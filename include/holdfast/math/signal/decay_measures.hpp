@@ -10,13 +10,13 @@
 
 namespace holdfast {
 
-/// Displacement of one point over time.
+/// The displacement of one point over time.
 struct DecayRecord {
   std::vector<double> times;          ///< s, ascending
   std::vector<double> displacements;  ///< m, from the equilibrium, downward positive
 };
 
-/// Measures of the decay after a load is removed. NaN where the record is too short for it.
+/// The measures of the decay after a load is removed; NaN where the record is too short.
 struct DecayMeasures {
   double first_peak;       ///< m, the opposite peak: extreme between the first two crossings
   double first_peak_time;  ///< t₁ (s)
@@ -24,27 +24,27 @@ struct DecayMeasures {
   double logarithmic_decrement;  ///< δ per cycle, from the first four peaks
 };
 
-/// One extreme between two crossings of the equilibrium.
+/// One extremum between two crossings of the equilibrium.
 struct DecayPeak {
   double time;   ///< s
   double value;  ///< m
 };
 
-/// The times (s) at which a record crosses the equilibrium, on the chord between two samples, and
-/// the extremes between successive crossings, at the vertex of the parabola through the three
-/// samples about each.
+/// The crossings of the equilibrium by a record (s), on the chord between two samples, and the
+/// extrema between successive crossings, at the vertex of the parabola through the three samples
+/// around each.
 ///
-/// A swing counts once it reaches a twentieth of the swing before it. Where noise crosses the
-/// equilibrium to and fro before that, the crossing is midway between the first and the last. Noise
-/// lifts each peak by about two of its standard deviations.
+/// A swing counts once it reaches a twentieth of the previous swing. If noise crosses the
+/// equilibrium several times before, the crossing is midway between the first and the last. Noise
+/// raises each peak by about two of its standard deviations.
 struct DecayEvents {
-  std::vector<double> crossings;  ///< s, ascending
-  std::vector<DecayPeak> peaks;   ///< peaks[k] lies between crossings[k] and crossings[k + 1]
+  std::vector<double> crossings;  ///< times of crossing (s), ascending
+  std::vector<DecayPeak> peaks;   ///< peaks[k] is between crossings[k] and crossings[k + 1]
 };
 
 namespace detail {
 
-/// @throws InvalidParameter unless the times are finite and each is later than the one before
+/// @throws InvalidParameter unless the times are finite and ascending
 inline void require_ascending(const std::vector<double>& times) {
   for (std::size_t k = 0; k < times.size(); ++k) {
     require_finite("time", times[k], "s");
@@ -53,7 +53,7 @@ inline void require_ascending(const std::vector<double>& times) {
   }
 }
 
-/// Vertex of the parabola through the samples k − 1, k, k + 1.
+/// The vertex of the parabola through the samples k − 1, k, k + 1.
 inline DecayPeak vertex(const DecayRecord& record, std::size_t k) {
   const auto& t = record.times;
   const auto& z = record.displacements;
@@ -68,8 +68,8 @@ inline DecayPeak vertex(const DecayRecord& record, std::size_t k) {
 
 }  // namespace detail
 
-/// @throws InvalidParameter for columns of unequal length, for times that are not finite and
-/// ascending, and for displacements that are not finite
+/// @throws InvalidParameter where the columns differ in length, the times are not finite and
+/// ascending, or a displacement is not finite
 inline DecayEvents decay_events(const DecayRecord& record) {
   const auto& t = record.times;
   const auto& z = record.displacements;
@@ -102,9 +102,9 @@ inline DecayEvents decay_events(const DecayRecord& record) {
   return events;
 }
 
-/// δ per cycle of four successive peaks of alternating sign: the slope of the straight line through
-/// ln |peak| by least squares, twice, a cycle having two peaks:
-/// δ = −2 [−3 l₁ − l₂ + l₃ + 3 l₄]/10, l = ln |peak|.
+/// The logarithmic decrement δ per cycle of four successive peaks of alternating sign: twice the
+/// slope of the least-squares line through ln |peak|, a cycle having two peaks: δ = −2 [−3 l₁ − l₂
+/// + l₃ + 3 l₄]/10, l = ln |peak|.
 template <class Scalar>
 Scalar logarithmic_decrement(const std::array<Scalar, 4>& peaks) {
   using std::abs;
@@ -114,7 +114,7 @@ Scalar logarithmic_decrement(const std::array<Scalar, 4>& peaks) {
 }
 
 /// The measures of a decay that starts displaced at the record's first instant.
-/// @throws InvalidParameter as decay_events()
+/// @throws InvalidParameter under the conditions of decay_events()
 inline DecayMeasures decay_measures(const DecayRecord& record) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const DecayEvents events = decay_events(record);

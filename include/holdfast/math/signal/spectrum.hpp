@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// Weighting of the samples before the transform.
+/// The weighting of the samples before the transform.
 enum class SpectralWindow {
   rectangular,  ///< exact amplitudes for whole periods
   hann,         ///< w_n = ½ (1 − cos 2πn/N): for motions whose period does not fit the record
@@ -22,17 +22,17 @@ enum class SpectralWindow {
 /// One line of a one-sided amplitude spectrum.
 struct SpectralLine {
   double frequency;  ///< Hz
-  double amplitude;  ///< same unit as the signal: a sine of amplitude a on this line shows a
+  double amplitude;  ///< unit of the signal: a sine of amplitude a on this line gives a
 };
 
-/// One-sided amplitude spectrum of a real signal.
+/// The one-sided amplitude spectrum of a real signal:
 ///
 ///     X_k = Σ w_n x_n e^{−2πikn/N},   amplitude_k = 2 |X_k| / Σ w_n   (once, not twice, at 0 and
 ///     Nyquist)
 ///
-/// @param signal           x_n, N ≥ 2 samples, finite
+/// @param signal           samples x_n, N ≥ 2, finite
 /// @param sampling_period  τ (s), > 0
-/// @param window           w_n; `rectangular` for a record of whole periods
+/// @param window           weights w_n; `rectangular` for a record of whole periods
 /// Work: N log N where N has small prime factors only, N times the largest factor otherwise.
 /// @return N/2 + 1 lines at k / (N τ)
 /// @throws InvalidParameter for fewer than two or more than 10⁹ samples, or τ ≤ 0
@@ -62,8 +62,8 @@ std::vector<SpectralLine> amplitude_spectrum(std::vector<Scalar> signal, double 
   return lines;
 }
 
-/// Number of samples after which sampling and forcing coincide: q, where f τ = p/q in lowest terms.
-/// @return 0 when f τ is no fraction with q ≤ `largest`: the two never coincide in reach
+/// The number q of samples after which sampling and forcing coincide, f τ = p/q in lowest terms.
+/// @return 0 where f τ is no fraction with q ≤ `largest`
 /// @throws InvalidParameter unless f is finite and ≥ 0, τ finite and > 0
 inline std::int64_t samples_per_common_period(double frequency, double sampling_period,
                                               std::int64_t largest = 1'000'000) {
@@ -74,11 +74,11 @@ inline std::int64_t samples_per_common_period(double frequency, double sampling_
   return ratio ? ratio->denominator : 0;
 }
 
-/// The longest record, at most `available` samples, that holds a whole number of forcing periods
-/// and of sampling periods, so that a rectangular window leaks nothing at the forcing and its
-/// harmonics.
-/// @return `available` itself when the two frequencies do not coincide within it
-/// @throws InvalidParameter as samples_per_common_period()
+/// The length of the longest record, at most `available` samples, with a whole number of forcing
+/// periods and of sampling periods, so that a rectangular window does not leak at the forcing and
+/// its harmonics.
+/// @return `available` itself where the two frequencies do not coincide within it
+/// @throws InvalidParameter under the conditions of samples_per_common_period()
 inline std::int64_t whole_period_samples(std::int64_t available, double frequency,
                                          double sampling_period) {
   const std::int64_t common = samples_per_common_period(frequency, sampling_period);

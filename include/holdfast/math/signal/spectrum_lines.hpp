@@ -11,11 +11,11 @@
 
 namespace holdfast {
 
-/// Power of each line, its share of the mean square of the signal: ½ a², a² at zero and at the
-/// Nyquist frequency.
-/// @param lines    of amplitude_spectrum()
-/// @param samples  N of the record that the lines come from, N/2 + 1 of them
-/// @throws InvalidParameter where the numbers of samples and of lines do not belong together
+/// The power of each line, its share of the mean square of the signal: ½ a², but a² at zero and at
+/// the Nyquist frequency.
+/// @param lines    spectrum of amplitude_spectrum()
+/// @param samples  N of the record of the lines; there are N/2 + 1 lines
+/// @throws InvalidParameter where the numbers of samples and of lines disagree
 inline std::vector<double> line_powers(const std::vector<SpectralLine>& lines,
                                        std::size_t samples) {
   if (samples < 2 || lines.size() != samples / 2 + 1) {
@@ -30,28 +30,28 @@ inline std::vector<double> line_powers(const std::vector<SpectralLine>& lines,
   return powers;
 }
 
-/// How much of the power of a record lies on the multiples of f/m.
+/// The shares of a record's power on the multiples of f/m.
 struct SubharmonicShares {
   std::vector<double> shares;  ///< [m − 1] for m = 1 … the largest; 1 for a signal without power
-  int division = 0;            ///< the smallest m that carries the asked share, 0 where none does
+  int division = 0;            ///< smallest m with at least the required share, 0 without one
 };
 
-/// Options of a search for subharmonic lines.
+/// The options of a search for subharmonic lines.
 struct SubharmonicOptions {
   double base_frequency;      ///< f (Hz), > 0
-  int largest_division = 16;  ///< of m, ≥ 1
-  double share = 0.999;       ///< of the power that makes a division, 0 < share ≤ 1
+  int largest_division = 16;  ///< largest m, ≥ 1
+  double share = 0.999;       ///< required share of the power, 0 < share ≤ 1
 };
 
-/// Share of the power without the mean on the multiples of f/m, m = 1, 2, …
+/// The shares of the power, without the mean, on the multiples of f/m, m = 1, 2, …
 ///
-/// A line is on a multiple when it is at most half a line away. The record shall hold whole periods
-/// of f/m, and the window be rectangular, so that nothing leaks. Multiples fewer than three lines
-/// apart would hold any spectrum: the share of such m is 0.
+/// A line is on a multiple if it is at most half a line away. The record should contain whole
+/// periods of f/m, with a rectangular window, so that nothing leaks. Multiples fewer than three
+/// lines apart would contain any spectrum: for such m the share is 0.
 ///
-/// Frequencies above the Nyquist frequency fold: where f τ = p/q, the multiples of f appear on
-/// those of f/p = 1/(q τ), the base to ask for. Work: one comparison for each line and m.
-/// @throws InvalidParameter for a question out of its ranges, or lines that do not belong to N
+/// Frequencies above the Nyquist frequency fold: with f τ = p/q, the multiples of f appear on those
+/// of f/p = 1/(q τ), which is then the base frequency. Work: one comparison for each line and m.
+/// @throws InvalidParameter where an option is out of range or the lines do not match N
 inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lines,
                                             std::size_t samples,
                                             const SubharmonicOptions& options) {
@@ -77,12 +77,12 @@ inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lin
   return result;
 }
 
-/// Smallest number of lines, the mean left out, that together hold `share` of the power; 0 for a
-/// signal without power.
-/// @param lines    of amplitude_spectrum()
-/// @param samples  N of the record that the lines come from
+/// The smallest number of lines, without the mean, that together contain `share` of the power; 0
+/// for a signal without power.
+/// @param lines    spectrum of amplitude_spectrum()
+/// @param samples  N of the record of the lines
 /// @param share    0 < share ≤ 1
-/// @throws InvalidParameter for another share, or lines that do not belong to N
+/// @throws InvalidParameter where the share is out of range or the lines do not match N
 inline std::size_t lines_holding(const std::vector<SpectralLine>& lines, std::size_t samples,
                                  double share) {
   require_within("share of the power", share, "", 1e-9, 1.0);
@@ -96,16 +96,16 @@ inline std::size_t lines_holding(const std::vector<SpectralLine>& lines, std::si
   return count;
 }
 
-/// Share of the power in a floor between the lines, the continuous part of the spectrum.
+/// The share of the power in a floor between the lines: the continuous part of the spectrum.
 ///
 ///     (1 / ln 2) Σ over bands of [median power of a line in the band · lines of the band] / total
 ///
-/// with bands of 32 lines. The mean and the first line, over which a Hann window spreads it, are
-/// left out. The powers of noise are spread exponentially, and their median is ln 2 of their mean;
-/// separate lines do not move a median. Ask it of a Hann window; a rectangular one leaks a floor of
-/// its own. Lines closer than eight apart are not told from a floor.
+/// with bands of 32 lines. The mean and the first line, into which a Hann window spreads it, are
+/// left out. Powers of noise are distributed exponentially, with a median of ln 2 of their mean;
+/// separate lines do not change a median. Use a Hann window; a rectangular one leaks a floor of its
+/// own. Lines closer than eight apart are counted as a floor.
 /// @return 0 … 1; 0 for a signal without power
-/// @throws InvalidParameter where the numbers of samples and of lines do not belong together
+/// @throws InvalidParameter where the numbers of samples and of lines disagree
 inline double continuous_share(const std::vector<SpectralLine>& lines, std::size_t samples) {
   constexpr std::size_t band = 32;
   std::vector<double> powers = line_powers(lines, samples);

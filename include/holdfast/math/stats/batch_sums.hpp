@@ -10,15 +10,15 @@
 
 namespace holdfast {
 
-/// Means of several long correlated series with their standard errors, in constant memory, from
+/// The means of several long correlated series with their standard errors, in constant memory, from
 /// sums over steps.
 ///
-/// The steps are cut into batches of equal length; when all `Batches` are full, neighbours are
-/// merged. A sum may cover several steps, but none over the end of a batch (`steps_left()`). The
-/// errors are honest once a batch is longer than the correlation.
+/// The steps are divided into batches of equal length; when all `Batches` are full, neighbours are
+/// merged. A sum may cover several steps, but not beyond the end of a batch (`steps_left()`). The
+/// errors are reliable once a batch is longer than the correlation.
 /// Source: P. W. Glynn, D. L. Iglehart, Simulation output analysis using standardized time series,
 /// 1990.
-/// @tparam Number  of a sum
+/// @tparam Number  type of a sum
 /// @tparam Series  number of series
 template <class Number, int Series, std::size_t Batches = 64>
 class BatchSums {
@@ -27,43 +27,43 @@ class BatchSums {
  public:
   using Sums = Vector<Number, Series>;  ///< one number for each series
 
-  /// Begins without a step. The first argument is the steps of a batch before the first merging, ≥
-  /// 1; the second how many series, where that is known at run time alone.
+  /// Constructs empty sums. The first argument is the number of steps in a batch before the first
+  /// merging, ≥ 1; the second the number of series, if known at run time only.
   explicit BatchSums(std::int64_t first_length = 1, Eigen::Index series = Series < 0 ? 0 : Series)
       : open_(Sums::Constant(series, Number(0))), length_(first_length) {
     sums_.fill(open_);
   }
 
-  /// Takes in the sums over the next `steps` steps, 0 ≤ steps ≤ steps_left().
+  /// Adds the sums over the next `steps` steps, 0 ≤ steps ≤ steps_left().
   void add(const Sums& sums, std::int64_t steps) {
     open_ += sums;
     open_steps_ += steps;
     if (open_steps_ == length_) close();
   }
 
-  /// Steps taken in so far, those of the open batch among them.
+  /// The number of steps so far, including the open batch.
   std::int64_t steps() const {
     return static_cast<std::int64_t>(complete_) * length_ + open_steps_;
   }
-  /// Steps to the end of the open batch, ≥ 1.
+  /// The number of steps to the end of the open batch, ≥ 1.
   std::int64_t steps_left() const { return length_ - open_steps_; }
-  /// Batches that are full, < `Batches`: reaching that number, they are merged into half as many.
+  /// The number of full batches, < `Batches`: at that number they are merged into half as many.
   std::size_t complete_batches() const { return complete_; }
 
-  /// Steps of a batch.
+  /// The number of steps in a batch.
   std::int64_t batch_length() const { return length_; }
-  /// Sums over the steps of a complete batch.
+  /// The sums over the steps of a complete batch.
   const Sums& batch(std::size_t k) const { return sums_[k]; }
 
-  /// Sums over all steps but those of the first so many complete batches.
+  /// The sums over all steps except those of the first `first` complete batches.
   Sums totals(std::size_t first = 0) const {
     Sums total = open_;
     for (std::size_t k = first; k < complete_; ++k) total += sums_[k];
     return total;
   }
 
-  /// Standard errors of the means per step from the complete batches but the first ones, `merged`
-  /// neighbours (≥ 1) taken together; NaN while there are fewer than four.
+  /// The standard errors of the means per step, from the complete batches without the first ones,
+  /// with `merged` neighbours (≥ 1) combined; NaN with fewer than four.
   Sums standard_errors(std::size_t merged = 1, std::size_t first = 0) const {
     using std::sqrt;
     const std::size_t batches = (complete_ - first) / merged;

@@ -10,18 +10,18 @@
 
 namespace holdfast {
 
-/// Means per step of series whose beginning may not be typical of them.
+/// The means per step of series whose beginning may not be representative.
 template <int Series>
 struct SettledMeans {
-  Vector<double, Series> means;            ///< over the steps that were not left out
-  Vector<double, Series> standard_errors;  ///< NaN of fewer than four batches
-  std::int64_t steps;                      ///< averaged over
-  std::int64_t left_out;                   ///< steps at the beginning that were not settled
+  Vector<double, Series> means;            ///< over the remaining steps
+  Vector<double, Series> standard_errors;  ///< NaN with fewer than four batches
+  std::int64_t steps;                      ///< number of averaged steps
+  std::int64_t left_out;                   ///< unsettled steps left out at the beginning
 };
 
 namespace detail {
 
-/// Batches of some series, as settled_means() reads them.
+/// The batches of some series, as settled_means() uses them.
 template <int Series, std::size_t Batches>
 class SettledBatches {
   using Means = Vector<double, Series>;
@@ -41,21 +41,21 @@ class SettledBatches {
   }
 
  private:
-  /// Per step, over the batches first … last − 1.
+  /// The mean per step over the batches first … last − 1.
   Means mean(std::size_t first, std::size_t last) const {
     return (sums_.totals(first) - sums_.totals(last)) /
            (static_cast<double>(last - first) * static_cast<double>(sums_.batch_length()));
   }
 
-  /// By the batches from the first on that counts, or pairs of them where that is more.
+  /// The scatter of the batches from the first counted one on, or of pairs of them if larger.
   Means scatter(std::size_t first) const {
     const Means single = sums_.standard_errors(1, first);
     if (sums_.complete_batches() - first < 8) return single;
     return single.cwiseMax(sums_.standard_errors(2, first));
   }
 
-  /// Whether as many batches as were left out (or the first one) differ from those after them by
-  /// more than six standard errors of such a difference, the scatter being that of the second half.
+  /// Whether the beginning differs: as many batches as were left out (or the first one) differ from
+  /// the later ones by more than six standard errors, by the scatter of the second half.
   bool begins_otherwise() const {
     const std::size_t all = sums_.complete_batches(), half = all / 2;
     const std::size_t next = std::max<std::size_t>(1, 2 * from_);
@@ -67,7 +67,7 @@ class SettledBatches {
            6.0 * std::sqrt(static_cast<double>(all - half) * shares) * scatter(half)[0] + rounding;
   }
 
-  /// max − min of s_n − n mean over the ends of the batches.
+  /// The range max − min of s_n − n mean over the ends of the batches.
   Means width(const Means& found) const {
     Means deviation = Means::Zero(found.size()), low = deviation, high = deviation;
     const double length = static_cast<double>(sums_.batch_length());
@@ -79,8 +79,8 @@ class SettledBatches {
     return high - low;
   }
 
-  /// The second quarter of what counts against the half after it; of what has not settled the
-  /// second quarter of all against the half that counts.
+  /// The drift: second quarter against second half of the counted batches; for an unsettled
+  /// beginning, second quarter of all against the counted half.
   Means drift() const {
     const std::size_t all = sums_.complete_batches(), half = (from_ + all) / 2;
     if (from_ > all / 4) return (mean(from_ / 2, from_) - mean(from_, all)).cwiseAbs();
@@ -100,21 +100,21 @@ class SettledBatches {
 
 }  // namespace detail
 
-/// Means of series with standard errors that hold also where the series settle first, or stay
-/// within bounds. Left out is the shortest beginning (of 0, 1, 2, 4, … batches, up to half of all)
-/// of which as much again does not differ from what follows by six standard errors in the first
+/// The means of series with standard errors that remain valid where the series settle first or stay
+/// bounded. The shortest beginning (of 0, 1, 2, 4, … batches, up to half of all) is left out whose
+/// continuation of equal length differs from the rest by less than six standard errors in the first
 /// series. An error is the largest of three:
 ///
-///  - the scatter of batch means, or of pairs of them where that is more since what a batch saw is
-///    still felt in the next;
-///  - the width of the bounds within which the sums s_n − n mean stay, over n: of bounded sums (a
-///    linear loop, a closed orbit) batch means of whole turns hardly scatter. Sums that wander stay
-///    within less than the quantile of their scatter;
-///  - how far the mean of the second quarter is from that of the second half: what settles as 1/n
-///    leaves as much.
+/// - the scatter of batch means, or of pairs of them if that is larger because successive batches
+/// are correlated;
+/// - the range of the sums s_n − n mean over n: for bounded sums (a linear loop, a closed orbit)
+/// batch means of whole turns hardly scatter. For random-walk sums the range is below the quantile
+/// of their scatter;
+/// - the distance of the mean of the second quarter from that of the second half: a bias that
+/// decays like 1/n is of that size.
 ///
-/// The last two count 1.1 times over the normal quantile of 99 %.
-/// @param sums  of the series, per step; at least one
+/// The last two are multiplied by 1.1 over the normal 99 % quantile.
+/// @param sums  sums of the series, per step; at least one
 template <int Series, std::size_t Batches>
 SettledMeans<Series> settled_means(const BatchSums<double, Series, Batches>& sums) {
   return detail::SettledBatches<Series, Batches>(sums).means();

@@ -7,16 +7,16 @@
 
 namespace holdfast {
 
-/// The standard error of a share of which `count` of `all` independent draws were seen:
+/// The standard error of a share, estimated from `count` hits in `all` independent draws:
 ///
 ///     √(s (1 − s)/(n + 2)),   s = (count + ½)/(n + 1)
 ///
-/// the standard deviation of the share given the draws, with Jeffreys's prior. It is that of the
-/// sample, √(s (1 − s)/n), but for O(1/n), and not 0 where none or all were seen.
+/// the standard deviation of the share given the draws, with Jeffreys's prior. It equals that of
+/// the sample, √(s (1 − s)/n), up to O(1/n), and is not 0 for no hits or only hits.
 /// Source: L. D. Brown, T. T. Cai, A. DasGupta, Interval estimation for a binomial proportion,
 /// Statistical Science 16 (2001).
-/// @param count  ≤ all
-/// @param all    n
+/// @param count  number of hits, ≤ all
+/// @param all    number n of draws
 inline double share_error(std::size_t count, std::size_t all) {
   const auto n = static_cast<double>(all);
   const double share = (static_cast<double>(count) + 0.5) / (n + 1.0);

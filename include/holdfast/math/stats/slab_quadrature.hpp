@@ -9,21 +9,21 @@
 
 namespace holdfast::detail {
 
-/// Integrals of several functions at once over one interval, by the tanh–sinh rule.
+/// The integrals of several functions over one interval, by the tanh–sinh rule:
 ///
 ///     x = middle + half · tanh(½π sinh t),   ∫ f dx = half Σ h f(x) ½π cosh t / cosh²(½π sinh t)
 ///
-/// The ends may be branch points of the square-root kind, as where an arc turns back. The step h is
-/// halved until no integral changes by more than the tolerance; an interval that stays rough (a
-/// branch point close beside it) is halved. Source: H. Takahasi, M. Mori, Double exponential
-/// formulas for numerical integration, 1974.
+/// The ends may be branch points of square-root type, as at the extreme of an arc. The step h is
+/// halved until no integral changes by more than the tolerance; an interval that remains rough (a
+/// branch point close to it) is halved. Source: H. Takahasi, M. Mori, Double exponential formulas
+/// for numerical integration, 1974.
 template <class Scalar, class Integrand>
 class SlabQuadrature {
  public:
   using Values = std::vector<Scalar>;
 
-  /// @param integrand  x ↦ values, as many for every x
-  /// @param tolerance  ≥ 0, absolute, of each integral
+  /// @param integrand  x ↦ values, equally many for every x
+  /// @param tolerance  absolute tolerance of each integral, ≥ 0
   SlabQuadrature(Integrand integrand, const Scalar& tolerance)
       : integrand_(integrand), tolerance_(tolerance) {}
 
@@ -55,7 +55,7 @@ class SlabQuadrature {
     return result;
   }
 
-  /// The nodes t = ±first, ±(first + stride), … up to where the weights are below round-off.
+  /// Adds the nodes t = ±first, ±(first + stride), … up to weights below round-off.
   void add_nodes(Values& sum, const Scalar& lower, const Scalar& upper, const Scalar& first,
                  const Scalar& stride) const {
     const Scalar half = (upper - lower) / Scalar(2);

@@ -8,7 +8,7 @@
 
 namespace holdfast {
 
-/// Most decimal digits that a `double` has, and the answer where nothing tells two results apart.
+/// The number of decimal digits of a `double`, and the result for equal numbers.
 inline constexpr double most_trusted_digits = 17.0;
 
 /// Whether `long double` is wider than `double` here. Where it is not (Microsoft's compiler, macOS
@@ -18,7 +18,7 @@ inline constexpr bool long_double_is_wider =
 
 namespace detail {
 
-/// −log₁₀(difference/scale) within 0 … 17, of a finite difference ≥ 0.
+/// The number of digits −log₁₀(difference/scale), 0 … 17, for a finite difference ≥ 0.
 inline double digits_of(long double difference, long double scale) {
   if (difference == 0.0L) return most_trusted_digits;
   const auto digits = static_cast<double>(-std::log10(difference / scale));
@@ -27,19 +27,19 @@ inline double digits_of(long double difference, long double scale) {
 
 }  // namespace detail
 
-/// Decimal digits in which a result agrees with the same computation in a wider number type:
+/// The number of decimal digits in which a result agrees with a computation in a wider type:
 ///
 ///     d = −log₁₀(|value − reference|/scale),   0 ≤ d ≤ 17
 ///
-/// 17 where both are equal, both NaN, or the same infinity; 0 where one alone is not finite, where
+/// It is 17 where both are equal, both NaN, or the same infinity; 0 where only one is finite, where
 /// the difference is as large as the scale, and where the scale is 0 but the two differ.
 ///
 ///     trusted_digits(3.14, 3.14159265L, 1.0L)   // 2.8
 ///
 /// @param value      computed in double
-/// @param reference  of the same inputs, computed in the wider type
-/// @param scale      finite, ≥ 0, what counts as large: of a quantity that passes through zero its
-///                   largest size
+/// @param reference  result from the same inputs in the wider type
+/// @param scale      finite, ≥ 0, size of the quantity: for one that passes through zero its
+///               largest size
 inline double trusted_digits(double value, long double reference, long double scale) {
   const long double wide = value;
   if (wide == reference || (std::isnan(wide) && std::isnan(reference))) return most_trusted_digits;
@@ -47,16 +47,16 @@ inline double trusted_digits(double value, long double reference, long double sc
   return detail::digits_of(std::abs(wide - reference), scale);
 }
 
-/// Trusted digits relative to the reference itself: a reference of 0 is met exactly or not at all.
+/// The trusted digits relative to the reference itself; a reference of 0 gives 17 or 0.
 inline double trusted_digits(double value, long double reference) {
   return trusted_digits(value, reference, std::abs(reference));
 }
 
-/// Digits of a vector or matrix as a whole, −log₁₀(‖value − reference‖/‖reference‖) of the
-/// Euclidean norm of all entries, with the same limits; 0 where an entry is not finite. Entries of
-/// different units are to be scaled before.
+/// The trusted digits of a vector or matrix as a whole, −log₁₀(‖value − reference‖/‖reference‖) in
+/// the Euclidean norm of all entries, with the same limits; 0 where an entry is not finite. Entries
+/// of different units must be scaled before.
 /// @param value      any shape
-/// @param reference  of the same shape
+/// @param reference  matrix or vector of the same shape
 template <class Value, class Reference>
 double trusted_digits(const Eigen::MatrixBase<Value>& value,
                       const Eigen::MatrixBase<Reference>& reference) {

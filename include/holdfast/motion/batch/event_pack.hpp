@@ -23,15 +23,15 @@
 
 namespace holdfast {
 
-/// Motions whose contact changes between the samples, side by side: those of EventMotion, each with
-/// its own loop, at the same sample all of them.
+/// A pack of motions whose contact changes between the samples: like EventMotion, each with its own
+/// loop, all at the same sample.
 ///
-/// The steps are those of EventMotion. Lanes in which a guard may come to zero go from one change
-/// of contact to the next together, the others waiting for them; the transition itself is
-/// DriveContact's, lane by lane. Each lane's arithmetic is the same whoever its neighbours are.
+/// The steps are those of EventMotion. Lanes in which a guard may reach zero advance from one
+/// change of contact to the next together while the others wait; the transition itself is computed
+/// by DriveContact, lane by lane. The results of a lane do not depend on the other lanes.
 ///
 /// Work per sample without a change of contact: some 90 operations on packs; for each stretch of a
-/// lane, of which a change of contact needs one or two, some 1500. Nothing is allocated.
+/// lane, one or two for a change of contact, some 1500. No memory is allocated.
 /// @tparam Scalar  `double` or a pack
 template <class Scalar>
 class EventPack {
@@ -39,15 +39,15 @@ class EventPack {
   using LaneMask = Mask<Scalar>;
 
  public:
-  static constexpr std::size_t lanes = Lane::count;  ///< motions at a time
+  static constexpr std::size_t lanes = Lane::count;  ///< number of motions at a time
 
-  /// Sample of all lanes as `sense` takes it, beside their state().
+  /// A sample of all lanes, as `sense` returns it; the states are given by state().
   struct Sample {
-    Scalar control_force;  ///< what the drive transmits (N)
-    LaneMask engaged;      ///< it transmits the command
+    Scalar control_force;  ///< the transmitted force (N)
+    LaneMask engaged;      ///< whether the command is transmitted
   };
 
-  /// @param starts  one for each lane; lanes beyond the last motion repeat one and are to `sleep`
+  /// @param starts  one for each lane; surplus lanes repeat one and are to `sleep`
   explicit EventPack(const std::array<EventStart, lanes>& starts)
       : excitation_(
             [&](std::size_t lane) -> const DigitalLoop& { return starts[lane].loop->digital; }),
@@ -66,7 +66,7 @@ class EventPack {
     any_late_ = any(delay_.all() < period_.all());
   }
 
-  /// Takes sample j. Call once per sample.
+  /// Takes sample j; to be called once for each sample.
   Sample sense() {
     excitation_.begin_sample(index_);
     switches_.fill(0);
@@ -80,14 +80,14 @@ class EventPack {
 
   /// Observer of `advance` that does nothing.
   struct IgnoreFlowOfLanes {
-    /// The contact of a lane changed, s after the sample: the numbers of its modes, and that of the
-    /// guard, −1 for a jump.
+    /// Called at a change of contact of a lane, s after the sample, with the numbers of both modes
+    /// and of the guard, −1 for a jump.
     void switched(std::size_t, int, int, int, double) const {}
   };
 
-  /// Moves all lanes from t_j to t_{j+1} under the commands that the last `sense()` decided.
+  /// Advances all lanes from t_j to t_{j+1} under the commands that the last `sense()` decided.
   void advance() { advance(IgnoreFlowOfLanes()); }
-  /// Moves to the next sample past an observer with the members of IgnoreFlowOfLanes.
+  /// Advances to the next sample and reports to an observer with the members of IgnoreFlowOfLanes.
   template <class Observer>
   void advance(Observer&& observer) {
     const Scalar delay = delay_.all(), period = period_.all(), zero(0);
@@ -102,30 +102,30 @@ class EventPack {
     ++index_;
   }
 
-  /// j, the sample that `sense()` will take or has taken.
+  /// The number j of the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
-  /// The present sample is number j from now on, at which the excitation is what it was.
+  /// Renumbers the present sample; the excitation there stays the same.
   void restart_index(std::int64_t index) { index_ = index; }
-  /// z_j of all lanes.
+  /// The states z_j of all lanes.
   std::array<Scalar, 4> state() const {
     return {state_[0].all(), state_[1].all(), state_[2].all(), state_[3].all()};
   }
-  /// z_j of one lane.
+  /// The state z_j of one lane.
   Vector<double, 4> state(std::size_t lane) const {
     return {state_[0][lane], state_[1][lane], state_[2][lane], state_[3][lane]};
   }
-  /// The contact of a lane in its present mode.
+  /// The contact of a lane, in its present mode.
   const DriveContact<>& contact(std::size_t lane) const { return modes_.contact(lane); }
   /// Whether the changes of contact of a lane accumulate (SwitchCounts::accumulates).
   bool accumulates(std::size_t lane) const { return accumulates_[lane]; }
-  /// Whether those of any lane do or did.
+  /// Whether the changes of contact of any lane accumulate or did so.
   bool some_accumulate() const { return accumulates_.any(); }
-  /// Begins a motion of the lane's loop from z (m, m/s, m, m/s), at rest in its drive.
+  /// Starts a motion of the lane's loop from z (m, m/s, m, m/s), with the drive at rest.
   void restart(std::size_t lane, const Vector<double, 4>& z) {
     modes_.restart(lane, z);
     begin(lane, z);
   }
-  /// The lane's motion has ended: it is at rest, and no other waits for it.
+  /// Ends the lane's motion: it is at rest from now on, and other lanes do not wait for it.
   void sleep(std::size_t lane) {
     awake_[lane] = 0.0;
     for (auto& number : state_) number[lane] = 0.0;
@@ -135,7 +135,7 @@ class EventPack {
  private:
   using Numbers = LaneNumbers<Scalar>;
 
-  /// A part of the sampling period, in every lane.
+  /// A part of the sampling period in every lane.
   struct Part {
     std::size_t number;
     Scalar command, begin, end;
@@ -154,8 +154,8 @@ class EventPack {
     return {state(lane), detail::lane_of(command, lane), detail::lane_of(force, lane)};
   }
 
-  /// Lanes whose contact looks at a jump: in stick, where its condition fails under the new
-  /// command, and just after a change.
+  /// Applies a jump of the command or force in the lanes whose contact depends on it: in stick if
+  /// its condition is violated, and just after a change of contact.
   /// @param instant_number  0: at the sample, 1: at the end of the delay
   template <class Observer>
   void jump(std::size_t instant_number, const Scalar& command, const LaneMask& which,
@@ -196,7 +196,7 @@ class EventPack {
     return numbers.all();
   }
 
-  /// After a change of contact.
+  /// Enters a lane's new mode after a change of contact.
   void enter(std::size_t lane) {
     modes_.enter(lane);
     if (++switches_[lane] <= EventMotion<>::most_switches) return;
@@ -221,7 +221,7 @@ class EventPack {
     }
   }
 
-  /// The whole part at once in the lanes where it is sure that the contact does not change in it.
+  /// Advances over the whole part in the lanes where it is certain that no contact changes in it.
   /// @return those lanes
   LaneMask flow_without_event(const Part& part, const LaneMask& which) {
     const LaneStep<Scalar>& step = modes_.step(part.number);
@@ -270,8 +270,8 @@ class EventPack {
     return far | (first_stays & second_stays & settled);
   }
 
-  /// Goes on to the next change of contact, or to the end of the part, in some lanes; `phasors_`
-  /// are those where they are.
+  /// Advances some lanes to their next change of contact or to the end of the part; `phasors_` are
+  /// the phasors at their present instants.
   template <class Observer>
   void flow_to_event(const Part& part, const LaneMask& pending, Numbers& reached,
                      Observer& observer) {
@@ -293,7 +293,7 @@ class EventPack {
       change(event, part.command, series.value(series.force, event.at), reached, observer);
   }
 
-  /// Some time has passed in the lanes of a mask.
+  /// Notes in the lanes of a mask that some time has passed since the last change.
   void tell_flowed(const LaneMask& passed) {
     const auto lane_passed = detail::lane_flags<Scalar>(passed);
     for (std::size_t lane = 0; lane < lanes; ++lane)

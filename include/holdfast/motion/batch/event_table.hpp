@@ -22,17 +22,17 @@
 
 namespace holdfast {
 
-/// Whether EventPack takes the motions of a loop: two masses, exact switching, an ideal computer
-/// and clock, and an excitation by harmonics alone.
+/// Whether EventPack supports the motions of a loop: two masses, exact switching, an ideal computer
+/// and clock, and a harmonic excitation only.
 inline bool has_event_pack(const ImplementedLoop& loop) {
   const DigitalLoop& digital = loop.digital;
   return loop.switching == Switching::exact && is_ideal(digital.limits) &&
          digital.jitter.half_width == 0.0 && digital.force.record == nullptr;
 }
 
-/// The rate of the powers of A (1/s): the largest ‖Aᵏ‖^{1/k}, k = 10 … most_terms, in balanced
-/// coordinates. A series of e^{A h} with as many terms as terms_for(rate h) asks for leaves out
-/// what that of balanced_norm() does; it is nearer to the spectral radius.
+/// The growth rate of the powers of A (1/s): the largest ‖Aᵏ‖^{1/k}, k = 10 … most_terms, in
+/// balanced coordinates. A series of e^{A h} with terms_for(rate h) terms has the same truncation
+/// error as with balanced_norm(); the rate is nearer to the spectral radius.
 /// @tparam States  N, the order of the plant
 template <int States>
 double rate_of_powers(const Matrix<double, States>& a) {
@@ -51,14 +51,14 @@ double rate_of_powers(const Matrix<double, States>& a) {
   return rate * size;
 }
 
-/// Common part of the motions of loops that differ in their gains, and under play in their
-/// backlash: how the two masses move in each mode of the contact.
+/// The shared data of motions whose loops differ only in their gains and, with play, in their
+/// backlash: the dynamics of the two masses in each mode of the contact.
 class EventTable {
  public:
-  using Motion = ModeMotion<TwoMass<double>>;  ///< in one mode
-  using Drop = Motion::Bound::Drop;            ///< how far a guard comes below the chord
+  using Motion = ModeMotion<TwoMass<double>>;  ///< motion in one mode
+  using Drop = Motion::Bound::Drop;            ///< bound of a guard's depth below its chord
 
-  /// @throws InvalidParameter as EventMotion does
+  /// @throws InvalidParameter under the conditions of EventMotion
   explicit EventTable(const ImplementedLoop& loop)
       : loop_(loop), force_(loop.digital.force, loop.digital.hold, loop.digital.sampling.period) {
     const DriveContact<> contact(loop.plant, loop.backlash, loop.switching,
@@ -73,7 +73,7 @@ class EventTable {
         alike_[mode][other] = alike(motions_[mode].dynamics(), motions_[other].dynamics());
   }
 
-  /// Whether it serves another loop too.
+  /// Whether the table is valid for another loop too.
   bool serves(const ImplementedLoop& other) const {
     const auto& [mine, its] = std::pair(loop_.digital.sampling, other.digital.sampling);
     return numbers_of_plant(loop_.plant) == numbers_of_plant(other.plant) &&
@@ -83,19 +83,19 @@ class EventTable {
            same_stops(loop_.backlash, other.backlash);
   }
 
-  /// How they move in a mode.
+  /// The dynamics in a mode.
   const Motion& motion(int mode) const { return motions_[at(mode)]; }
-  /// Whether two modes differ in what the command does alone; −1 is no mode, like none.
+  /// Whether two modes differ only in the effect of the command; −1 means no mode.
   bool move_alike(int mode, int other) const {
     return mode == other || (mode >= 0 && other >= 0 && alike_[at(mode)][at(other)]);
   }
-  /// 1 / the largest length (s) of a series in a mode.
+  /// The reciprocal of the largest length (s) of a series in a mode.
   double rate(int mode) const { return rates_[at(mode)]; }
-  /// The excitation, at no sample.
+  /// The excitation, before any sample is selected.
   const ForceOverSamples& force() const { return force_; }
 
-  /// How far the guards of the contact's present mode may come below the chord over a part of the
-  /// period; nothing to be asked of a contact that does not change.
+  /// The bound of the guards' depth below the chord over a part of the period, in the contact's
+  /// present mode; not to be called for a contact that cannot change.
   Drop drop(const DriveContact<>& contact, std::size_t part) {
     const int mode = contact.mode();
     std::optional<std::array<Drop, 2>>& known = drops_[at(mode)];

@@ -18,17 +18,17 @@
 
 namespace holdfast {
 
-/// Whether a function g stays above zero between two of its values, in every lane. Where |g̈| ≤ M
-/// over the length h between them, it lies above
+/// Whether a function g is proved to stay above zero between two of its values, in every lane. With
+/// |g̈| ≤ M over the length h between them, it is bounded by
 ///
 ///     g(x h) ≥ g_0 + (g_1 − g_0) x − 4 d x (1 − x),   d = M h²/8,   0 ≤ x ≤ 1,
 ///
-/// of which the least is min(g_0, g_1) where |g_1 − g_0| ≥ 4 d, and else
-/// min(g_0, g_1) − (4 d − |g_1 − g_0|)² / 16 d: never below min(g_0, g_1) − d, and near an event
-/// far above that.
-/// @param begin  g_0, in any unit
-/// @param end    g_1, in the same unit
-/// @param drop   d > 0, as NoEventBoundOf bounds it; of d = 0 the answer is no
+/// whose minimum is min(g_0, g_1) if |g_1 − g_0| ≥ 4 d, and otherwise min(g_0, g_1) − (4
+/// d − |g_1 − g_0|)² / 16 d: never below min(g_0, g_1) − d, and near an event far above
+/// it.
+/// @param begin  value g_0, in any unit
+/// @param end    value g_1, in the same unit
+/// @param drop   d > 0, bounded by NoEventBoundOf; for d = 0 the answer is no
 template <class Scalar>
 Mask<Scalar> stays_above_zero(const Scalar& begin, const Scalar& end, const Scalar& drop) {
   using std::abs;
@@ -41,14 +41,14 @@ Mask<Scalar> stays_above_zero(const Scalar& begin, const Scalar& end, const Scal
 /// The first change of contact over a stretch, in every lane.
 template <class Scalar>
 struct LaneEvent {
-  Mask<Scalar> found;   ///< a guard comes to zero
-  Scalar at;            ///< where, in lengths of the stretch; 1 where none does
-  Mask<Scalar> second;  ///< it is the second guard
+  Mask<Scalar> found;   ///< whether a guard reaches zero
+  Scalar at;            ///< place, in lengths of the stretch; 1 without an event
+  Mask<Scalar> second;  ///< whether it is the second guard
 };
 
 namespace detail {
 
-/// One byte a lane: 1 where the mask is set.
+/// The mask as one byte for each lane: 1 where it is set.
 template <class Scalar>
 std::array<std::uint8_t, Lanes<Scalar>::count> lane_flags(const Mask<Scalar>& mask) {
   std::array<std::uint8_t, Lanes<Scalar>::count> flags;
@@ -56,7 +56,7 @@ std::array<std::uint8_t, Lanes<Scalar>::count> lane_flags(const Mask<Scalar>& ma
   return flags;
 }
 
-/// A guard along a stretch.
+/// A guard along a stretch of the motion.
 template <class Scalar>
 struct GuardOnStretch {
   const LaneGuard<Scalar>& guard;
@@ -66,9 +66,9 @@ struct GuardOnStretch {
                             guard.state[3].all()};
   std::size_t terms = static_cast<std::size_t>(stretch.terms.most);
 
-  /// g as a series.
-  /// @param forced  the force enters some lane's guard
-  /// @param fresh   some lane's contact has just changed
+  /// The guard as a power series g.
+  /// @param forced  whether the force enters any lane's guard
+  /// @param fresh   whether any lane's contact has just changed
   void expand(bool forced, bool fresh, const Mask<Scalar>& which, LaneSeries<Scalar>& g) const {
     for (std::size_t k = 0; k < terms; ++k)
       g[k] = row[0] * stretch.state[0][k] + row[1] * stretch.state[1][k] +
@@ -84,7 +84,7 @@ struct GuardOnStretch {
   }
 
  private:
-  /// As that of next_event().
+  /// Sets leading coefficients that are mere rounding to zero, as next_event() does.
   void clear_rounding(const Mask<Scalar>& which, LaneSeries<Scalar>& g) const {
     using std::abs;
     const Scalar rounding(4.0 * std::numeric_limits<double>::epsilon());
@@ -101,8 +101,8 @@ struct GuardOnStretch {
   }
 };
 
-/// The sign that a lane's guard takes first where it was not known: first_sign(), which the contact
-/// learns.
+/// Determines the sign that a lane's guard takes first, where it is unknown (first_sign()), and
+/// stores it in the contact.
 template <class Scalar>
 void learn_sign(LaneModes<Scalar>& modes, std::size_t lane, int terms, LaneSeries<Scalar>& g) {
   Series alone(terms);
@@ -128,17 +128,17 @@ void learn_signs(LaneModes<Scalar>& modes, const Mask<Scalar>& which, int terms,
 
 }  // namespace detail
 
-/// next_event() in every lane: the first root of any guard over a stretch, none passed over.
+/// The search of next_event() in every lane: the first root of any guard over a stretch.
 ///
-/// Work: 5 multiply-adds for each guard and term, and first_roots(). The search keeps the memory in
-/// which it works.
+/// No root is passed over. Work: 5 multiply-adds for each guard and term, and first_roots(). The
+/// object owns its working memory.
 template <class Scalar>
 class LaneEventSearch {
  public:
-  /// @param modes    of the lanes; a contact learns the sign of its velocity here
-  /// @param stretch  at most 1 / modes.rate() long
-  /// @param command  u in force (N)
-  /// @param which    lanes that are looked at; the others have no event
+  /// @param modes    modes of the lanes; the sign of a contact's velocity is determined here
+  /// @param stretch  part of the motion, at most 1 / modes.rate() long
+  /// @param command  command u in force (N)
+  /// @param which    lanes to be searched; the others have no event
   LaneEvent<Scalar> operator()(LaneModes<Scalar>& modes, const TwoMassSeries<Scalar>& stretch,
                                const Scalar& command, const Mask<Scalar>& which) {
     const Mask<Scalar> guarded = which & modes.guarded();

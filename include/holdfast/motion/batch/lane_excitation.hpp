@@ -19,8 +19,8 @@
 
 namespace holdfast {
 
-/// The excitation of a pack of motions, each with its own harmonics, held or exact: a lane whose
-/// force is held has one harmonic that stands still.
+/// The excitation of a pack of motions, each with its own harmonics, held or exact; a held force is
+/// one harmonic of frequency 0.
 template <class Scalar>
 class LaneExcitation {
  public:
@@ -37,7 +37,7 @@ class LaneExcitation {
     phases_.resize(lines);
   }
 
-  /// Sample j, one after the other or from 0 again.
+  /// Selects sample j; samples follow one another or restart from 0.
   void begin_sample(std::int64_t index) {
     const auto k = static_cast<std::size_t>(index) % RotatingPhasor<Scalar>::block;
     Scalar held_force(0);
@@ -56,29 +56,29 @@ class LaneExcitation {
 
   /// Whether the force of a lane is held over its samples.
   bool is_held(std::size_t lane) const { return held_[lane] > 0.5; }
-  /// How many harmonics a lane has at the most.
+  /// The largest number of harmonics in any lane.
   std::size_t lines() const { return lines_.size(); }
-  /// F_l cos ω_l t_j and F_l sin ω_l t_j; of a held force F_j and 0.
+  /// The phasor F_l cos ω_l t_j, F_l sin ω_l t_j of a harmonic; F_j and 0 for a held force.
   const ExcitationSample<Scalar>& phase(std::size_t line) const { return phases_[line]; }
 
-  /// The harmonics with their own phases some time (s) after the sample.
+  /// The harmonics with their phases some time (s) after the sample.
   void turned(const Scalar& after, std::vector<LanePhasor<Scalar>>& phasors) const {
     for (std::size_t l = 0; l < lines_.size(); ++l)
       phasors[l] = {lines_[l].angular_frequency, turned_by(turn_of(lines_[l], after), l)};
   }
 
-  /// Fixes some times (s) after the sample, for turned_to() and force_at().
+  /// Defines fixed times (s) after the sample, for turned_to() and force_at().
   void fix_instants(const std::vector<Scalar>& after) {
     fixed_.clear();
     for (const Scalar& one : after)
       for (const Line& line : lines_) fixed_.push_back(turn_of(line, one));
   }
-  /// `turned` at a fixed time.
+  /// The result of `turned` at a fixed time.
   void turned_to(std::size_t instant, std::vector<LanePhasor<Scalar>>& phasors) const {
     for (std::size_t l = 0; l < lines_.size(); ++l)
       phasors[l] = {lines_[l].angular_frequency, turned_by(fixed_turn(instant, l), l)};
   }
-  /// F (N) at a fixed time.
+  /// The force F (N) at a fixed time.
   Scalar force_at(std::size_t instant) const {
     Scalar sum(0);
     for (std::size_t l = 0; l < lines_.size(); ++l)
@@ -95,7 +95,7 @@ class LaneExcitation {
     Scalar frequency, phase_cycles, angular_frequency;  // 0 where the force is held
   };
 
-  /// By what a harmonic turns in some time, with its own phase.
+  /// The rotation of a harmonic in some time, with its phase.
   static ExcitationSample<Scalar> turn_of(const Line& line, const Scalar& after) {
     using std::floor;
     const Scalar cycles = line.frequency * after + line.phase_cycles;

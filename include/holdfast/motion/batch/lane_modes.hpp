@@ -21,40 +21,40 @@
 
 namespace holdfast {
 
-/// One motion of an EventPack.
+/// The start of one motion of an EventPack.
 struct EventStart {
-  const ImplementedLoop* loop;  ///< of which has_event_pack()
-  EventTable* table;            ///< that serves it; as long-lived as the pack
+  const ImplementedLoop* loop;  ///< a loop that has_event_pack()
+  EventTable* table;            ///< valid for that loop; it must outlive the pack
   Vector<double, 4> state;      ///< z_0 (m, m/s, m, m/s), finite
 };
 
-/// GuardOf of all lanes: g = state · z + command u + force F + constant.
+/// A guard in all lanes (GuardOf): g = state · z + command u + force F + constant.
 template <class Scalar>
 struct LaneGuard {
-  std::array<LaneNumbers<Scalar>, 4> state;  ///< of z₁, ż₁, z₂, ż₂
+  std::array<LaneNumbers<Scalar>, 4> state;  ///< coefficients of z₁, ż₁, z₂, ż₂
   LaneNumbers<Scalar> command;               ///< per newton of u
   LaneNumbers<Scalar> force;                 ///< per newton of F
   LaneNumbers<Scalar> constant;              ///< in the unit of g
-  LaneNumbers<Scalar> zeros;  ///< how many of g, ġ, … are zero, the contact having just changed
+  LaneNumbers<Scalar> zeros;  ///< how many of g, ġ, … vanish just after a change of contact
 
-  /// g without its force.
+  /// The value of g without its force term.
   Scalar at(const std::array<Scalar, 4>& z, const Scalar& u) const {
     return state[0].all() * z[0] + state[1].all() * z[1] + state[2].all() * z[2] +
            state[3].all() * z[3] + (command.all() * u + constant.all());
   }
 };
 
-/// SubintervalStep of all lanes over a part of the period, and NoEventBoundOf's drop over it.
+/// The exact step over a part of the period in all lanes, with the bound of the guards' depth.
 template <class Scalar>
 struct LaneStep {
-  using Numbers = LaneNumbers<Scalar>;                       ///< a number of every lane
-  std::array<std::array<Numbers, 4>, 4> transition;          ///< rows
+  using Numbers = LaneNumbers<Scalar>;                       ///< one number for each lane
+  std::array<std::array<Numbers, 4>, 4> transition;          ///< rows of e^{A h}
   std::array<Numbers, 4> command;                            ///< per newton of u
-  std::array<Numbers, 4> drift;                              ///< of a stop
-  std::vector<std::array<std::array<Numbers, 4>, 2>> lines;  ///< cosine and sine of each harmonic
-  Numbers drop_by_norm;                                      ///< as Drop has it
-  Numbers drop_by_command;                                   ///< the same
-  Numbers drop_constant;                                     ///< the same
+  std::array<Numbers, 4> drift;                              ///< contribution of a stop
+  std::vector<std::array<std::array<Numbers, 4>, 2>> lines;  ///< parts of each harmonic
+  Numbers drop_by_norm;                                      ///< member of Drop
+  Numbers drop_by_command;                                   ///< member of Drop
+  Numbers drop_constant;                                     ///< member of Drop
 
   /// The state at the end of the part from z under the command u.
   std::array<Scalar, 4> state(const std::array<Scalar, 4>& z, const Scalar& u,
@@ -75,17 +75,17 @@ struct LaneStep {
   }
 };
 
-/// The contacts of a pack of motions, each in its mode, and what of the modes the packs need,
-/// spread out over the lanes.
+/// The contacts of a pack of motions, each in its mode, with the modes' coefficients gathered lane
+/// by lane.
 template <class Scalar>
 class LaneModes {
   using Numbers = LaneNumbers<Scalar>;
 
  public:
-  static constexpr std::size_t lanes = Lanes<Scalar>::count;  ///< motions at a time
+  static constexpr std::size_t lanes = Lanes<Scalar>::count;  ///< number of motions at a time
 
-  /// @param starts      one for each lane
-  /// @param excitation  of the same motions
+  /// @param starts      start of each lane's motion
+  /// @param excitation  excitation of the same motions
   LaneModes(const std::array<EventStart, lanes>& starts, const LaneExcitation<Scalar>& excitation)
       : starts_(starts) {
     for (auto& step : steps_) step.lines.resize(excitation.lines());
@@ -98,20 +98,20 @@ class LaneModes {
     }
   }
 
-  /// Begins again with the contact that belongs to an initial state.
+  /// Restarts a lane with the contact that corresponds to an initial state.
   void restart(std::size_t lane, const Vector<double, 4>& state) {
     contacts_[lane] = contact_of(lane, state);
     ignored_.reset(lane);
     enter(lane);
   }
 
-  /// Contact of a lane. Where it changes, `enter` or `refresh_guards` must follow.
+  /// The contact of a lane. After changing it, `enter` or `refresh_guards` must be called.
   DriveContact<>& contact(std::size_t lane) { return contacts_[lane]; }
-  /// Contact of a lane.
+  /// The contact of a lane.
   const DriveContact<>& contact(std::size_t lane) const { return contacts_[lane]; }
 
-  /// Takes the mode of a lane's contact, after it has changed; the steps follow when they are next
-  /// asked for.
+  /// Adopts the mode of a lane's contact after a change; its steps are computed when they are next
+  /// needed.
   void enter(std::size_t lane) {
     const DriveContact<>& contact = contacts_[lane];
     const int mode = contact.mode();
@@ -129,7 +129,7 @@ class LaneModes {
     refresh_guards(lane);
   }
 
-  /// Takes the guards of a lane's contact.
+  /// Adopts the guards of a lane's contact.
   void refresh_guards(std::size_t lane) {
     constexpr double far = 1e90;
     const Guards guards = ignored_[lane] ? Guards() : contacts_[lane].guards();
@@ -152,13 +152,13 @@ class LaneModes {
     has_guard_[lane] = guards.count > 0 ? 1.0 : 0.0;
   }
 
-  /// No change of the lane's contact is followed from now on.
+  /// Stops following the changes of a lane's contact.
   void ignore_guards(std::size_t lane) {
     ignored_.set(lane);
     refresh_guards(lane);
   }
 
-  /// Some time has passed in a lane since its last change: for those in freshly_changed().
+  /// Notes that time has passed in a lane since its last change, for freshly_changed().
   void flowed(std::size_t lane) {
     contacts_[lane].flowed();
     if (unsigned_[lane]) return refresh_guards(lane);
@@ -166,7 +166,7 @@ class LaneModes {
     set_fresh(lane, false);
   }
 
-  /// How the masses are accelerated, conductor and absorber, under the command u.
+  /// The accelerations of conductor and absorber under the command u.
   std::array<LaneAcceleration<Scalar>, 2> accelerations(const Scalar& u) const {
     const auto row = [&](std::size_t mass) {
       const auto& of = acceleration_[mass];
@@ -183,7 +183,7 @@ class LaneModes {
     return steps_[part];
   }
 
-  /// ‖z‖ of EnergyNorm in the present modes; after `step`.
+  /// The norm ‖z‖ of EnergyNorm in the present modes; to be called after `step`.
   Scalar norm(const std::array<Scalar, 4>& z) const {
     using std::sqrt;
     const Scalar relative = z[2] - z[0];
@@ -191,29 +191,29 @@ class LaneModes {
                        energy_[1].all() * z[1] * z[1] + energy_[3].all() * z[3] * z[3]));
   }
 
-  /// The first or the second guard; far above zero in a lane that has none.
+  /// The first or the second guard; far above zero in a lane without it.
   const LaneGuard<Scalar>& guard(std::size_t number) const { return guards_[number]; }
-  /// 1 / the largest length (s) of a series.
+  /// The reciprocal of the largest length (s) of a series.
   Scalar rate() const { return rate_.all(); }
   /// Lanes whose drive transmits the command.
   Mask<Scalar> engaged() const { return engaged_.all() > Scalar(0.5); }
-  /// Lanes in which Δż = 0 is kept.
+  /// Lanes in stick, where Δż = 0.
   Mask<Scalar> sticks() const { return sticks_.all() > Scalar(0.5); }
-  /// Lanes in which a contact has just changed, or a sign is not known yet.
+  /// Lanes whose contact has just changed, or in which a sign is still unknown.
   Mask<Scalar> fresh() const { return fresh_.all() > Scalar(0.5); }
-  /// Lanes in which neither is so.
+  /// Lanes that are not fresh().
   Mask<Scalar> settled() const { return fresh_.all() < Scalar(0.5); }
-  /// Lanes that have no guard.
+  /// Lanes without a guard.
   Mask<Scalar> unguarded() const { return has_guard_.all() < Scalar(0.5); }
-  /// Lanes that have a guard.
+  /// Lanes with a guard.
   Mask<Scalar> guarded() const { return has_guard_.all() > Scalar(0.5); }
-  /// The same, lane by lane.
+  /// The lanes of sticks(), as bits.
   const std::bitset<lanes>& sticking() const { return sticking_; }
-  /// The same, lane by lane.
+  /// The lanes of fresh(), as bits.
   const std::bitset<lanes>& freshly_changed() const { return fresh_lanes_; }
-  /// Lanes that have two guards.
+  /// Lanes with two guards.
   const std::bitset<lanes>& with_two_guards() const { return two_guards_; }
-  /// Lanes in which the sign of the first guard is not known.
+  /// Lanes in which the sign of the first guard is unknown.
   const std::bitset<lanes>& without_sign() const { return unsigned_; }
 
  private:
@@ -234,7 +234,7 @@ class LaneModes {
     }
   }
 
-  /// The steps of the present modes.
+  /// Recomputes the steps of the present modes.
   void refresh_steps() {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       if (!stale_[lane]) continue;

@@ -7,15 +7,15 @@
 
 namespace holdfast {
 
-/// A number of every lane, to be read and written as a pack or lane by lane.
+/// One number for each lane, accessible as a pack or lane by lane.
 template <class Scalar>
 class LaneNumbers {
  public:
-  static constexpr std::size_t lanes = Lanes<Scalar>::count;  ///< how many there are
+  static constexpr std::size_t lanes = Lanes<Scalar>::count;  ///< number of lanes
 
-  /// All of them.
+  /// The numbers of all lanes.
   Scalar all() const { return Lanes<Scalar>::load(numbers_.data()); }
-  /// Writes all of them.
+  /// Sets the numbers of all lanes.
   void set(const Scalar& numbers) { Lanes<Scalar>::store(numbers, numbers_.data()); }
   /// The number of one lane.
   double& operator[](std::size_t lane) { return numbers_[lane]; }

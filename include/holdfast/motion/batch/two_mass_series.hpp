@@ -17,7 +17,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// 1/k!, k < most_terms.
+/// The reciprocals 1/k!, k < most_terms.
 constexpr std::array<double, most_terms> inverse_factorials() {
   std::array<double, most_terms> result{};
   double factorial = 1.0;
@@ -30,16 +30,16 @@ constexpr std::array<double, most_terms> inverse_factorials() {
 
 }  // namespace detail
 
-/// How many terms the series of each lane has: as many as its own length asks for, so that its
-/// numbers do not depend on its neighbours, to the last bit.
+/// The numbers of terms of each lane's series. They depend on the lane's own length only, so that
+/// its results do not depend on other lanes, to the last bit.
 template <class Scalar>
 struct TermsOfLanes {
-  int most;        ///< 1 … most_terms, of any lane
-  int least;       ///< of any lane
-  Scalar of_lane;  ///< of each
+  int most;        ///< 1 … most_terms, largest of all lanes
+  int least;       ///< smallest of all lanes
+  Scalar of_lane;  ///< one for each lane
 };
 
-/// terms_for() of all lanes.
+/// The function terms_for() in all lanes.
 template <class Scalar>
 class LaneTerms {
  public:
@@ -66,7 +66,7 @@ class LaneTerms {
     return terms;
   }
 
-  /// How long a series of 1, 2, … terms may be, in turns.
+  /// The largest lengths of series with 1, 2, … terms, in units of 1/rate.
   static std::array<double, most_terms> lengths() {
     std::array<double, most_terms> longest{};
     for (int terms = 1; terms <= most_terms; ++terms) {
@@ -80,7 +80,7 @@ class LaneTerms {
     return longest;
   }
 
-  /// Terms at the begin of each part, the fewest of its lengths.
+  /// The smallest numbers of terms at the beginnings of the parts.
   std::array<int, static_cast<std::size_t>(parts) + 1> fewest() const {
     std::array<int, static_cast<std::size_t>(parts) + 1> result{};
     for (std::size_t k = 0; k < result.size(); ++k) {
@@ -95,40 +95,40 @@ class LaneTerms {
   std::array<int, static_cast<std::size_t>(parts) + 1> fewest_ = fewest();
 };
 
-/// How a mass of the two is accelerated in one mode of the contact, in every lane:
-/// state · [z₁, ż₁, z₂, ż₂] + constant + force F (m/s²).
+/// The acceleration of one of the two masses in one mode of the contact, in every lane: state ·
+/// [z₁, ż₁, z₂, ż₂] + constant + force F (m/s²).
 template <class Scalar>
 struct LaneAcceleration {
-  std::array<Scalar, 4> state;  ///< of the row of A
+  std::array<Scalar, 4> state;  ///< row of A
   Scalar constant;              ///< drift + b u (m/s²)
   Scalar force;                 ///< per newton of F
 };
 
-/// A harmonic of the excitation at the begin of a stretch, in every lane.
+/// A harmonic of the excitation at the beginning of a stretch, in every lane.
 template <class Scalar>
 struct LanePhasor {
-  Scalar angular_frequency;        ///< ω (rad/s); 0 of a force that is held
-  ExcitationSample<Scalar> phase;  ///< F_l cos and F_l sin of its angle there (N)
+  Scalar angular_frequency;        ///< ω (rad/s); 0 for a held force
+  ExcitationSample<Scalar> phase;  ///< F_l cos and F_l sin of its angle (N)
 };
 
-/// Taylor's series of two masses over a length h, in every lane: TaylorStep on packs, and the force
-/// with it.
+/// The Taylor series of two masses over a length h, in every lane: TaylorStep on packs, with the
+/// series of the force,
 ///
 ///     d_{k+1} = h (A d_k + w_k),   z(t + x h) = Σ d_k x^k / k!
 ///
-/// with w_k as there. Two of the four rows of A say that ż = dz/dt and cost one product. Work per
+/// with w_k as there. Two of the four rows of A express ż = dz/dt and cost one product. Work per
 /// term: 8 multiply-adds and 9 products, 3 for each harmonic.
 template <class Scalar>
 struct TwoMassSeries {
-  std::array<LaneSeries<Scalar>, 4> state;  ///< of z₁, ż₁, z₂, ż₂
-  LaneSeries<Scalar> force;                 ///< of F (N)
-  TermsOfLanes<Scalar> terms;               ///< of all of them
+  std::array<LaneSeries<Scalar>, 4> state;  ///< series of z₁, ż₁, z₂, ż₂
+  LaneSeries<Scalar> force;                 ///< series of F (N)
+  TermsOfLanes<Scalar> terms;               ///< common numbers of terms
 
   /// @param masses   accelerations of conductor and absorber
-  /// @param begin    z₁, ż₁, z₂, ż₂ at x = 0
-  /// @param phasors  of the excitation there, one or more
+  /// @param begin    values of z₁, ż₁, z₂, ż₂ at x = 0
+  /// @param phasors  harmonics of the excitation there, one or more
   /// @param length   h (s), ≥ 0
-  /// @param count    of the terms
+  /// @param count    numbers of terms
   TwoMassSeries(const std::array<LaneAcceleration<Scalar>, 2>& masses,
                 const std::array<Scalar, 4>& begin, const std::vector<LanePhasor<Scalar>>& phasors,
                 const Scalar& length, const TermsOfLanes<Scalar>& count)
@@ -176,14 +176,14 @@ struct TwoMassSeries {
   }
 
  private:
-  /// No term k in the lanes that have fewer.
+  /// Ends the series in the lanes with fewer than k terms.
   void end_lanes(std::size_t k) {
     const Mask<Scalar> has = terms.of_lane > Scalar(static_cast<double>(k));
     for (auto& series : state) series[k] = select(has, series[k], Scalar(0));
     force[k] = select(has, force[k], Scalar(0));
   }
 
-  /// The derivatives of the force, not yet divided.
+  /// Computes the derivatives of the force, not yet divided by factorials.
   void expand_force(const std::vector<LanePhasor<Scalar>>& phasors, const Scalar& length,
                     std::size_t count) {
     bool first = true;
@@ -200,7 +200,7 @@ struct TwoMassSeries {
     }
   }
 
-  /// Adds the number that was computed last as the last one.
+  /// The rate of one row from the present coefficients, the constant and the force.
   static Scalar rate(const LaneAcceleration<Scalar>& row, const std::array<Scalar, 4>& now,
                      const Scalar& constant, const Scalar& force) {
     const Scalar early =

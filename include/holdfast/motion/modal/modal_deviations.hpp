@@ -10,21 +10,21 @@
 
 namespace holdfast {
 
-/// Deviations of a ModalMotion side by side, one a column, as long as they change no contact:
+/// The deviations of a ModalMotion, one in each column, as long as they change no contact:
 ///
 ///     δξ_{j+1} = e^{sτ} δξ_j + γ₁ δu_{j−1} + γ₀ δu_j,   δu_j = P δz_j + D δż_j or 0 in the
 ///     backlash.
 ///
-/// Their coordinates are [Re ξ; Im ξ of the pairs; u_{j−1}] in metres: of a natural motion what the
-/// conductor at the absorber shows of it, of a force how far it pushes that within a sampling
-/// period. Work per sample: 16 multiply-adds for each natural motion and column.
+/// The coordinates are [Re ξ; Im ξ of the pairs; u_{j−1}] in metres: for a natural motion its share
+/// of the conductor's displacement at the absorber, for a force the displacement it causes in a
+/// sampling period. Work per sample: 16 multiply-adds per natural motion and column.
 class ModalDeviations {
  public:
   using Columns = Eigen::MatrixXd;  ///< order() × the number of deviations
-  using Row = Eigen::RowVectorXd;   ///< of each deviation a number
+  using Row = Eigen::RowVectorXd;   ///< one number for each deviation
 
-  /// Begins with the unit vectors.
-  /// @param motions  of the loop
+  /// Constructs the deviations as unit vectors.
+  /// @param motions  natural motions of the loop
   /// @param gains    P and D while the drive transmits
   ModalDeviations(const NaturalMotions& motions, const PdGains<double>& gains)
       : count_(static_cast<Eigen::Index>(motions.size())),
@@ -55,12 +55,12 @@ class ModalDeviations {
     begin(Columns::Identity(order(), order()));
   }
 
-  /// One more than the order of the plant.
+  /// The number of coordinates: the order of the plant and one.
   Eigen::Index order() const { return units_.size(); }
-  /// [Re ξ; Im ξ; u_{j−1}] of a metre of each coordinate.
+  /// The values of [Re ξ; Im ξ; u_{j−1}] that correspond to 1 m in each coordinate.
   const Eigen::VectorXd& units() const { return units_; }
 
-  /// Begins anew with these deviations, in metres.
+  /// Restarts from given deviations, in metres.
   void begin(const Columns& deviations) {
     const Columns raw = units_.asDiagonal() * deviations;
     re_ = raw.topRows(count_);
@@ -81,7 +81,7 @@ class ModalDeviations {
   /// Deviations of Δż (m/s).
   Row relative_velocity() const { return read(relative_v_); }
 
-  /// Over one sampling period, in which the drive transmits or not.
+  /// Advances over one sampling period, in which the drive transmits or not.
   void advance(bool engaged) {
     const Row force = engaged ? read(command_) : Row(Row::Zero(force_.size()));
     Columns re = decay_.re.asDiagonal() * re_;
@@ -100,7 +100,7 @@ class ModalDeviations {
   }
 
  private:
-  /// A complex number of each natural motion.
+  /// A complex number for each natural motion.
   struct Part {
     Eigen::VectorXd re, im;
     void resize(Eigen::Index count) {
@@ -113,7 +113,7 @@ class ModalDeviations {
     }
   };
 
-  /// Re(w ξ).
+  /// The reading Re(w ξ) of every deviation.
   Row read(const Part& w) const { return w.re.transpose() * re_ - w.im.transpose() * im_; }
 
   Eigen::Index count_, pairs_;

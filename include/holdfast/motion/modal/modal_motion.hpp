@@ -20,23 +20,23 @@ namespace holdfast {
 
 /// The motion of the sampled loop of a conductor by N of its modes, one sample at a time, in O(N).
 ///
-/// Each natural motion e^{st} of conductor and absorber together goes by itself (NaturalMotion),
-/// and the conductor at the absorber and the absorber are sums over them: z = Σ r ξ with the
-/// residues of `plant_poles`, ż = Σ s r ξ, z₂ = Σ θ r ξ, θ = (k₂ + c₂ s)/(m₂ s² + c₂ s + k₂). The
-/// computer and the gap are those of `SampledMotion`. Work per sample: 20 multiply-adds a natural
-/// motion, in whole vectors. Nothing is allocated.
+/// Each natural motion e^{st} of conductor and absorber together is independent (NaturalMotion).
+/// The conductor at the absorber and the absorber are sums over them: z = Σ r ξ with the residues
+/// of `plant_poles`, ż = Σ s r ξ, z₂ = Σ θ r ξ, θ = (k₂ + c₂ s)/(m₂ s² + c₂ s + k₂). Computer and
+/// gap are those of `SampledMotion`. Work per sample: 20 multiply-adds per natural motion, in whole
+/// vectors. No memory is allocated.
 class ModalMotion {
  public:
-  static constexpr int states = 4;                 ///< what is read
+  static constexpr int states = 4;                 ///< number of observed states
   using State = Vector<double, 4>;                 ///< [z, ż, z₂, ż₂] (m, m/s, m, m/s)
-  using Readings = PortReadings<TwoMass<double>>;  ///< how that is read
+  using Readings = PortReadings<TwoMass<double>>;  ///< readings of these states
   using Full = NaturalMotions::Full;               ///< [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂]
 
-  using Memory = MotionMemory<double, BacklashMemory<double>>;  ///< before a sample
+  using Memory = MotionMemory<double, BacklashMemory<double>>;  ///< memory before a sample
 
-  /// @param loop   of which nothing is checked
-  /// @param poles  all of `plant_poles` of its modes and absorber
-  /// @param state  the initial one, of `modal_plant`
+  /// @param loop   the loop, which is not checked
+  /// @param poles  all `plant_poles` of its modes and absorber
+  /// @param state  the initial state of `modal_plant`
   ModalMotion(const ModalLoop& loop, const std::vector<PlantPole>& poles, const Full& state)
       : loop_(loop),
         law_(loop.backlash_width),
@@ -54,7 +54,7 @@ class ModalMotion {
     read();
   }
 
-  /// Takes sample j: whether the force is transmitted, and how large it is. Once per sample.
+  /// Takes sample j: whether the force is transmitted, and its value; to be called once a sample.
   MotionSample<double> sense() {
     const bool engaged = law_.step(seen_[2] - seen_[0], seen_[3] - seen_[1]);
     present_force_ =
@@ -62,7 +62,7 @@ class ModalMotion {
     return {index_, time(), seen_, present_force_, engaged};
   }
 
-  /// Moves from t_j to t_{j+1} under the force that the last `sense()` decided.
+  /// Advances from t_j to t_{j+1} under the force that the last `sense()` decided.
   void advance() {
     const double u = present_force_, before = previous_force_;
     const Vector<double, 2> force = phases_.next();
@@ -81,8 +81,8 @@ class ModalMotion {
     ++index_;
   }
 
-  /// Bends the conductor by that much (m) at the absorber, as a force there would; call before
-  /// `sense()`.
+  /// Displaces the conductor at the absorber by a length (m), in the shape that a force there
+  /// causes; to be called before `sense()`.
   void displace_conductor(double by) {
     for (Block& block : motions_.blocks()) {
       Part &state = block.front(), &bent = block.back();
@@ -92,17 +92,17 @@ class ModalMotion {
     read();
   }
 
-  /// j, the sample that `sense()` will take or has taken.
+  /// The number j of the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
-  /// t_j (s).
+  /// The instant t_j (s) of that sample.
   double time() const { return static_cast<double>(index_) * loop_.sampling.period; }
-  /// [z, ż, z₂, ż₂] at t_j.
+  /// The observed state [z, ż, z₂, ż₂] at t_j.
   const State& state() const { return seen_; }
-  /// How that is read.
+  /// The readings of the observed state.
   const Readings& readings() const { return readings_; }
-  /// All that the coming samples depend on, but for what of the natural motions is not read.
+  /// The memory for the coming samples, without the unobserved part of the natural motions.
   Memory memory() const { return {seen_, previous_force_, law_.memory()}; }
-  /// ξ of every natural motion, in the order of NaturalMotions.
+  /// The amplitudes ξ of all natural motions, in the order of NaturalMotions.
   Eigen::VectorXcd amplitudes() const {
     Eigen::VectorXcd all(static_cast<Eigen::Index>(motions_.size()));
     for (std::size_t k = 0; k < motions_.size(); ++k)
@@ -111,14 +111,14 @@ class ModalMotion {
   }
 
  private:
-  /// Natural motions: ξ, what it is after a sample, what forces add, the conjugates of what is
-  /// read, Re(w ξ) = Re w̄ Re ξ + Im w̄ Im ξ, and ξ of the bent conductor.
+  /// The rows of natural motions: ξ, ξ after a sample, contributions of forces, conjugate weights
+  /// of the readings, Re(w ξ) = Re w̄ Re ξ + Im w̄ Im ξ, and ξ of the bent conductor.
   using Motions = detail::ComplexRows<double, 11>;
   using Block = Motions::Block;
   using Part = detail::ComplexLanes<double>;
   using Lanes = Part::Reals;
 
-  /// [z, ż, z₂, ż₂] of the blocks that were added, lane by lane.
+  /// The sums for [z, ż, z₂, ż₂] over the blocks added so far, lane by lane.
   struct Seen {
     Lanes z = Lanes::Zero(), v = z, z2 = z, v2 = z;
 
@@ -149,11 +149,11 @@ class ModalMotion {
 };
 
 /// The motion from a state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂].
-/// @param loop   with its excitation and backlash
+/// @param loop   the loop with its excitation and backlash
 /// @param poles  `plant_poles` of the loop's modes and absorber
-/// @param state  the initial one
-/// @return nothing where these are not all found: `harmonically_forced_motion` of the plant is then
-///         the way, at N² operations a sample
+/// @param state  the initial state
+/// @return nothing where not all of them were found: then use `harmonically_forced_motion` of the
+///         plant, at N² operations per sample
 /// @throws InvalidParameter where the loop is not admissible, or the state is not finite or of
 ///         another size
 inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
@@ -167,9 +167,9 @@ inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
   return ModalMotion(loop, poles, state);
 }
 
-/// The same, whose poles are found here.
-/// @param loop   with its excitation and backlash
-/// @param state  the initial one
+/// The motion from a state of `modal_plant`, whose poles are computed here.
+/// @param loop   the loop with its excitation and backlash
+/// @param state  the initial state
 /// @return as above
 /// @throws InvalidParameter as above
 inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,

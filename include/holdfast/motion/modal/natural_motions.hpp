@@ -21,16 +21,16 @@ namespace holdfast {
 
 /// The sampled loop of a conductor by its modes, with its excitation and backlash.
 struct ModalLoop {
-  std::vector<PlaceMode<double>> modes;   ///< as the absorber's place sees them
+  std::vector<PlaceMode<double>> modes;   ///< modes at the absorber's place
   Absorber<double> absorber;              ///< with its clamp
   Sampling<double> sampling;              ///< τ and δ ≤ τ
   PdGains<double> gains;                  ///< P and D
-  HarmonicExcitation<double> excitation;  ///< F_m and f, of the force at the absorber's place
+  HarmonicExcitation<double> excitation;  ///< F_m and f of the force at the absorber's place
   double backlash_width = 0.0;            ///< r₀ (m), ≥ 0
-  ForceHold hold = ForceHold::sampled;    ///< how the harmonic force is taken over a sample
+  ForceHold hold = ForceHold::sampled;    ///< hold of the harmonic force over a sample
 };
 
-/// @throws InvalidParameter where the loop is not admissible
+/// Validates a loop. @throws InvalidParameter where it is not admissible
 inline void validate(const ModalLoop& loop) {
   validate(loop.modes, loop.absorber);
   validate(loop.sampling);
@@ -39,32 +39,32 @@ inline void validate(const ModalLoop& loop) {
   validate_backlash_width(loop.backlash_width);
 }
 
-/// Natural motion e^{st} of conductor and absorber over one sampling period,
+/// The natural motion e^{st} of conductor and absorber over one sampling period,
 ///
 ///     ξ_{j+1} = e^{sτ} ξ_j + γ₁ u_{j−1} + γ₀ u_j + g_c F_m cos ωt_j + g_s F_m sin ωt_j ,
 ///
-/// and what is read of it: z = Re Σ w_z ξ, and so on. One of a pair stands for both.
+/// with its readings: z = Re Σ w_z ξ, and so on. One of a conjugate pair represents both.
 struct NaturalMotion {
   std::complex<double> decay;    ///< e^{sτ}
-  std::complex<double> present;  ///< γ₀, of the force that this sample decides
-  std::complex<double> past;     ///< γ₁, of the one before
+  std::complex<double> present;  ///< γ₀, for the force that this sample decides
+  std::complex<double> past;     ///< γ₁, for the previous force
   std::complex<double> cosine;   ///< g_c
   std::complex<double> sine;     ///< g_s
-  std::complex<double> z;        ///< w of the conductor's displacement
-  std::complex<double> v;        ///< w of its velocity
-  std::complex<double> z2;       ///< w of the absorber's displacement
-  std::complex<double> v2;       ///< w of its velocity
+  std::complex<double> z;        ///< weight w of the conductor's displacement
+  std::complex<double> v;        ///< weight w of the conductor's velocity
+  std::complex<double> z2;       ///< weight w of the absorber's displacement
+  std::complex<double> v2;       ///< weight w of the absorber's velocity
 };
 
-/// All natural motions of conductor and absorber, each by itself: what every motion of a ModalLoop
-/// is a sum of.
+/// All natural motions of conductor and absorber, mutually independent; every motion of a ModalLoop
+/// is a sum of them.
 class NaturalMotions {
  public:
-  /// [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂], a state of `modal_plant`.
+  /// The state [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂] of `modal_plant`.
   using Full = Vector<double, Eigen::Dynamic>;
 
-  /// @param loop   of which nothing is checked
-  /// @param poles  all of `plant_poles` of its modes and absorber
+  /// @param loop   the loop, which is not checked
+  /// @param poles  all `plant_poles` of its modes and absorber
   NaturalMotions(const ModalLoop& loop, const std::vector<PlantPole>& poles) : loop_(loop) {
     const detail::PoleFinder finder(loop.modes, loop.absorber);
     for (const bool real : {false, true}) {
@@ -80,20 +80,20 @@ class NaturalMotions {
     }
   }
 
-  /// How many, pairs counted once.
+  /// The number of natural motions, pairs counted once.
   std::size_t size() const { return motions_.size(); }
-  /// How many of them are pairs, which come first; the others are real.
+  /// The number of pairs, which come first; the other motions are real.
   std::size_t pairs() const { return pairs_; }
-  /// The k-th.
+  /// The k-th natural motion.
   const NaturalMotion& operator[](std::size_t k) const { return motions_[k]; }
 
-  /// The k-th over the beginning of a sampling period, `length` s of it.
+  /// The k-th natural motion over the first `length` s of a sampling period.
   NaturalMotion over(std::size_t k, double length) const {
     return numbers_of(shapes_[k], k >= pairs_,
                       {length, std::min(loop_.sampling.processing_delay, length)});
   }
 
-  /// [z, ż, z₂, ż₂] of some ξ.
+  /// The observed state [z, ż, z₂, ż₂] for given amplitudes ξ.
   Vector<double, 4> seen(const Eigen::VectorXcd& amplitudes) const {
     Vector<double, 4> sum = Vector<double, 4>::Zero();
     for (std::size_t k = 0; k < size(); ++k) {
@@ -105,7 +105,7 @@ class NaturalMotions {
     return sum;
   }
 
-  /// The state of `modal_plant` that some ξ make.
+  /// The state of `modal_plant` for given amplitudes ξ.
   Full state_of(const Eigen::VectorXcd& amplitudes) const {
     Full state = Full::Zero(2 * static_cast<Eigen::Index>(loop_.modes.size()) + 2);
     for (std::size_t k = 0; k < size(); ++k) {
@@ -119,8 +119,8 @@ class NaturalMotions {
     return state;
   }
 
-  /// ξ of the k-th in a state, ψᵀ((sM + C) q + M q̇), M and C being those of the equations of
-  /// motion; b enters by ψᵀb.
+  /// The amplitude ξ of the k-th motion in a state, ψᵀ((sM + C) q + M q̇), where M and C belong to
+  /// the equations of motion; b enters by ψᵀb.
   std::complex<double> amplitude(std::size_t k, const Full& state) const {
     const Shape& natural = shapes_[k];
     const Absorber<double>& absorber = loop_.absorber;
@@ -156,8 +156,8 @@ class NaturalMotions {
     bool weak = false;
   };
 
-  /// f = 1, but of a weak mode, whose own part would be endless: there its own part is what f = 1
-  /// gives times (s − s_n)/φ_n.
+  /// The shape for f = 1; for a weak mode, whose own part would be unbounded, its own part is that
+  /// for f = 1 times (s − s_n)/φ_n.
   Shape shape_of(const PlantPole& pole, const std::optional<detail::PoleFinder::Weak>& weak) const {
     Shape shape{pole.s, 1.0, receptance(loop_.modes, pole.s), 0.0, 0.0};
     if (weak) {
@@ -176,7 +176,7 @@ class NaturalMotions {
     return shape;
   }
 
-  /// ψ of the n-th mode.
+  /// The component of ψ in the n-th mode.
   Complex shape_in_mode(const Shape& natural, std::size_t n) const {
     const PlaceMode<double>& mode = loop_.modes[n];
     if (natural.weak && n == natural.mode) return natural.own;

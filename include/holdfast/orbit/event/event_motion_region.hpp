@@ -16,12 +16,12 @@
 
 namespace holdfast {
 
-/// The periodic motion of a loop that lies near one of another loop: same period, same modes in the
-/// same order; when they change may differ.
-/// @param loop   with the same f τ
-/// @param orbit  of a loop nearby, whose drive is engaged at some sample, or now and then between
-///               them and in the gap at some sample
-/// @return not `certified` where there is none, or it switches otherwise
+/// The periodic motion of one loop near that of another loop: it has the same period and the same
+/// modes in the same order; the instants of its switches may differ.
+/// @param loop   the loop to be solved, with the same f τ
+/// @param orbit  orbit of a nearby loop; at some sample its drive is engaged, or at some sample its
+///               drive is in the gap and it is engaged now and then in between
+/// @return not `certified` where there is no such motion, or it switches otherwise
 template <class Plant>
 OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
     const ImplementedLoopOf<Plant>& loop, const EventOrbitOf<states_of<Plant>>& orbit) {
@@ -80,7 +80,7 @@ bool mirrors_itself(const EventOrbitOf<States>& orbit) {
   return (open.array() <= rounding * largest.array()).all();
 }
 
-/// Least margin of a motion, as a share of its size, and the border that it leads to.
+/// The least margin of a motion, as a share of its size, and the kind of border where it vanishes.
 template <int States>
 RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
   const SwitchingMargins& margins = orbit.margins;
@@ -105,7 +105,7 @@ RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
   return look;
 }
 
-/// Continues an exactly switched motion over a plane from the nearest point where it was found.
+/// Continues an exactly switched motion over a plane, each time from the nearest solution.
 template <class Family, class Orbit>
 class EventContinuation {
  public:
@@ -130,7 +130,7 @@ class EventContinuation {
     return look;
   }
 
-  /// In which distances are measured.
+  /// Sets the unit of the distances in the plane.
   void set_unit(const PlanePoint& unit) { unit_ = unit; }
   int solutions() const { return solutions_; }
 
@@ -140,15 +140,15 @@ class EventContinuation {
     Orbit orbit;
   };
 
-  /// Beyond a jump, seen from a motion beside it.
+  /// The kind of border where a motion jumps, judged from the motion on the near side.
   static MotionBorder beyond(const Orbit& orbit) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const BorderKind kind = nears_sample(orbit) ? BorderKind::switch_at_sample : BorderKind::jump;
     return {kind, {}, -1, 0, {none, none}};
   }
 
-  /// Whether one of the switches lies just beside a sample; those that a sample itself makes lie on
-  /// it.
+  /// Whether a switch lies just beside a sample, not on it; switches that a sample itself causes
+  /// lie on the sample.
   static bool nears_sample(const Orbit& orbit) {
     constexpr double near = 1e-3, rounding = 1e-12;
     return std::any_of(orbit.switches.begin(), orbit.switches.end(), [&](const auto& change) {
@@ -177,18 +177,18 @@ class EventContinuation {
 
 }  // namespace detail
 
-/// The region of two parameters in which a periodic motion that switches between the samples is and
-/// attracts, by its border: where it keeps its period and the order of its modes, with all
-/// multipliers, saltation included, inside the unit circle.
+/// The region of two parameters in which a periodic motion that switches between the samples exists
+/// and attracts, given by its border: the motion keeps its period and the order of its modes, and
+/// all multipliers, saltation included, lie inside the unit circle.
 ///
-/// The least of the margins of EventOrbit names the piece of the border. A switch may pass a
-/// sample: the motion goes on, its multipliers jump. A motion that is its own mirror image half a
-/// period later is followed as far as it is that.
+/// The least margin of EventOrbit decides the kind of the border. A switch may pass a sample: the
+/// motion continues, its multipliers jump. A motion that is its own mirror image half a period
+/// later is followed as long as it keeps this symmetry.
 /// @param family  (x, y) ↦ ImplementedLoop, with the same f τ everywhere
 /// @param orbit   certified, its drive engaged now and then
 /// @param window  around `at`
 /// @param at      (x, y) of the orbit
-/// @param steps   in shares of the window; its tolerance decides how near a jump is found
+/// @param steps   as shares of the window; the tolerance sets how exactly a jump is located
 /// @throws InvalidParameter where the window is not finite or does not hold the point
 template <class Family, int States>
 MotionRegion motion_region(const Family& family, const EventOrbitOf<States>& orbit,

@@ -22,52 +22,52 @@
 
 namespace holdfast {
 
-/// How far an orbit is from switching otherwise than it does; +∞ for what it never comes to.
+/// The distances of an orbit from switching otherwise than it does; +∞ for events that never occur.
 ///
 /// At a margin of zero the motion grazes: its neighbours do not switch alike, and multipliers do
 /// not describe them. The margins belong to the guards of the contact between the samples; a law's
 /// decisions at the samples alone have none here.
 struct SwitchingMargins {
-  /// The margin of what the motion never comes to.
+  /// The margin of an event that never occurs.
   static constexpr double none = std::numeric_limits<double>::infinity();
 
-  /// Distance of Δz from an end of its gap, where it turns before it has come there (m).
+  /// Least distance of Δz from an end of its gap, where Δz turns before it reaches that end (m).
   double border_distance = none;
-  /// Way of Δz from where it left a gap to where it reverses (m).
+  /// Least way of Δz between leaving a gap and reversing (m).
   double shortest_travel = none;
-  /// |Δż| where Δz passes an end of its gap (m/s).
+  /// Least |Δż| with which Δz passes an end of its gap (m/s).
   double exit_velocity = none;
-  /// |Δż| of an engaged drive where it is least without a reversal (m/s).
+  /// Least |Δż| of an engaged drive at a minimum that is no reversal (m/s).
   double reversal_velocity = none;
-  /// |a(u)|, the relative acceleration at a reversal under the force that was transmitted (m/s²).
+  /// Least |a(u)|, the relative acceleration at a reversal under the transmitted force (m/s²).
   double reversal_acceleration = none;
-  /// |a(0)|, that without a force, whose sign decides between stick and gap at a reversal (m/s²).
+  /// Least |a(0)|, the relative acceleration without force; its sign decides: stick or gap (m/s²).
   double stick_acceleration = none;
 };
 
 /// A periodic motion of the sampled loop whose contact switches between the samples, with its
 /// numerical certificate.
 ///
-/// Certified, in double precision: that the motion of EventMotion closes upon itself after N
-/// samples, to the error stated; that it switches alike in three successive periods; that all its
-/// multipliers, with the saltation at every switch, lie inside the unit circle; and how far it is
-/// from switching otherwise. Not certified is what interval arithmetic would: that a true orbit
-/// lies within a bound of the computed one.
+/// Certified, in double precision: the motion of EventMotion closes after N samples to the stated
+/// error; it switches alike in three successive periods; all its multipliers, with the saltation at
+/// every switch, lie inside the unit circle; and its margins from switching otherwise are known.
+/// Not certified is that a true orbit lies within a bound of the computed one, which takes interval
+/// arithmetic.
 ///
-/// Its multipliers are those of [x; u_{j−1}; the gap; the displacement as last read] that depend on
-/// the past at all, padded to five.
+/// Its multipliers belong to the entries of [x; u_{j−1}; the gap; the displacement as last read]
+/// that depend on the past, padded to five.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct EventOrbitOf : LoopOrbit<States> {
-  std::vector<ContactMode> modes;  ///< from each sample on
-  /// At each sample (N): u_j where the drive is engaged, in force from t_j + δ on, 0 in the gap,
-  /// and in stick what holds the sides together at t_j.
+  std::vector<ContactMode> modes;  ///< contact mode from each sample on
+  /// At each sample (N): u_j where the drive is engaged, in force from t_j + δ on; 0 in the gap; in
+  /// stick the force that keeps both sides together at t_j.
   std::vector<double> forces;
-  std::vector<ContactSwitch> switches;  ///< of one period, s after its first sample
-  /// At each sample in a gap, where that began, Δz (m): exact play; else of no meaning.
+  std::vector<ContactSwitch> switches;  ///< switches of one period, s after its first sample
+  /// At each sample in a gap: Δz at which that gap began (m), for exact play; else meaningless.
   std::vector<double> reversals;
-  SwitchingMargins margins;          ///< the nearest of all switches and all that do not happen
-  std::array<double, 3> time_share;  ///< of each ContactMode; their sum is 1
+  SwitchingMargins margins;          ///< least margins over all switches and all near events
+  std::array<double, 3> time_share;  ///< time in each ContactMode, as shares; their sum is 1
   double largest_displacement;       ///< max |z(t)| (m), between the samples too
   double largest_sample;             ///< max |z_j| (m), at the samples
   StateScale extent;                 ///< of both sides of the gap, at the samples
@@ -81,9 +81,9 @@ struct EventOrbitOf : LoopOrbit<States> {
     return static_cast<double>(engaged) / static_cast<double>(modes.size());
   }
 
-  /// How near it is to switching otherwise, as a share of its own size: the smallest of the margins
-  /// in the orbit's largest displacement x, its largest velocity v and v²/x. Infinite where it
-  /// comes to no surface.
+  /// The least margin from switching otherwise as a share of the orbit's size: margins are divided
+  /// by the largest displacement x, the largest velocity v or v²/x. Infinite where no margin is
+  /// finite.
   double border_share() const {
     const double acceleration = extent.velocity * extent.velocity / extent.displacement;
     return std::min({extent.share_of_displacement(margins.border_distance),
@@ -93,19 +93,19 @@ struct EventOrbitOf : LoopOrbit<States> {
                      margins.reversal_acceleration / acceleration,
                      margins.stick_acceleration / acceleration});
   }
-  /// How often a mode begins in one period.
+  /// How many times a mode begins in one period.
   std::int64_t entries(ContactMode mode) const {
     return std::count_if(switches.begin(), switches.end(),
                          [mode](const ContactSwitch& change) { return change.mode == mode; });
   }
 };
 
-/// The orbit of the two masses.
+/// The periodic orbit of a two-mass plant whose contact switches between the samples.
 using EventOrbit = EventOrbitOf<4>;
 
 namespace detail {
 
-/// p′(x).
+/// The derivative p′ of a series p.
 inline Series series_derivative(const Series& p) {
   if (p.size() < 2) return Series::Zero(1);
   const Eigen::Index terms = p.size() - 1;
@@ -113,8 +113,8 @@ inline Series series_derivative(const Series& p) {
   return p.tail(terms).cwiseProduct(powers);
 }
 
-/// Shows every x in (0, 1] at which a series changes its sign, from the left to the right, and
-/// whether it rises there. At most as many as it has terms.
+/// Visits every x in (0, 1] at which a series changes its sign, from the left to the right, with
+/// whether the series rises there. There are at most as many as the series has terms.
 template <class Visit>
 void for_each_sign_change(Series p, Visit&& visit) {
   double from = 0.0;
@@ -132,7 +132,7 @@ void for_each_sign_change(Series p, Visit&& visit) {
   }
 }
 
-/// Whether a guard is a multiple of a functional of the state alone, Δz or Δż.
+/// Whether a guard is a multiple of a functional of the plant's state alone, such as Δz or Δż.
 template <int States>
 bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
   const double factor = guard.state.dot(row) / row.squaredNorm();
@@ -141,8 +141,8 @@ bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
 
 }  // namespace detail
 
-/// Measures what happens between the samples of a motion: the margins of its switches, the time
-/// that it spends in each mode, and its largest displacement.
+/// The measures of a motion between its samples: the margins of its switches, the time that it
+/// spends in each mode, and its largest displacement.
 ///
 ///     EventOrbitMeasures<Contact> measures(motion);
 ///     motion.sense();
@@ -176,7 +176,7 @@ class EventOrbitMeasures {
     seen_ = 0;
   }
 
-  /// The least of each kind so far.
+  /// The least margin of each kind so far.
   const SwitchingMargins& margins() const { return margins_; }
   /// Time spent in each ContactMode, as a share of all.
   std::array<double, 3> time_share() const {
@@ -188,7 +188,7 @@ class EventOrbitMeasures {
 
   // The observer of EventMotion::advance.
 
-  /// Measures a stretch of one mode; `begin` (s) counts from the sample.
+  /// Measures a stretch of one mode of some length (s); `begin` (s) counts from the sample.
   void flowed(int mode, double begin, double length) {
     guards_ = motion_->contact().guards();
     time_[static_cast<std::size_t>(motion_->contact().word())] += length;
@@ -201,10 +201,10 @@ class EventOrbitMeasures {
       for (ModeGuard& guard : guards.guard) guard.zeros = 0;
     }
   }
-  /// From here on u_j is in force.
+  /// Notes that u_j is in force from now on.
   void commanded() { trace_.commanded(); }
-  /// Takes the speed or the accelerations at a guard that was reached; a switch by a jump of force
-  /// or command, guard −1, has no margin.
+  /// Measures the speed or the accelerations at a guard that was reached; a switch caused by a jump
+  /// of the force or the command, guard −1, has no margin.
   void switched(int from, int, int guard, const Instant& instant) {
     last_slope_ = {};
     if (guard < 0) return;
@@ -240,8 +240,8 @@ class EventOrbitMeasures {
     return nullptr;
   }
 
-  /// Least values of a guard at which it does not end the mode: where its slope rises through zero,
-  /// be it by a jump.
+  /// Notes the local minima of a guard that does not end the mode: its slope rises through zero,
+  /// continuously or by a jump.
   void look_at_guard(const ModeGuards& guards, std::size_t g, const Expansion& part) {
     const ModeGuard& guard = guards.guard[g];
     double* const margin = margin_of(guard);

@@ -26,12 +26,12 @@ namespace holdfast {
 /// Result of a search for the periodic orbit of an EventMotion.
 template <class Contact>
 struct EventOrbitResult : OrbitResultOf<EventOrbitOf<EventMotion<Contact>::states>> {
-  std::optional<StroboscopicState<Contact>> point;  ///< of the orbit, at its first sample
+  std::optional<StroboscopicState<Contact>> point;  ///< state of the orbit at its first sample
 };
 
 namespace detail {
 
-/// Notes the samples and switches of a motion in an orbit, and lets its measures look on.
+/// Records the samples and switches of a motion in an orbit and passes the motion to its measures.
 template <class Contact>
 class PeriodRecorder {
  public:
@@ -51,7 +51,7 @@ class PeriodRecorder {
     note_switch(motion_.contact().word());
   }
 
-  /// Takes a sample whose contact was in a mode before it.
+  /// Adds a sample, given the contact mode before it.
   void take(ContactMode before, const typename Motion::Sample& sample) {
     orbit_.states.push_back(sample.state);
     orbit_.modes.push_back(sample.mode);
@@ -75,9 +75,9 @@ class PeriodRecorder {
   double reached_ = 0.0;  // s after the sample
 };
 
-/// A sample of an orbit, and how far it lies from any switch.
+/// A sample of an orbit and its distance in time from the nearest switch.
 struct FarSample {
-  std::int64_t sample = -1;  ///< −1: there is none that lies at no switch
+  std::int64_t sample = -1;  ///< −1: every sample lies at a switch
   double distance = 0.0;     ///< s
 };
 
@@ -104,8 +104,8 @@ FarSample sample_far_from_switches(const EventOrbitOf<States>& orbit, ContactMod
   return best;
 }
 
-/// The sample at which an orbit is cut open: with the drive engaged, since it has forgotten its gap
-/// then, unless that lies so near to a switch that a neighbour may have none; −1: there is none.
+/// The sample at which an orbit is cut open: an engaged one, where no gap is remembered, unless a
+/// switch is so near that a neighbour may lack it; −1: there is no such sample.
 template <int States>
 std::int64_t section_of(const EventOrbitOf<States>& orbit) {
   constexpr double near = 0.1;
@@ -114,7 +114,7 @@ std::int64_t section_of(const EventOrbitOf<States>& orbit) {
   return engaged.distance > near * gap.distance ? engaged.sample : gap.sample;
 }
 
-/// Whether two turns have the same modes and the same switches at the same times (s).
+/// Whether two periods have the same modes and the same switches at the same times (s).
 template <int States>
 bool switch_alike(const EventOrbitOf<States>& one, const EventOrbitOf<States>& other,
                   double tolerance) {
@@ -125,7 +125,7 @@ bool switch_alike(const EventOrbitOf<States>& one, const EventOrbitOf<States>& o
                     });
 }
 
-/// Solves for the orbit of N samples near a point and measures it.
+/// The solver for the orbit of N samples near a point; it measures that orbit too.
 template <class Contact>
 class EventOrbitSolver {
  public:
@@ -139,7 +139,7 @@ class EventOrbitSolver {
   EventOrbitSolver(const RepeatingMotion<Contact>& motion, const Rational& ratio)
       : motion_(motion), readings_(motion.motion().readings()), ratio_(ratio) {}
 
-  /// @param near  at a stroboscopic instant
+  /// @param near  state near the orbit, at a stroboscopic instant
   Result solve(const Point& near, std::int64_t samples) {
     motion_.go_to(near);
     EventOrbitMeasures<Contact> unused(motion_.motion());
@@ -181,7 +181,7 @@ class EventOrbitSolver {
     return motion_.point();
   }
 
-  /// The next N samples of the motion.
+  /// The orbit recorded over the next N samples of the motion.
   Orbit next_period(std::int64_t samples, EventOrbitMeasures<Contact>& measures) {
     Orbit way{};
     way.ratio = ratio_;
@@ -195,8 +195,8 @@ class EventOrbitSolver {
     return way;
   }
 
-  /// Three periods from a point: they must switch alike.
-  /// @param extent  of the states among which the orbit was sought; its own may be rounding
+  /// The orbit measured over three periods from a point, which must switch alike.
+  /// @param extent  of the states seen in the search; the orbit's own extent may be mere rounding
   Result measured(const Point& first, std::int64_t samples, const Extent& extent) {
     motion_.go_to(first);
     EventOrbitMeasures<Contact> measures(motion_.motion());
@@ -228,9 +228,9 @@ class EventOrbitSolver {
   Rational ratio_;
 };
 
-/// An EventMotion as ReturnSearch asks for it: a return is solved for its fixed point, and the
-/// motion has come to an orbit once it was within a millionth of it, and has ended two periods in
-/// succession no farther from it than it began them, in the same modes.
+/// The model of an EventMotion for ReturnSearch. A near return is solved for its fixed point. The
+/// motion has come to an orbit once it was within a millionth of it and then ended two successive
+/// periods no farther from it than it began them, in the same modes.
 template <class Contact>
 class EventSearchModel {
  public:
@@ -242,7 +242,7 @@ class EventSearchModel {
   using Result = EventOrbitResult<Contact>;
   using Seen = SeenMotion<Symbol, Plant>;
 
-  /// A sample solved for costs some sixteen to sixty samples taken.
+  /// The cost of solving one sample, in samples of motion: between sixteen and sixty.
   static std::int64_t samples_per_solved() { return 32; }
 
   /// @param start  at a stroboscopic instant
@@ -264,7 +264,7 @@ class EventSearchModel {
     return motion_.motion().contact().mode() == other.contact.mode();
   }
 
-  /// Not while the motion settles on an orbit.
+  /// False while the motion settles on an orbit: then no return is looked for.
   bool may_repeat(const Seen&, std::int64_t) const { return periods_on_orbit_ == 0; }
 
   Result solve(const Seen&, std::int64_t period, const Memory&) {
@@ -284,7 +284,7 @@ class EventSearchModel {
     periods_on_orbit_ = 0;
   }
 
-  /// Looks at those instants at which the motion began the orbit's period.
+  /// Compares the motion with the orbit at those instants at which the orbit's period began.
   bool has_come(const Result& found, const Seen& seen) {
     const std::vector<ContactMode>& modes = found.orbit->modes;
     const auto period = static_cast<std::int64_t>(modes.size());
@@ -316,14 +316,14 @@ class EventSearchModel {
 ///     const auto found = find_event_orbit(motion);
 ///     if (found.outcome == OrbitOutcome::certified) use(found.orbit->period());
 ///
-/// `certified` means beside what EventOrbit says that the motion was seen to come to the orbit:
-/// within a millionth of its size, nearer still over two further periods. `neutral` names the state
-/// of an integrator whose value nothing brings back. `none_found` is also the
-/// answer where changes of contact accumulate, `incommensurate` where sampling and forcing never
-/// coincide: other frequencies, a recorded force, samples that jitter.
+/// `certified` means beside the statements of EventOrbit: the motion was within a millionth of the
+/// orbit's size and came nearer still over two further periods. With `neutral` the result names the
+/// state of an integrator that nothing restores. The answer is `none_found` too where changes of
+/// contact accumulate; it is `incommensurate` where sampling and forcing never coincide: other
+/// frequencies, a recorded force, samples that jitter.
 ///
-/// Bounded work: at most `most_samples` samples of the motion, and about as much again for what is
-/// solved for. Memory: a byte a sample of the motion, some 150 a sample of the orbit.
+/// Bounded work: at most `most_samples` samples of the motion, and about as much again for solving.
+/// Memory: one byte per sample of the motion, some 150 bytes per sample of the orbit.
 /// @param start   the motion, before a sample; it is left as it is
 /// @param limits  how long and how far to look
 /// @throws InvalidParameter where the limits are not admissible

@@ -20,8 +20,8 @@
 
 namespace holdfast {
 
-/// All that the coming samples of an EventMotion depend on, where sampling and forcing coincide
-/// every q samples.
+/// The stroboscopic state of an EventMotion: everything that its coming samples depend on, where
+/// sampling and forcing coincide every q samples.
 template <class Contact>
 struct StroboscopicState {
   std::int64_t phase;  ///< samples since the last stroboscopic instant, 0 … q − 1
@@ -33,11 +33,11 @@ struct StroboscopicState {
 
 namespace detail {
 
-/// A deviation of X = [x (N); u_{j−1}; the gap; the displacement as last read] of VariationalFlow.
+/// A deviation of X = [x (N); u_{j−1}; the gap; the displacement as last read] (VariationalFlow).
 template <class Contact>
 using PointDeviation = Vector<double, larger_size(EventMotion<Contact>::states, 3)>;
 
-/// to − from.
+/// The deviation `to` − `from` of two stroboscopic states.
 template <class Contact>
 PointDeviation<Contact> difference(const StroboscopicState<Contact>& from,
                                    const StroboscopicState<Contact>& to) {
@@ -62,9 +62,9 @@ StroboscopicState<Contact> shifted(StroboscopicState<Contact> point,
 
 }  // namespace detail
 
-/// An EventMotion whose forcing repeats exactly every q samples: its index goes back to zero at
-/// each stroboscopic instant, so that no rounding of late instants lets sampling and forcing drift
-/// apart.
+/// An EventMotion whose forcing repeats exactly every q samples. Its index is set to zero at each
+/// stroboscopic instant, so that the rounding of late instants cannot shift sampling against
+/// forcing.
 template <class Contact>
 class RepeatingMotion {
  public:
@@ -76,18 +76,18 @@ class RepeatingMotion {
     turn_to(motion.index() % period);
   }
 
-  /// Takes the present sample; once before each `advance()`.
+  /// Takes the present sample; to be called once before each `advance()`.
   typename EventMotion<Contact>::Sample sense() { return motion_.sense(); }
-  /// Moves to the next sample.
+  /// Advances the motion to the next sample.
   void advance() { advance(IgnoreFlow()); }
-  /// Moves to the next sample past an observer, as in EventMotion::advance.
+  /// Advances to the next sample and reports to an observer, as in EventMotion::advance.
   template <class Observer>
   void advance(Observer&& observer) {
     motion_.advance(observer);
     if (motion_.index() == period_) turn_to(0);
   }
 
-  /// Where the motion stands; ask before `sense()`.
+  /// The present stroboscopic state; to be asked for before `sense()`.
   StroboscopicState<Contact> point() const {
     double reading = 0.0;
     if constexpr (!own_controller) reading = motion_.controller().memory().previous_displacement;
@@ -95,7 +95,7 @@ class RepeatingMotion {
             motion_.contact()};
   }
 
-  /// Goes on from a point, its counts begun again.
+  /// Sets the motion to a state, its counts begun again.
   void go_to(const StroboscopicState<Contact>& point) {
     if constexpr (!own_controller) {
       if (motion_.loop().limits.velocity == VelocitySensing::difference)
@@ -107,7 +107,7 @@ class RepeatingMotion {
 
   /// The motion itself; its index is the phase, 0 … q − 1.
   const EventMotion<Contact>& motion() const { return motion_; }
-  /// q.
+  /// The number of samples q after which the forcing repeats.
   std::int64_t period() const { return period_; }
 
  private:
@@ -124,9 +124,9 @@ class RepeatingMotion {
 
 namespace detail {
 
-/// Units of X = [x; u_{j−1}; the gap; the displacement as last read] for what is solved on it,
-/// powers of two: of the two masses those of plant_scaling() and 1 m, of another plant the size of
-/// what a motion shows, or 1.
+/// Powers of two as units of X = [x; u_{j−1}; the gap; the displacement as last read]. For two
+/// masses they are those of plant_scaling() and 1 m; for another plant they follow the size of what
+/// a motion shows, or are 1.
 /// @param seen    the states of the motion
 /// @param forces  of the drive (N)
 template <class Contact>
@@ -155,31 +155,31 @@ PointDeviation<Contact> return_units(
 /// The map X_0 → X_N of a motion, N a multiple of q, with its derivative, which includes the
 /// saltation at every switch; X as in VariationalFlow.
 ///
-/// The derivative is never formed: it is known as the product of the maps of blocks of samples.
+/// The derivative is never formed: it is the product of the maps of blocks of samples.
 /// @tparam Contact  of the motion
 template <class Contact>
 class ReturnMap {
  public:
-  /// The motion that returns.
+  /// The motion whose return is mapped.
   using Motion = EventMotion<Contact>;
-  /// A deviation of X: of the order of the plant and three.
+  /// A deviation of X: as many entries as the plant has states, and three more.
   using Deviation = detail::PointDeviation<Contact>;
-  /// X with the contact that goes with it.
+  /// The state X with its contact.
   using Point = StroboscopicState<Contact>;
 
   /// @param motion     any motion of the loop
   /// @param samples    N
   /// @param units      of X, powers of two
-  /// @param gap_opens  the drive leaves every gap that it comes to be in; else the gap is given
+  /// @param gap_opens  whether the drive leaves every gap that it enters; else the gap is constant
   ReturnMap(const RepeatingMotion<Contact>& motion, std::int64_t samples, const Deviation& units,
             bool gap_opens)
       : motion_(motion), samples_(samples), units_(units), gap_opens_(gap_opens) {}
 
-  /// A fixed point near a point, by Newton's method, its linear steps by CyclicSystem, until no
-  /// more is gained.
-  /// @param near  outside stick
+  /// A fixed point near a given state, found by Newton's method until it gains nothing more; its
+  /// linear steps are those of CyclicSystem.
+  /// @param near  a state that is not in stick
   /// @return nothing where 1 is a multiplier, where the motion touches a guard, or where X_N − X_0
-  ///         does not become rounding
+  ///         does not decrease to rounding
   std::optional<Point> fixed_point(Point near) {
     constexpr int most_iterations = 30, most_failures = 3;
     constexpr std::size_t samples_of_block = 64;  // what they contract has no part in a step
@@ -207,9 +207,9 @@ class ReturnMap {
     return least <= 1e-10 ? best : std::nullopt;
   }
 
-  /// Which coordinate of x is moved most, in the units, by the deviation that is what it was after
-  /// N samples, of a controller's own where these are moved; nothing where there is none or others
-  /// grow.
+  /// The coordinate of x that a neutral deviation moves most, in the units: a deviation that is
+  /// itself again after N samples. A controller's states are preferred where they are moved.
+  /// Nothing where there is no neutral deviation or where others grow.
   std::optional<Eigen::Index> neutral_coordinate(const Point& point) {
     Extent unused(motion_.motion().readings());
     const Blocks blocks = linearised(point, 64, unused).blocks;
@@ -233,8 +233,8 @@ class ReturnMap {
     return which;
   }
 
-  /// The multipliers of a fixed point, largest first: one of each number that the coming
-  /// samples depend on, at least five; those of null directions have log_modulus −∞.
+  /// The multipliers of a fixed point, largest first: one for each number that the coming samples
+  /// depend on, at least five; those of null directions have log_modulus −∞.
   std::vector<Multiplier> multipliers(const Point& point) {
     Extent unused(motion_.motion().readings());
     const Linearised flow = linearised(point, samples_that_keep_digits(), unused);
@@ -253,7 +253,7 @@ class ReturnMap {
   using Map = typename VariationalFlow<Contact>::Map;
   using Blocks = std::vector<Eigen::MatrixXd>;
 
-  /// A motion over N samples, and what becomes of its deviations.
+  /// A motion over N samples with the maps of its deviations.
   struct Linearised {
     Point end;      // X_N
     Blocks blocks;  // of deviations, in the units
@@ -263,8 +263,8 @@ class ReturnMap {
   Eigen::Index order() const { return units_.size() - 3; }
   Eigen::Index gap_row() const { return order() + 1; }
 
-  /// @param most    samples of a block
-  /// @param extent  takes the states
+  /// @param most    largest number of samples in a block
+  /// @param extent  extended by the states passed
   Linearised linearised(const Point& point, std::size_t most, Extent& extent) {
     motion_.go_to(point);
     VariationalFlow<Contact> tangent(motion_.motion());
@@ -284,7 +284,7 @@ class ReturnMap {
     return {motion_.point(), products.blocks(), tangent.rank_of_product()};
   }
 
-  /// How many numbers the samples from a point on depend on.
+  /// How many numbers the motion after a state depends on.
   std::size_t memory_of(const Point& point) const {
     const DigitalLoop& loop = motion_.motion().loop();
     auto size = static_cast<std::size_t>(order());
@@ -294,7 +294,7 @@ class ReturnMap {
     return size;
   }
 
-  /// Coordinates of X that any of the blocks depends on.
+  /// The coordinates of X that at least one block depends on.
   std::vector<int> counting_coordinates(const Blocks& blocks) const {
     std::vector<int> counting;
     for (int i = 0; i < static_cast<int>(units_.size()); ++i)
@@ -304,7 +304,7 @@ class ReturnMap {
     return counting;
   }
 
-  /// The maps of some coordinates, the others zero.
+  /// The maps restricted to some coordinates, the others being zero.
   template <int Size>
   static std::vector<Matrix<double, Size>> restricted(const Blocks& blocks,
                                                       const std::vector<int>& counting) {
@@ -316,8 +316,8 @@ class ReturnMap {
     return maps;
   }
 
-  /// So many that no direction is contracted to rounding against another: those of x by the plant
-  /// and its control alone; what is remembered beside x may be forgotten within a few samples.
+  /// The length of a block in which no direction of x under plant and control contracts to rounding
+  /// against another; what is remembered beside x may be forgotten within a few samples.
   std::size_t samples_that_keep_digits() const {
     const EventMotion<Contact>& motion = motion_.motion();
     const DigitalLoop& loop = motion.loop();

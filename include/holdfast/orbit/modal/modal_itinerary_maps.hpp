@@ -21,18 +21,18 @@
 
 namespace holdfast {
 
-/// ItineraryMaps of a conductor by its modes: what moves [Re ξ; Im ξ of the pairs; u_{j−1}] of its
-/// natural motions over one sampling period, while the drive transmits and in the backlash.
+/// ItineraryMaps of a conductor by its modes: the maps of the natural motions, with state [Re ξ; Im
+/// ξ of the pairs; u_{j−1}], over one sampling period, engaged or in the backlash.
 class ModalItineraryMaps {
  public:
   using State = Eigen::VectorXd;                        ///< [Re ξ; Im ξ of the pairs; u_{j−1}]
-  using Map = Eigen::MatrixXd;                          ///< of deviations
-  using System = CyclicSystem<double, Eigen::Dynamic>;  ///< what is solved for a periodic motion
+  using Map = Eigen::MatrixXd;                          ///< map of deviations
+  using System = CyclicSystem<double, Eigen::Dynamic>;  ///< solver for a periodic motion
 
-  /// @param loop   its backlash width is not looked at
+  /// @param loop   the loop; its backlash width is not used
   /// @param poles  all of `plant_poles` of its modes and absorber
   /// @param ratio  f τ = p/q, of forcing_ratio()
-  /// @param watch  called now and then in what takes long; may throw to end it
+  /// @param watch  called from time to time in long computations; may throw to end them
   /// @throws InvalidParameter unless 1 ≤ q ≤ 10⁹
   ModalItineraryMaps(const ModalLoop& loop, const std::vector<PlantPole>& poles,
                      const Rational& ratio, const std::function<void()>& watch = {})
@@ -45,14 +45,14 @@ class ModalItineraryMaps {
     if (watch_) watch_();
   }
 
-  /// The deviations in their units, none of them begun yet.
+  /// Fresh deviations in their units, before any is begun.
   const ModalDeviations& deviations() const { return deviations_; }
   /// Units of the deviations.
   const Eigen::VectorXd& units() const { return deviations_.units(); }
-  /// At rest.
+  /// The state of rest.
   State rest() const { return State::Zero(units().size()); }
 
-  /// [z, ż, z₂, ż₂; u_{j−1}] of a state.
+  /// The observed part [z, ż, z₂, ż₂; u_{j−1}] of a state.
   Vector<double, 5> seen(const State& state) const {
     const Eigen::Index count = decay_.size();
     Vector<double, 5> read;
@@ -62,8 +62,8 @@ class ModalItineraryMaps {
     return read;
   }
 
-  /// The first state of the steady motion of a drive that always transmits, ξ_j = A e^{iωτj} +
-  /// B e^{−iωτj}; not finite where the loop has a root there.
+  /// The first state of the steady motion of a drive that is always engaged, ξ_j = A e^{iωτj} + B
+  /// e^{−iωτj}; not finite where the loop has a root there.
   State steady() const {
     using Phasors = Eigen::ArrayXcd;
     const std::complex<double> i(0.0, 1.0), back = std::conj(turn_);
@@ -86,8 +86,8 @@ class ModalItineraryMaps {
     return state;
   }
 
-  /// The multipliers of a sample of a drive that always transmits; none where they are not told
-  /// apart.
+  /// The multipliers per sample of a drive that is always engaged; empty where they cannot be
+  /// separated numerically.
   std::vector<std::complex<double>> roots() const {
     PoleSum<double> loop;
     for (Eigen::Index k = 0; k < decay_.size(); ++k) {
@@ -104,10 +104,10 @@ class ModalItineraryMaps {
     return pole_sum_roots(loop, past_.cwiseAbs().maxCoeff() > 0.0);
   }
 
-  /// Walks an itinerary from a first state and notes what is seen at all its samples.
-  /// @param first      the state
+  /// Follows an itinerary from a first state and records the observed part at all its samples.
+  /// @param first      the state before the first sample
   /// @param itinerary  its first sample at phase 0 of the forcing
-  /// @param states     takes [z_j; u_{j−1}], one a sample
+  /// @param states     filled with [z_j; u_{j−1}], one for each sample
   /// @return the state after its last sample
   State follow(const State& first, const Itinerary& itinerary,
                std::vector<Vector<double, 5>>& states) const {
@@ -150,7 +150,7 @@ class ModalItineraryMaps {
     }
   }
 
-  /// @param seen   of the state
+  /// @param seen   observed part of the state
   /// @param force  F_m e^{iωt_j}
   void step(State& state, const Vector<double, 5>& seen, bool engaged,
             const std::complex<double>& force) const {
@@ -174,10 +174,10 @@ class ModalItineraryMaps {
   std::function<void()> watch_;
 };
 
-/// The maps of stretches of an itinerary, in the units of `maps`, each cut within sixteen samples
-/// of where it has grown a thousandfold.
-/// @return empty where that happens more than 64 times: nothing that grows so often is an orbit to
-///         be told from rounding
+/// The maps of stretches of an itinerary, in the units of `maps`. A stretch ends within sixteen
+/// samples after its product grew a thousandfold.
+/// @return empty where this happens more than 64 times: such an orbit cannot be distinguished from
+///         rounding
 /// Work: 32 m² multiply-adds a sample, of m natural motions.
 inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& maps,
                                                    const Itinerary& itinerary) {
@@ -200,12 +200,12 @@ inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& map
 
 /// The ten largest multipliers of one period, or all where there are fewer.
 ///
-/// Some deviations more than ten are followed and orthonormalised around the period, turn after
-/// turn, until they span what the period makes of them (orthogonal iteration); periods of any
-/// length and contraction keep their digits. Where that takes too long, the period being short, the
-/// whole map tells.
-/// @param maps       of the loop
-/// @param itinerary  of one period
+/// Somewhat more than ten deviations are followed and orthonormalised period after period until
+/// their span is invariant (orthogonal iteration); periods of any length and contraction keep their
+/// digits. If this converges too slowly and the period is short, the eigenvalues of the whole map
+/// are computed.
+/// @param maps       maps of the loop
+/// @param itinerary  contacts of one period
 /// @param blocks     maps_of_blocks() of the sequence
 template <class Maps, std::enable_if_t<std::is_same_v<Maps, ModalItineraryMaps>, int> = 0>
 std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itinerary,

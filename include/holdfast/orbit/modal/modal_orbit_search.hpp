@@ -29,14 +29,14 @@ namespace holdfast {
 /// A neighbourhood of the first sample of an orbit of a conductor by its modes: every motion in it,
 /// at the same phase of the forcing, follows the orbit's itinerary for ever and tends to the orbit.
 ///
-/// Deviations e, of every natural motion and of the force in metres (ModalDeviations) and of the
-/// gap that the drive is in, are measured by eᵀV e, V − MᵀV M > 0, M being what some periods of the
-/// orbit make of them: they make that smaller. The drive must be inside or outside as on the orbit,
-/// and Δż of the last sample of the same sign. An orbit that stays in the gap for ever does so in
-/// every gap that holds it: there the radius counts for a metre of clearance.
+/// Deviations e, of every natural motion, of the force in metres (ModalDeviations) and of the gap
+/// that the drive is in, have the norm eᵀV e with V − MᵀV M > 0, M being the map of e over some
+/// periods of the orbit; hence M contracts. Contact and the sign of Δż of the last sample must
+/// agree with the orbit. An orbit that stays in the gap for ever does so in every gap that contains
+/// it: then the radius is per metre of clearance.
 struct ModalAttraction {
-  Eigen::VectorXd first;          ///< the state of the orbit, of ModalItineraryMaps
-  BacklashMemory<double> memory;  ///< of the drive before its first sample
+  Eigen::VectorXd first;          ///< state of the orbit, as in ModalItineraryMaps
+  BacklashMemory<double> memory;  ///< memory of the drive before its first sample
   bool stays_inside;              ///< the drive never leaves its gap
   double lowest,                  ///< least Δz of the orbit (m)
       highest;                    ///< largest Δz of the orbit (m)
@@ -45,16 +45,16 @@ struct ModalAttraction {
   double inscribed_share;         ///< 1/‖R‖_F: the ball ‖e‖ < radius · share lies in it
 };
 
-/// The neighbourhood of an orbit.
+/// The neighbourhood of attraction of an orbit.
 ///
-/// Along the period no decision changes while |h Φ e| stays below the distance from the surface, h
-/// being the surface's normal and Φ the flow of deviations: that is sure for ‖R e‖ less than the
-/// least distance / ‖h Φ R⁻¹‖, and what follows begins with a smaller ‖R e‖. V is that of one
-/// period, or of the fewest of 2, 4, … 64 of which rounding does not hide that they contract.
-/// @param loop   the loop that the orbit is of
-/// @param maps   of it
+/// No decision changes during the period while |h Φ e| is below the distance from the surface, h
+/// being the surface's normal and Φ the flow of deviations. This is certain for ‖R e‖ below the
+/// least distance / ‖h Φ R⁻¹‖, and the next period begins with a smaller ‖R e‖. V belongs to one
+/// period, or to the fewest of 2, 4, … 64 periods whose contraction exceeds rounding.
+/// @param loop   the loop that has the orbit
+/// @param maps   maps of that loop
 /// @param orbit  attracting and certified
-/// @return nothing where no V is found that M is seen to contract, to working precision
+/// @return nothing where no V is found that M contracts to working precision
 template <class Loop>
 std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalItineraryMaps& maps,
                                                 const PeriodicOrbit& orbit) {
@@ -96,16 +96,16 @@ std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalIti
   return std::nullopt;
 }
 
-/// f τ = p/q in lowest terms (control/digital_loop.hpp).
+/// The ratio f τ = p/q in lowest terms (control/digital_loop.hpp).
 inline std::optional<Rational> forcing_ratio(const ModalLoop& loop) {
   return forcing_ratio(
       DigitalLoop{loop.sampling, loop.gains, multi_harmonic_force(loop.excitation), loop.hold});
 }
 
 /// Whether a motion at a stroboscopic instant lies in a neighbourhood.
-/// @param region  at the same phase of the forcing
-/// @param motion  before a sample
-/// @param units   of the deviations
+/// @param region  the neighbourhood, at the same phase of the forcing
+/// @param motion  the motion before a sample
+/// @param units   units of the deviations
 template <class Motion>
 bool attracts(const ModalAttraction& region, const Motion& motion, const Eigen::VectorXd& units) {
   const typename Motion::Memory memory = motion.memory();
@@ -132,7 +132,7 @@ namespace detail {
 template <class Loop>
 class ModalRegion {
  public:
-  /// A sample solved for costs N² operations where one taken costs N.
+  /// The cost of solving a sample, N² operations, in units of a followed one, N operations.
   std::int64_t samples_per_solved() const {
     return std::max<std::int64_t>(16, maps_.units().size());
   }
@@ -151,8 +151,8 @@ class ModalRegion {
   std::optional<ModalAttraction> region_;  // of the proposed orbit
 };
 
-/// The orbit of a loop without backlash, to which every motion tends, in O(N) operations a sample.
-/// @return nothing where the loop is not stable or its roots are not told apart
+/// The orbit of a loop without backlash, to which every motion tends; O(N) operations per sample.
+/// @return nothing where the loop is unstable or its roots cannot be separated numerically
 template <class Maps>
 std::optional<PeriodicOrbit> orbit_without_backlash(const ModalLoop& loop, const Maps& maps,
                                                     const Rational& ratio) {
@@ -181,15 +181,15 @@ std::optional<PeriodicOrbit> orbit_without_backlash(const ModalLoop& loop, const
 
 }  // namespace detail
 
-/// The periodic orbit that the motion of a conductor by its modes comes to, with its certificate:
-/// that of find_periodic_orbit() of the two masses, the states of the orbit being what conductor
-/// and absorber show, z̃_j = [z, ż, z₂, ż₂; u_{j−1}], and its multipliers the ten largest of all.
+/// The periodic orbit that the motion of a conductor by its modes comes to, with its certificate,
+/// as find_periodic_orbit() of two masses. The states of the orbit are those of conductor and
+/// absorber, z̃_j = [z, ż, z₂, ż₂; u_{j−1}], its multipliers the ten largest of all.
 ///
-/// `none_found` is also the answer where `plant_poles` are not all found.
+/// `none_found` is also the answer where some of the `plant_poles` were not found.
 ///
-/// Work: without backlash O(N) a sample of the orbit, its multipliers being powers of the loop's
-/// roots; else that of the motion, O(N) a sample, and for a period that is proposed O(N²) a sample
-/// and some N³.
+/// Work: without backlash O(N) per sample of the orbit, its multipliers being powers of the loop's
+/// roots; else O(N) per sample of the motion, and for each proposed period O(N²) per sample and
+/// some N³.
 /// @param loop           with its excitation and backlash
 /// @param initial_state  of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂]
 /// @param limits         how long and how far to look

@@ -10,8 +10,8 @@
 
 namespace holdfast::detail {
 
-/// The rate, a factor for each map, at which forms along a sequence are made to shrink: half of
-/// what is lost, on a logarithmic scale, so that the forms stay small; at least 1/2.
+/// The factor ρ per map by which forms along a periodic sequence are made to shrink: the square
+/// root of the orbit's contraction per map, so that the forms stay small; at least 1/2.
 /// @param log_modulus  ln of the largest multiplier, < 0
 /// @param count        maps in a period
 inline double contracting_rate(double log_modulus, std::size_t count) {
@@ -22,7 +22,7 @@ inline double contracting_rate(double log_modulus, std::size_t count) {
 ///
 ///     P_j = M_jᵀ P_{j+1} M_j / ρ² + Q_j,   j = 0 … N − 1,   P_N = P_0
 ///
-/// Σ_k (Fᵀ)ᵏ Q Fᵏ over all later periods is summed by doubling.
+/// The sum Σ_k (Fᵀ)ᵏ Q Fᵏ over all later periods is computed by doubling.
 /// Work: three products of Size × Size a map, twice.
 /// @param count    N ≥ 1
 /// @param map_of   j ↦ M_j, Size × Size of doubles

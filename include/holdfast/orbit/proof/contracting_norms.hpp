@@ -21,21 +21,21 @@ namespace holdfast {
 ///
 ///     V_j(e)² = eᵀ P_j e,   V_{j+1}(M_j e) ≤ s_j V_j(e),   s_{N−1} … s_0 < 1
 ///
-/// The P_j are found in doubles from P_j = M_jᵀ P_{j+1} M_j / ρ² + I and are then exact; what they
-/// are said to do is proved by eliminations in enclosures. Hence all multipliers are below
-/// s_{N−1} … s_0 in modulus.
+/// The P_j are found in doubles from P_j = M_jᵀ P_{j+1} M_j / ρ² + I and taken as exact; the
+/// inequalities are proved by elimination in enclosures. Hence all multipliers are at most s_{N−1}
+/// … s_0 in modulus.
 /// @tparam Size  N of e
 template <int Size>
 class ContractingNorms {
  public:
-  /// The two maps of which the sequence consists, in enclosures.
+  /// The two maps that make up the sequence, in enclosures.
   using Maps = std::array<Matrix<Enclosure, Size>, 2>;
 
-  /// MᵀPM being convex in M, what is proved at the corners holds between them.
-  /// @param corners      of a segment or a box of loops: the norms are those of all loops between;
-  ///                     one, of a single loop
-  /// @param sequence     which of the two moves sample j; not empty
-  /// @param log_modulus  ln of the largest multiplier, as it is thought to be
+  /// Constructs the norms; since MᵀPM is convex in M, a proof at the corners holds in between.
+  /// @param corners      corners of a segment or box of loops, for all of which the norms are
+  ///                 valid; one corner for a single loop
+  /// @param sequence     index of the map that moves sample j, for each j; not empty
+  /// @param log_modulus  ln of the largest multiplier, an estimate
   /// @return nothing where no such norms were found
   static std::optional<ContractingNorms> of(const std::vector<Maps>& corners,
                                             const std::vector<std::uint8_t>& sequence,
@@ -55,17 +55,17 @@ class ContractingNorms {
     return norms;
   }
 
-  /// At least V_j of every vector inside.
+  /// An upper bound of V_j over all enclosed vectors.
   Enclosure size(std::size_t sample, const Vector<Enclosure, Size>& vector) const {
     const Vector<Enclosure, Size> image = forms_[sample].template cast<Enclosure>() * vector;
     return sqrt(Enclosure(vector.dot(image).magnitude()));
   }
-  /// s_j.
+  /// The factor s_j of a sample.
   double factor(std::size_t sample) const { return factors_[sample]; }
-  /// At least s_{N−1} … s_0; below 1.
+  /// An upper bound of the product s_{N−1} … s_0; below 1.
   double contraction() const { return contraction_; }
 
-  /// At least |row · e| / V_j(e) of every e.
+  /// An upper bound of |row · e| / V_j(e) over all e.
   double reading(std::size_t sample, const RowVector<double, Size>& row) const {
     // κ² P − rowᵀ row ≥ 0, κ² = row P⁻¹ rowᵀ but for rounding; P ≥ I/2 is proved.
     const Form& form = forms_[sample];

@@ -9,24 +9,24 @@
 
 namespace holdfast::detail {
 
-/// Δz or Δż of z̃.
+/// The row that gives Δz or Δż of z̃.
 inline RowVector<double, 5> relative_row(bool of_velocity) {
   const Eigen::Index first = of_velocity ? 1 : 0;
   return RowVector<double, 5>::Unit(2 + first) - RowVector<double, 5>::Unit(first);
 }
 
-/// A row of numbers in doubles and how far, in length, the true row may be from it.
+/// A row of doubles with a bound for the length of its difference from the true row.
 struct RowWithError {
-  RowVector<double, 6> row = RowVector<double, 6>::Zero();  ///< the doubles
-  Enclosure error;                                          ///< at most
+  RowVector<double, 6> row = RowVector<double, 6>::Zero();  ///< the computed row
+  Enclosure error;                                          ///< bound of its error
 
-  /// The difference, with what its doubles are rounded by.
+  /// The difference of two rows, its rounding errors included.
   RowWithError operator-(const RowWithError& other) const {
     RowWithError difference{row - other.row, error + other.error};
     for (const double entry : difference.row) difference.error += Enclosure(rounding_of(entry));
     return difference;
   }
-  /// At least its length.
+  /// An upper bound of the row's length.
   Enclosure length() const {
     Enclosure sum;
     for (const double entry : row) sum += square(Enclosure(entry));
@@ -34,19 +34,19 @@ struct RowWithError {
   }
 };
 
-/// Deviations along an orbit that begin as the six unit vectors [z̃; gap] of a weighted norm: in
-/// doubles, with a bound of all that these are wrong by, carried in the norms in which the orbit's
+/// Deviations along an orbit that begin as the six unit vectors [z̃; gap] of a weighted norm:
+/// values in doubles with a bound of all their errors, propagated in the norms in which the orbit's
 /// maps contract.
 template <class Number>
 class EnclosedDeviations {
  public:
-  using Columns = Eigen::Matrix<double, 5, 6>;   ///< of z̃, six deviations
-  using Enclosed = Eigen::Matrix<Number, 5, 6>;  ///< the same
-  using Map = Matrix<Number, 5>;                 ///< of a sample
-  using Norms = ContractingNorms<5>;             ///< of the sequence
+  using Columns = Eigen::Matrix<double, 5, 6>;   ///< six deviations of z̃
+  using Enclosed = Eigen::Matrix<Number, 5, 6>;  ///< the six deviations, enclosed
+  using Map = Matrix<Number, 5>;                 ///< map of a sample
+  using Norms = ContractingNorms<5>;             ///< norms of the sequence
 
-  /// @param weights  of [z̃; gap], the last one 1
-  /// @param units    of z̃, powers of two
+  /// @param weights  weights of [z̃; gap], the last one 1
+  /// @param units    units of z̃, powers of two
   EnclosedDeviations(const Norms& norms, const Vector<double, 6>& weights,
                      const Vector<double, 5>& units)
       : norms_(norms) {
@@ -57,7 +57,7 @@ class EnclosedDeviations {
     gap_.row = RowVector<double, 6>::Unit(5);
   }
 
-  /// Δz (m) or Δż (units) at a sample.
+  /// The deviation of Δz (m) or Δż (units) at a sample.
   RowWithError relative(std::size_t sample, bool of_velocity) const {
     const Eigen::Index first = of_velocity ? 1 : 0;
     const Number error = error_ * Number(norms_.reading(sample, relative_row(of_velocity)));
@@ -66,7 +66,7 @@ class EnclosedDeviations {
   /// Deviation of the gap that the drive is in (m).
   const RowWithError& gap() const { return gap_; }
 
-  /// Takes a sample's decision and goes to the next one.
+  /// Applies the decision of a sample and moves on to the next one.
   void advance(std::size_t sample, std::size_t next, const ContactDecision& decision,
                const Map& map) {
     if (decision.engaged) gap_ = {};
@@ -74,7 +74,7 @@ class EnclosedDeviations {
     take(next, map * columns_.template cast<Number>(), Number(norms_.factor(sample)) * error_);
   }
 
-  /// Whether it is proved that all are shorter than they began, at the first sample.
+  /// Whether all deviations are proved to be shorter, at the first sample, than at the beginning.
   bool have_contracted(bool with_gap) const {
     Number sum, error;
     for (Eigen::Index i = 0; i < 5; ++i) {
@@ -89,7 +89,7 @@ class EnclosedDeviations {
   }
 
  private:
-  /// Keeps the middles and adds to the error √(Σ V_j²) of what the columns may differ from them.
+  /// Keeps the midpoints and adds √(Σ V_j²) of the columns' deviations from them to the error.
   void take(std::size_t sample, const Enclosed& exact, const Number& carried) {
     columns_ = exact.template cast<double>();
     const Enclosed wrong = exact - columns_.template cast<Number>();

@@ -21,7 +21,7 @@
 
 namespace holdfast {
 
-/// Surfaces that decide a change of contact between the samples, or that there is none.
+/// The surfaces that decide whether the contact changes between the samples.
 enum class ContactSurface {
   reversal,             ///< Δż = 0 of an engaged drive (m/s)
   gap_lower,            ///< Δz at the lower end of the gap (m)
@@ -33,19 +33,19 @@ enum class ContactSurface {
 
 namespace detail {
 
-/// Where what stands in w, the state of a motion with all that moves it,
+/// The places of the entries of w, the state of a motion with all that drives it,
 ///
 ///     w = [z₁, ż₁, z₂, ż₂, u in force, u to come, g, F, F_s, 1, t],   ẇ = A w in each mode
 ///
-/// g is the Δz at which the drive last reversed, t the time since the sample; F + i F_s turns with
-/// the excitation, or stands while it is held.
+/// g is the Δz at the drive's last reversal, t the time since the sample; F + i F_s rotates with
+/// the excitation, or is constant while the excitation is held.
 struct FlowPlace {
   static constexpr Eigen::Index command = 4, pending = 5, gap = 6, force = 7, quadrature = 8,
                                 one = 9, time = 10;
   static constexpr int size = 11;
 };
 
-/// A functional of w and what belongs to its Taylor series.
+/// A functional of w, as a row.
 /// @tparam Number  Enclosure
 template <class Number>
 using FlowRow = RowVector<Number, FlowPlace::size>;
@@ -53,24 +53,24 @@ using FlowRow = RowVector<Number, FlowPlace::size>;
 /// A guard of a mode: positive while the contact stays as it is.
 template <class Number>
 struct EnclosedGuard {
-  ContactSurface surface;              ///< at which it is zero
+  ContactSurface surface;              ///< surface on which the guard is zero
   std::vector<FlowRow<Number>> terms;  ///< h Aᵏ/k!, k = 0 … EnclosedModes::terms; in SI units
 };
 
 /// The three modes of a drive with exact play (contact/contact.hpp) as linear systems ẇ = A w in
-/// enclosures, with their guards. z, u are counted in plant_scaling() units.
+/// enclosures, with their guards; z and u in plant_scaling() units.
 template <class Number>
 class EnclosedModes {
  public:
-  using Rate = Matrix<Number, FlowPlace::size>;       ///< A
+  using Rate = Matrix<Number, FlowPlace::size>;       ///< matrix A
   using State = Vector<Number, FlowPlace::size>;      ///< w
   using Row = FlowRow<Number>;                        ///< a functional of w
-  using Guards = std::vector<EnclosedGuard<Number>>;  ///< of a mode
+  using Guards = std::vector<EnclosedGuard<Number>>;  ///< guards of a mode
 
-  /// Most terms of the Taylor series of e^{As}, ‖A‖ s ≤ 3: what is left is below
-  /// e³ 3³⁴/34! = 10⁻²¹.
+  /// Most terms of the Taylor series of e^{As}, ‖A‖ s ≤ 3; the remainder is below e³ 3³⁴/34! =
+  /// 10⁻²¹.
   static constexpr int terms = 34;
-  /// At least e³.
+  /// An upper bound of e³.
   static constexpr double most_growth = 20.1;
 
   /// @param ratio  f τ = p/q
@@ -108,15 +108,15 @@ class EnclosedModes {
     make_steps();
   }
 
-  /// A of a mode.
+  /// The matrix A of a mode.
   const Rate& rate(ContactMode mode) const { return rates_[at(mode)].matrix; }
-  /// A w of each column.
+  /// The product A w for each column.
   template <int Columns>
   Matrix<Number, FlowPlace::size, Columns> moved(
       ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states) const {
     return product<Columns>(rates_[at(mode)], states);
   }
-  /// e^{As} w of each column, for all s inside.
+  /// The product e^{As} w for each column and all s of the enclosed length.
   /// @param length  |s| ≤ longest()
   template <int Columns>
   Matrix<Number, FlowPlace::size, Columns> flowed(
@@ -127,7 +127,7 @@ class EnclosedModes {
                               length - Number(middle));
   }
 
-  /// How many terms a series over a length (s) needs, so that the rest is below rounding.
+  /// How many terms a series over a length (s) needs for its remainder to be below rounding.
   int terms_for(double length) const {
     int count = 1;
     for (double rest = most_growth; rest > 1e-22 && count < terms; ++count)
@@ -136,43 +136,43 @@ class EnclosedModes {
   }
   /// 3/‖A‖, the longest length (s) of one Taylor series.
   double longest() const { return longest_; }
-  /// δ and τ − δ (s), the two parts of the period.
+  /// The two parts δ and τ − δ (s) of a sampling period.
   const Number& part(std::size_t number) const { return parts_[number]; }
-  /// How many equal pieces a part is passed in, where nothing happens; 0: the part has no length.
+  /// Number of equal pieces of a part when no contact changes in it; 0: the part is empty.
   int pieces(std::size_t part) const { return pieces_[part]; }
-  /// e^{As} w of each column, over one of these pieces.
+  /// The product e^{As} w for each column over one such piece.
   template <int Columns>
   Matrix<Number, FlowPlace::size, Columns> over_piece(
       ContactMode mode, std::size_t part,
       const Matrix<Number, FlowPlace::size, Columns>& states) const {
     return product<Columns>(steps_[part][at(mode)], states);
   }
-  /// Its length (s).
+  /// The length of such a piece (s).
   Number piece(std::size_t part) const { return parts_[part] / Number(double(pieces_[part])); }
 
-  /// Guards of a mode after a sign σ of Δż: of the gap its upper end, then its lower end; of stick
-  /// σ a(0), then −σ a(u).
+  /// The guards of a mode for a sign σ of Δż: in the gap its upper end, then its lower end; in
+  /// stick σ a(0), then −σ a(u).
   const Guards& guards(ContactMode mode, double sign) const {
     return guards_[at(mode)][sign > 0.0 ? 1 : 0];
   }
-  /// Δz (m).
+  /// The functional Δz (m).
   Row displacement() const { return units_[2] * unit(2) - units_[0] * unit(0); }
-  /// Δż (m/s).
+  /// The functional Δż (m/s).
   Row velocity() const { return units_[3] * unit(3) - units_[1] * unit(1); }
-  /// a(0) (m/s²).
+  /// The functional a(0) (m/s²).
   Row free_acceleration() const { return velocity() * rate(ContactMode::gap); }
-  /// (m₁ ż₁ + m₂ ż₂)/(m₁ + m₂), in the unit of ż.
+  /// The functional (m₁ ż₁ + m₂ ż₂)/(m₁ + m₂), in the unit of ż.
   const Row& common_velocity() const { return common_velocity_; }
-  /// P z₁ + D ż₁, in the unit of u.
+  /// The functional P z₁ + D ż₁, in the unit of u.
   const Row& command() const { return command_; }
-  /// F and F_s (N) at a sample; with the hold they stand.
+  /// The forces F and F_s (N) at a sample, constant over it where the excitation is held.
   const std::pair<Number, Number>& force(std::size_t sample) const {
     return forces_[sample % forces_.size()];
   }
   /// Units of [z₁, ż₁, z₂, ż₂, u].
   const Vector<double, 5>& units() const { return in_doubles_; }
 
-  /// The coordinate itself.
+  /// The functional that selects one coordinate.
   static Row unit(Eigen::Index coordinate) {
     Row row = Row::Zero();
     row[coordinate] = Number(1.0);
@@ -180,7 +180,7 @@ class EnclosedModes {
   }
 
  private:
-  /// A matrix with the places of its entries that are not zero.
+  /// A matrix with the positions of its nonzero entries.
   struct Sparse {
     Rate matrix = Rate::Zero();
     std::vector<std::pair<Eigen::Index, Eigen::Index>> entries = {};
@@ -202,7 +202,7 @@ class EnclosedModes {
 
   static std::size_t at(ContactMode mode) { return static_cast<std::size_t>(mode); }
 
-  /// The series itself, which makes more of the width of a length.
+  /// The sum of the Taylor series over the whole length, which widens with that length's width.
   template <int Columns>
   Matrix<Number, FlowPlace::size, Columns> by_series(
       ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states,

@@ -28,26 +28,26 @@
 namespace holdfast {
 
 /// A theorem on a periodic motion of the sampled loop whose drive switches between the samples,
-/// where the outcome is `proved`: there is exactly one periodic motion of the given period that
-/// begins in the ball with the drive in the contact of the first state; it lies within the errors
-/// of the given states; all its multipliers are within the bound; and every motion that begins so
-/// meets the same changes of contact in the same sampling periods for ever and tends to it. Of an
-/// orbit that stays inside its gap all this is said of the gap that it is in.
+/// where the outcome is `proved`. There is exactly one periodic motion of the given period that
+/// begins in the ball in the contact of the first state. It lies within the errors of the given
+/// states, all its multipliers are within the bound, and every motion that begins so has the same
+/// changes of contact in the same sampling periods for ever and tends to it. For an orbit that
+/// stays inside its gap this holds for that gap.
 struct EventOrbitProof {
-  OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< how far it came
-  double multiplier_bound = std::numeric_limits<double>::infinity();  ///< ≥ |λ| of all, < 1
+  OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< result of the proof
+  double multiplier_bound = std::numeric_limits<double>::infinity();  ///< bound of all |λ|, < 1
   double displacement_error =
       std::numeric_limits<double>::infinity();                      ///< of the states (m), at most
-  double velocity_error = std::numeric_limits<double>::infinity();  ///< (m/s), at most
-  double miss = 0.0;  ///< of each state by the image of the one before, as a share, at most
-  double instant_error = 0.0;  ///< of the recorded instants of change (s), at most
-  /// The inequality that is decided by the least, as a multiple of its error; of `near_surface` the
-  /// one that was not decided.
+  double velocity_error = std::numeric_limits<double>::infinity();  ///< bound (m/s)
+  double miss = 0.0;           ///< largest share by which the image of a state misses the next
+  double instant_error = 0.0;  ///< bound of the error of the recorded instants of change (s)
+  /// The inequality with the least ratio of value to error; for `near_surface` the undecided
+  /// one.
   ContactTest nearest;
-  /// Radius of the ball about the first of the given states (m), measured as AttractionBall says
-  /// with the same weights; of states that the contact allows there: without a gap while engaged,
-  /// of one Δz and no Δż in stick, without u_{j−1} where δ = 0, and of an orbit that stays inside
-  /// its gap in the gap that it is in. ∞ without backlash.
+  /// Radius of the ball about the first given state (m), in the norm and weights of AttractionBall.
+  /// It consists of the states that the contact allows: without a gap while engaged, with fixed Δz
+  /// and Δż = 0 in stick, without u_{j−1} where δ = 0, and with the orbit's own gap where the orbit
+  /// stays inside. ∞ without backlash.
   double radius = 0.0;
 };
 
@@ -56,23 +56,23 @@ namespace detail {
 /// The proof of one orbit that switches between the samples, step by step. States are counted in
 /// plant_scaling() units.
 ///
-/// At every sample lies an ellipsoid {x̂_j + X_j y, |y| ≤ r_j} about the proposal. All motions in it
-/// are followed to the next sample (EventPassage); D_j, the derivative on the whole ellipsoid, and
-/// what the centre misses the next proposal by, μ_j, make
+/// Each sample has an ellipsoid {x̂_j + X_j y, |y| ≤ r_j} about the proposal. All motions in it are
+/// followed to the next sample (EventPassage). D_j, the derivative on the whole ellipsoid, and μ_j,
+/// the difference of the centre's image from the next proposal, give
 ///
 ///     r_{j+1} = ‖X_{j+1}⁻¹ D_j X_j‖ r_j + |X_{j+1}⁻¹ μ_j|,
 ///
-/// and where r_N ≤ r_0 and the product of the norms is below 1 the period maps the first ellipsoid
-/// into itself and contracts there.
+/// The period maps the first ellipsoid into itself and contracts there if r_N ≤ r_0 and the product
+/// of the norms is below 1.
 template <class Number>
 class EventOrbitProver {
  public:
   EventOrbitProver(const EnclosedModes<Number>& modes, const RecordedContacts& path, double delay)
       : modes_(modes), path_(path), delay_(delay), nodes_(path.samples.size()) {}
 
-  /// @param log_modulus   ln of the largest multiplier, as it is thought to be
-  /// @param largest_miss  of a sample by the image of the one before, as a share of the states'
-  /// extent
+  /// @param log_modulus   ln of the largest multiplier, an estimate
+  /// @param largest_miss  most by which the image of a sample may miss the next one, as a share of
+  ///                      the states' extent
   EventOrbitProof prove(double log_modulus, double largest_miss) {
     proof_.outcome = OrbitProofOutcome::other_contacts;
     if (!path_.repeats || !path_.is_plain) return proof_;
@@ -105,8 +105,8 @@ class EventOrbitProver {
     return proof_;
   }
 
-  /// Proves the motion and its ball, as large as can be proved.
-  /// @param weights  deviation_weights(), of which the last one is 1
+  /// Proves the motion and the largest provable ball of attraction.
+  /// @param weights  deviation_weights(); the last one is 1
   EventOrbitProof prove_with_ball(double log_modulus, const Vector<double, 6>& weights,
                                   double largest_miss) {
     if (prove(log_modulus, largest_miss).outcome == OrbitProofOutcome::proved && !attract(weights))
@@ -120,13 +120,13 @@ class EventOrbitProver {
   using Six = Vector<Number, 6>;
   using Map = Matrix<Number, 6>;
 
-  /// The ellipsoid of a sample.
+  /// The ellipsoid at one sample.
   struct Node {
     Matrix<double, 6> axes = Matrix<double, 6>::Identity();     // X
     Matrix<double, 6> inverse = Matrix<double, 6>::Identity();  // next to X⁻¹
     Number inverse_error;  // |X⁻¹ w| ≤ |inverse w| times this
   };
-  /// How the first ellipsoid came back.
+  /// The result of following the first ellipsoid over one period.
   struct Turn {
     bool is_decided;     // every contact is
     double radius;       // r_N
@@ -137,7 +137,7 @@ class EventOrbitProver {
     return sample + 1 == nodes_.size() ? 0 : sample + 1;
   }
 
-  /// Notes why a passage was stopped. @return false
+  /// Records why a passage was stopped. @return false
   bool fails(const Passage& passage) {
     proof_.outcome = passage.is_undecided() ? OrbitProofOutcome::near_surface
                                             : OrbitProofOutcome::other_contacts;
@@ -145,7 +145,7 @@ class EventOrbitProver {
     return false;
   }
 
-  /// The derivatives from sample to sample at the proposal, in doubles.
+  /// Computes the derivatives from sample to sample at the proposal, in doubles.
   bool linearise(double largest_miss, std::vector<Matrix<double, 6>>& maps) {
     Passage passage(modes_, path_, delay_);
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
@@ -160,9 +160,9 @@ class EventOrbitProver {
     return true;
   }
 
-  /// X Xᵀ = P⁻¹ of forms P in which the maps contract. Those of Q = I are as long as what decays
-  /// slowly, and short along what is forgotten at once; from Q = P⁻¹ of these come rounder ones, of
-  /// which a ball fills more.
+  /// Computes axes X with X Xᵀ = P⁻¹ from forms P in which the maps contract. Forms with Q = I are
+  /// long in slowly decaying directions and short in quickly forgotten ones; a second pass with Q =
+  /// P⁻¹ makes rounder ellipsoids, which contain larger balls.
   bool make_axes(const std::vector<Matrix<double, 6>>& maps, double log_modulus) {
     if (!(log_modulus < 0.0)) return false;
     using Form = Matrix<double, 6>;
@@ -193,7 +193,7 @@ class EventOrbitProver {
     return true;
   }
 
-  /// The miss of the next sample's proposal by the centre.
+  /// The distance of the centre's image from the proposal of the next sample.
   Six missed(std::size_t sample, const Set& set) const {
     const Passage passage(modes_, path_, delay_);
     const Vector<double, 6> proposed = passage.proposed(after(sample));
@@ -203,7 +203,7 @@ class EventOrbitProver {
     return miss;
   }
 
-  /// Miss of displacements and velocities, as a share of the extent of the states.
+  /// The distance of displacements and velocities, as a share of the extent of the states.
   double share_of_extent(const Six& miss) const {
     StateScale extent;
     for (const RecordedSample& sample : path_.samples) extent.include(sample.state);
@@ -212,7 +212,7 @@ class EventOrbitProver {
     return extent.share_of(most);
   }
 
-  /// Once around from the first ellipsoid.
+  /// Follows the first ellipsoid over one period.
   template <class Look>
   Turn turn(double radius, Passage& passage, const Look& look) const {
     Number contraction(1.0);
@@ -235,7 +235,7 @@ class EventOrbitProver {
     return {true, radius, contraction.upper()};
   }
 
-  /// How far the motions of the set are from the state that is given for a sample.
+  /// Records the distances of the set's motions from the given state of a sample.
   void note_errors(std::size_t sample, const Set& set, const Passage& passage) {
     const Vector<double, 6> given = passage.proposed(sample);
     for (const Eigen::Index i : {0, 1, 2, 3}) {
@@ -245,7 +245,7 @@ class EventOrbitProver {
     }
   }
 
-  /// The largest first ellipsoid that is found to come back into itself, by the ball inside it.
+  /// Finds the largest first ellipsoid proved to return into itself, by the ball inside it.
   bool attract(const Vector<double, 6>& weights) {
     if (modes_.guards(ContactMode::engaged, 1.0).empty()) {
       proof_.radius = std::numeric_limits<double>::infinity();
@@ -269,8 +269,8 @@ class EventOrbitProver {
     return farthest_in_first(weights) < proof_.radius;
   }
 
-  /// The largest ball of the weighted norm in the first ellipsoid, of states that the contact
-  /// allows.
+  /// The radius of the largest ball of the weighted norm in the first ellipsoid, among the states
+  /// that the contact allows.
   double weighted(double radius, const Vector<double, 6>& weights) const {
     const Node& first = nodes_.front();
     const Passage passage(modes_, path_, delay_);
@@ -282,7 +282,7 @@ class EventOrbitProver {
     return (Number(radius) / longest).lower();
   }
 
-  /// At least how far the motion's first state may be from the given one, in the weighted norm.
+  /// An upper bound of the weighted distance of the motion's first state from the given one.
   double farthest_in_first(const Vector<double, 6>& weights) const {
     Map lengths = nodes_.front().axes.template cast<Number>();
     for (Eigen::Index i = 0; i < 6; ++i) lengths.row(i) *= weight(i, weights);
@@ -305,8 +305,8 @@ class EventOrbitProver {
 
 }  // namespace detail
 
-/// Proves a certified orbit of a loop whose drive switches between the samples by interval
-/// arithmetic, for the decimals to which the loop's numbers are nearest, f τ being exactly p/q.
+/// Proves a certified orbit whose drive switches between the samples, by interval arithmetic. The
+/// loop's numbers are the decimals nearest to the given doubles, and f τ is exactly p/q.
 ///
 ///     const auto found = find_event_orbit(event_motion(implemented, state));
 ///     const EventOrbitProof proof = prove_event_orbit(loop, *found.orbit, *found.point);
@@ -315,13 +315,13 @@ class EventOrbitProver {
 /// The drive's law is exact play (contact/contact.hpp). Every instant of change is enclosed and
 /// shown to be the only one of its guard; every other guard is shown to be positive in between, by
 /// Taylor series with enclosed coefficients.
-/// @param loop          of doubles
-/// @param orbit         its period and multipliers are taken for a proposal
-/// @param first         where it begins, in phase with the forcing
-/// @param largest_miss  of each state by the image of the one before, as a share of their extent:
-///                      above, the proposal is refused
+/// @param loop          the loop, its numbers in doubles
+/// @param orbit         the proposal: its period and multipliers are used
+/// @param first         state at which the orbit begins, in phase with the forcing
+/// @param largest_miss  most by which the image of a state may miss the next one, as a share of
+///                      their extent; with more the proposal is refused
 /// @throws InvalidParameter where the loop is not admissible, or the orbit not one of its samples
-/// Work: some 0.1 ms a sample and 1 ms a change of contact, some twenty times.
+/// Work: some 0.1 ms per sample and 1 ms per change of contact, some twenty times over.
 template <class Scalar>
 EventOrbitProof prove_event_orbit(const IdealLoop<Scalar>& loop, const EventOrbit& orbit,
                                   const StroboscopicState<DriveContact<>>& first,

@@ -17,29 +17,29 @@
 
 namespace holdfast {
 
-/// One strict inequality on which the contact rests between the samples: the value of a guard, or
-/// of the first of its derivatives that is not zero by itself, where it is least.
+/// One strict inequality that the contact between the samples rests on: the least value of a guard,
+/// or of its first derivative that does not vanish identically.
 struct ContactTest {
-  ContactSurface surface = ContactSurface::reversal;  ///< what it is about
-  int order = 0;             ///< of the derivative by time: 0 the guard itself, 1 its rate, …
+  ContactSurface surface = ContactSurface::reversal;  ///< surface of the guard
+  int order = 0;             ///< order of the time derivative: 0 the guard itself, 1 its rate, …
   std::int64_t sample = -1;  ///< j, from the orbit's first sample; −1: there is none
   double instant = 0.0;      ///< after that sample (s)
-  double distance = std::numeric_limits<double>::infinity();  ///< SI; > 0 as it should be
-  double error = 0.0;                                         ///< of it, at most
+  double distance = std::numeric_limits<double>::infinity();  ///< SI; positive in a proof
+  double error = 0.0;                                         ///< bound of the value's error
 
-  /// The distance as a multiple of the error; a proof has it above 1.
+  /// The ratio of value to error; above 1 in a proof.
   double decided_by() const { return distance / error; }
 };
 
 namespace detail {
 
-/// Follows all motions of a set to the next sample, each through the same changes of contact, and
-/// proves that they meet no others.
+/// The passage of a set of motions to the next sample: follows all of them through the same changes
+/// of contact and proves that no other change occurs.
 ///
-/// Just after a change the end of the gap is as near as the motion has turned away from it. The
-/// ball at the next sample reaches beyond it, the set in which the motions are does not. So the set
-/// of the sample before, the witness, is kept for the guards as long as it is wanted; a motion is
-/// in both sets.
+/// Just after a change the end of the gap is as near as the motion has moved away from it. The ball
+/// at the next sample extends beyond that end, although no motion does. Therefore the set of the
+/// previous sample, the witness, is kept for the guards as long as needed; each motion is in both
+/// sets.
 template <class Number>
 class EventPassage {
  public:
@@ -53,14 +53,14 @@ class EventPassage {
   EventPassage(const Modes& modes, const RecordedContacts& path, double delay)
       : modes_(modes), path_(path), delay_(delay), moves_gap_(path.switches()) {}
 
-  /// Proposed state at the beginning of a sample, in the units.
+  /// The proposed state at the beginning of a sample, in the units.
   Vector<double, 6> proposed(std::size_t sample) const {
     Vector<double, 6> state = path_.samples[sample].state;
     for (Eigen::Index i = 0; i < 5; ++i) state[i] /= modes_.units()[i];
     if (!is_late()) state[4] = 0.0;
     return state;
   }
-  /// The ball {proposed + axes · y, |y| ≤ radius} at a sample, as far as its contact allows.
+  /// The ball {proposed + axes · y, |y| ≤ radius} at a sample, cut to what its contact allows.
   Set ball(std::size_t sample, const Matrix<double, 6>& axes, double radius) const {
     Set set;
     set.radius = radius;
@@ -72,11 +72,11 @@ class EventPassage {
     prepare(path_.samples[sample].before.mode, set);
     return set;
   }
-  /// Place in w of a coordinate of [z₁, ż₁, z₂, ż₂, u_{j−1}, g].
+  /// The place in w of a coordinate of [z₁, ż₁, z₂, ż₂, u_{j−1}, g].
   static Eigen::Index place(Eigen::Index coordinate) {
     return coordinate == 5 ? FlowPlace::gap : coordinate;
   }
-  /// The derivative of the six by y.
+  /// The derivative of the six coordinates [z₁, ż₁, z₂, ż₂, u_{j−1}, g] with respect to y.
   static Deviations deviations(const Set& set) {
     Deviations all;
     for (Eigen::Index i = 0; i < 6; ++i) all.row(i) = set.spread.row(place(i));
@@ -84,7 +84,7 @@ class EventPassage {
   }
 
   /// Moves a set from a sample to the next one.
-  /// @return false where an inequality was not proved; `nearest()` is it then
+  /// @return false where an inequality was not proved; `nearest()` is that inequality
   bool pass(std::size_t sample, Set& set) {
     sample_ = sample;
     const RecordedSample& here = path_.samples[sample];
@@ -110,12 +110,12 @@ class EventPassage {
     return next == here.switches.size();
   }
 
-  /// The least decided of all inequalities so far, or the one that was not decided.
+  /// The inequality with the least ratio of value to error so far, or the undecided one.
   const ContactTest& nearest() const { return nearest_; }
-  /// Whether `nearest()` is one that was not decided; else a set is stopped by contacts that the
-  /// law does not have.
+  /// Whether `nearest()` is undecided; otherwise a set was stopped by a sequence of contacts that
+  /// the law excludes.
   bool is_undecided() const { return is_undecided_; }
-  /// At least how far any instant of change is from the recorded one (s).
+  /// An upper bound of the distance of any instant of change from the recorded one (s).
   double instant_error() const { return instant_error_; }
 
  private:
@@ -124,7 +124,7 @@ class EventPassage {
 
   bool is_late() const { return delay_ > 0.0; }
   const typename Modes::Guards& guards() const { return modes_.guards(mode_, sign_); }
-  /// The guard that begins with zeros just after a change: that of the end of the gap at which the
+  /// The guard that starts from zero just after a change: that of the end of the gap at which the
   /// drive reversed.
   std::size_t own_guard() const { return mode_ == ContactMode::gap && !(sign_ > 0.0) ? 1 : 0; }
   int zeros_of(std::size_t guard) const { return guard == own_guard() ? zeros_ : 0; }
@@ -136,7 +136,7 @@ class EventPassage {
     witness_.reset();
   }
 
-  /// Imposes what a contact keeps exactly: Δż = 0 and Δz = g in stick, no g while engaged.
+  /// Imposes the exact constraints of a contact: Δż = 0 and Δz = g in stick, no g while engaged.
   void constrain(ContactMode mode, Set& set) const {
     if (mode == ContactMode::stick) {
       set.assign(3, Modes::unit(1));
@@ -145,15 +145,15 @@ class EventPassage {
     if (mode == ContactMode::engaged) set.assign(FlowPlace::gap, Number());
   }
 
-  /// At a sample also: u_{j−1} is forgotten where u_j is in force at once, and a gap that is never
-  /// left is given.
+  /// Imposes the further constraints at a sample: u_{j−1} is dropped where u_j is in force at once,
+  /// and a gap that is never left is fixed.
   void prepare(ContactMode mode, Set& set) const {
     constrain(mode, set);
     if (!moves_gap_) set.spread.row(FlowPlace::gap).setZero();
     if (!is_late()) set.assign(FlowPlace::command, Number());
   }
 
-  /// At a sample: the command that is to come, and what moves with the time since it.
+  /// Computes, at a sample, the command to come and the entries that change with the time since it.
   void take_command(Set& set) const {
     set.assign(FlowPlace::pending, modes_.command());
     if (!is_late()) set.assign(FlowPlace::command, Modes::unit(FlowPlace::pending));
@@ -169,7 +169,7 @@ class EventPassage {
     if (witness_) prepare(mode_, *witness_);
   }
 
-  /// The command or the force has jumped; only stick may end by that.
+  /// Applies a jump of the command or the force; only stick may end by it.
   bool jump(const RecordedContact& to, Set& set) {
     if (to.mode == mode_) return true;
     if (mode_ != ContactMode::stick || to.sign != sign_) return false;
@@ -199,7 +199,7 @@ class EventPassage {
     return changed ? pass_to_clock(end, set) : pass_whole(part, set);
   }
 
-  /// A part in which nothing happens.
+  /// Moves the set over a part of the period without change of contact.
   bool pass_whole(std::size_t part, Set& set) {
     const Number length = modes_.piece(part);
     for (int count = 0; count < modes_.pieces(part); ++count) {
@@ -214,7 +214,7 @@ class EventPassage {
     return true;
   }
 
-  /// A length of time that is the same for all motions of the set.
+  /// Moves the set over a length of time that is the same for all its motions.
   bool pass_piece(const Number& length, Set& set) {
     if (!stays_positive(set, length.upper(), guards().size())) return false;
     flow(length, set);
@@ -283,9 +283,9 @@ class EventPassage {
     if (set.is_apart) set.at_once = modes_.flowed(mode_, set.at_once, length);
   }
 
-  /// To a surface h w = 0 that all motions meet within a length, that of the centre within another
-  /// one. With D as it was and f⁻ = A⁻w there, the derivative by y of where they meet it is
-  /// (I − f⁻ h/(h f⁻)) e^{A⁻s} D.
+  /// Moves the set to a surface h w = 0 that all motions meet within a length, the centre within
+  /// another one. With D as before and f⁻ = A⁻w there, the derivative with respect to y of the
+  /// points of meeting is (I − f⁻ h/(h f⁻)) e^{A⁻s} D.
   void meet(const Row& surface, const Number& centre_length, const Number& length,
             ContactMode after, Set& set) {
     Set there = set;
@@ -307,9 +307,9 @@ class EventPassage {
     set.is_apart = true;
   }
 
-  /// S = R + (f⁺ − R f⁻) h/(h f⁻) of all motions that meet a surface, R being what becomes of g.
-  /// Where stick begins the momentum stays and Δż goes, whatever the accelerations; where it ends
-  /// at a surface the rates agree.
+  /// The saltation S = R + (f⁺ − R f⁻) h/(h f⁻) for all motions that meet a surface, R being the
+  /// change of g. Where stick begins, momentum is conserved and Δż vanishes for all accelerations;
+  /// where stick ends at a surface, the rates agree.
   typename Modes::Rate saltation(const Row& surface, ContactMode after, const Set& there) const {
     using Rate = typename Modes::Rate;
     Rate result = Rate::Identity();
@@ -326,14 +326,14 @@ class EventPassage {
     return result;
   }
 
-  /// The derivative at one instant, carried back by the flow to the instant of the centre: of
-  /// motions that change their contact δ later, |δ| ≤ apart,
+  /// The derivative at one instant, transported by the flow back to the instant of the centre, for
+  /// motions that change their contact δ later, |δ| ≤ apart:
   ///
   ///     e^{−A⁺δ} S e^{A⁻δ} = S + δ (S A⁻ − A⁺S)
   ///                          + δ²/2 e^{−A⁺δ'} (A⁺²S − 2 A⁺S A⁻ + S A⁻²) e^{A⁻δ'},
   ///
-  /// in which most of S A⁻ and A⁺S is the same and falls out.
-  /// @param together  the derivative at the instant of the centre, before
+  /// The common part of S A⁻ and A⁺S cancels.
+  /// @param together  derivative at the instant of the centre, before the change
   typename Set::Spread carried_across(const typename Modes::Rate& saltation, ContactMode after,
                                       const typename Set::Spread& together, double apart) const {
     using Spread = typename Set::Spread;
@@ -351,8 +351,8 @@ class EventPassage {
            modes_.flowed(after, second, later) * (square(later) * Number(0.5));
   }
 
-  /// A guard has come to zero: what holds on the surface, and which derivatives of the next guard
-  /// are zero there.
+  /// Changes the contact at the zero of a guard: imposes the constraints on the surface and
+  /// determines which derivatives of the next guard vanish there.
   void change(const RecordedContact& to, std::size_t guard, Set& set) {
     const ContactMode left = mode_;
     if (left != ContactMode::gap) set.assign_where_met(3, Modes::unit(1));
@@ -367,8 +367,8 @@ class EventPassage {
     begin(to, zeros);
   }
 
-  /// Whether the law lets a guard's zero lead to a contact; which of them it is, is decided by the
-  /// guards of that contact.
+  /// Whether the law allows a zero of a guard to lead to a given contact; the guards of that
+  /// contact decide between the possible ones.
   bool may_change(std::size_t guard, const RecordedContact& to) const {
     if (guard >= guards().size()) return false;
     switch (mode_) {
@@ -383,7 +383,7 @@ class EventPassage {
     return false;
   }
 
-  /// Whether no guard but one comes to zero within a length.
+  /// Whether all guards but one are positive over a length.
   bool stays_positive(const Set& set, double end, std::size_t but) {
     for (std::size_t g = 0; g < guards().size(); ++g) {
       if (g == but) continue;
@@ -404,7 +404,7 @@ class EventPassage {
     return true;
   }
 
-  /// Where a guard is least without coming to zero: where it turns, and in stick where it begins.
+  /// Records local minima of a positive guard: at turning points, and in stick at its beginning.
   void note_minima(std::size_t guard, const Series& series, double from, double end, double now) {
     const ContactSurface surface = guards()[guard].surface;
     const auto slope = [&](double s) { return series.slope(Number(s)).middle(); };
@@ -424,12 +424,12 @@ class EventPassage {
   }
 
   std::int64_t number_of_sample() const { return static_cast<std::int64_t>(sample_); }
-  /// Since the sample (s).
+  /// The time since the sample (s).
   static double now(const Set& set) { return set.centre[FlowPlace::time].middle(); }
   ContactTest about(ContactSurface surface, int order, double instant) const {
     return {surface, order, number_of_sample(), instant};
   }
-  /// Keeps the least decided one.
+  /// Keeps an inequality if its ratio of value to error is the least so far.
   void note(ContactTest about, const Number& value) {
     about.distance = value.middle();
     about.error = value.radius();

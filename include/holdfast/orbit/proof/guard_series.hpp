@@ -13,17 +13,17 @@
 
 namespace holdfast::detail {
 
-/// A guard of all motions of a set, a time s after they met a surface,
+/// The Taylor series of a guard for all motions of a set, a time s after they met a surface,
 ///
 ///     g(s) = Σ_{k<m} c_k sᵏ + c_m sᵐ,   c_k = h Aᵏ w/k!,
 ///
-/// c_m enclosing what is left of Taylor's series.
+/// where c_m encloses the remainder.
 template <class Number>
 class GuardSeries {
  public:
-  /// @param guard  of the mode in which the set moves
-  /// @param set    where the motions are
-  /// @param terms  m, EnclosedModes::terms_for() of the length that is looked at
+  /// @param guard  guard of the mode in which the set moves
+  /// @param set    set of the motions' states
+  /// @param terms  number m, EnclosedModes::terms_for() of the length considered
   GuardSeries(const EnclosedGuard<Number>& guard, const SetOfStates<Number>& set, int terms) {
     double size = 0.0;
     for (Eigen::Index i = 0; i < FlowPlace::size; ++i)
@@ -37,16 +37,16 @@ class GuardSeries {
     coefficients_.push_back({-most, most});
   }
 
-  /// k! c_k, the k-th derivative at s = 0.
+  /// The k-th derivative k! c_k at s = 0.
   Number derivative(int order) const {
     Number value = coefficients_[static_cast<std::size_t>(order)];
     for (int k = 2; k <= order; ++k) value *= Number(double(k));
     return value;
   }
-  /// g of all s inside.
+  /// The values of g for all enclosed s.
   Number value(const Number& s) const { return value_without(0, s); }
-  /// ġ of all s inside; the rest's formal derivative encloses that of g's rest, h A^m w
-  /// s^{m−1}/(m−1)!.
+  /// The values of ġ for all enclosed s; the formal derivative of the remainder encloses that of
+  /// g's remainder, h A^m w s^{m−1}/(m−1)!.
   Number slope(const Number& s) const {
     Number sum;
     for (std::size_t k = coefficients_.size(); k-- > 1;)
@@ -54,13 +54,13 @@ class GuardSeries {
     return sum;
   }
 
-  /// Whether g > 0 for 0 < s ≤ end, and at s = 0 too unless g begins with zeros.
-  /// @param zeros  how many of g, ġ, g̈, … are zero at s = 0, exactly
+  /// Whether g > 0 for 0 < s ≤ end; at s = 0 too unless g vanishes there identically.
+  /// @param zeros  how many of g, ġ, g̈, … vanish exactly at s = 0
   bool is_positive(double end, int zeros) const { return is_positive_on(0.0, end, zeros, 0); }
 
-  /// An interval in which g of every motion has its only zero between its ends, falling through it.
-  /// @param near  a guess (s)
-  /// @return nothing where it was not proved
+  /// An interval in whose interior g of every motion has its only zero, with falling sign.
+  /// @param near  estimate of the zero (s)
+  /// @return nothing where this was not proved
   std::optional<Number> falls_through_zero(double near) const {
     for (int step = 0; step < 8; ++step)
       near -= value(Number(near)).middle() / slope(Number(near)).middle();
@@ -80,7 +80,7 @@ class GuardSeries {
  private:
   static constexpr int least_terms = 6;  // the first derivative that is not zero is one of them
 
-  /// g(s)/s^zeros.
+  /// The quotient g(s)/s^zeros.
   Number value_without(int zeros, const Number& s) const {
     Number sum;
     for (std::size_t k = coefficients_.size(); k-- > static_cast<std::size_t>(zeros);)

@@ -21,46 +21,46 @@ namespace holdfast {
 
 /// Outcome of the proof of an orbit.
 enum class OrbitProofOutcome {
-  proved,           ///< all that is said of it is a theorem
+  proved,           ///< all statements of the proof are theorems
   not_contracting,  ///< no norms were found in which its maps contract: a multiplier may be ≥ 1
-  other_contacts,   ///< the given states decide their contacts otherwise
-  not_closed,       ///< the given states miss each other by more than rounding
+  other_contacts,   ///< the given states lead to other contacts than stated
+  not_closed,       ///< the image of a given state misses the next one by more than rounding
   near_surface,     ///< at one sample the contact could not be decided
-  no_ball,          ///< all but a neighbourhood that it attracts
+  no_ball,          ///< all is proved but a ball of attraction
 };
 
-/// Numbers between two ends, which are not among them.
+/// An open interval.
 struct OpenRange {
   double from = 0.0;                                    ///< lower end
   double to = std::numeric_limits<double>::infinity();  ///< upper end
 };
 
-/// A theorem on a periodic motion of the sampled loop, where the outcome is `proved`: the loop has
-/// exactly one periodic motion with the orbit's contacts; it lies within the errors of the given
-/// states; all its multipliers are within the bound; and every motion that begins in the ball
-/// keeps its contacts for ever and tends to it.
+/// A theorem on a periodic motion of the sampled loop, where the outcome is `proved`. The loop has
+/// exactly one periodic motion with the orbit's contacts. It lies within the errors of the given
+/// states, and all its multipliers are within the bound. Every motion that begins in the ball keeps
+/// its contacts for ever and tends to it.
 struct OrbitProof {
-  OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< how far it came
-  double multiplier_bound = std::numeric_limits<double>::infinity();  ///< ≥ |λ| of all, < 1
+  OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< result of the proof
+  double multiplier_bound = std::numeric_limits<double>::infinity();  ///< bound of all |λ|, < 1
   double displacement_error =
       std::numeric_limits<double>::infinity();                      ///< of the states (m), at most
-  double velocity_error = std::numeric_limits<double>::infinity();  ///< (m/s), at most
-  /// The contact that is decided by the least, as a multiple of the error there: of a proof above
-  /// 1, of `near_surface` the one that was not decided.
+  double velocity_error = std::numeric_limits<double>::infinity();  ///< bound (m/s)
+  /// The contact with the least ratio of distance to error; above 1 in a proof, for `near_surface`
+  /// the undecided one.
   Border nearest;
-  double decided_by = std::numeric_limits<double>::infinity();  ///< that multiple
-  /// r₀ (m): for every one of them this same motion is the loop's, whatever the case's is; of an
+  double decided_by = std::numeric_limits<double>::infinity();  ///< that ratio
+  /// Range of r₀ (m) for which the loop has this same motion, whatever r₀ is in the case; for an
   /// orbit that stays inside, in some gap.
   OpenRange widths;
-  /// Radius of the ball of attraction about the first of the given states (m), measured as
-  /// AttractionBall says with the same weights; of an orbit that stays inside its gap in the gap
-  /// that it is in; ∞ without backlash.
+  /// Radius of the ball of attraction about the first given state (m), in the norm and weights
+  /// of AttractionBall; for an orbit that stays inside its gap, with that gap; ∞ without
+  /// backlash.
   double radius = 0.0;
 };
 
 namespace detail {
 
-/// Refuses a loop of which f τ is not quite the fraction p/q.
+/// Rejects a loop whose f τ differs from the fraction p/q by more than rounding.
 inline void validate_ratio(const IdealLoop<double>& loop, const Rational& ratio) {
   if (!(loop.excitation.amplitude > 0.0)) return;
   const Enclosure cycles = Enclosure::of_decimal(loop.excitation.frequency) *
@@ -71,7 +71,7 @@ inline void validate_ratio(const IdealLoop<double>& loop, const Rational& ratio)
                            "exactly p/q in the decimals of f and tau, for a proof");
 }
 
-/// Refuses an orbit that cannot be of a loop, and a loop of which f τ is not quite the fraction.
+/// Rejects an orbit of the wrong length, or a loop whose f τ differs from the fraction.
 inline void validate_proposal(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
   const std::int64_t samples = orbit.period_samples(), q = orbit.ratio.denominator;
   const bool is_whole = samples > 0 && q > 0 && samples % q == 0;
@@ -86,7 +86,7 @@ template <class Number>
 class OrbitProver {
  public:
   /// @param first, last  z̃_j proposed for the loops at the ends of the segment
-  /// @param orbit        of a loop between
+  /// @param orbit        orbit of a loop in between
   OrbitProver(const SegmentOfLoops<Number>& loops, const PeriodicOrbit& orbit,
               const std::vector<Vector<double, 5>>& first,
               const std::vector<Vector<double, 5>>& last)
@@ -100,7 +100,7 @@ class OrbitProver {
                          (last[j] - first[j]).cwiseProduct(per_unit)});
   }
 
-  /// Proves that every loop has the orbit, and how near it is to the proposal.
+  /// Proves that every loop has the orbit, and bounds its distance from the proposal.
   OrbitProof prove(double largest_miss) {
     proof_.outcome = OrbitProofOutcome::not_contracting;
     norms_ = ContractingNorms<5>::of(loops_.ends(), orbit_.itinerary,
@@ -116,8 +116,8 @@ class OrbitProver {
     return proof_;
   }
 
-  /// Proves the orbit of a single loop and the ball that it attracts.
-  /// @param weights  deviation_weights(), of which the last one is 1
+  /// Proves the orbit of a single loop and its ball of attraction.
+  /// @param weights  deviation_weights(); the last one is 1
   OrbitProof prove_with_ball(const Vector<double, 6>& weights, double largest_miss) {
     if (prove(largest_miss).outcome == OrbitProofOutcome::proved && !attract(weights))
       proof_.outcome = OrbitProofOutcome::no_ball;
@@ -134,8 +134,8 @@ class OrbitProver {
     return static_cast<std::size_t>((sample % count + count) % count);
   }
 
-  /// Miss between the proposal at the next sample and the image of the one at this sample, on the
-  /// whole segment: linear maps times linear states are quadratic in the position.
+  /// The difference of a state's image from the next proposal, on the whole segment: linear maps
+  /// times linear states are quadratic in the position.
   State missed_at(std::size_t sample) const {
     const auto& map = loops_.map(orbit_.itinerary[sample]);
     const auto addition = loops_.addition(sample);
@@ -152,9 +152,9 @@ class OrbitProver {
     return constant + linear * s + quadratic * square(s);
   }
 
-  /// Bounds the distance of the motion from the proposal, by the norms: what each sample misses the
-  /// next one by, carried on and once around.
-  /// @return the largest of what they miss, as a share of the states' extent
+  /// Bounds the distance of the motion from the proposal in the norms: the differences of images
+  /// and proposals are propagated along the period and once around.
+  /// @return the largest of these differences, as a share of the states' extent
   double enclose() {
     const StateScale extent(orbit_.states);
     double largest = 0.0;
@@ -186,14 +186,14 @@ class OrbitProver {
     }
     return largest;
   }
-  /// At least the moduli of its entries, in SI units.
+  /// Upper bounds of the moduli of the entries, in SI units.
   Vector<double, 5> as_doubles(const State& state) const {
     return state.unaryExpr([](const Number& entry) { return entry.magnitude(); })
         .cwiseProduct(loops_.units());
   }
   static void keep_most(double& most, double value) { most = std::max(most, value); }
 
-  /// Δz (m) or Δż (units) of the motion, without its error.
+  /// The difference Δz (m) or Δż (units) of the motion, without its error.
   AlongSegment<Number> relative(std::size_t sample, bool of_velocity) const {
     const Eigen::Index first = of_velocity ? 1 : 0;
     const auto& [centre, slope] = states_[sample];
@@ -205,7 +205,7 @@ class OrbitProver {
   }
   static Number around_zero(double error) { return {-error, error}; }
 
-  /// Value that a test requires to be positive (m, or units of velocity), with so much of r₀.
+  /// The value that a test requires to be positive (m, or units of velocity), for a width r₀.
   Number value_of(const SwitchingTest& test, const AlongSegment<Number>& width) const {
     const std::size_t here = wrapped(test.sample), entry = wrapped(test.entry);
     const Number sign(test.sign), widths(test.widths);
@@ -218,7 +218,7 @@ class OrbitProver {
            around_zero(errors_[entry].displacement);
   }
 
-  /// Keeps the least decided of the contacts.
+  /// Keeps a contact if its ratio of distance to error is the least so far.
   void note(const Number& value, SwitchingSurface surface, std::int64_t sample) {
     const double unit = surface == SwitchingSurface::reversal ? loops_.units()[1] : 1.0;
     const double decided_by = value.middle() / value.radius();
@@ -232,7 +232,7 @@ class OrbitProver {
     return std::all_of(contacts.begin(), contacts.end(), [](auto contact) { return contact != 0; });
   }
 
-  /// Whether every contact is the one of the pattern.
+  /// Whether every contact is proved to be that of the pattern.
   bool decide() {
     if (!loops_.has_backlash()) return is_engaged_throughout();
     if (pattern_.stays_inside()) return decide_inside();
@@ -250,7 +250,7 @@ class OrbitProver {
     return all;
   }
 
-  /// Whether the gap that the drive is in holds the orbit.
+  /// Whether the gap that the drive is in is proved to contain the orbit.
   bool decide_inside() {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, error = 0.0;
     std::size_t least = 0, most = 0;
@@ -273,8 +273,8 @@ class OrbitProver {
     return clearance_ > 0.0;
   }
 
-  /// The largest ball whose motions keep the contacts until they are nearer to the orbit than they
-  /// began; then for ever.
+  /// Finds the largest ball whose motions keep the contacts until they are nearer to the orbit than
+  /// at the beginning, and therefore for ever.
   bool attract(const Vector<double, 6>& weights) {
     constexpr std::int64_t most_samples = 1'000'000;
     proof_.radius = std::numeric_limits<double>::infinity();
@@ -292,7 +292,7 @@ class OrbitProver {
     return false;
   }
 
-  /// At least how far the motion's first state, and its gap, are from the given ones (m).
+  /// An upper bound of the distance of the motion's first state and gap from the given ones (m).
   Number distance_of_start(const Vector<double, 6>& weights) const {
     Number distance;
     for (Eigen::Index i = 0; i < 5; ++i)
@@ -311,7 +311,7 @@ class OrbitProver {
            Number(errors_[entry].displacement);
   }
 
-  /// Largest deviation at the beginning of one more period for which all its tests hold.
+  /// The largest deviation at the beginning of one more period for which all its tests are true.
   double limit_over_period(EnclosedDeviations<Number>& deviations) const {
     double limit = std::numeric_limits<double>::infinity();
     auto test = tests_.begin();
@@ -350,20 +350,20 @@ class OrbitProver {
 
 }  // namespace detail
 
-/// Proves a periodic motion of the sampled loop of the decimals that are given, or tells what could
-/// not be decided.
+/// Proves a periodic motion of the sampled loop for the given decimals, or reports what remained
+/// undecided.
 ///
-/// The maps of the samples and what the force adds are enclosed; norms along the sequence in which
-/// they contract are proved (ContractingNorms), so that the affine sequence has one periodic
-/// motion, and what the given states miss each other by bounds their distance from it. That every
-/// sample decides its contact as it does is then a strict inequality (SwitchingTest). Deviations
-/// are followed with all errors until they are shorter than they began, which makes the ball.
-/// @param loop           of doubles
-/// @param orbit          its states and contacts are taken for a proposal
-/// @param largest_miss   of each state by the image of the one before, as a share of their extent:
-///                       above, the proposal is refused
+/// The maps of the samples and the force's contributions are enclosed. Norms in which the maps
+/// contract along the sequence are proved (ContractingNorms), so that the affine sequence has one
+/// periodic motion, and the closure errors of the given states bound their distance from it. Each
+/// sample's contact is then a strict inequality (SwitchingTest). Deviations are followed with all
+/// errors until they are shorter than at the beginning, which gives the ball.
+/// @param loop           the loop, its numbers in doubles
+/// @param orbit          the proposal: its states and contacts are used
+/// @param largest_miss   most by which the image of a state may miss the next one, as a share of
+///                      their extent; with more the proposal is refused
 /// @throws InvalidParameter where the loop is not admissible, or the orbit not one of its samples
-/// Work: about 30 µs a sample, and 20 µs for every sample until deviations have become shorter.
+/// Work: about 30 µs per sample, and 20 µs per sample until the deviations have become shorter.
 template <class Scalar>
 OrbitProof prove_orbit(const IdealLoop<Scalar>& loop, const PeriodicOrbit& orbit,
                        double largest_miss = 1e-12) {

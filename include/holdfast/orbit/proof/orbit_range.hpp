@@ -14,16 +14,16 @@
 
 namespace holdfast {
 
-/// A closed range of a parameter and what is proved of all its loops.
+/// A closed range of a parameter with the proof for all its loops.
 struct ProvedOrbitRange {
   double from;       ///< least value
   double to;         ///< largest value
-  OrbitProof proof;  ///< `proved`: every loop of the range has the motion; no ball is looked for
+  OrbitProof proof;  ///< `proved`: every loop of the range has the motion; no ball is computed
 };
 
 namespace detail {
 
-/// Joins two neighbouring ranges of one outcome to what holds of both.
+/// The proof for the union of two neighbouring ranges with the same outcome.
 inline OrbitProof joined(const OrbitProof& a, const OrbitProof& b) {
   OrbitProof both = b.decided_by < a.decided_by ? b : a;
   both.multiplier_bound = std::max(a.multiplier_bound, b.multiplier_bound);
@@ -63,18 +63,18 @@ OrbitProof proof_between(const Family& family, const PeriodicOrbit& orbit, Scala
 
 }  // namespace detail
 
-/// Proves that the loop has an orbit for all values of a parameter, range by range: what is not
-/// proved as a whole is halved, until it is narrower than asked.
+/// Proves that the loop has an orbit for all values of a parameter, range by range: a range that is
+/// not proved is halved, down to the given width.
 ///
-/// Between two values the states are taken for linear; what the maps, which are linear too, then
-/// miss is quadratic, so that the ranges are wide.
+/// The states are assumed to be linear between two values. The maps are linear too, so that the
+/// error is quadratic and the ranges are wide.
 /// @param family    parameter ↦ IdealLoop<double>, in which P, D, F_m and r₀ are linear and nothing
 ///                  else differs
 /// @param orbit     of a loop of the family; its itinerary is proved
 /// @param from, to  finite, from < to
-/// @param narrowest as a share of to − from, 0 < … ≤ 1
-/// @return ascending; neighbours that are proved alike are joined, with the least decided contact
-/// @throws InvalidParameter for others, and where the loops differ in more
+/// @param narrowest least width of a range as a share of to − from, 0 < … ≤ 1
+/// @return ascending; neighbours of equal outcome are joined, with the least decided contact
+/// @throws InvalidParameter where an argument is not admissible or the loops differ in more
 template <class Family, class Scalar = double>
 std::vector<ProvedOrbitRange> prove_orbit_along(const Family& family, const PeriodicOrbit& orbit,
                                                 Scalar from, Scalar to, double narrowest = 1e-3) {

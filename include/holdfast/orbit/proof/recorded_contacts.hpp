@@ -10,7 +10,7 @@
 
 namespace holdfast::detail {
 
-/// Contact mode of the drive, and the sign σ of Δż that it last had.
+/// The contact mode of the drive and the last sign σ of Δż.
 struct RecordedContact {
   ContactMode mode;
   double sign;
@@ -22,24 +22,24 @@ struct RecordedContact {
 
 /// A change of contact between two samples.
 struct RecordedSwitch {
-  double after;           ///< s after the sample
-  int guard;              ///< of the mode that ends, which came to zero; −1: the command's jump
-  RecordedContact begun;  ///< from then on
+  double after;           ///< time since the sample (s)
+  int guard;              ///< guard of the ending mode that reached zero; −1: jump of the command
+  RecordedContact begun;  ///< contact that begins
 };
 
-/// One sample of a motion in doubles, with what happens until the next one.
+/// One sample of a motion in doubles, with the changes of contact until the next sample.
 struct RecordedSample {
   Vector<double, 6> state;  ///< [z₁, ż₁, z₂, ż₂, u_{j−1}, g], SI; g 0 while engaged
-  RecordedContact before;   ///< up to the sample
-  RecordedContact from;     ///< from the sample on
-  std::vector<RecordedSwitch> switches;  ///< up to the next sample
+  RecordedContact before;   ///< contact up to the sample
+  RecordedContact from;     ///< contact from the sample on
+  std::vector<RecordedSwitch> switches;  ///< changes up to the next sample
 };
 
-/// A period of a motion that switches between the samples, as a proof takes it for a proposal.
+/// A period of a motion that switches between the samples, recorded as the proposal of a proof.
 struct RecordedContacts {
   std::vector<RecordedSample> samples;  ///< N of them
-  bool repeats = false;                 ///< the contact ends the period as it began it
-  bool is_plain = false;                ///< it neither touched a guard nor switched without end
+  bool repeats = false;                 ///< the contact at the end equals that at the beginning
+  bool is_plain = false;                ///< without touched guards or endless switching
 
   /// Whether the drive changes its contact at all.
   bool switches() const {
@@ -73,8 +73,8 @@ class ContactRecorder {
 };
 
 /// Follows a motion of the two masses over one period.
-/// @param point    where it begins
-/// @param samples  N
+/// @param point    state at which it begins
+/// @param samples  number N of samples
 template <class Contact>
 RecordedContacts recorded_contacts(RepeatingMotion<Contact> motion,
                                    const StroboscopicState<Contact>& point, std::size_t samples) {

@@ -15,7 +15,7 @@
 
 namespace holdfast {
 
-/// The loop of the decimals to which the given doubles are nearest, f τ being p/q exactly.
+/// The loop whose numbers are the decimals nearest to the given doubles, with f τ exactly p/q.
 /// @throws InvalidParameter where the loop is not admissible
 inline IdealLoop<Enclosure> enclosed(const IdealLoop<double>& loop) {
   validate(loop);
@@ -36,9 +36,9 @@ struct AlongSegment {
   Value centre, slope;
 };
 
-/// The loops between two that differ in P, D, F_m and r₀ alone, of which the maps of a sample are
-/// linear: what proofs ask of them, in plant_scaling() units. One loop is a segment without
-/// length.
+/// The segment between two loops that differ only in P, D, F_m and r₀, so that the maps of a sample
+/// are linear along it: all that proofs need, in plant_scaling() units. A single loop is a segment
+/// without length.
 template <class Number>
 class SegmentOfLoops {
  public:
@@ -57,18 +57,18 @@ class SegmentOfLoops {
     widths_ = {loop.backlash_width, Number()};
   }
 
-  /// s.
+  /// The position s on the segment, from −1/2 to 1/2.
   static Number position() { return {-0.5, 0.5}; }
 
-  /// S* and S at the ends of the segment, or of the one loop.
+  /// The maps S* and S at both ends of the segment, or of the single loop.
   const std::vector<std::array<Map, 2>>& ends() const { return ends_; }
-  /// S or S*.
+  /// The map S of an engaged drive (1), S* of one in the backlash (0).
   const AlongSegment<Map>& map(std::uint8_t engaged) const { return maps_.at(engaged); }
-  /// The excitation's addition in sample j.
+  /// The contribution of the excitation in sample j.
   AlongSegment<State> addition(std::size_t sample) const {
     return additions_[sample % additions_.size()];
   }
-  /// r₀ (m).
+  /// The width of the backlash r₀ (m).
   const AlongSegment<Number>& width() const { return widths_; }
   /// Whether any of the loops has a backlash.
   bool has_backlash() const {
@@ -90,7 +90,7 @@ class SegmentOfLoops {
       additions_.push_back(between(in_units(loops.front(), k), in_units(loops.back(), k)));
   }
 
-  /// A quantity by its values at the ends; that of one loop does not change at all.
+  /// A quantity from its values at both ends; constant for a single loop.
   template <class Value>
   AlongSegment<Value> between(const Value& from, const Value& to) const {
     if (ends_.size() == 1) return {from, Value::Zero()};

@@ -6,58 +6,58 @@
 
 namespace holdfast::detail {
 
-/// Where the motions are that began in a ball: of each of them, y being its place there,
+/// The states that motions from a ball have come to: of each motion, y being its place in the ball,
 ///
 ///     w = centre + D y,   |y| ≤ radius,   D one of the matrices in `spread`
 ///
-/// The centre encloses the motion of y = 0; the spread is the derivative by y, on the whole ball,
-/// of where a motion meets a surface (the mean value theorem). Where they meet it at different
-/// instants `at_once` is the derivative at one instant after them all, carried back by the flow to
-/// the instant of the centre: what the saltation matrix makes of it, without the way along the
-/// flow, which is large and falls out again.
+/// The centre encloses the motion with y = 0. The spread is the derivative, with respect to y on
+/// the whole ball, of the point where a motion meets a surface (the mean value theorem). Where the
+/// motions meet it at different instants, `at_once` is the derivative at one instant after them
+/// all, transported by the flow back to the instant of the centre: the saltation matrix applied,
+/// without the large displacement along the flow, which cancels.
 template <class Number>
 struct SetOfStates {
   using State = Vector<Number, FlowPlace::size>;      ///< w
   using Spread = Matrix<Number, FlowPlace::size, 6>;  ///< D
   using Row = FlowRow<Number>;                        ///< a functional of w
 
-  State centre = State::Zero();     ///< of y = 0
+  State centre = State::Zero();     ///< state for y = 0
   Spread spread = Spread::Zero();   ///< D
-  Spread at_once = Spread::Zero();  ///< used where `is_apart`
-  bool is_apart = false;            ///< they met the surface at different instants
-  double radius = 0.0;              ///< of the ball
+  Spread at_once = Spread::Zero();  ///< derivative at one instant, used where `is_apart`
+  bool is_apart = false;            ///< whether the motions met the surface at different instants
+  double radius = 0.0;              ///< radius of the ball
 
-  /// The derivative at one instant.
+  /// The derivative with respect to y at one instant.
   const Spread& together() const { return is_apart ? at_once : spread; }
 
-  /// A functional at the centre.
+  /// The value of a functional at the centre.
   Number at_centre(const Row& row) const { return product(row, centre); }
-  /// At least how far it is from that on the ball.
+  /// An upper bound of the deviation of a functional on the ball from its value at the centre.
   Number deviation(const Row& row) const {
     if (radius == 0.0) return {};
     Number sum;
     for (Eigen::Index k = 0; k < spread.cols(); ++k) sum += square(product(row, spread.col(k)));
     return sqrt(sum) * Number(radius);
   }
-  /// A functional on the whole ball.
+  /// The values of a functional on the whole ball.
   Number range(const Row& row) const {
     const double most = deviation(row).upper();
     return at_centre(row) + Number(-most, most);
   }
 
-  /// Gives a coordinate the values of a functional, exactly alike, now and from now on.
+  /// Makes a coordinate equal to a functional, exactly for every motion, now and later.
   void assign(Eigen::Index coordinate, const Row& row) {
     assign_where_met(coordinate, row);
     if (is_apart) at_once.row(coordinate) = (row * at_once).eval();
   }
-  /// Assigns a row to a coordinate on the motions that are on the surface alone.
+  /// Makes a coordinate equal to a functional, for the motions where they met the surface.
   void assign_where_met(Eigen::Index coordinate, const Row& row) {
     const Number value = at_centre(row);
     const RowVector<Number, 6> change = row * spread;
     centre[coordinate] = value;
     spread.row(coordinate) = change;
   }
-  /// Gives a coordinate one value.
+  /// Makes a coordinate equal to one value.
   void assign(Eigen::Index coordinate, const Number& value) {
     centre[coordinate] = value;
     spread.row(coordinate).setZero();
@@ -65,7 +65,7 @@ struct SetOfStates {
   }
 
  private:
-  /// Most entries of the rows are zero.
+  /// The product of a row and a column; zero entries of the row are skipped.
   template <class Column>
   static Number product(const Row& row, const Column& column) {
     Number sum;

@@ -8,26 +8,26 @@
 
 namespace holdfast {
 
-/// One strict inequality on which a sample's contact rests,
+/// One strict inequality that a sample's contact rests on,
 ///
 ///     sign · Δż_j > 0   or   sign · (Δz_j − Δz_k) + widths · r₀ > 0,
 ///
 /// where sample k is the one at which the drive entered the gap that it is in.
 struct SwitchingTest {
-  std::int64_t sample;       ///< j, from the first sample of the period on
-  std::int64_t entry;        ///< k, negative in the period before; not used by a reversal
-  SwitchingSurface surface;  ///< which surface it is about
+  std::int64_t sample;       ///< sample j, counted from the first sample of the period
+  std::int64_t entry;        ///< sample k, negative in the period before; unused for a reversal
+  SwitchingSurface surface;  ///< surface that is tested
   int sign;                  ///< 1 or −1
-  int widths;                ///< −1, 0 or 1
+  int widths;                ///< coefficient of r₀: −1, 0 or 1
 
-  /// Whether it is about Δż.
+  /// Whether the inequality concerns Δż.
   bool is_of_velocity() const { return surface == SwitchingSurface::reversal; }
 };
 
 namespace detail {
 
-/// The tests of a sample in a gap that was entered at sample k with Δż > 0 before it, [Δz_k − r₀,
-/// Δz_k], or < 0, [Δz_k, Δz_k + r₀].
+/// Appends the tests of a sample in a gap that was entered at sample k: the gap is [Δz_k − r₀,
+/// Δz_k] where Δż > 0 before it, [Δz_k, Δz_k + r₀] where Δż < 0.
 inline void append_gap_tests(const ContactDecision& decision, std::int64_t sample,
                              std::int64_t entry, bool from_positive,
                              std::vector<SwitchingTest>& tests) {
@@ -41,8 +41,8 @@ inline void append_gap_tests(const ContactDecision& decision, std::int64_t sampl
 
 }  // namespace detail
 
-/// Whether every sample outside the gap enters one just where its velocity has another sign than
-/// that of the sample before.
+/// Whether every sample outside the gap enters one exactly where its velocity changes sign against
+/// the sample before.
 inline bool enters_at_reversals(const SwitchingPattern& pattern) {
   const auto& all = pattern.decisions;
   for (std::size_t j = 0; j < all.size(); ++j) {
@@ -53,9 +53,9 @@ inline bool enters_at_reversals(const SwitchingPattern& pattern) {
   return true;
 }
 
-/// All inequalities of one period, by samples: together they say that a motion with these Δz and Δż
-/// decides as the pattern says for ever.
-/// @param pattern  that repeats, does not stay inside, and enters at reversals
+/// All inequalities of one period, by samples: if they are true, a motion with these Δz and Δż has
+/// the pattern's contacts for ever.
+/// @param pattern  a pattern that repeats, does not stay inside, and enters at reversals
 inline std::vector<SwitchingTest> switching_tests(const SwitchingPattern& pattern) {
   std::vector<SwitchingTest> tests;
   const auto samples = static_cast<std::int64_t>(pattern.decisions.size());

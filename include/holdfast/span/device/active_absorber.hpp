@@ -18,9 +18,9 @@ struct ActiveAbsorber {
   LoopHardware hardware = {};  ///< measurement filter and drive
 };
 
-/// Z(s) of `absorber_impedance` (N s/m).
-/// @param device  (unchecked)
-/// @param s       1/s, ≠ 0
+/// The impedance Z(s) of `absorber_impedance` (N s/m).
+/// @param device  absorber with its computer (unchecked)
+/// @param s       complex frequency (1/s), ≠ 0
 inline std::complex<double> impedance(const ActiveAbsorber& device, const std::complex<double>& s) {
   return absorber_impedance(device.absorber, device.sampling, device.gains, device.hardware, s);
 }

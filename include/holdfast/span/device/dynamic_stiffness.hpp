@@ -8,13 +8,13 @@
 
 namespace holdfast {
 
-/// Dynamic stiffness of a device, K = s Z (N/m), and how K changes with s.
+/// The dynamic stiffness of a device, K = s Z (N/m), with its derivative by s.
 struct DynamicStiffness {
   std::complex<double> value;  ///< K
   std::complex<double> slope;  ///< dK/ds
 };
 
-/// K and dK/ds of a device of masses, springs, dashpots and inerters, at s.
+/// The values of K and dK/ds at s for a device of masses, springs, dashpots and inerters.
 inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
                                           const std::complex<double>& s) {
   DynamicStiffness sum{device.clamp_mass * s * s, 2.0 * device.clamp_mass * s};
@@ -36,7 +36,7 @@ inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
   return sum;
 }
 
-/// The natural motions of a device on a clamp that stands still (1/s), of each pair one.
+/// The eigenvalues of a device on a fixed clamp (1/s), one of each conjugate pair.
 inline std::vector<std::complex<double>> own_motions(const LumpedDevice& device) {
   std::vector<std::complex<double>> motions;
   for (const DeviceBranch& branch : device.branches) {

@@ -11,19 +11,19 @@
 
 namespace holdfast {
 
-/// Dashpot, spring and inerter side by side, between the conductor and a mass or the ground.
+/// A dashpot, a spring and an inerter in parallel between the conductor and a mass or the ground.
 struct DeviceBranch {
   double damping = 0.0;    ///< c (N s/m), ≥ 0
-  double stiffness = 0.0;  ///< k (N/m); below 0 it pushes the conductor on
+  double stiffness = 0.0;  ///< k (N/m); a negative one repels the conductor
   double inertance = 0.0;  ///< b (kg), ≥ 0: force over the difference of accelerations
-  /// m (kg), > 0, what the other end moves; infinity: the ground
+  /// The mass m (kg), > 0, at the other end; infinity: the ground.
   double mass = std::numeric_limits<double>::infinity();
 };
 
 /// Z(s) of a branch, force over velocity of the conductor (N s/m): 1/Z = 1/(b s + c + k/s) +
 /// 1/(m s).
-/// @param branch  (unchecked)
-/// @param s       1/s, ≠ 0
+/// @param branch  branch of a device (unchecked)
+/// @param s       complex frequency (1/s), ≠ 0
 inline std::complex<double> impedance(const DeviceBranch& branch, const std::complex<double>& s) {
   const std::complex<double> link = branch.inertance * s + branch.damping + branch.stiffness / s;
   if (!std::isfinite(branch.mass)) return link;
@@ -31,25 +31,25 @@ inline std::complex<double> impedance(const DeviceBranch& branch, const std::com
   return link * inertia / (link + inertia);
 }
 
-/// A device of masses, springs, dashpots and inerters clamped on a conductor: its branches side by
-/// side, and the mass of its clamp.
+/// A device of masses, springs, dashpots and inerters clamped on a conductor: parallel branches and
+/// the mass of the clamp, with the impedance
 ///
 ///     Z(s) = M_c s + Σ 1/(1/(b s + c + k/s) + 1/(m s))
 struct LumpedDevice {
-  std::vector<DeviceBranch> branches;  ///< side by side
+  std::vector<DeviceBranch> branches;  ///< parallel branches
   double clamp_mass = 0.0;             ///< M_c (kg), ≥ 0
 };
 
-/// Z(s) of the device (N s/m).
-/// @param device  (unchecked)
-/// @param s       1/s, ≠ 0
+/// The impedance Z(s) of the device (N s/m).
+/// @param device  lumped device (unchecked)
+/// @param s       complex frequency (1/s), ≠ 0
 inline std::complex<double> impedance(const LumpedDevice& device, const std::complex<double>& s) {
   std::complex<double> sum = device.clamp_mass * s;
   for (const DeviceBranch& branch : device.branches) sum += impedance(branch, s);
   return sum;
 }
 
-/// Refuses a device outside the ranges that its members state.
+/// Rejects a device outside the ranges stated at its members.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const LumpedDevice& device) {
   require_non_negative("clamp mass of a device", device.clamp_mass, "kg");
@@ -61,8 +61,8 @@ inline void validate(const LumpedDevice& device) {
   }
 }
 
-/// A mass on a spring and a dashpot, by the frequency at which it swings on a clamp that stands
-/// still.
+/// A mass on a spring and a dashpot, given by its natural frequency on a fixed
+/// clamp.
 /// @param mass           m (kg), > 0
 /// @param frequency      f (Hz), > 0
 /// @param damping_ratio  ζ ≥ 0
@@ -71,14 +71,14 @@ inline DeviceBranch tuned_branch(double mass, double frequency, double damping_r
   return {2.0 * damping_ratio * mass * omega, mass * omega * omega, 0.0, mass};
 }
 
-/// The data of a Stockbridge damper: two weights on a messenger wire, of which its clamp feels two
+/// The data of a Stockbridge damper: two weights on a messenger wire, whose clamp shows two
 /// resonances.
 struct StockbridgeData {
   double mass;                           ///< of the weights (kg), > 0
-  std::array<double, 2> frequencies;     ///< Hz, ascending, on a clamp that stands still
+  std::array<double, 2> frequencies;     ///< Hz, ascending, on a fixed clamp
   std::array<double, 2> damping_ratios;  ///< of the two resonances, > 0
-  double mass_share = 0.5;  ///< of the mass that swings at the lower one, within 0 … 1
-  double clamp_mass = 0.0;  ///< kg, ≥ 0
+  double mass_share = 0.5;               ///< share of the mass in the lower resonance, 0 … 1
+  double clamp_mass = 0.0;               ///< kg, ≥ 0
 };
 
 /// A Stockbridge damper by its two resonances: every device of weights on springs answers at its

@@ -11,11 +11,11 @@
 
 namespace holdfast {
 
-/// The impedance of a device as it was measured on a shaker: force over velocity of its clamp at
-/// ascending frequencies.
+/// The impedance of a device measured on a shaker: force over velocity of its clamp at ascending
+/// frequencies.
 ///
-/// Between them real and imaginary part run straight: what gives no power at its rows gives none
-/// between them. Outside them nothing was measured and nothing is said: NaN.
+/// Real and imaginary part are interpolated linearly: if no row supplies power, no value between
+/// them does. Outside the measured range the result is NaN.
 class MeasuredImpedance {
  public:
   /// A row of the measurement.
@@ -24,8 +24,8 @@ class MeasuredImpedance {
     std::complex<double> impedance;  ///< Z (N s/m), Re Z ≥ 0
   };
 
-  /// @param rows  two or more, ω ascending
-  /// @throws InvalidParameter where they are fewer, not ascending, not finite, or give power
+  /// @param rows  at least two, ω ascending
+  /// @throws InvalidParameter where they are fewer, not ascending, not finite, or supply power
   explicit MeasuredImpedance(std::vector<Row> rows) : rows_(std::move(rows)) {
     require_within("rows of a measured impedance", static_cast<double>(rows_.size()), "", 2, 1e7);
     double before = 0.0;
@@ -41,7 +41,7 @@ class MeasuredImpedance {
     }
   }
 
-  /// Z at ω (rad/s); NaN where it was not measured.
+  /// The impedance Z at ω (rad/s); NaN outside the measured range.
   std::complex<double> at(double angular_frequency) const {
     const auto above = std::lower_bound(
         rows_.begin(), rows_.end(), angular_frequency,
@@ -64,9 +64,9 @@ class MeasuredImpedance {
   std::vector<Row> rows_;
 };
 
-/// Z of a measured device at s = iω, and beside that line at the same |s|: a mode that decays by
-/// few per cent a cycle moves the device nearly as a steady vibration does.
-/// @return NaN where it was not measured
+/// The impedance Z of a measured device at s = iω, and for complex s at the same |s|: a mode that
+/// decays by few per cent per cycle moves the device nearly like a steady vibration.
+/// @return NaN outside the measured range
 inline std::complex<double> impedance(const MeasuredImpedance& device,
                                       const std::complex<double>& s) {
   const std::complex<double> z = device.at(std::abs(s));

@@ -16,16 +16,16 @@ namespace holdfast {
 /// A device clamped on a span.
 struct SpanDevice {
   double position;  ///< m from the left support, inside the span
-  std::variant<LumpedDevice, MeasuredImpedance, ActiveAbsorber> device;  ///< what it is
+  std::variant<LumpedDevice, MeasuredImpedance, ActiveAbsorber> device;  ///< kind of device
 
-  /// Z(s), force over velocity of the conductor (N s/m).
-  /// @param s  1/s, ≠ 0
+  /// The impedance Z(s), force over velocity of the conductor (N s/m).
+  /// @param s  complex frequency (1/s), ≠ 0
   std::complex<double> impedance(const std::complex<double>& s) const {
     return std::visit([&](const auto& one) { return holdfast::impedance(one, s); }, device);
   }
 };
 
-/// The devices in the order of their places.
+/// The devices sorted by their positions.
 /// @throws InvalidParameter where one is not inside the span (m)
 inline std::vector<SpanDevice> in_order(std::vector<SpanDevice> devices, double span) {
   for (const SpanDevice& device : devices) require_inside_span(device.position, span);

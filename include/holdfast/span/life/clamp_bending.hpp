@@ -7,34 +7,34 @@
 
 namespace holdfast {
 
-/// A conductor where a clamp holds it, as a beam under tension whose wires bend one by one
-/// (Poffenberger & Swart, IEEE Trans. PAS 84 (1965)): beside the clamp it bends as
-/// y = θ (x − (1 − e^{−px})/p) with p = √(T/EI), θ the slope at which it leaves.
+/// A conductor at a clamp, as a beam under tension whose wires bend individually (Poffenberger &
+/// Swart, IEEE Trans. PAS 84 (1965)): beside the clamp its deflection is y = θ (x − (1 −
+/// e^{−px})/p) with p = √(T/EI), θ being the slope away from the clamp.
 ///
-/// Stress and strain are those of the outermost wire, from zero to peak.
+/// Stress and strain are those of the outermost wire, zero to peak.
 struct ClampBending {
   double tension;              ///< T (N), > 0
   double mass_per_length;      ///< m (kg/m), > 0
-  double bending_stiffness;    ///< EI (N m²), > 0: of the wires each for itself, the least one
+  double bending_stiffness;    ///< EI (N m²), > 0: sum of the single wires' values, its minimum
   double outer_wire_diameter;  ///< d_a (m), > 0
   double outer_wire_modulus;   ///< E_a (Pa), > 0
 
-  /// p (1/m).
+  /// The decay constant p (1/m).
   double decay() const { return std::sqrt(tension / bending_stiffness); }
 
-  /// ε = ½ d_a p θ, θ (rad) being the slope behind the bend.
+  /// The strain ε = ½ d_a p θ, θ (rad) being the slope behind the bend.
   double strain_of_angle(double angle) const { return 0.5 * outer_wire_diameter * decay() * angle; }
 
-  /// σ (Pa) by the bending amplitude: σ = E_a d_a p² Y_b/(4 (e^{−ps} − 1 + ps)).
+  /// The stress σ (Pa) from the bending amplitude: σ = E_a d_a p² Y_b/(4 (e^{−ps} − 1 + ps)).
   /// @param bending_amplitude  Y_b (m), peak-to-peak, relative to the clamp
-  /// @param place              s (m), from the last point of contact; customary are 89 mm
+  /// @param place              s (m), from the last point of contact; usually 89 mm
   double stress_of_bending_amplitude(double bending_amplitude, double place = 0.089) const {
     const double p = decay();
     return outer_wire_modulus * outer_wire_diameter * p * p * bending_amplitude /
            (4.0 * (std::exp(-p * place) - 1.0 + p * place));
   }
 
-  /// σ (Pa) by frequency and antinode amplitude: σ = π E_a d_a √(m/EI) f y.
+  /// The stress σ (Pa) from frequency and antinode amplitude: σ = π E_a d_a √(m/EI) f y.
   /// @param frequency  f (Hz)
   /// @param amplitude  y (m), half the peak-to-peak
   double stress_of_vibration(double frequency, double amplitude) const {
@@ -42,15 +42,15 @@ struct ClampBending {
            std::sqrt(mass_per_length / bending_stiffness) * frequency * amplitude;
   }
 
-  /// The bending amplitude Y_b (m) that goes with a slope θ (rad).
+  /// The bending amplitude Y_b (m) for a slope θ (rad).
   double bending_amplitude_of_angle(double angle, double place = 0.089) const {
     const double p = decay();
     return 2.0 * angle * (place - (1.0 - std::exp(-p * place)) / p);
   }
 };
 
-/// Refuses data outside these ranges.
-/// @throws InvalidParameter naming the first one
+/// Rejects data outside the ranges stated at their members.
+/// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const ClampBending& bending) {
   require_positive("tension", bending.tension, "N");
   require_positive("mass per length", bending.mass_per_length, "kg/m");

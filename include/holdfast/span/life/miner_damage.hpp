@@ -7,20 +7,20 @@
 
 namespace holdfast {
 
-/// How long a wind speed blows in a year.
+/// The hours per year of a wind speed.
 struct WindHours {
   double speed;  ///< U (m/s), > 0
-  double hours;  ///< a year, ≥ 0
+  double hours;  ///< per year, ≥ 0
 };
 
-/// The hours of a year at speeds U whose distribution is Weibull's, P(U > u) = e^{−(u/A)^k}, from
-/// one speed to another in equal steps; each row stands for the step around it.
+/// The hours per year of wind speeds U with a Weibull distribution, P(U > u) = e^{−(u/A)^k}, from
+/// one speed to another in equal steps; each row represents the step around it.
 /// @param scale    A (m/s), > 0
 /// @param shape    k, > 0
 /// @param lowest   m/s, ≥ 0
 /// @param highest  m/s, above the lowest
 /// @param steps    ≥ 1
-/// @throws InvalidParameter outside these ranges
+/// @throws InvalidParameter where an argument is outside its range
 inline std::vector<WindHours> weibull_hours(double scale, double shape, double lowest,
                                             double highest, int steps) {
   require_positive("scale of the wind's distribution", scale, "m/s");
@@ -40,15 +40,15 @@ inline std::vector<WindHours> weibull_hours(double scale, double shape, double l
   return rows;
 }
 
-/// A stress that a conductor bears for a number of cycles a year.
+/// A stress of a conductor with its number of cycles per year.
 struct StressCycles {
   double stress;  ///< σ (Pa), zero to peak
-  double cycles;  ///< n, a year
+  double cycles;  ///< n, per year
 };
 
-/// The damage of a year by Miner's rule, Σ n/N(σ): 1/damage are the years to the first broken wire
-/// by the line of life taken.
-/// @tparam LifeLine  has `cycles(stress)`, N
+/// The damage per year by Miner's rule, Σ n/N(σ): 1/damage is the number of years to the first
+/// broken wire by the given line of life.
+/// @tparam LifeLine  type with `cycles(stress)`, N
 template <class LifeLine>
 double miner_damage(const std::vector<StressCycles>& year, const LifeLine& line) {
   double damage = 0.0;

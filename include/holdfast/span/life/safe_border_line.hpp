@@ -8,13 +8,13 @@
 
 namespace holdfast {
 
-/// The life of a conductor at its clamps under bending, by the safe border line of CIGRE Study
-/// Committee 22, Working Group 04 (Electra 63, 1979): below all measured failures.
+/// The fatigue life of a conductor at its clamps by the safe border line of CIGRE Study Committee
+/// 22, Working Group 04 (Electra 63, 1979): below all measured failures.
 ///
 ///     σ = A N^{−α} up to N₀ cycles,  σ = B N^{−β} beyond     (σ in MPa, zero to peak)
 ///
-/// At N₀ the two do not meet, and to the stresses between them neither gives a number of cycles
-/// that is its own: there the smaller of both counts.
+/// At N₀ the two branches do not meet, and stresses between their values there have no number of
+/// cycles on their own branch: then the smaller number of both is used.
 struct SafeBorderLine {
   double steep_stress;     ///< A (MPa)
   double steep_exponent;   ///< α
@@ -22,7 +22,7 @@ struct SafeBorderLine {
   double flat_exponent;    ///< β
   double change_of_slope;  ///< N₀ (cycles)
 
-  /// N, the cycles that a stress σ (Pa) allows; infinity where there is no stress.
+  /// The number of cycles N that a stress σ (Pa) allows; infinity without stress.
   double cycles(double stress) const {
     const double megapascal = stress / 1e6;
     if (!(megapascal > 0.0))
@@ -34,9 +34,9 @@ struct SafeBorderLine {
   }
 };
 
-/// The line of conductors of several layers of aluminium.
+/// The safe border line of conductors with several layers of aluminium.
 inline constexpr SafeBorderLine several_layers{450.0, 0.20, 263.0, 0.17, 1.56e7};
-/// Safe border line of conductors of a single layer.
+/// The safe border line of conductors with a single layer.
 inline constexpr SafeBorderLine single_layer{730.0, 0.20, 430.0, 0.17, 2.0e7};
 
 }  // namespace holdfast

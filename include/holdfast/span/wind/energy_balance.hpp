@@ -6,31 +6,31 @@
 
 namespace holdfast {
 
-/// Where an amplitude by the energy balance lies.
+/// The location of an amplitude relative to the validity of the wind's law.
 enum class BalanceRange {
-  within,  ///< where the law of the wind holds
-  below,   ///< smaller than the smallest amplitude of the law, which stands for it
-  above    ///< larger than the largest one, which stands for it
+  within,  ///< within the law's range
+  below,   ///< below the law's smallest amplitude, which is returned
+  above    ///< above the law's largest amplitude, which is returned
 };
 
-/// The amplitude at which a wind gives a conductor what it loses.
+/// The amplitude at which the wind's power equals the power losses.
 struct BalancedAmplitude {
   double amplitude;    ///< y (m), half the peak-to-peak, at the antinodes
-  BalanceRange range;  ///< whether that is it, or a bound
+  BalanceRange range;  ///< whether it is the amplitude, or a bound
 };
 
-/// The amplitude of aeolian vibration at one frequency by the energy balance: the largest one at
-/// which the wind gives no less than is lost,
+/// The amplitude of aeolian vibration at one frequency by the energy balance: the largest amplitude
+/// at which the wind's power is not less than the losses,
 ///
 ///     f³ d⁴ F(y/d) = p(y)
 ///
-/// Above it more is lost than given, so that a vibration that got there stays. Found by halving
-/// between the points of a grid, to 10⁻¹² of itself.
-/// @param law        of the wind
+/// Above it the losses exceed the wind's power, so that this vibration is stable. It is found by
+/// bisection between the points of a grid, to 10⁻¹² relative.
+/// @param law        law of the wind's power
 /// @param frequency  f (Hz), > 0
 /// @param diameter   d (m), > 0
-/// @param loss       p: an amplitude (m) to a power a length (W/m), of everything that takes any,
-///                   over the span; NaN makes the answer NaN
+/// @param loss       p: map from an amplitude (m) to the total loss per length (W/m), averaged over
+///              the span; NaN makes the result NaN
 /// @throws whatever `loss` throws
 template <class Loss>
 BalancedAmplitude balanced_amplitude(const WindPowerLaw& law, double frequency, double diameter,

@@ -10,15 +10,15 @@
 
 namespace holdfast {
 
-/// Modes of a span that move side by side, η̈ + 2 ζ ω η̇ + ω² η = g, by exact steps: with g held
-/// over the step they carry no error of their own whatever its length. ζ may change between steps
-/// and may be negative.
+/// The modes of a span in parallel, η̈ + 2 ζ ω η̇ + ω² η = g, by exact steps: with g constant over
+/// a step there is no discretisation error for any length. ζ may change between steps and may be
+/// negative.
 template <class Scalar = double>
 class ModesInStep {
  public:
-  using Column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;  ///< a number a mode
+  using Column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;  ///< one number for each mode
 
-  /// At rest.
+  /// Constructs the modes at rest.
   /// @param frequencies  ω (rad/s), > 0
   /// @param step         h (s), > 0
   ModesInStep(const Column& frequencies, double step)
@@ -29,11 +29,11 @@ class ModesInStep {
 
   const Column& frequencies() const { return omega_; }  ///< ω (rad/s)
 
-  /// η² + (η̇/ω)², the square of each mode's present amplitude.
+  /// The squared amplitude η² + (η̇/ω)² of each mode.
   Column squared_amplitudes() const { return position.square() + (velocity / omega_).square(); }
 
   /// Sets the damping of the coming steps.
-  /// @param ratios  ζ; beyond ±0.9 it counts as that: such a mode is not seen in a vibration
+  /// @param ratios  ζ, limited to ±0.9: such a mode is invisible in a vibration
   void damp(const Column& ratios) {
     const Column zeta = ratios.max(Scalar(-0.9)).min(Scalar(0.9));
     const Column turning = omega_ * (Scalar(1) - zeta.square()).sqrt();
@@ -45,7 +45,7 @@ class ModesInStep {
     exchange_ = sine;
   }
 
-  /// One step.
+  /// Performs one step.
   /// @param force  g (m/s²)
   void step(const Column& force) {
     rest_ = force / omega_.square();
@@ -63,23 +63,23 @@ class ModesInStep {
   double step_;
 };
 
-/// The mean squares of a motion of modes sin(nπx/L), in several windows of time one after another.
+/// The mean squares of a motion of modes sin(nπx/L), in several successive windows of time.
 template <class Scalar = double>
 class AmplitudeRecord {
  public:
   using Column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;                ///< a number a mode
   using Square = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;  ///< modes by modes
 
-  /// @param modes    how many
-  /// @param samples  of all windows, ≥ windows
-  /// @param windows  ≥ 1
+  /// @param modes    number of modes
+  /// @param samples  number in all windows, ≥ windows
+  /// @param windows  number of windows, ≥ 1
   AmplitudeRecord(Eigen::Index modes, long samples, int windows)
       : samples_(samples),
         sums_(static_cast<std::size_t>(windows), Square::Zero(modes, modes)),
         counts_(static_cast<std::size_t>(windows), 0),
         velocities_(Column::Zero(modes)) {}
 
-  /// Takes the modes as they are now.
+  /// Adds the present state of the modes.
   void add(const ModesInStep<Scalar>& motion) {
     const auto window =
         static_cast<std::size_t>(seen_++ * static_cast<long>(sums_.size()) / samples_);
@@ -89,8 +89,8 @@ class AmplitudeRecord {
     velocities_ += motion.velocity.square();
   }
 
-  /// Looks where the mean square is largest: at 8 places a half-wave of the highest mode, and
-  /// nearer about the best of them.
+  /// Finds the largest mean square: at 8 places per half-wave of the highest mode, refined about
+  /// the best of them.
   void evaluate() {
     Square total = sums_.front();
     for (std::size_t w = 1; w < sums_.size(); ++w) total += sums_[w];

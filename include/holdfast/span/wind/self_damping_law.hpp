@@ -9,7 +9,7 @@
 
 namespace holdfast {
 
-/// The data of a stranded conductor on which its damping by itself depends.
+/// The data of a stranded conductor that its self-damping depends on.
 struct StrandedConductor {
   double mass_per_length;  ///< m (kg/m), > 0
   double diameter;         ///< d (m), > 0
@@ -17,8 +17,8 @@ struct StrandedConductor {
   double tension;          ///< T (N), > 0, below RTS
 };
 
-/// Refuses data outside these ranges.
-/// @throws InvalidParameter naming the first one
+/// Rejects data outside the ranges stated at their members.
+/// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const StrandedConductor& conductor) {
   require_positive("mass per length", conductor.mass_per_length, "kg/m");
   require_positive("diameter", conductor.diameter, "m");
@@ -28,19 +28,19 @@ inline void validate(const StrandedConductor& conductor) {
     throw InvalidParameter("tension", conductor.tension, "N", "below the rated strength");
 }
 
-/// Self-damping of a stranded conductor, whose wires rub, as a power a length:
+/// The law of self-damping of a stranded conductor by friction of its wires, as power per length:
 ///
 ///     P_self = k (y/d)^l f^m/T^n  (mW/m),   k = d/√(RTS m)
 ///
 /// in the units of the fits: d in mm, RTS and T in kN, m in kg/m, f in Hz; y (m) is half the
 /// peak-to-peak.
 struct SelfDampingLaw {
-  std::string_view name;      ///< of those who measured it
+  std::string_view name;      ///< name of its authors
   double amplitude_exponent;  ///< l
   double frequency_exponent;  ///< m
   double tension_exponent;    ///< n
 
-  /// P_self (W/m).
+  /// The power P_self per length (W/m).
   double power(const StrandedConductor& conductor, double frequency, double amplitude) const {
     constexpr double milli = 1e-3;
     const double strength = milli * conductor.rated_strength, tension = milli * conductor.tension;
@@ -50,13 +50,13 @@ struct SelfDampingLaw {
   }
 };
 
-/// Exponents by three of those who measured them, collected by CIGRE Study Committee 22, Working
-/// Group 11: they differ by a factor, since they extrapolate from other spans and tensions.
+/// The exponents by three groups of authors, collected by CIGRE Study Committee 22, Working Group
+/// 11: they differ by a factor, since they extrapolate from other spans and tensions.
 inline constexpr std::array<SelfDampingLaw, 3> self_damping_laws = {
     SelfDampingLaw{"noiseux", 2.44, 5.63, 2.76}, SelfDampingLaw{"kraus_hagedorn", 2.47, 5.38, 2.80},
     SelfDampingLaw{"seppa", 2.5, 5.75, 2.8}};
 
-/// Power a length that a mode's damping ratio ζ takes: ½ ζ μ ω³ y² (W/m).
+/// The power per length dissipated by a mode's damping ratio ζ: ½ ζ μ ω³ y² (W/m).
 /// @param mass_per_length    μ (kg/m)
 /// @param damping_ratio      ζ
 /// @param angular_frequency  ω (rad/s)

@@ -7,14 +7,14 @@
 
 namespace holdfast {
 
-/// The share of its power that a wind keeps where it is turbulent: shedding loses its step with the
-/// vibration,
+/// The share of the wind's power that remains in turbulence, since shedding loses synchronisation
+/// with the vibration:
 ///
 ///     P_wind(I)/P_wind(0) = 1/√(1 + (I/I_L)²),   I_L = 0.09
 ///
-/// It is the mean of a bell of lock-in, exp(−(u − U)²/(2 I_L² U²)), over speeds u that are normal
-/// about U with the deviation I U: the share of time and span at which the vortices keep to the
-/// vibration, where those of U do.
+/// It is the mean of a Gaussian lock-in curve, exp(−(u − U)²/(2 I_L² U²)), over normally
+/// distributed speeds u about U with the deviation I U: the share of time and span in which the
+/// vortices are synchronised, relative to steady wind.
 ///
 /// Source: Foti & Martinelli, J. Wind Eng. Ind. Aerodyn. (2018), doi 10.1016/j.jweia.2018.09.005,
 /// equations 4 and 5, as two open programs write them down (the article itself was not seen). It is
@@ -30,8 +30,8 @@ inline double turbulent_share(double intensity) {
   return 1.0 / std::hypot(1.0, intensity / lock_in);
 }
 
-/// The law of a wind in turbulence, its power lowered by `turbulent_share`.
-/// @throws InvalidParameter for an intensity outside 0 … 1
+/// The law of a wind in turbulence, with its power reduced by `turbulent_share`.
+/// @throws InvalidParameter where the intensity is outside 0 … 1
 inline WindPowerLaw in_turbulence(WindPowerLaw law, double intensity) {
   const double share = turbulent_share(intensity);
   for (double& coefficient : law.coefficients) coefficient *= share;

@@ -10,16 +10,16 @@
 
 namespace holdfast {
 
-/// A wind square to a span.
+/// A turbulent wind perpendicular to a span.
 struct TurbulentWind {
   double mean_speed = 0.0;     ///< U (m/s), > 0
   double intensity = 0.0;      ///< I, standard deviation of the speed over U, 0 … 0.3
   double length_scale = 80.0;  ///< along the wind (m), > 0: the fluctuations last T = length/U
   double span_scale = 30.0;    ///< along the span (m), > 0
-  std::uint64_t seed = 1;      ///< of the fluctuations
+  std::uint64_t seed = 1;      ///< seed of the fluctuations
 };
 
-/// Refuses a wind outside the ranges that its members state.
+/// Rejects a wind outside the ranges stated at its members.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const TurbulentWind& wind) {
   require_positive("mean wind speed U", wind.mean_speed, "m/s");
@@ -28,14 +28,14 @@ inline void validate(const TurbulentWind& wind) {
   require_positive("length scale of the turbulence along the span", wind.span_scale, "m");
 }
 
-/// Independent numbers of the normal distribution of mean 0 and variance 1, by Box and Muller from
+/// Independent normal random numbers of mean 0 and variance 1, by Box and Muller from
 /// `std::mt19937_64`: the same for the same seed with every standard library.
 class NormalNumbers {
  public:
-  /// @param seed  any
+  /// @param seed  any number
   explicit NormalNumbers(std::uint64_t seed) : engine_(seed) {}
 
-  /// The next one.
+  /// The next random number.
   double next() {
     if (kept_) {
       kept_ = false;
@@ -56,22 +56,22 @@ class NormalNumbers {
   bool kept_ = false;
 };
 
-/// The speed of a wind at equally distant stations of a span, one time after another: U + u, where
-/// u is Gaussian and of Markov in time and along the span,
+/// The wind speed at equidistant stations of a span as a function of time: U + u, where u is a
+/// Gaussian Markov process in time and along the span,
 ///
 ///     ⟨u(x, t) u(x′, t′)⟩ = I² U² e^{−|t − t′|/T} e^{−|x − x′|/Λ},   T = length scale/U
 ///
-/// drawn every T/50 and straight in between, where its variance is up to 1 % smaller. What is
-/// faster than that is left out: vortices are shed faster still, and see the mean of it. Speeds
-/// below U/10 (at I = 0.3 one in 700) are taken as U/10.
+/// drawn every T/50 and linear in between, where its variance is up to 1 % smaller. Faster
+/// fluctuations are left out: vortices are shed faster still and react to their mean. Speeds below
+/// U/10 (at I = 0.3 one in 700) are replaced by U/10.
 template <class Scalar = double>
 class GustField {
  public:
-  using Speeds = Eigen::Array<Scalar, Eigen::Dynamic, 1>;  ///< at the stations (m/s)
+  using Speeds = Eigen::Array<Scalar, Eigen::Dynamic, 1>;  ///< one for each station (m/s)
 
-  /// @param wind      `validate`d
-  /// @param stations  their number, ≥ 1
-  /// @param spacing   between them (m), > 0
+  /// @param wind      wind that passed `validate`
+  /// @param stations  number of stations, ≥ 1
+  /// @param spacing   distance between them (m), > 0
   GustField(const TurbulentWind& wind, int stations, double spacing)
       : wind_(wind),
         numbers_(wind.seed),
@@ -86,10 +86,10 @@ class GustField {
     }
   }
 
-  /// Whether there are no gusts.
+  /// Whether there is no turbulence.
   bool steady() const { return wind_.intensity == 0.0; }
 
-  /// @param time  s, ≥ that of the last call
+  /// @param time  time (s), ≥ that of the last call
   const Speeds& at(double time) {
     if (steady()) return speeds_;
     while (time > static_cast<double>(drawn_ + 1) * interval_) {
@@ -103,7 +103,7 @@ class GustField {
   }
 
  private:
-  /// Numbers of the variance I² U² that are of Markov along the span.
+  /// Draws numbers of variance I² U² that are a Markov process along the span.
   void draw(Speeds& fluctuations) {
     const double deviation = wind_.intensity * wind_.mean_speed;
     double number = numbers_.next();

@@ -8,29 +8,29 @@
 
 namespace holdfast {
 
-/// The law of a wake that swings with its cylinder (Facchinetti, de Langre & Biolley, J. Fluids
-/// Struct. 19 (2004) 123–140), q = 2 C_L/C_L0 being its lift:
+/// The wake oscillator coupled to its cylinder (Facchinetti, de Langre & Biolley, J. Fluids Struct.
+/// 19 (2004) 123–140), with the lift variable q = 2 C_L/C_L0:
 ///
 ///     q̈ + ε ω_s (q² − 1) q̇ + ω_s² q = (A/d) ÿ,   ω_s = 2π St U/d
 ///     (μ + C_M ρ π d²/4) ÿ + … + γ ρ d² ω_s ẏ = ¼ ρ U² d C_L0 q   (N/m)
 ///
-/// with all of the article's terms: coupling by acceleration, stall as a damping of the fluid, and
-/// the added mass. ε and A were fitted by its authors to cylinders that were forced to move; none
-/// is fitted here. St is the setting's, 0.2 in the article. Two-dimensional: wakes at different
-/// places know of each other by the span's motion alone.
+/// with all terms of the article: coupling by acceleration, stall as a fluid damping, and the added
+/// mass. ε and A were fitted by its authors to forced cylinders; nothing is fitted here. St belongs
+/// to the setting, 0.2 in the article. The model is two-dimensional: wakes at different places
+/// interact by the span's motion only.
 struct WakeOscillatorLaw {
   double coupling = 12.0;         ///< A, ≥ 0
   double nonlinearity = 0.3;      ///< ε, > 0
-  double lift_coefficient = 0.3;  ///< C_L0 of a cylinder at rest, ≥ 0
+  double lift_coefficient = 0.3;  ///< C_L0 of a fixed cylinder, ≥ 0
   double stall = 0.8;             ///< γ = C_D/(4π St), ≥ 0
   double added_mass = 1.0;        ///< C_M, ≥ 0
   double fluid_density = 1.225;   ///< ρ (kg/m³), > 0
 
-  /// C_M ρ π d²/4 (kg/m).
+  /// The added mass C_M ρ π d²/4 (kg/m).
   double added_mass_per_length(double diameter) const {
     return added_mass * fluid_density * pi<double> * diameter * diameter / 4.0;
   }
-  /// ζ that the stall gives a mode: γ ρ d² ω_s/(2 m ω).
+  /// The damping ratio ζ of a mode by stall: γ ρ d² ω_s/(2 m ω).
   /// @param diameter         d (m)
   /// @param mass_per_length  m (kg/m), with the added mass
   /// @param shedding         ω_s (rad/s)
@@ -42,7 +42,7 @@ struct WakeOscillatorLaw {
   }
 };
 
-/// Refuses a law outside the ranges that its members state.
+/// Rejects a law outside the ranges stated at its members.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const WakeOscillatorLaw& law) {
   require_non_negative("coupling A of the wake", law.coupling, "");
@@ -53,26 +53,26 @@ inline void validate(const WakeOscillatorLaw& law) {
   require_positive("density of the fluid", law.fluid_density, "kg/m^3");
 }
 
-/// The wakes at stations of a span. With p = q̇ − (A/d) ẏ the acceleration of the span is not asked
-/// for:
+/// The wakes at the stations of a span. With p = q̇ − (A/d) ẏ the acceleration of the span is not
+/// needed:
 ///
 ///     q̇ = p + (A/d) ẏ,   ṗ = −ε ω_s (q² − 1) q̇ − ω_s² q
 ///
-/// A step holds ẏ at its middle and goes half a step of q, a whole one of p by the trapezoidal rule
-/// at that q, and half a step of q: of second order, and stable however large q. Left alone it
-/// would turn too fast by (ω_s h)²/24; ω_s² of the restoring term is therefore (4/h²) sin²(ω_s
-/// h/2), to within 10⁻⁵ of itself, so that the frequency is St U/d.
+/// A step holds ẏ at its middle and consists of half a step of q, a whole one of p by the
+/// trapezoidal rule at that q, and half a step of q: of second order, and stable for any q. Without
+/// correction its frequency would be too high by (ω_s h)²/24; ω_s² of the restoring term is
+/// therefore (4/h²) sin²(ω_s h/2), so that the frequency is St U/d to within 10⁻⁵.
 template <class Scalar = double>
 class WakeOscillators {
  public:
-  using Column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;  ///< a number a station
+  using Column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;  ///< one number for each station
 
-  /// Starts from lifts of random size and phase, about a twentieth of what a cylinder at rest has.
-  /// @param law       `validate`d
+  /// Starts from lifts of random size and phase, about a twentieth of that of a fixed cylinder.
+  /// @param law       law that passed `validate`
   /// @param diameter  d (m)
   /// @param strouhal  St
-  /// @param stations  how many
-  /// @param wind      its mean speed and seed
+  /// @param stations  number of stations
+  /// @param wind      wind with its mean speed and seed
   WakeOscillators(const WakeOscillatorLaw& law, double diameter, double strouhal, int stations,
                   const TurbulentWind& wind)
       : coupling_(law.coupling / diameter),
@@ -88,7 +88,7 @@ class WakeOscillators {
     }
   }
 
-  /// One step h of all wakes.
+  /// Performs one step h of all wakes.
   /// @param velocities  ẏ (m/s) in the middle of the step
   /// @param speeds      U (m/s) there
   /// @param step        h (s)
@@ -106,7 +106,7 @@ class WakeOscillators {
     q_ += half * (p_ + moved_);
   }
 
-  /// ¼ ρ U² d C_L0 q (N/m).
+  /// The lift force ¼ ρ U² d C_L0 q (N/m).
   void lift(const Column& speeds, Column& force) const {
     force = Scalar(pressure_) * speeds.square() * q_;
   }

@@ -22,47 +22,47 @@
 
 namespace holdfast {
 
-/// A span in the wind, and how long to look at it.
+/// The setting of a simulation of a span in the wind.
 struct WindHistorySetting {
   TautString<double> string;    ///< its damping ratio adds to that of every mode
   double diameter = 0.0;        ///< d (m), > 0
-  double rated_strength = 0.0;  ///< RTS (N), > T; asked for by the law of self-damping only
+  double rated_strength = 0.0;  ///< RTS (N), > T; used by the law of self-damping only
   std::optional<SelfDampingLaw> self_damping;  ///< its amplitude exponent ≥ 2
   std::vector<SpanDevice> devices;             ///< near the supports
   TurbulentWind wind;                          ///< across the span
-  /// Wakes that swing with the span, or the power of a wind as measured.
+  /// The model of the force: wake oscillators coupled to the span, or a measured power of the wind.
   std::variant<WakeOscillatorLaw, WindPowerLaw> force;
   double strouhal = 0.2;           ///< St, > 0: vortices are shed at St U/d
   int modes = 100;                 ///< N, sines 1 … N of the span, 1 … 1000
-  int stations = 400;              ///< M, of the wakes, N + 1 … 20000; 8 a half-wave are plenty
+  int stations = 400;              ///< M, of the wakes, N + 1 … 20000; 8 per half-wave suffice
   double initial_amplitude = 0.0;  ///< of the mode nearest to the shedding (m), ≥ 0
   double duration = 0.0;           ///< s, > 0
   int steps_per_cycle = 40;        ///< of the shedding at U, 16 … 1000
   double observed = 0.25;          ///< of the duration, the last part, above 0 to 1
-  double place = 0.0;              ///< m from the left support of what is written down
-  int stride = 10;                 ///< steps from one written down to the next, ≥ 1
+  double place = 0.0;              ///< m from the left support, place of the recorded displacement
+  int stride = 10;                 ///< steps between recorded values, ≥ 1
 
   double shedding_frequency() const { return strouhal * wind.mean_speed / diameter; }  ///< Hz
-  /// How many steps the duration takes.
+  /// The number of steps in the duration.
   long steps() const {
     return static_cast<long>(std::ceil(duration * steps_per_cycle * shedding_frequency()));
   }
 };
 
-/// How a span moved in the wind.
+/// The simulated motion of a span in the wind.
 struct WindHistory {
-  /// y (m): √2 times the root of the mean square over the observed part, where that is largest; not
-  /// finite where devices that feed a mode let it grow without bound
+  /// The amplitude y (m): √2 times the rms over the observed part, at its maximum along the span;
+  /// not finite where devices that supply power let it grow without bound.
   double amplitude;
   double spread;                      ///< standard deviation of y there over ten parts of it (m)
-  double antinode;                    ///< the place (m)
-  int mode;                           ///< that moves most
+  double antinode;                    ///< place of that maximum (m)
+  int mode;                           ///< number of the largest mode
   double frequency;                   ///< of that mode (Hz), its velocity over its displacement
   std::vector<double> times;          ///< s
-  std::vector<double> displacements;  ///< at the place asked for (m)
+  std::vector<double> displacements;  ///< recorded displacements (m)
 };
 
-/// Refuses a setting outside the ranges that its members state, and measured power whose shedding
+/// Rejects a setting outside the ranges stated at its members, and a measured power whose shedding
 /// is not within half a mode's distance of a mode.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const WindHistorySetting& setting) {
@@ -101,7 +101,7 @@ inline void validate(const WindHistorySetting& setting) {
 /// ½ Z_c ω² y² S is the same to the first order of S; S/(nπ) takes y for the antinode next to the
 /// device, artanh(S)/(nπ) for the root mean square over the span, which is what a mode has.
 ///
-/// A measured impedance says nothing outside its table: there the devices count as taking nothing.
+/// Outside the table of a measured impedance the devices are assumed to absorb nothing.
 /// @param string       tension and mass
 /// @param devices      in any order
 /// @param frequencies  ω (rad/s) of modes 1, 2 …
@@ -126,14 +126,14 @@ inline std::vector<double> device_damping(const TautString<double>& string,
 
 namespace detail {
 
-/// A run of `wind_history`.
+/// A simulation run of `wind_history`.
 template <class Scalar>
 class WindRun {
  public:
   using Column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;
   using Shapes = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-  /// @param setting  `validate`d; must outlive this
+  /// @param setting  setting that passed `validate`; it must outlive this object
   explicit WindRun(const WindHistorySetting& setting)
       : setting_(setting),
         wakes_law_(std::get_if<WakeOscillatorLaw>(&setting.force)),
@@ -187,7 +187,7 @@ class WindRun {
     return omega;
   }
 
-  /// sin(nπx/L) of all modes at x/L.
+  /// The shapes sin(nπx/L) of all modes at x/L.
   Column shapes_at(double place) const {
     Column shapes(setting_.modes);
     for (int n = 0; n < setting_.modes; ++n)
@@ -195,7 +195,7 @@ class WindRun {
     return shapes;
   }
 
-  /// Sets damping that does not depend on the amplitude, and self-damping at one of a diameter.
+  /// Sets the damping that does not depend on the amplitude, with self-damping at one diameter.
   void set_damping() {
     const std::vector<double> omega(motion_.frequencies().begin(), motion_.frequencies().end());
     const std::vector<double> devices = device_damping(setting_.string, setting_.devices, omega);
@@ -217,7 +217,7 @@ class WindRun {
     }
   }
 
-  /// The mode nearest to the shedding with the amplitude asked for, the others with 10⁻⁴ d.
+  /// Sets the mode nearest to the shedding to its initial amplitude, the others to 10⁻⁴ d.
   void set_start() {
     const double shedding = 2.0 * pi<double> * setting_.shedding_frequency();
     (motion_.frequencies() - Scalar(shedding)).abs().minCoeff(&nearest_);
@@ -238,7 +238,7 @@ class WindRun {
     return ratios;
   }
 
-  /// ζ that the measured power takes from the mode that it feeds, f³ d⁴ F(y/d)/(½ μ ω³ y²).
+  /// The damping ratio ζ by which measured power feeds its mode, f³ d⁴ F(y/d)/(½ μ ω³ y²).
   Scalar fed(double amplitude) const {
     const auto omega = static_cast<double>(motion_.frequencies()[nearest_]);
     const WindPowerLaw law =
@@ -251,7 +251,7 @@ class WindRun {
     return Scalar(std::min(given / damped_power(mass_, 1.0, omega, amplitude), 0.05));
   }
 
-  /// ∫ f sin(nπx/L) dx over the modal mass (m/s²): of the wakes in the middle of the step from t.
+  /// The modal force ∫ f sin(nπx/L) dx over the modal mass (m/s²), for the step from t.
   const Column& force(double time) {
     if (!wakes_law_) {
       if (force_.size() == 0) force_ = Column::Zero(setting_.modes);
@@ -278,9 +278,9 @@ class WindRun {
 
 }  // namespace detail
 
-/// How a span moves in a wind, in steps of its modes and of the wakes at stations along it: a
-/// second route to the amplitude of aeolian vibration, beside `balanced_amplitude`.
-///
+/// The motion of a span in a wind, by steps of its modes and of the wakes at stations
+/// along it: a second route to the amplitude of aeolian vibration, beside
+/// `balanced_amplitude`.
 /// With a WakeOscillatorLaw each station has a wake of its own, and the wind and the motion there
 /// are all that it knows: which modes move, and how far, is left to them. With a WindPowerLaw the
 /// mode nearest to the shedding is given the power that was measured, in phase with its velocity,
@@ -300,8 +300,8 @@ class WindRun {
 /// stable for modes however fast. Halving it changes amplitudes by less than 1 % (tests/span).
 /// Cost: two products of N by M a step.
 ///
-/// Not in it: buffeting by the fluctuations themselves, wakes that speak to each other along the
-/// span, inclined wind, the sag.
+/// Not included are buffeting by the fluctuations themselves, interaction of wakes along the span,
+/// inclined wind, and the sag.
 /// @throws InvalidParameter as `validate`, and for a device outside the span
 template <class Scalar = double>
 WindHistory wind_history(const WindHistorySetting& setting) {

@@ -9,19 +9,19 @@
 
 namespace holdfast {
 
-/// Power a length (W/m) that a steady wind gives a cylinder vibrating across it at the frequency at
-/// which it sheds vortices, measured in a wind tunnel:
+/// The power per length (W/m) of a steady wind on a cylinder that vibrates across it at the
+/// shedding frequency, measured in a wind tunnel:
 ///
 ///     P_wind = f³ d⁴ F(y/d),   F(x) = x Σ a_k x^k,   k = 0 … 7
 ///
 /// f (Hz) is the frequency, d (m) the diameter and y (m) the amplitude, half the peak-to-peak.
 struct WindPowerLaw {
-  std::string_view name;               ///< of those who measured it
+  std::string_view name;               ///< name of its authors
   std::array<double, 8> coefficients;  ///< a_k (W s³/m⁵)
-  double lowest;                       ///< x from which the fit holds
-  double highest;                      ///< and to which
+  double lowest;                       ///< least x of the fit
+  double highest;                      ///< largest x of the fit
 
-  /// F at x = y/d; NaN outside what the fit holds for.
+  /// The value of F at x = y/d; NaN outside the range of the fit.
   double at(double x) const {
     if (!(x >= lowest && x <= highest)) return std::nan("");
     double sum = 0.0;
@@ -29,7 +29,7 @@ struct WindPowerLaw {
     return x * sum;
   }
 
-  /// P_wind (W/m); an amplitude that is an end of the fit but for round-off is that end.
+  /// The power P_wind (W/m); an amplitude at an end of the fit up to round-off counts as that end.
   double power(double frequency, double diameter, double amplitude) const {
     double x = amplitude / diameter;
     for (const double end : {lowest, highest})

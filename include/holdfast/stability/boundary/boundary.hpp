@@ -17,20 +17,20 @@ namespace holdfast {
 
 namespace detail {
 
-/// A place on a curve of root pairs.
+/// A place on a curve of root pairs: its parameter with the gains.
 template <class Scalar>
 struct CurvePlace {
   Scalar parameter;
   PdGains<Scalar> gains;  // not finite at a pole
 };
 
-/// Points along a curve of root pairs within a range of P, as far apart as a picture allows.
+/// The tracer of a curve of root pairs within a range of P, with points as dense as a plot needs.
 ///
 /// A piece of the curve is halved until its quarter points lie on the chord to 1/1000 (of the range
-/// in P, of the gain itself in D, since a picture's range of D is not known here) and the chord
-/// spans no more than 1/50 of the range; a piece that leaves the range is halved where it does.
-/// @tparam Curve  `BoundaryCurves` or `CircleBoundary`: `gains`, `between` and `angle` of a
-///                parameter, and `pair_kind`
+/// in P, of the gain itself in D, since a plot's range of D is unknown here) and the chord spans at
+/// most 1/50 of the range; a piece that leaves the range is halved at the edge.
+/// @tparam Curve  `BoundaryCurves` or `CircleBoundary`: `gains`, `between` and `angle` as functions
+///                of a parameter, and `pair_kind`
 template <class Scalar, class Curve>
 class CurveTracer {
  public:
@@ -38,7 +38,7 @@ class CurveTracer {
   using Points = std::vector<BoundaryPoint<Scalar>>;
 
   /// @param curve    must outlive this object
-  /// @param deepest  how often a piece is halved at most
+  /// @param deepest  largest number of successive halvings of a piece
   CurveTracer(const Curve& curve, const Interval<double>& range, int deepest)
       : curve_(curve), range_(range), deepest_(deepest) {}
 
@@ -54,7 +54,7 @@ class CurveTracer {
   }
 
  private:
-  /// Round-off must not put the end of the range out of it.
+  /// Whether a place is in the range of P; round-off must not exclude the end of the range.
   bool in_range(const Place& place) const {
     const Scalar slack = Scalar(1e-12) * width();
     return place.gains.proportional >= Scalar(range_.lower) - slack &&
@@ -85,7 +85,7 @@ class CurveTracer {
 
   Scalar width() const { return Scalar(range_.upper) - Scalar(range_.lower); }
 
-  /// Distance of the point from the chord, P in units of the range and D of its own size.
+  /// The distance of a point from the chord, P in units of the range and D in units of its size.
   Scalar distance(const PdGains<Scalar>& point, const PdGains<Scalar>& start,
                   const PdGains<Scalar>& end) const {
     const Scalar size = std::abs(start.differential) + std::abs(end.differential);
@@ -100,7 +100,7 @@ class CurveTracer {
     return std::abs(p(end) * d(point) - d(end) * p(point)) / length;
   }
 
-  /// One point at an angle, as about a pole that a zero all but cancels.
+  /// Appends a place unless its angle repeats that before, as at a pole almost cancelled by a zero.
   void append(const Place& place, Points& points) const {
     if (!std::isfinite(place.gains.differential) || !in_range(place)) return;
     const Scalar angle = curve_.angle(place.parameter);
@@ -116,10 +116,10 @@ class CurveTracer {
   int deepest_;
 };
 
-/// Where the curve is cut: where it enters or leaves the range, at its poles and where P or D is
-/// stationary, so that both gains are monotone between cuts and no branch is missed. At a pole the
-/// curve leaves the range at one end and comes back at the other. Y begins at 10⁻¹² of the square
-/// of the plant's mean root and ends at 10¹² of it, or for the sampled loop at θ = π − 2·10⁻⁶.
+/// The places where the curve is cut: at the edges of the range, at its poles and where P or D is
+/// stationary. So both gains are monotone between cuts and no branch is missed. At a pole the curve
+/// leaves the range at one end and returns at the other. Y begins at 10⁻¹² of the square of the
+/// plant's mean root and ends at 10¹² of it, or for the sampled loop at θ = π − 2·10⁻⁶.
 template <class Scalar, int Degree>
 std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>& curves,
                                            const Interval<double>& range) {
@@ -150,15 +150,15 @@ std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>&
 
 }  // namespace detail
 
-/// The whole boundary over a range of P: first the lines (their two ends), then the curve of root
-/// pairs (ascending angle), its points as close together as its bends need, and exactly at the ends
-/// of the range.
+/// The whole boundary of stability over a range of P: first the lines (their two ends), then the
+/// curve of root pairs (ascending angle), with points as dense as its curvature requires, and
+/// exactly at the ends of the range.
 ///
-/// Sampled loop (degree 5): λ = +1, λ = −1 and λ = e^{±iθ}. Continuous loop (degree 4): s = 0 and
-/// s = ±iω. A line that the plant does not have (no gain moves the root there) is absent; λ = +1
-/// and s = 0 are absent for the two-mass plant, whose force moves no static equilibrium.
+/// Sampled loop (degree 5): λ = +1, λ = −1 and λ = e^{±iθ}. Continuous loop (degree 4): s = 0 and s
+/// = ±iω. A line is absent where no gain moves the root; λ = +1 and s = 0 are absent for the
+/// two-mass plant, whose control force does not move the static equilibrium.
 /// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
-/// @param range       P (N/m), its ends included
+/// @param range       range of P (N/m), its ends included
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
 template <class Scalar, int Degree>
 std::vector<BoundaryPoint<Scalar>> stability_boundary(

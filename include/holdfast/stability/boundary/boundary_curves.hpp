@@ -14,26 +14,26 @@
 
 namespace holdfast {
 
-/// A straight part of the boundary, on which a real root sits at λ = ±1 (continuous loop: s = 0):
+/// A straight part of the boundary, on which a real root is at λ = ±1 (continuous loop: s = 0):
 ///
 ///     constant + P · proportional + D · differential = 0
 template <class Scalar>
 struct BoundaryLine {
   BoundaryCurve curve;  ///< `plus_one`, `minus_one` or `zero`
   Scalar angle;         ///< θ = 0 or π (rad); ω = 0 (rad/s) for the continuous loop
-  Scalar constant;      ///< the polynomial without control at the root's place
-  Scalar proportional;  ///< its change per N/m of P; 0 where P does not move the root
-  Scalar differential;  ///< its change per N s/m of D; 0 where D does not move the root
+  Scalar constant;      ///< polynomial without control at the root
+  Scalar proportional;  ///< change of it per N/m of P; 0 where P does not move the root
+  Scalar differential;  ///< change of it per N s/m of D; 0 where D does not move the root
 
-  /// Velocity feedback is idle there: the line is P = const.
+  /// Whether the line is P = const: D does not move the root.
   bool is_vertical() const { return differential == Scalar(0); }
 
-  /// P (N/m) of the line at D (N s/m); infinite where P does not move it.
+  /// The P (N/m) of the line at D (N s/m); infinite where P does not move the root.
   Scalar proportional_at(const Scalar& differential_gain) const {
     return -(constant + differential_gain * differential) / proportional;
   }
 
-  /// D (N s/m) of the line at P (N/m); infinite where it is vertical.
+  /// The D (N s/m) of the line at P (N/m); infinite where the line is vertical.
   Scalar differential_at(const Scalar& proportional_gain) const {
     return -(constant + proportional_gain * proportional) / differential;
   }
@@ -41,7 +41,7 @@ struct BoundaryLine {
 
 namespace detail {
 
-/// The two ends of a line within a P range; D = ∓∞ where it is vertical.
+/// Appends the two ends of a line within a range of P; D = ∓∞ where it is vertical.
 template <class Scalar>
 void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<Scalar>& line,
                  const Interval<double>& range) {
@@ -65,8 +65,8 @@ void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<
 /// curve of root pairs, parametrised by Y (`RootPairCurve`), and at most two lines.
 ///
 /// The sampled loop (degree 5) is treated in w, λ = (1 + w)/(1 − w), with Y = tan²(θ/2), the
-/// continuous loop (degree 4) in s with Y = ω², both but for the unit of Y. A line that no gain
-/// moves is none.
+/// continuous loop (degree 4) in s with Y = ω², both up to the unit of Y. A line whose root no gain
+/// moves is left out.
 template <class Scalar, int Degree>
 class BoundaryCurves {
  public:
@@ -90,27 +90,27 @@ class BoundaryCurves {
   /// Boundary lines that a gain moves, λ = +1 (s = 0) before λ = −1: none, one or two.
   const std::vector<BoundaryLine<Scalar>>& lines() const { return lines_; }
 
-  /// Kind of a point of `pairs()`: `complex_pair`, or `imaginary_pair` in the continuous loop.
+  /// The kind of points of `pairs()`: `complex_pair`, or `imaginary_pair` in the continuous loop.
   BoundaryCurve pair_kind() const {
     return sampled ? BoundaryCurve::complex_pair : BoundaryCurve::imaginary_pair;
   }
 
-  /// The gains of the pair that belongs to Y; infinite at a pole.
+  /// The gains with the root pair of Y; infinite at a pole.
   PdGains<Scalar> gains(const Scalar& square) const { return pairs_.gains(square); }
 
-  /// The middle of two Y, in ln Y.
+  /// The mean of two Y, in ln Y.
   static Scalar between(const Scalar& lower, const Scalar& upper) {
     return std::sqrt(lower) * std::sqrt(upper);
   }
 
-  /// θ (rad) of the pair λ = e^{±iθ} that belongs to Y, or ω (rad/s) of s = ±iω.
+  /// The angle θ (rad) of the pair λ = e^{±iθ} for Y, or ω (rad/s) of s = ±iω.
   Scalar angle(const Scalar& square) const {
     const Scalar y = pairs_.root(square);
     return sampled ? Scalar(2) * std::atan(y) : y;
   }
 
  private:
-  /// No root without control has a larger modulus than twice this (Fujiwara).
+  /// A number whose double bounds the moduli of all roots without control (Fujiwara).
   static Scalar root_bound(const Polynomial<Scalar, Degree>& base) {
     Scalar largest(0);
     for (int k = 0; k < Degree; ++k) {
@@ -120,9 +120,9 @@ class BoundaryCurves {
     return largest;
   }
 
-  /// The line on which the polynomial vanishes at x. A gain whose part there is only round-off of
-  /// its coefficients does not move the root: below 1e−13 of the largest at s = 0, s in units of
-  /// the fastest root; below 1e−9 at λ = ±1, since the matrix exponential is less exact.
+  /// Adds the line on which the polynomial vanishes at x. A gain does not move the root if its
+  /// coefficient there is round-off: below 1e−13 of the largest at s = 0, s in units of the fastest
+  /// root; below 1e−9 at λ = ±1, since the matrix exponential is less exact.
   void add_line(const AffinePolynomial<Scalar, Degree>& polynomial, BoundaryCurve curve,
                 const Scalar& angle, const Scalar& x) {
     const Scalar unit = sampled ? Scalar(1) : root_bound(polynomial.base);

@@ -19,18 +19,18 @@
 
 namespace holdfast {
 
-/// Gains with two different root pairs on the imaginary axis: the curve of root pairs meets itself.
+/// Gains with two different root pairs on the boundary, where the curve intersects itself.
 template <class Scalar>
 struct DoubleNeimarkSacker {
-  PdGains<Scalar> gains;  ///< P (N/m) and D (N s/m) that have both pairs
+  PdGains<Scalar> gains;  ///< gains P (N/m) and D (N s/m) with both pairs
   Scalar lower_square;    ///< Y of the slower pair
   Scalar upper_square;    ///< Y of the faster pair
 };
 
 namespace detail {
 
-/// Rows of the two 3 × 3 matrices by which (1, P, D) gives the coefficients of Y⁰, Y¹, Y² of the
-/// even and of the odd part. Rows and columns are scaled to like size; `column` undoes the latter.
+/// The rows of the two 3 × 3 matrices that map (1, P, D) to the coefficients of Y⁰, Y¹, Y² of the
+/// even and the odd part. Rows and columns are scaled to similar size; `column` undoes the latter.
 template <class Scalar>
 struct ParityPencil {
   Matrix<Scalar, 3> even, odd;
@@ -57,7 +57,7 @@ struct ParityPencil {
 
   Matrix<Scalar, 3> at(const Scalar& ratio) const { return ratio * even - odd; }
 
-  /// det(ν even − odd), degree 3 in ν.
+  /// The determinant det(ν even − odd), of degree 3 in ν.
   Polynomial<Scalar, 3> determinant() const {
     const auto mixed = [this](int rows_of_even) {
       Matrix<Scalar, 3> matrix;
@@ -69,7 +69,7 @@ struct ParityPencil {
     return {-mixed(0), mixed(1) + mixed(2) + mixed(4), -mixed(3) - mixed(5) - mixed(6), mixed(7)};
   }
 
-  /// The gains for which odd = ν even; not finite where there are none.
+  /// The gains with odd = ν even; not finite where there are none.
   PdGains<Scalar> gains(const Scalar& ratio) const {
     const Matrix<Scalar, 3> matrix = at(ratio);
     Vector<Scalar, 3> null = Vector<Scalar, 3>::Zero();
@@ -85,9 +85,9 @@ struct ParityPencil {
   }
 };
 
-/// The two roots in Y of the part of the polynomial that is larger; nothing unless they are
-/// positive and differ: closer than 1e−5 of Y they are a cusp. A first or last coefficient that is
-/// round-off of its terms puts one of them at 0 or ∞: that is an `end`, or no pair at all.
+/// The two roots in Y of the larger part of the polynomial; nothing unless they are positive and
+/// differ by more than 1e−5 of Y (else they form a cusp). If a first or last coefficient is
+/// round-off, one root is 0 or ∞: then the point is an `end`, or no pair at all.
 template <class Scalar>
 std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scalar>& curve,
                                                         const PdGains<Scalar>& gains) {
@@ -116,17 +116,17 @@ std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scal
 
 }  // namespace detail
 
-/// All points at which the curve of root pairs meets itself: at most three.
+/// All points at which the curve of root pairs intersects itself: at most three.
 ///
-/// Two pairs ±iy₁, ±iy₂ leave room for one more root (none when the degree is 4), so that the
-/// polynomial is (1 + νw) e(−w²) with e(Y) ∝ (Y − Y₁)(Y − Y₂): its odd part is ν times its even
-/// part, coefficient by coefficient. With the even and the odd part linear in (1, P, D) this is a
-/// generalised eigenvalue problem of order 3,
+/// Two pairs ±iy₁, ±iy₂ leave room for one more root (none for degree 4), so that the polynomial is
+/// (1 + νw) e(−w²) with e(Y) ∝ (Y − Y₁)(Y − Y₂): its odd part is ν times its even part, coefficient
+/// by coefficient. Since both parts are linear in (1, P, D) this is a generalised eigenvalue
+/// problem of order 3,
 ///
 ///     (ν E − O) (1, P, D)ᵀ = 0,   det(ν E − O) = 0
 ///
-/// a cubic in ν, so that none can be missed. Where the curve is retraced as a whole (no damping:
-/// D = 0 twice, once for each pair) its points are not isolated, and there are none to give.
+/// a cubic in ν, so that none is missed. Where the curve as a whole is traced twice (no damping: D
+/// = 0 twice, once for each pair) its points are not isolated, and the result is empty.
 template <class Scalar>
 std::vector<DoubleNeimarkSacker<Scalar>> double_neimark_sacker_points(
     const RootPairCurve<Scalar>& curve) {
@@ -142,7 +142,7 @@ std::vector<DoubleNeimarkSacker<Scalar>> double_neimark_sacker_points(
 
 namespace detail {
 
-/// Finds the features of one set of boundary curves.
+/// The search for the features of one set of boundary curves.
 template <class Scalar, int Degree>
 class FeatureFinder {
  public:
@@ -180,7 +180,7 @@ class FeatureFinder {
     add(kind, pair, pair, gains);
   }
 
-  /// Marks the vertical and horizontal tangents at nearly the same angle.
+  /// Marks vertical and horizontal tangents at nearly the same angle as near cusps.
   void mark_near_cusps() {
     constexpr double near = 1e-3;
     const auto is_near = [](const BoundaryFeature<Scalar>& one,
@@ -197,8 +197,8 @@ class FeatureFinder {
     }
   }
 
-  /// Stationary points that coincide to 1e−9 of Y are one cusp: at a cusp each is a simple root.
-  /// Without damping one gain is zero all along the curve, and every turn of the other is a cusp.
+  /// Adds tangents; stationary points that coincide to 1e−9 of Y are one cusp, each a simple root.
+  /// Without damping one gain is zero on the whole curve and each extreme of the other is a cusp.
   void add_tangents() {
     const std::vector<Scalar> vertical = pairs_.proportional_extremes();
     std::vector<Scalar> horizontal = pairs_.differential_extremes();
@@ -217,8 +217,8 @@ class FeatureFinder {
     }
   }
 
-  /// On the line c + P p + D d = 0 the pairs solve c Δ + p n_P + d n_D = 0. The curve of pairs
-  /// begins (Y = 0) or ends (Y = ∞) on the line, so the outermost coefficient is zero.
+  /// Adds the meetings with a line c + P p + D d = 0, where c Δ + p n_P + d n_D = 0. The curve
+  /// begins (Y = 0) or ends (Y = ∞) on the line, so that the outermost coefficient is zero.
   void add_meetings(const BoundaryLine<Scalar>& line) {
     const bool at_infinity = line.curve == BoundaryCurve::minus_one;
     Polynomial<Scalar, 4> on_line = line.constant * pairs_.denominator() +
@@ -239,8 +239,8 @@ class FeatureFinder {
         end);
   }
 
-  /// Newton's method on the value of the line on the curve, which does not cancel as the sum above
-  /// does where they run almost alike; with a difference for the slope, as long as it gains.
+  /// A root improved by Newton's method on the line's value on the curve, which does not cancel
+  /// like the sum above where they almost coincide; the slope is a difference, as long as it helps.
   Scalar polished(const BoundaryLine<Scalar>& line, Scalar square) const {
     const auto value = [&](const Scalar& y2) {
       const PdGains<Scalar> gains = pairs_.gains(y2);
@@ -293,13 +293,13 @@ class FeatureFinder {
 
 }  // namespace detail
 
-/// The special points of the boundary within a window of gains: tangents, cusps, crossings, ends.
+/// The special points of the boundary in a window of gains: tangents, cusps, crossings, ends.
 ///
-/// All are roots of polynomials of degree at most six, so none is missed however close the curves
-/// run: stationary P and D from n′ Δ = n Δ′, crossings of the curve of pairs with a line from a
-/// polynomial of degree four in Y, with itself from a cubic (`double_neimark_sacker_points`).
+/// All are roots of polynomials of degree at most six, so that none is missed: stationary P and D
+/// from n′ Δ = n Δ′, crossings of the curve of pairs with a line from a polynomial of degree four
+/// in Y, with itself from a cubic (`double_neimark_sacker_points`).
 /// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
-/// @param window      P (N/m) and D (N s/m), its edges included
+/// @param window      window of P (N/m) and D (N s/m), its edges included
 /// @throws InvalidParameter unless the window's ranges are finite and not empty
 template <class Scalar, int Degree>
 std::vector<BoundaryFeature<Scalar>> boundary_features(

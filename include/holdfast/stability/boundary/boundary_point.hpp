@@ -6,7 +6,7 @@
 
 namespace holdfast {
 
-/// Where a characteristic root crosses as the gains cross a boundary curve.
+/// The place where a characteristic root crosses as the gains cross a boundary curve.
 enum class BoundaryCurve {
   plus_one,  ///< sampled loop: real root λ = +1 (divergence)
   minus_one,  ///< sampled loop: real root λ = −1 (flip: the force alternates from sample to sample)
@@ -15,7 +15,7 @@ enum class BoundaryCurve {
   imaginary_pair,  ///< continuous loop: pair s = ±iω
 };
 
-/// Which of the two gains varies while the other is held.
+/// The gain that varies while the other one is constant.
 enum class FreeGain {
   proportional,  ///< P
   differential,  ///< D
@@ -23,20 +23,20 @@ enum class FreeGain {
 
 namespace detail {
 
-/// The one of two gains that is free.
+/// The value of the free gain of a pair.
 template <class Scalar>
 const Scalar& gain_of(const PdGains<Scalar>& gains, FreeGain free) {
   return free == FreeGain::differential ? gains.differential : gains.proportional;
 }
 
-/// The gains with another value of the free one.
+/// The gains with a new value of the free one.
 template <class Scalar>
 PdGains<Scalar> with_gain(PdGains<Scalar> gains, FreeGain free, const Scalar& value) {
   (free == FreeGain::differential ? gains.differential : gains.proportional) = value;
   return gains;
 }
 
-/// @throws InvalidParameter for a held gain that is not finite
+/// Validates the constant gain. @throws InvalidParameter where it is not finite
 template <class Scalar>
 void require_held(const PdGains<Scalar>& gains, FreeGain free) {
   const bool by_d = free == FreeGain::differential;
@@ -54,7 +54,7 @@ struct BoundaryPoint {
   PdGains<Scalar> gains;  ///< P (N/m), finite; D (N s/m), ∓∞ at the ends of a vertical line
 };
 
-/// @throws InvalidParameter unless range.lower < range.upper, both finite, of P (N/m)
+/// Validates a range of P (N/m). @throws InvalidParameter unless lower < upper, both finite
 inline void validate_proportional(const Interval<double>& range) {
   require_finite("lower end of the proportional gains", range.lower, "N/m");
   require_positive("width of the range of proportional gains", range.upper - range.lower, "N/m");
@@ -65,15 +65,15 @@ struct GainWindow {
   Interval<double> proportional;  ///< P (N/m), finite, lower < upper
   Interval<double> differential;  ///< D (N s/m), likewise
 
-  /// Extent in P (N/m).
+  /// The extent in P (N/m).
   double width() const { return proportional.upper - proportional.lower; }
-  /// Extent in D (N s/m).
+  /// The extent in D (N s/m).
   double height() const { return differential.upper - differential.lower; }
 
-  /// N²s/m².
+  /// The area in the plane of P and D (N²s/m²).
   double area() const { return width() * height(); }
 
-  /// True within the edges or on them; 10⁻¹² of the size is granted to round-off.
+  /// Whether gains lie in the window or on its edges, with 10⁻¹² of the size for round-off.
   template <class Scalar>
   bool contains(const PdGains<Scalar>& gains) const {
     const Scalar p_slack(1e-12 * width()), d_slack(1e-12 * height());
@@ -84,14 +84,14 @@ struct GainWindow {
   }
 };
 
-/// @throws InvalidParameter unless lower < upper in both ranges, all finite
+/// Validates a window. @throws InvalidParameter unless both ranges are finite with lower < upper
 inline void validate(const GainWindow& window) {
   validate_proportional(window.proportional);
   require_finite("lower end of the differential gains", window.differential.lower, "N s/m");
   require_positive("width of the range of differential gains", window.height(), "N s/m");
 }
 
-/// Special points of the boundary in the plane of P (across) and D (up).
+/// The special points of the boundary in the plane of P (horizontal) and D (vertical).
 enum class BoundaryFeatureKind {
   vertical_tangent,    ///< dP/dθ = 0: a stable interval of D opens or closes here
   horizontal_tangent,  ///< dD/dθ = 0: a stable interval of P opens or closes here
@@ -100,23 +100,23 @@ enum class BoundaryFeatureKind {
   end,                 ///< the curve of pairs ends on a line: a double root λ = ±1 (s = 0)
 };
 
-/// A root, or pair, on the boundary of stability.
+/// A root, or a pair of roots, on the boundary of stability.
 template <class Scalar>
 struct BoundaryRoot {
-  BoundaryCurve curve;  ///< on which it lies
+  BoundaryCurve curve;  ///< curve that it lies on
   Scalar angle;         ///< θ (rad) 0 … π, or ω (rad/s) for the continuous loop
 };
 
-/// One special point of the boundary. The two roots are the same but for crossings and ends.
+/// One special point of the boundary. Its two roots differ at crossings and ends only.
 template <class Scalar>
 struct BoundaryFeature {
-  BoundaryFeatureKind kind;     ///< tells what the two roots are
+  BoundaryFeatureKind kind;     ///< determines the kind of the two roots
   BoundaryRoot<Scalar> first;   ///< the pair, of two pairs the slower one; of two lines λ = +1
   BoundaryRoot<Scalar> second;  ///< the line, or the faster pair; of two lines λ = −1
   PdGains<Scalar> gains;        ///< P (N/m) and D (N s/m), finite
   Scalar residual;  ///< larger |p(x)| of the two roots, over the sum of the moduli of its terms
-  /// Whether a tangent of the other kind lies so near that the two are nearly a cusp, where a small
-  /// change of the loop swaps them, and stable intervals appear or vanish.
+  /// Whether a tangent of the other kind is so near that the two almost form a cusp: a small change
+  /// of the loop swaps them, and stable intervals appear or vanish.
   bool nearly_cusp = false;
 };
 

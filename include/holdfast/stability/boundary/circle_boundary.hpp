@@ -9,7 +9,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// The boundary of a loop of any order, angle by angle.
+/// The boundary of stability of a loop of any order, computed angle by angle.
 template <class Scalar>
 class CircleBoundary {
  public:
@@ -32,7 +32,7 @@ class CircleBoundary {
   static Scalar angle(const Scalar& angle) { return angle; }
   static BoundaryCurve pair_kind() { return BoundaryCurve::complex_pair; }
 
-  /// The line of gains with the root 1 or −1, by its two ends within the range.
+  /// Appends the two ends, within the range, of the line of gains with the root 1 or −1.
   void append_line(BoundaryCurve curve, std::vector<BoundaryPoint<Scalar>>& points) const {
     const Scalar angle = curve == BoundaryCurve::plus_one ? Scalar(0) : pi<Scalar>;
     const CommandResponse<Scalar> g = response_.at_angle(angle);
@@ -43,7 +43,7 @@ class CircleBoundary {
         range_);
   }
 
-  /// The curve of root pairs within the range, by ascending angle.
+  /// Appends the curve of root pairs within the range, by ascending angle.
   void append_curve(std::vector<BoundaryPoint<Scalar>>& points) const {
     const CurveTracer<Scalar, CircleBoundary> tracer(*this, range_, 14);
     std::vector<CurvePlace<Scalar>> places;
@@ -52,7 +52,7 @@ class CircleBoundary {
   }
 
  private:
-  /// max |G_v| at the poles' angles: what a value of G_v is small against.
+  /// The largest |G_v| at the angles of the poles, a scale for small values of G_v.
   Scalar response_size() const {
     Scalar largest = std::abs(response_.at_angle(pi<Scalar> / Scalar(2)).velocity);
     for (const Scalar& angle : pole_angles_)
@@ -60,7 +60,7 @@ class CircleBoundary {
     return largest;
   }
 
-  /// Close together about each pole, towards 0 and towards π, where the curve moves fast.
+  /// The initial angles: dense at each pole, towards 0 and π, where the curve moves fast.
   std::vector<Scalar> starting_angles() const {
     std::vector<Scalar> angles, centres = pole_angles_;
     centres.insert(centres.end(), {Scalar(0), pi<Scalar>});
@@ -82,11 +82,11 @@ class CircleBoundary {
 /// The boundary of stability of a loop of any order over a range of P: the lines of the roots 1 and
 /// −1 (their two ends), then the curve of root pairs e^{±iθ} by ascending angle.
 ///
-/// 1 − P G_z(λ) − D G_v(λ) = 0 at λ = e^{iθ} are two real linear equations in P and D
-/// (`ModalResponse`). The points lie as close together as the curve's bends need; its crossings
-/// with a line of constant P or D are in `circle_crossings`.
-/// @param response  of the loop
-/// @param range     P (N/m), its ends included
+/// The equation 1 − P G_z(λ) − D G_v(λ) = 0 at λ = e^{iθ} is two real linear equations in P and D
+/// (`ModalResponse`). The points are as dense as the curvature requires; the crossings with a line
+/// of constant P or D are found by `circle_crossings`.
+/// @param response  response of the loop
+/// @param range     range of P (N/m), its ends included
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
 template <class Scalar>
 std::vector<BoundaryPoint<Scalar>> stability_boundary(const ModalResponse<Scalar>& response,

@@ -27,14 +27,14 @@ struct GainCrossing {
 
 namespace detail {
 
-/// Where the free gain is real on the circle: x(θ) = (1 − y G_held)/G_free, and Im x(θ) = 0.
+/// The free gain x(θ) = (1 − y G_held)/G_free on the circle; it is a real gain where Im x(θ) = 0.
 template <class Scalar>
 class FreeGainOnCircle {
  public:
   FreeGainOnCircle(const LoopMap<Scalar>& map, FreeGain free, const PdGains<Scalar>& gains)
       : response_(map), free_(free), gains_(gains) {}
 
-  /// x(θ); its imaginary part vanishes at a crossing.
+  /// The value x(θ); its imaginary part vanishes at a crossing.
   std::complex<Scalar> at(const Scalar& angle) const {
     const CommandResponse<Scalar> g = response_.at_angle(angle);
     return free_ == FreeGain::differential
@@ -42,8 +42,8 @@ class FreeGainOnCircle {
                : (Scalar(1) - gains_.differential * g.velocity) / g.displacement;
   }
 
-  /// The zero of Im x near an angle that is almost one, by the secant method; the angle itself
-  /// where that leads away.
+  /// The zero of Im x near an approximate angle, by the secant method; the angle itself where the
+  /// method moves away.
   Scalar polished(const Scalar& angle) const {
     Scalar before = angle * (Scalar(1) - Scalar(1e-7)), here = angle;
     Scalar value_before = at(before).imag(), value = at(here).imag();
@@ -64,12 +64,12 @@ class FreeGainOnCircle {
   PdGains<Scalar> gains_;
 };
 
-/// The angles θ > 0 of the eigenvalues e^{iθ} of a pencil, det(M − λ L) = 0, or of what lies within
-/// 10⁻⁴ of the circle as λ = (w + a)/(1 + a w) sees it.
+/// The angles θ > 0 of the eigenvalues e^{iθ} of a pencil, det(M − λ L) = 0, including those within
+/// 10⁻⁴ of the circle in the variable w of λ = (w + a)/(1 + a w).
 ///
-/// The change of variable keeps the circle and turns the pencil into the matrix
-/// (L − a M)⁻¹(M − a L) with the eigenvalues w: those at 0 and ∞ go to −a and −1/a, where they do
-/// no harm, and an a near 1 spreads what crowds about λ = 1.
+/// The change of variable preserves the circle and turns the pencil into the matrix (L − a M)⁻¹(M −
+/// a L) with the eigenvalues w. Eigenvalues at 0 and ∞ move to −a and −1/a, where they do no harm,
+/// and an a near 1 separates those near λ = 1.
 /// @param spread  (1 − a)/(1 + a), 0 … 1
 template <class Scalar>
 std::vector<Scalar> angles_on_circle(const Matrix<Scalar, Eigen::Dynamic>& m,
@@ -109,19 +109,19 @@ std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossi
 
 }  // namespace detail
 
-/// All values of one gain, the other being held, at which a loop of any order has a root on the
-/// unit circle; ascending.
+/// All values of one gain, for a fixed value of the other, at which a loop of any order has a root
+/// on the unit circle; ascending.
 ///
-/// With the held gain in the loop, S = S₀ + s K_held, the free gain x has a root at λ where
-/// x g(λ) = 1, g = h (λI − S)⁻¹ s. On the circle x is real where g(λ) = g(1/λ), which are the
+/// With the fixed gain in the loop, S = S₀ + s K_held, the free gain x has a root at λ where x g(λ)
+/// = 1, g = h (λI − S)⁻¹ s. On the circle x is real where g(λ) = g(1/λ). These λ are the
 /// eigenvalues of a pencil of size 2n + 1, n = N + k:
 ///
 ///     λ y₁ = S y₁ + s w,   y₂ = λ (S y₂ + s w),   h (y₁ − y₂) = 0
 ///
-/// None can be stepped over. Those next to the circle count, since double ones leave it by the root
-/// of round-off, and are polished on it; one that is none only splits an interval. λ = ±1 are
-/// always among the solutions. Cost: the eigenvalues of one matrix, about 10 (2n + 1)³
-/// multiply-adds.
+/// No crossing is passed over. Eigenvalues next to the circle are included, since round-off moves
+/// double ones off it by its square root, and refined on the circle; a spurious one only divides an
+/// interval. λ = ±1 are always among the solutions. Cost: the eigenvalues of one matrix, about 10
+/// (2n + 1)³ multiply-adds.
 template <class Scalar>
 std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain free,
                                            const PdGains<Scalar>& gains) {
@@ -149,14 +149,14 @@ std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain 
   return crossings;
 }
 
-/// The open intervals of one gain, the other being held, in which a loop of any order is stable.
+/// The open intervals of one gain, for a fixed value of the other, with a stable loop of any order.
 ///
-/// The eigenvalues of the map in the middle of each gap between neighbouring crossings decide it.
-/// Gaps that touch and are both stable are joined where the loop is stable between them too.
+/// Each gap between neighbouring crossings is decided by the eigenvalues of the map at its middle.
+/// Adjacent stable gaps are joined where the loop is stable at the point between them too.
 /// @param map    the loop
 /// @param free   the gain that varies
-/// @param gains  the other one; the value of the free one does not matter
-/// @throws InvalidParameter for a fixed gain that is not finite
+/// @param gains  the fixed gain; the value of the free one is not used
+/// @throws InvalidParameter where the fixed gain is not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_gains(const LoopMap<Scalar>& map, FreeGain free,
                                            const PdGains<Scalar>& gains) {

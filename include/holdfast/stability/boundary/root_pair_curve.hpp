@@ -11,33 +11,33 @@
 
 namespace holdfast {
 
-/// One end of an arc: Y and there the numerator and the denominator of P (at Y = 0 and ∞ their
+/// One end of an arc: Y with the numerator and the denominator of P there (at Y = 0 and ∞ their
 /// first coefficients that do not both vanish; at a pole the denominator is 0).
 template <class Scalar>
 struct ArcEnd {
   Scalar square;       ///< Y, 0 … ∞
-  Scalar numerator;    ///< of P; where P stays finite at a pole, over |Y − pole|
-  Scalar denominator;  ///< Δ; likewise
+  Scalar numerator;    ///< numerator of P; where P is finite at a pole, divided by |Y − pole|
+  Scalar denominator;  ///< denominator Δ, divided in the same way
 
-  /// Sign tells on which side of a proportional gain the curve is, without dividing at a pole.
+  /// A number whose sign gives the curve's side of a gain P, without division at a pole.
   Scalar residual(const Scalar& proportional_gain) const {
     return numerator - proportional_gain * denominator;
   }
 };
 
-/// A stretch of the curve of root pairs on which P is monotone and finite.
+/// A part of the curve of root pairs on which P is monotone and finite.
 template <class Scalar>
 struct MonotoneArc {
   ArcEnd<Scalar> start;  ///< at the lower Y ≥ 0
   ArcEnd<Scalar> end;    ///< at the upper Y ≤ ∞
 
-  /// True when the arc takes the proportional gain (N/m), which it then does once.
+  /// Whether P on the arc takes the given value (N/m); it does so at most once.
   bool passes(const Scalar& proportional_gain) const {
     return (start.residual(proportional_gain) < Scalar(0)) !=
            (end.residual(proportional_gain) < Scalar(0));
   }
 
-  /// A Y inside: the geometric mean of the ends where both are finite and not 0.
+  /// A Y inside the arc: the geometric mean of the ends where both are finite and not 0.
   Scalar inside() const {
     if (std::isinf(end.square)) return start.square > 0 ? Scalar(2) * start.square : Scalar(1);
     if (!(start.square > Scalar(0))) return end.square / Scalar(2);
@@ -45,11 +45,11 @@ struct MonotoneArc {
   }
 };
 
-/// A differential gain at which a row of fixed P meets the boundary.
+/// The differential gain at which a line of constant P crosses the boundary.
 template <class Scalar>
 struct RowCrossing {
   Scalar differential;  ///< D (N s/m)
-  Scalar uncertainty;   ///< D (N s/m) within which round-off leaves the place of the boundary open
+  Scalar uncertainty;   ///< D (N s/m) within which round-off leaves the crossing open
 };
 
 /// The gains at which the loop has a pair of roots w = ±iy on the imaginary axis, as rational
@@ -59,14 +59,14 @@ struct RowCrossing {
 ///
 ///     P(Y) = (b_o d_e − b_e d_o) / Δ,   D(Y) = (b_e p_o − b_o p_e) / Δ,   Δ(Y) = p_e d_o − p_o d_e
 ///
-/// numerators and Δ are of degree ≤ 4 in Y, which is measured in squares of `unit()`. Coefficients
-/// of the gains below round-off of the largest are zeros (no gain moves the root there). For the
-/// sampled loop w = i tan(θ/2) is the pair λ = e^{±iθ}; for the continuous loop w = iω.
+/// Numerators and Δ are of degree ≤ 4 in Y, in units of `unit()` squared. Coefficients of the gains
+/// below round-off of the largest are set to zero (no gain moves the root there). In the sampled
+/// loop w = i tan(θ/2) is the pair λ = e^{±iθ}; in the continuous loop w = iω.
 template <class Scalar>
 class RootPairCurve {
  public:
-  /// @param polynomial  `characteristic_polynomial(plant)`, or that of the sampled loop after
-  ///                    `in_half_plane`
+  /// @param polynomial  `characteristic_polynomial(plant)`, or that of the sampled loop transformed
+  ///                    by `in_half_plane`
   template <int Degree>
   explicit RootPairCurve(const HalfPlanePolynomial<Scalar, Degree>& polynomial)
       : unit_(detail::mean_root_modulus(polynomial.base)),
@@ -77,10 +77,10 @@ class RootPairCurve {
         proportional_numerator_(cross(differential_, base_)),
         differential_numerator_(cross(base_, proportional_)) {}
 
-  /// The mean root modulus without control, in which w is measured: y = unit · √Y.
+  /// The mean root modulus without control, the unit of w: y = unit · √Y.
   const Scalar& unit() const { return unit_; }
 
-  /// y = Im w of the root pair.
+  /// The imaginary part y = Im w of the root pair.
   Scalar root(const Scalar& square) const { return unit_ * std::sqrt(square); }
 
   /// The gains at Y; infinite at a pole.
@@ -90,25 +90,25 @@ class RootPairCurve {
             evaluate(differential_numerator_, square) / denominator};
   }
 
-  /// Numerator of P, degree 4 in Y.
+  /// The numerator of P, degree 4 in Y.
   const Polynomial<Scalar, 4>& proportional_numerator() const { return proportional_numerator_; }
-  /// Numerator of D, degree 4 in Y.
+  /// The numerator of D, degree 4 in Y.
   const Polynomial<Scalar, 4>& differential_numerator() const { return differential_numerator_; }
-  /// Δ, the denominator of both, degree 4 in Y.
+  /// The common denominator Δ, degree 4 in Y.
   const Polynomial<Scalar, 4>& denominator() const { return denominator_; }
 
-  /// Where the curve takes a proportional gain.
+  /// A place where P on the curve has a given value.
   struct Place {
     Scalar square;           ///< Y
     Scalar square_per_gain;  ///< dY/dP
   };
 
-  /// Where an arc takes the gain P (N/m), which it must (`passes`), to round-off: Newton's method
-  /// on n − P Δ, n being the numerator of P; where its steps do not shrink or leave the arc,
-  /// halving what is left of the arc.
-  /// @param arc                of this curve
+  /// The place where P on an arc has the given value (N/m), which must exist (`passes`), to
+  /// round-off: Newton's method on n − P Δ, n being the numerator of P. Where its steps do not
+  /// shrink or leave the arc, the rest of the arc is halved.
+  /// @param arc                arc of this curve
   /// @param proportional_gain  P (N/m)
-  /// @param guess              a Y to begin with; any number, NaN too
+  /// @param guess              initial Y; any number, NaN too
   Place place(const MonotoneArc<Scalar>& arc, const Scalar& proportional_gain,
               const Scalar& guess) const {
     MonotoneArc<Scalar> bracket = arc;
@@ -131,8 +131,8 @@ class RootPairCurve {
     return {square, at.denominator / at.slope};
   }
 
-  /// Y on an arc at a P, without a guess; the nearer end of an arc that does not take the gain.
-  /// Y = 0 and ∞ are put off to where all powers of Y are still numbers.
+  /// The Y on an arc at a given P, without a guess; the nearer end where the arc does not reach it.
+  /// Y = 0 and ∞ are replaced by values at which all powers of Y are finite.
   Scalar square(MonotoneArc<Scalar> arc, const Scalar& proportional_gain) const {
     const Scalar largest = std::pow(std::numeric_limits<Scalar>::max(), Scalar(0.125));
     arc.start.square = std::max(arc.start.square, Scalar(1) / largest);
@@ -144,7 +144,7 @@ class RootPairCurve {
     return distance(arc.start) < distance(arc.end) ? arc.start.square : arc.end.square;
   }
 
-  /// D at P (N/m) and Y: −(b + P p)/d of the even or the odd part, whichever holds D better.
+  /// The D at P (N/m) and Y: −(b + P p)/d of the even or odd part, whichever determines D better.
   RowCrossing<Scalar> crossing(const Scalar& proportional_gain, const Scalar& square) const {
     const Scalar even_slope = evaluate(differential_.even, square);
     const Scalar odd_slope = evaluate(differential_.odd, square);
@@ -158,18 +158,18 @@ class RootPairCurve {
     return {-evaluate(sum, square) / slope, rounding * evaluate(sizes, square) / std::abs(slope)};
   }
 
-  /// Round-off of a sum, as a share of the sum of the moduli of its terms.
+  /// The round-off of a sum, as a share of the sum of the moduli of its terms.
   static constexpr Scalar rounding = Scalar(32) * std::numeric_limits<Scalar>::epsilon();
 
-  /// Even and odd part of the polynomial without control, w in `unit()`.
+  /// Even and odd part of the polynomial without control, w in units of `unit()`.
   const ParityParts<Scalar>& base() const { return base_; }
-  /// Even and odd part of its change per N/m of P.
+  /// Even and odd part of the polynomial's change per N/m of P.
   const ParityParts<Scalar>& proportional() const { return proportional_; }
-  /// Even and odd part of its change per N s/m of D.
+  /// Even and odd part of the polynomial's change per N s/m of D.
   const ParityParts<Scalar>& differential() const { return differential_; }
 
-  /// One part of the polynomial at some gains, and the sum of the moduli of its terms, by which
-  /// round-off is told.
+  /// One part of the polynomial at some gains, with the sum of the moduli of its terms as a measure
+  /// of round-off.
   struct Terms {
     Vector<Scalar, 3> sum,  ///< b + P p + D d
         size;               ///< |b| + |P p| + |D d|
@@ -184,15 +184,15 @@ class RootPairCurve {
     return {b + p + d, b.cwiseAbs() + p.cwiseAbs() + d.cwiseAbs()};
   }
 
-  /// Y > 0 at which the curve leaves to infinity, ascending.
+  /// The Y > 0 at which the curve goes to infinity, ascending.
   std::vector<Scalar> poles() const { return positive_roots(denominator_); }
 
-  /// Y > 0 at which P is stationary (the curve is vertical in a plane with P across), ascending.
+  /// The Y > 0 at which P is stationary (a vertical tangent with P horizontal), ascending.
   std::vector<Scalar> proportional_extremes() const {
     return positive_roots(slope(reduced(proportional_numerator_, differential_)));
   }
 
-  /// Y > 0 at which D is stationary, ascending.
+  /// The Y > 0 at which D is stationary, ascending.
   std::vector<Scalar> differential_extremes() const {
     return positive_roots(slope(reduced(differential_numerator_, proportional_)));
   }
@@ -219,7 +219,7 @@ class RootPairCurve {
   }
 
  private:
-  /// n − P Δ with n the numerator of P: zero where the curve takes P; its slope by Y, and Δ.
+  /// The value n − P Δ, n being the numerator of P, with its derivative by Y, and Δ.
   struct Residual {
     Scalar value, slope, denominator;
   };
@@ -235,7 +235,7 @@ class RootPairCurve {
     return {value, slope, denominator};
   }
 
-  /// The difference, with zeros for coefficients that are only the round-off of their terms.
+  /// The difference of two polynomials, with zeros for coefficients that are mere round-off.
   template <int Size>
   static Vector<Scalar, Size> difference(const Vector<Scalar, Size>& a,
                                          const Vector<Scalar, Size>& c) {
@@ -253,7 +253,7 @@ class RootPairCurve {
                          multiply<Scalar, 3, 3>(a.odd, c.even));
   }
 
-  /// The ends of the two arcs that meet.
+  /// The two ends of arcs at a cut.
   struct Cut {
     ArcEnd<Scalar> below, above;
   };
@@ -262,8 +262,8 @@ class RootPairCurve {
     Polynomial<Scalar, 4> numerator, denominator;
   };
 
-  /// numerator / Δ without the poles at which `factor` vanishes, a factor of both: d(iy) of P,
-  /// p(iy) of D. Without damping the velocity has zeros on the axis: there D is infinite, P not.
+  /// The fraction numerator / Δ without the poles at zeros of `factor`, common to both: d(iy) for
+  /// P, p(iy) for D. Without damping the velocity has zeros on the axis: there only D is infinite.
   Fraction reduced(const Polynomial<Scalar, 4>& numerator,
                    const ParityParts<Scalar>& factor) const {
     Fraction result{numerator, denominator_};
@@ -275,7 +275,7 @@ class RootPairCurve {
     return result;
   }
 
-  /// True when the even and the odd part are both zero but for round-off.
+  /// Whether the even and the odd part are both zero up to round-off.
   static bool vanishes(const ParityParts<Scalar>& factor, const Scalar& square) {
     const Scalar even = evaluate(factor.even, square), odd = evaluate(factor.odd, square);
     const Scalar size =
@@ -283,7 +283,7 @@ class RootPairCurve {
     return std::abs(even) + std::sqrt(square) * std::abs(odd) <= Scalar(1e-12) * size;
   }
 
-  /// Where P stays finite both numerator and Δ change sign: their ratio to |Y − pole| is taken.
+  /// The ends at a pole; where P is finite there, numerator and Δ are divided by |Y − pole|.
   Cut cut_at_pole(const Scalar& pole) const {
     const Polynomial<Scalar, 4>& numerator = proportional_numerator_;
     if (!vanishes(differential_, pole)) {
@@ -295,7 +295,7 @@ class RootPairCurve {
     return {{pole, -above, -denominator}, {pole, above, denominator}};
   }
 
-  /// numerator′ Δ − numerator Δ′; the leading terms cancel, so that the degree is at most 6.
+  /// The polynomial numerator′ Δ − numerator Δ′; leading terms cancel, the degree is at most 6.
   static Polynomial<Scalar, 6> slope(const Fraction& fraction) {
     const auto& [n, d] = fraction;
     return difference<8>(multiply<Scalar, 4, 5>(derivative<Scalar, 5>(n), d),
@@ -303,7 +303,7 @@ class RootPairCurve {
         .template head<7>();
   }
 
-  /// The end at Y = 0 (from power 0 on) or ∞ (from power 4 down).
+  /// The end of an arc at Y = 0 (powers from 0 upwards) or ∞ (powers from 4 downwards).
   ArcEnd<Scalar> outer_end(const Scalar& square, int from, int last) const {
     int order = from;
     while (order != last && proportional_numerator_[order] == Scalar(0) &&

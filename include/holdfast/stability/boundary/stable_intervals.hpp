@@ -15,13 +15,13 @@ namespace holdfast {
 
 /// The values x at which a(w) + x d(w) has a root on the imaginary axis or at infinity, ascending.
 ///
-/// w = 0 needs a₀ + x d₀ = 0, w = ∞ needs a_n + x d_n = 0. For w = iy the even and the odd part
-/// vanish together; eliminating x leaves a polynomial in Y = y² of degree at most 4,
+/// A root w = 0 needs a₀ + x d₀ = 0, w = ∞ needs a_n + x d_n = 0. For w = iy the even and the odd
+/// part vanish together; eliminating x leaves a polynomial in Y = y² of degree at most 4,
 ///
 ///     a_e(Y) d_o(Y) − a_o(Y) d_e(Y) = 0,   x = −a_e / d_e = −a_o / d_o
 ///
-/// so none can be stepped over. w is measured in mean root moduli; a slope below 1e−12 of the
-/// largest is round-off of a zero, and its crossing lies at infinity.
+/// so that none is passed over. w is measured in mean root moduli; a slope below 1e−12 of the
+/// largest counts as zero, and its crossing is at infinity.
 template <class Scalar, int Size>
 std::vector<Scalar> boundary_crossings(const Vector<Scalar, Size>& constant_part,
                                        const Vector<Scalar, Size>& slope_part) {
@@ -54,10 +54,10 @@ std::vector<Scalar> boundary_crossings(const Vector<Scalar, Size>& constant_part
 
 namespace detail {
 
-/// The gaps between ascending `ends` that are stable inside, the first and the last without bound;
-/// gaps that touch are joined unless it is not stable where they do.
-/// @param inside     (gap) → a point of it
-/// @param stable_at  (point) → bool
+/// The stable gaps between ascending `ends`, the first and the last gap unbounded. Adjacent stable
+/// gaps are joined where the loop is stable at the end between them too.
+/// @param inside     map from a gap to a point in it
+/// @param stable_at  test of a point
 template <class Scalar, class Inside, class StableAt>
 std::vector<Interval<Scalar>> stable_gaps(const std::vector<Scalar>& ends, const Inside& inside,
                                           const StableAt& stable_at) {
@@ -78,11 +78,11 @@ std::vector<Interval<Scalar>> stable_gaps(const std::vector<Scalar>& ends, const
 
 }  // namespace detail
 
-/// The open intervals of x in which a(w) + x d(w) has all its roots in Re w < 0.
+/// The open intervals of x in which all roots of a(w) + x d(w) have Re w < 0.
 ///
-/// One Hurwitz test decides each gap between neighbouring crossings; gaps that touch and are both
-/// stable are joined unless a root sits on the axis between. The leading coefficient may change
-/// sign along x.
+/// One Hurwitz test decides each gap between neighbouring crossings. Adjacent stable gaps are
+/// joined unless a root is on the axis between them. The leading coefficient may change sign along
+/// x.
 template <class Scalar, int Size>
 std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
                                                const Vector<Scalar, Size>& d) {
@@ -93,7 +93,7 @@ std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
 
 namespace detail {
 
-/// stable_differential_gains() of numbers that are not looked at.
+/// The intervals of stable_differential_gains() without validation of the arguments.
 template <class Scalar, int Degree>
 std::vector<Interval<Scalar>> differential_intervals(
     const AffinePolynomial<Scalar, Degree>& polynomial, const Scalar& proportional_gain) {
@@ -104,10 +104,10 @@ std::vector<Interval<Scalar>> differential_intervals(
 
 }  // namespace detail
 
-/// Stable intervals of D (N s/m) at a fixed proportional gain P (N/m).
+/// The stable intervals of D (N s/m) for a given proportional gain P (N/m).
 /// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
 /// @param proportional_gain  P (N/m), finite
-/// @throws InvalidParameter where one of them is not finite
+/// @throws InvalidParameter where an argument is not finite
 template <class Scalar, int Degree>
 std::vector<Interval<Scalar>> stable_differential_gains(
     const AffinePolynomial<Scalar, Degree>& polynomial, const Scalar& proportional_gain) {
@@ -116,10 +116,10 @@ std::vector<Interval<Scalar>> stable_differential_gains(
   return detail::differential_intervals(polynomial, proportional_gain);
 }
 
-/// Stable intervals of P (N/m) at a fixed differential gain D (N s/m).
-/// @param polynomial         as for `stable_differential_gains`
+/// The stable intervals of P (N/m) for a given differential gain D (N s/m).
+/// @param polynomial         see `stable_differential_gains`
 /// @param differential_gain  D (N s/m), finite
-/// @throws InvalidParameter where one of them is not finite
+/// @throws InvalidParameter where an argument is not finite
 template <class Scalar, int Degree>
 std::vector<Interval<Scalar>> stable_proportional_gains(
     const AffinePolynomial<Scalar, Degree>& polynomial, const Scalar& differential_gain) {

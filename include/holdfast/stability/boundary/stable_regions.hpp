@@ -18,60 +18,60 @@
 
 namespace holdfast {
 
-/// A connected part of a window of gains in which the loop has the same number of unstable roots
-/// and which no boundary crosses.
+/// A connected part of a window of gains, without boundary inside, in which the loop has a constant
+/// number of unstable roots.
 template <class Scalar>
 struct GainRegion {
   int unstable_roots;      ///< with |λ| > 1 (continuous loop: Re s > 0); 0: asymptotically stable
   Scalar area;             ///< ∬ dP dD within the window, N²s/m²
-  PdGains<Scalar> inside;  ///< a point well inside
+  PdGains<Scalar> inside;  ///< a point far from the region's edge
   Interval<Scalar> proportional;  ///< extent in P (N/m)
   Interval<Scalar> differential;  ///< extent in D (N s/m)
-  bool at_edge;                   ///< reaches the window's edge: it may go on beyond
+  bool at_edge;                   ///< touches the window's edge and may continue beyond it
 };
 
 namespace detail {
 
-/// A stretch of the boundary on which D is a function of P: an arc or a line that is not vertical.
+/// A part of the boundary on which D is a function of P: an arc or a line that is not vertical.
 template <class Scalar>
 struct BoundaryBranch {
-  const RootPairCurve<Scalar>* curve;  ///< of an arc, must outlive the branch; null for a line
-  MonotoneArc<Scalar> arc;             ///< counts with a curve
-  BoundaryLine<Scalar> line;           ///< counts without one
+  const RootPairCurve<Scalar>* curve;  ///< of an arc; it must outlive the branch; null for a line
+  MonotoneArc<Scalar> arc;             ///< used with a curve
+  BoundaryLine<Scalar> line;           ///< used without a curve
 
-  /// True where the branch has a D at P (N/m): within the arc; a line has one everywhere.
+  /// Whether the branch has a D at P (N/m): an arc within its range, a line everywhere.
   bool passes(const Scalar& proportional_gain) const {
     return curve == nullptr || arc.passes(proportional_gain);
   }
 
-  /// D (N s/m) at P (N/m); at the nearer end of an arc that does not reach P.
+  /// The D (N s/m) at P (N/m); at the nearer end of an arc that does not reach P.
   Scalar differential(const Scalar& proportional_gain) const {
     if (curve == nullptr) return line.differential_at(proportional_gain);
     return curve->crossing(proportional_gain, curve->square(arc, proportional_gain)).differential;
   }
 };
 
-/// A range of P within a window over which the boundary keeps its shape: the same branches cross
+/// A range of P in a window over which the boundary has a constant shape: the same branches cross
 /// the window, in the same order, each of them monotone.
 template <class Scalar>
 struct GainSlab {
   Scalar lower;                                  ///< P (N/m)
   Scalar upper;                                  ///< P (N/m)
   bool wall_below;                               ///< a vertical line of the boundary is at `lower`
-  std::vector<BoundaryBranch<Scalar>> branches;  ///< ascending in D
+  std::vector<BoundaryBranch<Scalar>> branches;  ///< branches in the slab, ascending in D
 };
 
-/// Cuts a window of the gain plane into slabs at every P where the boundary changes shape: its
-/// special points (`boundary_features`), vertical lines, and where it passes the window's edges.
-/// Joins the cells of neighbouring slabs to regions.
+/// Divides a window of the gain plane into slabs at every P where the boundary changes its shape:
+/// at special points (`boundary_features`), at vertical lines, and where it crosses the window's
+/// edges. Joins the cells of neighbouring slabs into regions.
 ///
-/// A curve of root pairs that is itself the line P = const would not be seen. No loop of a plant
-/// has one; the undamped continuous loop has with its two gains exchanged.
+/// A curve of root pairs that coincides with a line P = const would be missed. No loop of a plant
+/// has one; the undamped continuous loop has one when its two gains are exchanged.
 template <class Scalar, int Degree>
 class RegionBuilder {
  public:
   /// @param curves  must outlive this object
-  /// @param window  P (N/m) and D (N s/m), within its ranges (`validate`), not checked here
+  /// @param window  P (N/m) and D (N s/m); it must be valid (`validate`), which is not checked here
   RegionBuilder(const BoundaryCurves<Scalar, Degree>& curves, const GainWindow& window)
       : curves_(curves), window_(window) {
     for (const auto& arc : curves_.pairs().arcs()) branches_.push_back({&curves_.pairs(), arc, {}});
@@ -87,10 +87,10 @@ class RegionBuilder {
     }
   }
 
-  /// Ascending in P, without gaps.
+  /// The slabs, ascending in P, without gaps.
   const std::vector<GainSlab<Scalar>>& slabs() const { return slabs_; }
 
-  /// Stable regions first, then by number of unstable roots; the larger first among equals.
+  /// The regions: by number of unstable roots, stable ones first; the larger first among equals.
   std::vector<GainRegion<Scalar>> regions() {
     std::vector<GainRegion<Scalar>> result;
     for (std::size_t k = 0; k < cells_.size(); ++k) {
@@ -117,7 +117,7 @@ class RegionBuilder {
     if (window_.contains(gains)) events_.push_back({gains.proportional, is_wall});
   }
 
-  /// Where the boundary passes D = `differential` (N s/m).
+  /// Adds the P at which the boundary crosses D = `differential` (N s/m).
   void add_edge(const Scalar& differential) {
     const RootPairCurve<Scalar>& pairs = curves_.pairs();
     for (const Scalar& square :
@@ -143,7 +143,7 @@ class RegionBuilder {
               [](const Event& a, const Event& b) { return a.proportional < b.proportional; });
   }
 
-  /// Events closer than 1e−12 of the window are one.
+  /// Cuts the window into slabs; cuts closer than 1e−12 of the window are one.
   void cut() {
     find_events();
     const Scalar closest = Scalar(1e-12 * window_.width());
@@ -178,7 +178,7 @@ class RegionBuilder {
   using Levels = std::vector<Scalar>;
   static constexpr double negligible_ = 1e-12;  // of the window
 
-  /// The part of a region within one slab.
+  /// The part of a region in one slab.
   struct Cell {
     std::size_t parent;
     GainRegion<Scalar> region;
@@ -186,7 +186,7 @@ class RegionBuilder {
     Scalar largest;                // area of the cell that gave the point inside
   };
 
-  /// The lower edge, the branches and the upper edge at P, ascending.
+  /// The D of the lower edge, the branches and the upper edge at P, ascending.
   Levels levels(const GainSlab<Scalar>& slab, const Scalar& proportional_gain) const {
     const Scalar top(window_.differential.upper);
     Levels result = {Scalar(window_.differential.lower)};
@@ -210,7 +210,7 @@ class RegionBuilder {
         .integrate(slab.lower, slab.upper);
   }
 
-  /// −1 in a cell so thin that only round-off holds it open.
+  /// The number of unstable roots; −1 in a cell so thin that only round-off separates its edges.
   int count_roots(const PdGains<Scalar>& gains, const Scalar& height) const {
     if (!(height > Scalar(negligible_ * window_.height()))) return -1;
     return unstable_roots(curves_.polynomial().at(gains));
@@ -237,7 +237,7 @@ class RegionBuilder {
     }
   }
 
-  /// Cells that share a stretch of their slabs' common end belong to one region.
+  /// Joins cells of neighbouring slabs that share a piece of their common edge into one region.
   void join(std::size_t previous, std::size_t first) {
     const Scalar slack(1e-9 * window_.height());
     for (std::size_t i = previous; i < first; ++i) {
@@ -282,14 +282,14 @@ class RegionBuilder {
 
 /// The regions into which the boundary divides a window of gains, with their exact areas.
 ///
-/// In each slab, a range of P over which the boundary keeps its shape, the gap between two
-/// crossings D₁(P) < D₂(P) < … is a cell with one number of unstable roots, counted at its middle;
-/// its area is ∫ (D_{k+1} − D_k) dP. Cells of neighbouring slabs that touch with no boundary
-/// between them are one region. Areas are good to 1e−10 of the window's; a neck narrower than 1e−9
-/// of its height does not connect.
+/// Each slab is a range of P over which the boundary has a constant shape. In it the gap between
+/// two crossings D₁(P) < D₂(P) < … is a cell with a constant number of unstable roots, counted at
+/// its middle; its area is ∫ (D_{k+1} − D_k) dP. Cells of neighbouring slabs that touch without a
+/// boundary between them are one region. Areas are accurate to 1e−10 of the window's; a neck
+/// narrower than 1e−9 of the window's height does not connect.
 /// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
-/// @param window      P (N/m) and D (N s/m), its edges included
-/// @return stable regions first, the larger first
+/// @param window      window of P (N/m) and D (N s/m), its edges included
+/// @return regions, stable ones first, larger ones first
 /// @throws InvalidParameter unless the window's ranges are finite and not empty
 template <class Scalar, int Degree>
 std::vector<GainRegion<Scalar>> gain_regions(const AffinePolynomial<Scalar, Degree>& polynomial,

@@ -19,37 +19,37 @@
 
 namespace holdfast {
 
-/// A value of a gain at which roots of the loop pass through the unit circle, and which way.
+/// A value of a gain at which roots of the loop cross the unit circle, with their direction.
 template <class Scalar>
 struct GainPassage {
   Scalar gain;   ///< P (N/m) or D (N s/m), finite
   Scalar angle;  ///< θ (rad) of the roots e^{±iθ}, 0 … π
-  int leaving;   ///< how many leave the circle's inside as the gain grows: ±2, or ±1 at λ = ±1
+  int leaving;  ///< number of roots that leave the circle as the gain grows: ±2, or ±1 at λ = ±1
 };
 
-/// Response of a loop of any order on the unit circle, at angles so close together that G_z and G_v
-/// of `ModalResponse` are smooth between them: the step is a fraction of the distance to the
-/// nearest pole, and of what a delay of many samples turns. From it the gains at which roots pass
-/// through the circle, and the number of roots outside for any gains:
+/// The response of a loop of any order on the unit circle, at angles so dense that G_z and G_v of
+/// `ModalResponse` are smooth between them: the step is a fraction of the distance to the nearest
+/// pole, and of the phase of a delay of many samples. It yields the gains at which roots cross the
+/// circle, and the number of roots outside for any gains:
 ///
 ///     p(λ) = 1 − P G_z(λ) − D G_v(λ),   n_out = n_plant − (1/π) [arg p(e^{iθ})] from 0 to π
 ///
-/// A free gain x is passed where X(θ) = (1 − y G_held)/G_free is real; the roots leave as x grows
-/// where Im X rises through zero, since dλ/dx = 1/X′(λ). Every interval whose count says that it is
-/// stable, or would be had two pairs been missed, is counted a second time by the winding (of a few
-/// intervals all are); where the two differ, every one is decided by winding alone.
-/// Work: about 30 angles a pole once (`ModalResponse::Nearby`), then some 10 operations an angle
-/// and 10 values of G a passage. No power of λ and no determinant is formed.
+/// A free gain x has a crossing where X(θ) = (1 − y G_held)/G_free is real; the roots leave as x
+/// grows where Im X rises through zero, since dλ/dx = 1/X′(λ). Intervals that are stable by this
+/// count, or would be with two missed pairs, are counted again by the winding number (few
+/// intervals: all). Where both counts differ, the winding number alone decides every interval.
+/// Work: about 30 angles per pole once (`ModalResponse::Nearby`), then some 10 operations per angle
+/// and 10 values of G per crossing. No power of λ and no determinant is computed.
 template <class Scalar>
 class UnitCircleCrossings {
  public:
-  /// G at an angle.
+  /// The response G at an angle.
   struct Place {
     Scalar angle;               ///< θ (rad)
     CommandResponse<Scalar> g;  ///< G_z and G_v
   };
 
-  /// @param response  of the loop; kept
+  /// @param response  response of the loop; it is stored
   explicit UnitCircleCrossings(ModalResponse<Scalar> response) : response_(std::move(response)) {
     using Nearby = typename ModalResponse<Scalar>::Nearby;
     const Scalar close(0.12);
@@ -78,14 +78,14 @@ class UnitCircleCrossings {
     }
   }
 
-  /// G_z and G_v, of which all this is made.
+  /// The response G_z, G_v that everything is computed from.
   const ModalResponse<Scalar>& response() const { return response_; }
 
-  /// Where the circle is resolved, by ascending angle.
+  /// The angles at which the circle is resolved, ascending, with the response.
   const std::vector<Place>& places() const { return places_; }
 
   /// The number of roots of the loop outside the unit circle; −1 where round-off hides it: a root
-  /// lies on the circle, or the gains are so large or so little finite that p is noise.
+  /// is on the circle, or the gains are so large or not finite that p is noise.
   int roots_outside(const PdGains<Scalar>& gains) const {
     Turn turn{gains, static_cast<std::int64_t>(20 * places_.size())};
     std::vector<std::complex<Scalar>> p;
@@ -101,8 +101,8 @@ class UnitCircleCrossings {
     return response_.unstable_poles() - static_cast<int>(std::lround(half_turns));
   }
 
-  /// λ − 1 of the loop's roots near the unit circle, one step of Newton from where |p| has a
-  /// minimum on it: what is to be had where `loop_roots` does not settle. The nearest first.
+  /// Approximate λ − 1 of the roots near the unit circle, by one Newton step from each minimum of
+  /// |p| on it, nearest root first; a substitute where `loop_roots` does not converge.
   std::vector<std::complex<Scalar>> roots_nearby(const PdGains<Scalar>& gains) const {
     std::vector<std::pair<Scalar, std::complex<Scalar>>> found;
     const auto size = [&](std::size_t i) { return std::abs(characteristic(places_[i].g, gains)); };
@@ -125,9 +125,9 @@ class UnitCircleCrossings {
     return roots;
   }
 
-  /// All passages of one gain, the other being held; ascending.
+  /// All crossings of one gain for a fixed value of the other; ascending.
   /// @param free   the gain that varies
-  /// @param gains  the held one; the value of the free one does not matter
+  /// @param gains  the fixed gain; the value of the free one is not used
   std::vector<GainPassage<Scalar>> passages(FreeGain free, const PdGains<Scalar>& gains) const {
     const Line line{free, gains};
     std::vector<GainPassage<Scalar>> found;
@@ -149,10 +149,10 @@ class UnitCircleCrossings {
     return found;
   }
 
-  /// The open intervals of one gain, the other being held, in which the loop is stable.
+  /// The open intervals of one gain, for a fixed value of the other, in which the loop is stable.
   /// @param free   the gain that varies
-  /// @param gains  the held one; the value of the free one does not matter
-  /// @throws InvalidParameter for a held gain that is not finite
+  /// @param gains  the fixed gain; the value of the free one is not used
+  /// @throws InvalidParameter where the fixed gain is not finite
   std::vector<Interval<Scalar>> stable_gains(FreeGain free, const PdGains<Scalar>& gains) const {
     detail::require_held(gains, free);
     const auto found = passages(free, gains);
@@ -164,7 +164,7 @@ class UnitCircleCrossings {
   }
 
  private:
-  /// The plane's line along which one gain is free.
+  /// The line in the gain plane along which one gain is free.
   struct Line {
     FreeGain free;
     PdGains<Scalar> gains;
@@ -176,12 +176,12 @@ class UnitCircleCrossings {
       return Scalar(1) - (free == FreeGain::differential ? gains.proportional * g.displacement
                                                          : gains.differential * g.velocity);
     }
-    /// A smooth number with the sign of Im X.
+    /// A smooth function with the sign of Im X.
     Scalar imaginary(const CommandResponse<Scalar>& g) const {
       const std::complex<Scalar> a = rest(g), b = of_free(g);
       return a.imag() * b.real() - a.real() * b.imag();
     }
-    /// Re X.
+    /// The real part Re X.
     Scalar gain(const CommandResponse<Scalar>& g) const { return (rest(g) / of_free(g)).real(); }
   };
 
@@ -190,13 +190,13 @@ class UnitCircleCrossings {
     return Scalar(1) - gains.proportional * g.displacement - gains.differential * g.velocity;
   }
 
-  /// The turn of p along the circle, by how often it crosses the negative real line.
+  /// The winding of p along the circle, as the number of its crossings of the negative real axis.
   struct Turn {
     PdGains<Scalar> gains;
-    std::int64_t budget;  ///< values of G that may still be taken
-    int crossings = 0;    ///< counterclockwise ones less the others
+    std::int64_t budget;  ///< values of G that may still be computed
+    int crossings = 0;    ///< counterclockwise crossings minus clockwise ones
 
-    /// Takes a step of p that turns by no more than 45°, or whose chord passes 0 at a distance.
+    /// Accepts a step of p that turns by at most 45°, or whose chord is at a distance from 0.
     bool takes(const std::complex<Scalar>& a, const std::complex<Scalar>& b,
                const Scalar& distance = std::numeric_limits<Scalar>::infinity()) {
       const Scalar along = a.real() * b.real() + a.imag() * b.imag();
@@ -210,7 +210,7 @@ class UnitCircleCrossings {
     }
   };
 
-  /// How far p is from its chord at most between place i − 1 and i, by its second differences.
+  /// A bound of the distance of p from its chord between places i − 1 and i, by second differences.
   Scalar bend_of(const std::vector<std::complex<Scalar>>& p, std::size_t i) const {
     if (i < 2 || i + 1 == p.size()) return std::numeric_limits<Scalar>::infinity();
     const Scalar step = places_[i].angle - places_[i - 1].angle;
@@ -222,8 +222,8 @@ class UnitCircleCrossings {
     return std::max(from(i - 1), from(i + 1));
   }
 
-  /// Takes the turn of p between two angles by halves, each of which bends by about a quarter of
-  /// what the whole does: its chord tells the turn unless it passes 0 within four times that.
+  /// Adds the winding of p between two angles by halves, each of which bends by about a quarter as
+  /// much: its chord gives the turn unless it passes 0 within four times that.
   void halve(Turn& turn, const std::pair<Scalar, std::complex<Scalar>>& from,
              const std::pair<Scalar, std::complex<Scalar>>& to) const {
     const Scalar middle = (from.first + to.first) / Scalar(2);
@@ -236,7 +236,7 @@ class UnitCircleCrossings {
     if (!turn.takes(between.second, to.second, bend)) halve(turn, between, to);
   }
 
-  /// A root pair where Im X changes its sign.
+  /// Adds a root pair where Im X changes its sign.
   void add_pair(const Line& line, const Scalar& lower, const Scalar& at_lower, const Scalar& upper,
                 const Scalar& at_upper, std::vector<GainPassage<Scalar>>& found) const {
     const auto zero = bracketing_root<Scalar>(
@@ -246,16 +246,16 @@ class UnitCircleCrossings {
          line, found);
   }
 
-  /// Takes a passage unless its gain is what round-off leaves where the free gain moves nothing, as
-  /// both do at λ = 1 of a drive between absorber and conductor.
+  /// Adds a crossing unless its gain is round-off of a free gain without effect, like both gains at
+  /// λ = 1 of a drive between absorber and conductor.
   void keep(const GainPassage<Scalar>& passage, const Line& line,
             std::vector<GainPassage<Scalar>>& found) const {
     const Scalar size = line.free == FreeGain::differential ? size_of_v_ : size_of_z_;
     if (std::abs(passage.gain) * size < Scalar(1e12)) found.push_back(passage);
   }
 
-  /// The root at λ = 1 or −1.
-  /// @param rising  of the sign with which Im X rises there
+  /// Adds the crossing of a real root at λ = 1 or −1.
+  /// @param rising  sign of the slope of Im X there
   void add_real_root(const Line& line, const Place& place, const Scalar& rising,
                      std::vector<GainPassage<Scalar>>& found) const {
     const Scalar end = place.angle < Scalar(1) ? Scalar(0) : pi<Scalar>;
@@ -265,9 +265,9 @@ class UnitCircleCrossings {
          found);
   }
 
-  /// Two passages within a step, where Im X touches zero but for a little: looked for where its
-  /// modulus is least among three neighbours.
-  /// @param at  the value of place i, between those of its neighbours
+  /// Adds two crossings within one step, where Im X almost touches zero; the search starts where
+  /// its modulus is least among three neighbours.
+  /// @param at  value of place i, between those of its neighbours
   void add_close_pairs(const Line& line, std::size_t i, const Scalar* at,
                        std::vector<GainPassage<Scalar>>& found) const {
     const Scalar before = at[-1], here = at[0], after = at[1];
@@ -299,7 +299,7 @@ class UnitCircleCrossings {
     }
   }
 
-  /// Gaps between passages without a root outside; one that the winding cannot decide is left out.
+  /// The gaps between crossings without a root outside; undecided gaps are left out.
   template <class Outside>
   static std::vector<Interval<Scalar>> without_roots_outside(
       const std::vector<GainPassage<Scalar>>& found, const Outside& outside) {
@@ -339,10 +339,10 @@ class UnitCircleCrossings {
   Scalar size_of_z_{0}, size_of_v_{0};  // max |G_z| and |G_v| over them
 };
 
-/// ρ − 1, ρ being the largest modulus of the loop's roots: of `loop_roots`, or where these do not
-/// settle by the turn of p on circles of other radii, halved to ten digits.
-/// @param response  of the plant by its poles
-/// @param gains     P and D
+/// The excess ρ − 1, ρ being the largest modulus of the loop's roots: from `loop_roots`, or where
+/// these do not converge from the winding of p on circles of other radii, halved to ten digits.
+/// @param response  response of the plant by its poles
+/// @param gains     gains P and D
 /// @return NaN where the response has no sum over poles
 template <class Scalar>
 Scalar loop_excess_or_turn(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains) {

@@ -20,13 +20,13 @@ struct GainGrid {
   Axis proportional;  ///< P (N/m)
   Axis differential;  ///< D (N s/m)
 
-  /// The gains of a cell, each index from 0 to one less than the count of its axis.
+  /// The gains of a cell; each index is from 0 to the count of its axis minus one.
   PdGains<double> at(std::int64_t p_index, std::int64_t d_index) const {
     return {proportional.at(p_index), differential.at(d_index)};
   }
 
-  /// Number of cells, values of P times values of D.
-  /// @throws InvalidParameter unless they are 1 … 10¹⁵
+  /// The number of cells: values of P times values of D.
+  /// @throws InvalidParameter unless the number is 1 … 10¹⁵
   std::int64_t cells() const {
     require_within(
         "number of cells of a chart",
@@ -36,30 +36,30 @@ struct GainGrid {
   }
 };
 
-/// @throws InvalidParameter unless the gains are finite, ascend, and there is one at least of each,
-/// and no more than 10¹⁵ together
+/// Validates a grid. @throws InvalidParameter unless its gains are finite and ascend, at least one
+/// each, and at most 10¹⁵ together
 inline void validate(const GainGrid& grid) {
   validate(grid.proportional, "proportional gain P", "N/m");
   validate(grid.differential, "differential gain D", "N s/m");
   grid.cells();
 }
 
-/// Rows of the chart of stable gains, each of a fixed P.
+/// The rows of a chart of stable gains, each for one value of P.
 ///
-/// Along a row stability changes only where it crosses the boundary; one Hurwitz test decides each
-/// gap. A cell that round-off cannot tell from the boundary is not stable. On each arc of
-/// `RootPairCurve` that takes P a Newton iteration starts from the row before and so needs one or
-/// two steps where rows are close. The lines w = 0 and w = ∞ are linear in D. Exchange the roles of
-/// P and D in the polynomial for rows of fixed D.
+/// Along a row stability changes only at the boundary; one Hurwitz test decides each gap. A cell
+/// within round-off of the boundary is not stable. On each arc of `RootPairCurve` that reaches P a
+/// Newton iteration starts from the previous row and needs one or two steps where rows are close.
+/// The lines w = 0 and w = ∞ are linear in D. For rows of constant D exchange the roles of P and D
+/// in the polynomial.
 ///
-/// Work per row: about 40 multiply-adds for each arc of the boundary and 60 for each gap, whatever
-/// the number of cells.
+/// Work per row: about 40 multiply-adds for each arc of the boundary and 60 for each gap,
+/// independent of the number of cells.
 template <int Degree>
 class StabilityRows {
  public:
-  /// @param polynomial    `characteristic_polynomial(plant)` for the continuous loop, that of the
-  ///                      sampled loop after `in_half_plane`
-  /// @param differential  the cells of a row
+  /// @param polynomial    `characteristic_polynomial(plant)` for the continuous loop, or that of
+  ///                    the sampled loop transformed by `in_half_plane`
+  /// @param differential  values of D in a row
   StabilityRows(const HalfPlanePolynomial<double, Degree>& polynomial, const Axis& differential)
       : polynomial_(polynomial), differential_(differential), curve_(polynomial) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -69,7 +69,7 @@ class StabilityRows {
 
   /// Writes 1 (stable) or 0 for every cell of the row.
   /// @param proportional_gain  P (N/m), finite
-  /// @param stable             as many entries as the row has cells
+  /// @param stable             array with one entry for each cell of the row
   void fill(double proportional_gain, std::uint8_t* stable) {
     const Polynomial<double, Degree> row =
         polynomial_.base + proportional_gain * polynomial_.proportional;
@@ -96,7 +96,7 @@ class StabilityRows {
     double proportional_gain;            // P of that row
   };
 
-  /// Ascending in D, at most one for each arc and each of the two lines.
+  /// Finds a row's crossings, ascending in D, at most one for each arc and each of the two lines.
   void find_crossings(double proportional_gain) {
     crossings_.clear();
     add_line(proportional_gain, &ParityParts<double>::even, 0);
@@ -115,12 +115,12 @@ class StabilityRows {
               [](const auto& a, const auto& b) { return a.differential < b.differential; });
   }
 
-  /// A crossing at infinity is none.
+  /// Adds a crossing unless it is at infinity.
   void add(const RowCrossing<double>& crossing) {
     if (std::isfinite(crossing.differential)) crossings_.push_back(crossing);
   }
 
-  /// The line on which one coefficient vanishes; none where D does not move it.
+  /// Adds the crossing of the line on which one coefficient vanishes, unless D does not move it.
   void add_line(double proportional_gain, Part part, int k) {
     const double slope = (curve_.differential().*part)[k];
     if (slope == 0.0) return;
@@ -130,7 +130,7 @@ class StabilityRows {
          curve_.rounding * (std::abs(base) + std::abs(term)) / std::abs(slope)});
   }
 
-  /// No boundary passes between these cells: the middle one stands for all.
+  /// Fills cells without a boundary between them; the test of the middle one decides for all.
   void fill_gap(const Polynomial<double, Degree>& row, std::int64_t first, std::int64_t last,
                 std::uint8_t* stable) const {
     if (first >= last) return;
@@ -146,11 +146,11 @@ class StabilityRows {
   std::vector<RowCrossing<double>> crossings_;
 };
 
-/// Stable (1) or not (0) for every cell of the grid, P slowest.
-/// @param polynomial  `characteristic_polynomial` of the continuous loop or of the sampled one, or
-///                    this after `in_half_plane`; about another centre it does not compile
-/// @param grid        of gains
-/// @throws InvalidParameter where one of them is not finite, or the grid not admissible
+/// The stability chart of a grid: 1 (stable) or 0 (not stable) for every cell, P slowest.
+/// @param polynomial  `characteristic_polynomial` of the continuous or of the sampled loop, also
+///                    after `in_half_plane`; a polynomial about another centre does not compile
+/// @param grid        grid of gains
+/// @throws InvalidParameter where an argument is not finite or the grid is not admissible
 template <int Degree, PolynomialVariable Variable,
           class = decltype(in_half_plane(
               std::declval<const AffinePolynomial<double, Degree, Variable>&>()))>

@@ -15,31 +15,31 @@
 
 namespace holdfast {
 
-/// The upper half of a circle |λ| = r, cut into arcs on each of which the characteristic function
+/// The upper half of a circle |λ| = r, in arcs on each of which the characteristic function
 ///
 ///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ)
 ///
-/// of `EnclosedResponse` is known to first order in the angle with a bound of what is left. It
-/// tells the arcs on which a loop with gains of a box may have a root, and counts the roots outside
-/// where there is none on the circle. Arcs are halved as the questions need it, and kept.
+/// of `EnclosedResponse` is known to first order in the angle with a bound of the remainder. It
+/// determines the arcs on which a loop with gains in a box may have a root, and counts the roots
+/// outside a circle without roots. Arcs are halved where needed and stored.
 class CircleArcs {
  public:
   /// A list of arcs, by their numbers.
   using Arcs = std::vector<std::size_t>;
 
-  /// @param response  of the loop
-  /// @param radius    r, that double itself, > 0
+  /// @param response  response of the loop
+  /// @param radius    radius r, the exact value of that double, > 0
   explicit CircleArcs(EnclosedResponse response, double radius = 1.0)
       : response_(std::move(response)), radius_(radius) {
     // To π, or just beyond it: what is there is the conjugate of what was before.
     arcs_.push_back(arc(0.0, 0x1.921fb54442d19p1));
   }
 
-  /// Every arc: the one that is all of the half circle.
+  /// The undivided half circle as the only arc.
   Arcs all() const { return {0}; }
 
-  /// Arcs among some, or parts of them, on which a root of a loop of the box may lie; the loops of
-  /// the box have no root on the others. Parts are as short as the size of the box asks for.
+  /// The arcs, among some or their parts, on which a loop of the box may have a root; on all others
+  /// no loop of the box has one. Arcs are divided as finely as the size of the box requires.
   Arcs meeting(const GainBox& box, const Arcs& among) {
     const Gains gains(box);
     if (!gains.are_finite()) return among;
@@ -54,17 +54,17 @@ class CircleArcs {
     return met;
   }
 
-  /// How many roots of a loop lie outside the circle, proved; nothing where one may lie on it.
+  /// The proved number of roots of a loop outside the circle; nothing where one may lie on it.
   ///
-  /// On each of the arcs, halved where it takes that, q has a real or an imaginary part of one
-  /// sign. From arc to arc, which have a point in common, that half-plane stays or turns by a
-  /// quarter. At both ends q is real, and so the quarters from 0 to π add up to halves: with w of
-  /// these q turns w times on the whole circle, and as F has as many poles as the plant,
+  /// On each arc, halved where necessary, the real or the imaginary part of q has a constant sign.
+  /// From one arc to the next, which share a point, that half-plane stays the same or turns by a
+  /// quarter. At both ends q is real, so that the quarters from 0 to π sum to half turns. With w of
+  /// these, q turns w times along the whole circle, and as F has as many poles as the plant,
   ///
   ///     n_out = n_plant + k − w
   ///
-  /// @param gains       P and D, those doubles themselves
-  /// @param most_arcs   with more it is not decided
+  /// @param gains       gains P and D, the exact values of those doubles
+  /// @param most_arcs   number of arcs beyond which it remains undecided
   std::optional<int> roots_outside(const PdGains<double>& gains, std::size_t most_arcs = 20000) {
     const auto own = response_.poles_outside(radius_);
     const Gains box(
@@ -94,8 +94,8 @@ class CircleArcs {
  private:
   using Complex = std::complex<double>;
 
-  /// value + slope t + r, −1 ≤ t ≤ 1, |r| ≤ rest + haze; a shorter arc has less rest, and the same
-  /// haze.
+  /// The linear function value + slope t + r, −1 ≤ t ≤ 1, |r| ≤ rest + haze; on a shorter arc the
+  /// rest is smaller, the haze is the same.
   struct Line {
     Complex value, slope;
     double rest, haze;
@@ -106,7 +106,7 @@ class CircleArcs {
     std::size_t first_half = 0;  // the second one follows it; 0: not halved
   };
 
-  /// P₀ ± ΔP, D₀ ± ΔD.
+  /// The gains P₀ ± ΔP, D₀ ± ΔD of a box.
   struct Gains {
     double p, d, p_radius, d_radius;
 
@@ -123,12 +123,12 @@ class CircleArcs {
     }
   };
 
-  /// Where q may lie on an arc for gains of a box:
+  /// The set of values of q on an arc for gains in a box:
   ///
   ///     q = c + a t + F_z δP + F_v δD + r,   |r| ≤ rest + haze
   ///
-  /// c, a, F_z and F_v as computed are wrong by no more than 10⁻¹⁴ of the sum of what they are made
-  /// of, as each takes fewer than 30 roundings of 1.2·10⁻¹⁶.
+  /// The computed c, a, F_z and F_v are in error by at most 10⁻¹⁴ of the sum of their terms'
+  /// moduli, as each takes fewer than 30 roundings of 1.2·10⁻¹⁶.
   class Reach {
    public:
     Reach(const Arc& arc, const Gains& gains)
@@ -150,15 +150,15 @@ class CircleArcs {
                   rest_ + haze_;
     }
 
-    /// Whether it is proved that q ≠ 0: a line separates it from 0. Those tried are along the sides
-    /// of what q takes but for its rest, and across its middle.
+    /// Whether q ≠ 0 is proved: a line separates the set from 0. The lines tried are parallel to
+    /// the sides of the set without its remainder, and across its middle.
     bool avoids_zero() const {
       if (!std::isfinite(rounding_)) return false;
       return is_ahead(centre_) || is_ahead(across(along_)) || is_ahead(across(by_p_)) ||
              is_ahead(across(by_d_));
     }
 
-    /// 0, 1, 2, 3: q is proved to have Re > 0, Im > 0, Re < 0, Im < 0; −1: none of them.
+    /// The proved half-plane of q, 0, 1, 2, 3: Re > 0, Im > 0, Re < 0, Im < 0; −1: none of them.
     int half_plane() const {
       if (!std::isfinite(rounding_)) return -1;
       for (const bool imaginary : {false, true}) {
@@ -170,7 +170,7 @@ class CircleArcs {
       return -1;
     }
 
-    /// Whether a shorter arc would not tell much more of the box.
+    /// Whether a shorter arc would hardly improve the result for the box.
     bool is_short_enough() const {
       constexpr double share = 0.1;
       return rest_ <= share * (size(by_p_) + size(by_d_) + haze_);
@@ -183,7 +183,7 @@ class CircleArcs {
       return normal.real() * z.real() + normal.imag() * z.imag();
     }
 
-    /// Whether all of q lies on one side of the line through 0 that a normal is across of.
+    /// Whether all of q is on one side of the line through 0 perpendicular to a given normal.
     bool is_ahead(const Complex& normal) const {
       const double distance = std::abs(along(normal, centre_));
       const double spread = std::abs(along(normal, along_)) + std::abs(along(normal, by_p_)) +
@@ -196,8 +196,8 @@ class CircleArcs {
     double rest_, haze_, rounding_;
   };
 
-  /// The line in t of an expansion about λ₀ = r e^{iθ₀} on θ = θ₀ + h t: λ − λ₀ is λ₀ i h t and at
-  /// most r h²/2 of something else.
+  /// The line in t from an expansion about λ₀ = r e^{iθ₀} on θ = θ₀ + h t: λ − λ₀ is λ₀ i h t plus
+  /// a remainder of at most r h²/2.
   static Line line_of(const EnclosedExpansion& expansion, const ComplexEnclosure& centre,
                       const Enclosure& half_width) {
     const ComplexEnclosure slope = expansion.slope * centre.times_i() * half_width;
@@ -219,8 +219,8 @@ class CircleArcs {
             line_of(response.velocity, centre, half_width)};
   }
 
-  /// Appends the halves of an arc to a list, the first one last.
-  /// @return whether it has two
+  /// Appends the two halves of an arc to a list, the first one last.
+  /// @return whether the arc can be halved
   bool add_halves(std::size_t index, Arcs& list) {
     if (arcs_[index].first_half == 0) {
       const double from = arcs_[index].from, to = arcs_[index].to;

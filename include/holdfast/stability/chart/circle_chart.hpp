@@ -9,11 +9,11 @@
 
 namespace holdfast {
 
-/// Stable (1) or not (0) for a row of gains, of a loop of any order.
-/// @param circle        of the loop
+/// A row of the stability chart of a loop of any order: 1 (stable) or 0 (not stable).
+/// @param circle        response of the loop on the unit circle
 /// @param proportional  P (N/m) of the row
-/// @param differential  D (N s/m) along it
-/// @param stable        of as many cells, which are written
+/// @param differential  values of D (N s/m) along the row
+/// @param stable        array with one entry for each cell, which is filled
 template <class Scalar>
 void fill_stability_row(const UnitCircleCrossings<Scalar>& circle, const Scalar& proportional,
                         const Axis& differential, std::uint8_t* stable) {
@@ -26,12 +26,12 @@ void fill_stability_row(const UnitCircleCrossings<Scalar>& circle, const Scalar&
   }
 }
 
-/// Stable (1) or not (0) for every cell of a grid of gains, of a loop of any order; P slowest.
+/// The stability chart of a loop of any order: 1 (stable) or 0 for every cell of a grid; P slowest.
 ///
-/// The stable intervals of D of each row, by `UnitCircleCrossings`. Of the two masses
-/// `stability_chart` of the characteristic polynomial says the same a hundred times as fast.
-/// @param circle  of the loop
-/// @param grid    of gains
+/// Rows are filled from the stable intervals of D by `UnitCircleCrossings`. For two masses the
+/// `stability_chart` of the characteristic polynomial is a hundred times as fast.
+/// @param circle  response of the loop on the unit circle
+/// @param grid    grid of gains
 /// @throws InvalidParameter where the grid is not admissible
 template <class Scalar>
 std::vector<std::uint8_t> stability_chart(const UnitCircleCrossings<Scalar>& circle,

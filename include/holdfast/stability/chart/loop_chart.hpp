@@ -12,14 +12,14 @@
 
 namespace holdfast {
 
-/// Everything that decides the stability of a sampled loop.
+/// All parameters of a sampled loop that its stability depends on.
 struct OperatingPoint {
   TwoMass<double> plant;      ///< m (kg), k (N/m) and c (N s/m) of both masses
   Sampling<double> sampling;  ///< τ (s) and δ (s)
   PdGains<double> gains;      ///< P (N/m) and D (N s/m)
 };
 
-/// One number of a loop: what an axis of a chart varies, or by what a sensitivity is taken.
+/// One parameter of a loop: varied along an axis of a chart, or the variable of a sensitivity.
 enum class LoopParameter {
   conductor_mass,       ///< m₁ (kg), > 0
   conductor_stiffness,  ///< k₁ (N/m), > 0
@@ -33,13 +33,13 @@ enum class LoopParameter {
   differential_gain,    ///< D (N s/m)
 };
 
-/// True for P and D, in which the characteristic polynomial is affine; any other parameter needs a
-/// matrix exponential for each of its values.
+/// Whether a parameter is P or D, in which the characteristic polynomial is affine; any other one
+/// needs a matrix exponential for each of its values.
 constexpr bool is_gain(LoopParameter parameter) {
   return parameter >= LoopParameter::proportional_gain;
 }
 
-/// The number of a loop that a parameter names.
+/// The value of a parameter of a loop.
 inline double& value_of(OperatingPoint& point, LoopParameter parameter) {
   auto& [plant, sampling, gains] = point;
   double* const all[] = {&plant.conductor_mass,     &plant.conductor_stiffness,
@@ -50,8 +50,8 @@ inline double& value_of(OperatingPoint& point, LoopParameter parameter) {
   return *all[static_cast<int>(parameter)];
 }
 
-/// Gives a parameter a value; with τ the processing delay keeps its fraction of it, of which
-/// rounding makes no more than a whole.
+/// Sets a parameter of a loop; with τ the processing delay δ changes in proportion, never beyond τ
+/// by rounding.
 inline void set(OperatingPoint& point, LoopParameter parameter, double value) {
   if (parameter == LoopParameter::sampling_period) {
     const double fraction = point.sampling.processing_delay / point.sampling.period;
@@ -62,19 +62,19 @@ inline void set(OperatingPoint& point, LoopParameter parameter, double value) {
 
 /// An axis of a chart: a parameter of the loop and its values.
 struct LoopAxis {
-  LoopParameter parameter;  ///< the one that varies
+  LoopParameter parameter;  ///< parameter that varies
   Axis values;              ///< in the SI unit of the parameter
 };
 
-/// A chart of the sampled loop over any two of its parameters; the others are those of the point.
+/// A chart of the sampled loop over any two of its parameters; all others are those of `point`.
 struct LoopChart {
-  /// The loop in which a cell replaces two values; where τ is replaced and δ is not, δ is scaled
-  /// with it.
+  /// The loop in which each cell replaces two values; where τ is replaced and δ is not, δ changes
+  /// in proportion.
   OperatingPoint point;
-  LoopAxis slow;  ///< one value a row
-  LoopAxis fast;  ///< one value a column
+  LoopAxis slow;  ///< one value for each row
+  LoopAxis fast;  ///< one value for each column
 
-  /// The loop of a row, with the fast parameter still that of the point.
+  /// The loop of a row; its fast parameter still has the value of `point`.
   OperatingPoint row(std::int64_t index) const {
     OperatingPoint result = point;
     set(result, slow.parameter, slow.values.at(index));
@@ -92,8 +92,8 @@ struct LoopChart {
   }
 };
 
-/// @throws InvalidParameter where both axes vary the same parameter or one does not ascend, or a
-/// corner of the chart is not an admissible loop
+/// Validates a chart. @throws InvalidParameter where both axes vary the same parameter, one does
+/// not ascend, or a corner of the chart is not an admissible loop
 inline void validate(const LoopChart& chart) {
   if (chart.slow.parameter == chart.fast.parameter) {
     throw InvalidParameter("second axis", 0.0, "", "another parameter than the first axis");
@@ -113,11 +113,11 @@ inline void validate(const LoopChart& chart) {
 /// A polynomial that is affine in one gain x: constant + x · slope.
 template <int Degree>
 struct AffineLine {
-  Polynomial<double, Degree> constant;  ///< at x = 0, constant coefficient first
-  Polynomial<double, Degree> slope;     ///< per unit of x, N/m of P or N s/m of D
+  Polynomial<double, Degree> constant;  ///< polynomial at x = 0, constant coefficient first
+  Polynomial<double, Degree> slope;     ///< change per unit of x, N/m of P or N s/m of D
 };
 
-/// The characteristic polynomial along one of the gains, the other being that of the point.
+/// The characteristic polynomial as a function of one gain, for the fixed value of the other.
 template <int Degree, PolynomialVariable Variable>
 AffineLine<Degree> along(LoopParameter gain,
                          const AffinePolynomial<double, Degree, Variable>& polynomial,
@@ -129,22 +129,22 @@ AffineLine<Degree> along(LoopParameter gain,
   return {polynomial.base + gains.proportional * polynomial.proportional, polynomial.differential};
 }
 
-/// The characteristic polynomials of the cells of a chart, with as few matrix exponentials as its
-/// axes allow: one in all where both axes are gains; one a row or one a column where one of them
-/// is; one a cell where none is.
+/// The characteristic polynomials of the cells of a chart, with as few matrix exponentials as the
+/// axes allow: one in all where both axes are gains; one per row or per column where one of them
+/// is; one per cell where none is.
 template <int Degree, PolynomialVariable Variable>
 class ChartPolynomials {
  public:
-  /// Characteristic polynomial at any gains, from which the chart is computed.
+  /// The characteristic polynomial for any gains, from which the chart is computed.
   using Affine = AffinePolynomial<double, Degree, Variable>;
-  /// From a loop to it.
+  /// The function that computes the characteristic polynomial of a loop.
   using PolynomialOf = Affine (*)(const OperatingPoint&);
 
-  /// Polynomials along a row, one coefficient after the other: columns × (Degree + 1).
+  /// The polynomials along a row, coefficient by coefficient: columns × (Degree + 1).
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Degree + 1>;
 
-  /// @param chart          copied
-  /// @param polynomial_of  that of `StabilityChartRows` or `RadiusChartRows`
+  /// @param chart          the chart, which is copied
+  /// @param polynomial_of  function of `StabilityChartRows` or `RadiusChartRows`
   /// @throws InvalidParameter where the chart is not admissible
   ChartPolynomials(const LoopChart& chart, PolynomialOf polynomial_of)
       : chart_(chart), polynomial_of_(polynomial_of) {
@@ -163,15 +163,15 @@ class ChartPolynomials {
     }
   }
 
-  /// Cells of a row: values of the fast parameter.
+  /// The number of cells in a row: values of the fast parameter.
   std::int64_t columns() const { return chart_.fast.values.count; }
   /// The two axes and the loop that they vary.
   const LoopChart& chart() const { return chart_; }
 
-  /// The polynomial of all cells where both axes are gains.
+  /// The polynomial that is common to all cells where both axes are gains.
   const Affine& common() const { return common_; }
 
-  /// True where the polynomial is affine in the fast parameter: `line` then serves, else `table`.
+  /// Whether the polynomial is affine in the fast parameter: then use `line`, else `table`.
   bool affine_along_rows() const { return is_gain(chart_.fast.parameter); }
 
   /// The polynomials of a row as a function of the fast gain.

@@ -22,18 +22,18 @@
 
 namespace holdfast {
 
-/// A row of a chart tested cell by cell, as many cells at a time as the number type has lanes.
+/// Tests a row of a chart cell by cell, as many cells at a time as the number type has lanes.
 ///
-/// Work per cell: what the polynomial costs (Degree + 1 multiply-adds where it is affine along the
-/// row) and `lienard_chipart_stable`: 17 multiply-adds and 5 comparisons for the sampled loop. No
-/// product overflows as long as the coefficients lie within 1e±75.
+/// Work per cell: the polynomial (Degree + 1 multiply-adds where it is affine along the row) and
+/// `lienard_chipart_stable`: 17 multiply-adds and 5 comparisons for the sampled loop. No product
+/// overflows as long as the coefficients are between 1e−75 and 1e75.
 /// @tparam Scalar        a SIMD pack, or double
 /// @param columns        number of cells, ≥ 0
 /// @param polynomial_at  (column, Number{}) → Polynomial<Number, Degree> of the cells from that
 /// column on, for Number = Scalar and double; in a variable whose stable half-plane is Re < 0
-/// A copy: writing bytes through `stable` might otherwise change what it refers to, for all that
-/// the compiler knows, and every coefficient would be read again for every pack.
-/// @param stable         `columns` entries: 1 stable, 0 not
+/// It is passed by value: otherwise, to the compiler, writing through `stable` might change the
+/// captured data, and every coefficient would be read again for every pack.
+/// @param stable         array with `columns` entries: 1 stable, 0 not
 template <class Scalar, class PolynomialAt>
 void hurwitz_row(std::int64_t columns, PolynomialAt polynomial_at, std::uint8_t* stable) {
   constexpr auto lanes = static_cast<std::int64_t>(Lanes<Scalar>::count);
@@ -52,7 +52,7 @@ void hurwitz_row(std::int64_t columns, PolynomialAt polynomial_at, std::uint8_t*
   }
 }
 
-/// c + x s.
+/// The vector c + x s.
 template <int Size, class Scalar>
 Vector<Scalar, Size> affine(const Vector<Scalar, Size>& c, const Scalar& x,
                             const Vector<Scalar, Size>& s) {
@@ -61,14 +61,14 @@ Vector<Scalar, Size> affine(const Vector<Scalar, Size>& c, const Scalar& x,
   return result;
 }
 
-/// The row of polynomials constant + x slope, one for each value x.
+/// Tests a row of polynomials constant + x slope, one for each value x.
 ///
-/// They are scaled by one factor so that no product overflows. Where the values span so many
-/// decades that the smallest would underflow, each polynomial is scaled by itself.
+/// They are scaled by a common factor so that no product overflows. Where the values span so many
+/// decades that the smallest would underflow, each polynomial is scaled individually.
 /// @param constant  the polynomial at x = 0, in a variable whose stable half-plane is Re < 0
-/// @param slope     its change per unit of x
+/// @param slope     change of the polynomial per unit of x
 /// @param values    x of each cell, ascending; at least one
-/// @param stable    as many entries as `values`: 1 stable, 0 not
+/// @param stable    array with one entry for each value: 1 stable, 0 not
 template <class Scalar, int Size>
 void hurwitz_row(const Vector<double, Size>& constant, const Vector<double, Size>& slope,
                  const std::vector<double>& values, std::uint8_t* stable) {
@@ -99,7 +99,7 @@ void hurwitz_row(const Vector<double, Size>& constant, const Vector<double, Size
       stable);
 }
 
-/// The row of polynomials of a table: columns × (Degree + 1), each scaled by its largest
+/// Tests a row of polynomials in a table, columns × (Degree + 1), each scaled by its largest
 /// coefficient.
 template <class Scalar, int Size>
 void hurwitz_row(const Eigen::Matrix<double, Eigen::Dynamic, Size>& table, std::uint8_t* stable) {
@@ -122,8 +122,8 @@ namespace detail {
 
 /// The characteristic polynomial of a point's loop in powers of λ − 1, for any gains.
 ///
-/// All that it calls is compiled into it, under a name that bears the pack: the matrix exponential
-/// of a row then runs on the instruction set of the pack as well.
+/// All called functions are inlined into it, under a name that contains the pack: the matrix
+/// exponential of a row then uses the instruction set of the pack as well.
 template <class Scalar>
 [[gnu::flatten, gnu::noinline]] AffinePolynomial<double, 5> polynomial_of(
     const OperatingPoint& point) {
@@ -132,10 +132,10 @@ template <class Scalar>
 
 }  // namespace detail
 
-/// Stable or not over any two parameters of the sampled loop, row by row.
+/// A stability chart over any two parameters of the sampled loop, computed row by row.
 ///
-/// Over both gains each row is filled from its crossings (`StabilityRows`); otherwise every cell is
-/// tested (`hurwitz_row`), as many at a time as `Scalar` has lanes.
+/// Where both axes are gains each row is filled from its crossings (`StabilityRows`); otherwise
+/// every cell is tested (`hurwitz_row`), as many at a time as `Scalar` has lanes.
 template <class Scalar = double>
 class StabilityChartRows {
  public:
@@ -158,7 +158,7 @@ class StabilityChartRows {
     }
   }
 
-  /// Writes 1 or 0 for each cell of `count` ≥ 0 rows, one row after the other.
+  /// Writes 1 (stable) or 0 for each cell of `count` ≥ 0 rows, one row after the other.
   [[gnu::flatten]] void fill(std::int64_t first, std::int64_t count, std::uint8_t* stable) {
     for (std::int64_t row = first; row < first + count; ++row, stable += polynomials_.columns()) {
       if (crossing_rows_) {
@@ -178,11 +178,11 @@ class StabilityChartRows {
   std::optional<StabilityRows<5>> crossing_rows_;
 };
 
-/// Spectral radius over any two parameters of the sampled loop, several rows at a time, one a lane,
-/// each followed from its first cell (`DominantFactor`).
+/// A chart of the spectral radius over any two parameters of the sampled loop. Several rows are
+/// computed at once, one per lane, each by continuation from its first cell (`DominantFactor`).
 ///
-/// Two packs of rows go side by side, so that one computes while the other waits for its division.
-/// The first cells are followed from one batch of rows to the next.
+/// Two packs of rows are computed together, so that one works while the other waits for its
+/// division. The first cells are continued from one batch of rows to the next.
 /// @tparam Degree  5 where every loop of the chart has δ = 0, 6 otherwise (see `DominantFactor`)
 template <class Scalar, int Degree>
 class RadiusChartRows {
@@ -192,7 +192,7 @@ class RadiusChartRows {
   static constexpr std::size_t packs_ = 2;
 
  public:
-  /// Rows that the kernel takes at once, one a lane of two packs.
+  /// The number of rows computed at once, one in each lane of two packs.
   static constexpr auto most_rows = static_cast<std::int64_t>(packs_ * lanes_);
 
   /// The polynomial of a loop in powers of λ − 1, with a root λ = 0.
@@ -204,7 +204,7 @@ class RadiusChartRows {
   /// @throws InvalidParameter where the chart is not admissible
   explicit RadiusChartRows(const LoopChart& chart) : polynomials_(chart, polynomial_of) {}
 
-  /// Writes ρ of `count` ≥ 0 rows, one after the other.
+  /// Writes the spectral radius ρ of `count` ≥ 0 rows, one after the other.
   void fill(std::int64_t first, std::int64_t count, double* radius) {
     for (std::int64_t row = 0; row < count; row += most_rows) {
       const std::int64_t some = std::min(most_rows, count - row);
@@ -257,7 +257,7 @@ class RadiusChartRows {
         radius);
   }
 
-  /// @param polynomial_at  (pack, column) → Pack; lanes beyond the rows are computed and dropped
+  /// @param polynomial_at  (pack, column) → Pack; surplus lanes are computed and dropped
   template <class PolynomialAt>
   void follow(std::int64_t rows, std::int64_t columns, const PolynomialAt& polynomial_at,
               double* radius) {
@@ -275,8 +275,8 @@ class RadiusChartRows {
     }
   }
 
-  /// Packs of polynomials from one polynomial a row, one a lane; lanes beyond the batch repeat its
-  /// last row.
+  /// Packs of polynomials from one polynomial for each row, one in each lane; surplus lanes repeat
+  /// the last row.
   template <class PolynomialOfRow>
   static Pack gathered(std::size_t pack, std::int64_t count, const PolynomialOfRow& of_row) {
     const auto last = static_cast<std::size_t>(count - 1);
@@ -294,7 +294,7 @@ class RadiusChartRows {
   std::array<Follower, packs_> first_cells_;
 };
 
-/// True where the chart holds a loop with a processing delay, so that its polynomials lack the root
+/// Whether the chart contains a loop with a processing delay, so that its polynomials lack the root
 /// λ = 0.
 inline bool has_processing_delay(const LoopChart& chart) {
   return chart.cell(0, 0).sampling.processing_delay > 0.0 ||

@@ -22,44 +22,44 @@
 
 namespace holdfast {
 
-/// Verdict that is proved for all gains in a box.
+/// The verdict proved for all gains in a box.
 enum class ProvedStability {
   stable,    ///< every loop is asymptotically stable
-  unstable,  ///< every loop has a root beyond the unit circle, or right of the imaginary axis
+  unstable,  ///< every loop has a root outside the unit circle, or right of the imaginary axis
   undecided,
 };
 
-/// A closed box of the plane of the gains, of positive area.
+/// A closed box in the plane of the gains, of positive area.
 struct GainBox {
   double proportional_from;  ///< the least P (N/m)
   double proportional_to;    ///< the largest P (N/m)
   double differential_from;  ///< the least D (N s/m)
   double differential_to;    ///< the largest D (N s/m)
 
-  /// (N²·s/m²)
+  /// The area in the plane of P and D (N²·s/m²).
   double area() const {
     return (proportional_to - proportional_from) * (differential_to - differential_from);
   }
 };
 
-/// A box and what is proved of it.
+/// A box with the verdict proved for it.
 struct ProvedBox {
   GainBox gains;              ///< the box
-  ProvedStability stability;  ///< of all loops in it
+  ProvedStability stability;  ///< verdict on all loops in it
 };
 
-/// The cells of a chart, or parts of them, each proved or not: boxes that touch without overlapping
-/// and leave nothing out, ascending in P and then in D.
+/// A chart of proved stability: its cells or their parts as boxes, ascending in P and then in D,
+/// which cover it without overlapping; each is decided or undecided.
 struct ProvedChart {
   std::vector<ProvedBox> boxes;  ///< at least one
 
-  /// Area of all boxes (N²·s/m²).
+  /// The area of all boxes (N²·s/m²).
   double area() const {
     double sum = 0.0;
     for (const ProvedBox& box : boxes) sum += box.gains.area();
     return sum;
   }
-  /// The share of the area of which this is proved, 0 … 1.
+  /// The share of the area with a given verdict, 0 … 1.
   double share(ProvedStability stability) const {
     double sum = 0.0;
     for (const ProvedBox& box : boxes)
@@ -71,8 +71,8 @@ struct ProvedChart {
 namespace detail {
 
 /// Hurwitz's conditions on a polynomial of degree n = 4 or 5, constant coefficient first: numbers
-/// that are all positive where all roots have Re < 0, and none of which is negative where all have
-/// Re ≤ 0. The first `sufficing` of them suffice, by Liénard and Chipart.
+/// that are all positive if all roots have Re < 0, and all non-negative if all roots have Re ≤ 0.
+/// The first `sufficing` of them are sufficient, by Liénard and Chipart.
 ///
 ///     a_n a_0,  a_n a_2,  a_n a_{n−1},  H₃ a_n or H₂ and H₄;  then the others
 ///
@@ -102,19 +102,19 @@ struct HurwitzConditions {
 
 }  // namespace detail
 
-/// Decides Hurwitz's conditions over boxes of gains, each by its mean value form:
+/// The proof of Hurwitz's conditions over boxes of gains, each condition by its mean value form:
 ///
 ///     f(P, D) ∈ f(P₀, D₀) + ∂f/∂P [box] (P − P₀) + ∂f/∂D [box] (D − D₀)
 ///
-/// all in enclosures, hence proved. Overestimates by the square of the box's size.
+/// all in enclosures, hence proved. The overestimate is quadratic in the box's size.
 template <int Degree>
 class GainBoxProof {
  public:
-  /// @param polynomial  encloses that of the loop, in the half-plane
+  /// @param polynomial  enclosure of the loop's polynomial, in the half-plane's variable
   explicit GainBoxProof(HalfPlanePolynomial<Enclosure, Degree> polynomial)
       : polynomial_(std::move(polynomial)) {}
 
-  /// The verdict on a box.
+  /// The verdict proved for a box.
   ProvedStability operator()(const GainBox& box) const {
     const Enclosure p(box.proportional_from, box.proportional_to);
     const Enclosure d(box.differential_from, box.differential_to);
@@ -151,13 +151,13 @@ class GainBoxProof {
 
 namespace detail {
 
-/// The gains in the middle of a box.
+/// The gains at the centre of a box.
 inline PdGains<double> middle_of(const GainBox& box) {
   return {Enclosure(box.proportional_from, box.proportional_to).middle(),
           Enclosure(box.differential_from, box.differential_to).middle()};
 }
 
-/// The cells between the points of a grid.
+/// The boxes between neighbouring points of a grid.
 inline std::vector<GainBox> cells_of(const GainGrid& grid) {
   std::vector<GainBox> cells;
   for (std::int64_t i = 0; i + 1 < grid.proportional.count; ++i)
@@ -167,7 +167,7 @@ inline std::vector<GainBox> cells_of(const GainGrid& grid) {
   return cells;
 }
 
-/// Refuses a grid without cells, or another share.
+/// Rejects a grid without boxes, or an undecided share out of range.
 inline void validate_proved(const GainGrid& grid, double undecided) {
   validate(grid);
   for (const Axis& axis : {grid.proportional, grid.differential}) {
@@ -183,7 +183,7 @@ inline void validate_proved(const GainGrid& grid, double undecided) {
   require_within("undecided share", undecided, "", 0.0, 1.0);
 }
 
-/// Ascending in P and then in D.
+/// Sorts the boxes, ascending in P and then in D.
 inline void sort_boxes(ProvedChart& chart) {
   std::sort(chart.boxes.begin(), chart.boxes.end(), [](const ProvedBox& a, const ProvedBox& b) {
     return std::pair(a.gains.proportional_from, a.gains.differential_from) <
@@ -191,7 +191,7 @@ inline void sort_boxes(ProvedChart& chart) {
   });
 }
 
-/// The four quarters of a box; none where its sides have no double between their ends.
+/// The four quarters of a box; none where a side has no double between its ends.
 inline std::vector<GainBox> quarters_of(const GainBox& box) {
   const auto [p0, p2, d0, d2] = box;
   const double p1 = 0.5 * p0 + 0.5 * p2, d1 = 0.5 * d0 + 0.5 * d2;
@@ -199,11 +199,11 @@ inline std::vector<GainBox> quarters_of(const GainBox& box) {
   return {{p0, p1, d0, d1}, {p0, p1, d1, d2}, {p1, p2, d0, d1}, {p1, p2, d1, d2}};
 }
 
-/// Quarters boxes until those that are open cover no more than an area, or there are too many, or
-/// they are too small for it.
-/// @param open     things with a box, `gains`; those that stay open are left in it
-/// @param take     (thing, quarter) → adds the quarter to `open`, or to what is decided
-/// @param decided  () → number of boxes that are
+/// Quarters open boxes until they cover at most a given area, or there are too many boxes, or they
+/// cannot be divided any further.
+/// @param open     items with a box, `gains`; undecided ones remain in it
+/// @param take     (item, quarter) → adds the quarter to `open`, or to the decided ones
+/// @param decided  () → number of decided boxes
 template <class Open, class Take, class Decided>
 void quarter(std::vector<Open>& open, double most_area, std::size_t most_boxes, const Take& take,
              const Decided& decided) {
@@ -226,13 +226,13 @@ void quarter(std::vector<Open>& open, double most_area, std::size_t most_boxes, 
 
 }  // namespace detail
 
-/// Proves the cells of a chart: each is decided as a whole, or quartered, until what is undecided
-/// is no more than a share of the area.
-/// @param decide      ProvedStability of a GainBox; a GainBoxProof
-/// @param grid        its cells lie between the points; both axes ascend, with at least 2 points
-/// @param undecided   the share, 0 ≤ … < 1
-/// @param most_boxes  with more the rest is left undecided
-/// @throws InvalidParameter for others
+/// Proves the cells of a chart: each is decided as a whole or quartered, until the undecided share
+/// of the area is at most the given one.
+/// @param decide      map from a GainBox to ProvedStability; a GainBoxProof
+/// @param grid        grid of cells between its points; both axes ascend, with at least 2 points
+/// @param undecided   largest undecided share, 0 ≤ … < 1
+/// @param most_boxes  limit of the number of boxes; beyond it the rest remains undecided
+/// @throws InvalidParameter where the grid or the share is not admissible
 template <class Decide>
 ProvedChart proved_chart(const Decide& decide, const GainGrid& grid, double undecided = 1e-3,
                          std::size_t most_boxes = std::size_t{1} << 22) {
@@ -254,14 +254,14 @@ ProvedChart proved_chart(const Decide& decide, const GainGrid& grid, double unde
   return chart;
 }
 
-/// The proof for the continuous loop without delay of two masses, whose parameters are the decimals
-/// to which the given doubles are nearest.
+/// The proof for the continuous loop of two masses without delay, whose parameters are the decimals
+/// nearest to the given doubles.
 /// @throws InvalidParameter where they are not admissible
 inline GainBoxProof<4> gain_box_proof(const TwoMass<double>& plant) {
   return GainBoxProof<4>(characteristic_polynomial(enclosed(plant)));
 }
 
-/// Proof for boxes of gains of the sampled loop.
+/// The proof for boxes of gains of the sampled loop of two masses.
 /// @throws InvalidParameter where the two masses or the sampling are not admissible
 inline GainBoxProof<5> gain_box_proof(const TwoMass<double>& plant,
                                       const Sampling<double>& sampling) {

@@ -18,7 +18,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// Sets that are joined two at a time.
+/// A partition into sets that are joined two at a time (union-find).
 class JoinedSets {
  public:
   explicit JoinedSets(std::size_t count) : parent_(count) {
@@ -36,13 +36,13 @@ class JoinedSets {
   std::vector<std::size_t> parent_;
 };
 
-/// A side of a box: where it stands, and from where to where it goes.
+/// A side of a box: its coordinate and its extent along the other axis.
 struct BoxSide {
   double at, from, to;
   std::size_t box;
 };
 
-/// Joins the boxes of each pair of sides, one of either list, that share a piece of some length.
+/// Joins the boxes of each pair of sides, one of either list, that share a segment.
 inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, JoinedSets& sets) {
   const auto by_place = [](const BoxSide& a, const BoxSide& b) {
     return std::tie(a.at, a.from) < std::tie(b.at, b.from);
@@ -62,9 +62,9 @@ inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, J
 
 }  // namespace detail
 
-/// For each of some boxes that do not overlap the number of one box of its region: boxes are of one
-/// region where a way through them leads from one to the other across sides that they share.
-/// @param boxes  whose sides meet where they are the same doubles
+/// For each of some boxes that do not overlap, the number of one box of its region. A region is a
+/// set of boxes that are connected through shared sides.
+/// @param boxes  boxes whose common sides are identical doubles
 inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) {
   std::vector<detail::BoxSide> left, right, lower, upper;
   for (std::size_t k = 0; k < boxes.size(); ++k) {
@@ -84,14 +84,14 @@ inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) 
 
 namespace detail {
 
-/// A box and, of each circle, the arcs on which a loop of it may have a root. Of a wider circle
-/// that tells no more of the box the arcs are gone.
+/// A box and, for each circle, the arcs on which one of its loops may have a root. For a wider
+/// circle that decides nothing more the arcs are dropped.
 struct CrossedBox {
   GainBox gains;
   std::vector<std::optional<CircleArcs::Arcs>> arcs;
 };
 
-/// Cells of a grid with indices from … to in P and in D.
+/// A range of grid cells, by their indices in P and in D.
 struct CellRange {
   const GainGrid& grid;
   std::int64_t p_from = 0, p_to = grid.proportional.count - 1;
@@ -113,8 +113,8 @@ struct CellRange {
   }
 };
 
-/// The proved chart of a loop of any order in the making.
-/// @tparam Watch  called for each box
+/// The chart of a loop of any order during its proof.
+/// @tparam Watch  callback, called for each box
 template <class Watch>
 class ModalChart {
  public:
@@ -128,7 +128,7 @@ class ModalChart {
     open_cells(all, whole);
   }
 
-  /// Quarters the crossed boxes until no more than an area is crossed.
+  /// Quarters boxes that a root may cross until they cover at most a given area.
   void refine(double most_area, std::size_t most_boxes) {
     quarter(
         open_, most_area, most_boxes,
@@ -136,7 +136,7 @@ class ModalChart {
         [this] { return unstable_.size() + free_.size(); });
   }
 
-  /// With the roots of each region counted.
+  /// The finished chart, the roots of each region counted.
   ProvedChart finished() {
     ProvedChart chart;
     for (const GainBox& box : unstable_) chart.boxes.push_back({box, ProvedStability::unstable});
@@ -151,7 +151,7 @@ class ModalChart {
   }
 
  private:
-  /// Down to single cells.
+  /// Opens a range of cells by halving, down to single cells.
   void open_cells(const CellRange& range, const CrossedBox& around) {
     CrossedBox box = part_of(around, range.box());
     if (range.is_cell()) return take(std::move(box));
@@ -160,7 +160,7 @@ class ModalChart {
     open_cells(second, box);
   }
 
-  /// A part of a box, with those of the box's arcs that it still meets.
+  /// A part of a box, with the arcs of that box that its own loops may still meet.
   CrossedBox part_of(const CrossedBox& box, const GainBox& part) {
     watch_();
     CrossedBox result{part, {}};
@@ -182,7 +182,7 @@ class ModalChart {
     open_.push_back(std::move(box));
   }
 
-  /// Verdicts on the regions, each at the number of its region.
+  /// The verdicts on the regions, indexed by the number of the region.
   std::vector<ProvedStability> verdicts_on(const std::vector<std::size_t>& regions) {
     std::vector<std::optional<GainBox>> largest(free_.size());
     for (std::size_t k = 0; k < free_.size(); ++k) {
@@ -208,18 +208,18 @@ class ModalChart {
 
 }  // namespace detail
 
-/// Proves the cells of a chart of a loop of any order. A box of gains of which no arc of the unit
-/// circle has a root is free; the number of roots outside is the same in all free boxes that are
-/// joined, and is counted once for each region (`CircleArcs::roots_outside`). A box that is crossed
-/// is unstable where a wider circle is free and has a root outside; others are quartered until what
-/// is crossed is no more than a share of the area.
-/// @param response    of the loop
-/// @param grid        its cells lie between the points; both axes ascend, with at least 2 points
-/// @param undecided   the share, 0 ≤ … < 1
-/// @param watch       called for each box; what it throws ends the work
-/// @param most_boxes  with more the rest is left undecided
-/// @return all undecided where an eigenvalue of the plant itself may lie on the unit circle
-/// @throws InvalidParameter for others
+/// Proves the cells of a chart of a loop of any order. A box of gains is free where none of them
+/// puts a root on the unit circle. The number of roots outside is constant on connected free boxes;
+/// it is counted once for each region (`CircleArcs::roots_outside`). A box that is not free is
+/// unstable where a wider circle is free and has a root outside. All others are quartered until
+/// their share of the area is at most the given one.
+/// @param response    response of the loop
+/// @param grid        grid of cells between its points; both axes ascend, with at least 2 points
+/// @param undecided   largest undecided share, 0 ≤ … < 1
+/// @param watch       called for each box; an exception from it ends the work
+/// @param most_boxes  limit of the number of boxes; beyond it the rest remains undecided
+/// @return an undecided chart where an eigenvalue of the plant itself may be on the unit circle
+/// @throws InvalidParameter where the grid or the share is not admissible
 template <class Watch>
 ProvedChart proved_chart(const EnclosedResponse& response, const GainGrid& grid, double undecided,
                          const Watch& watch, std::size_t most_boxes = std::size_t{1} << 22) {

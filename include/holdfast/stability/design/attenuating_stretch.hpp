@@ -17,13 +17,13 @@
 
 namespace holdfast::detail {
 
-/// Σ_{j > m} of a quantity whose terms grow by at most `rate`/(j + 1) from one to the next.
+/// A bound of Σ_{j > m} of terms whose ratio from one to the next is at most `rate`/(j + 1).
 inline double tail_beyond(double next, double rate, std::size_t order) {
   const double ratio = rate / static_cast<double>(order + 2);
   return ratio < 1.0 ? next / (1.0 - ratio) : std::numeric_limits<double>::infinity();
 }
 
-/// e^{iωτ} − 1 within `radius` of a period τ, `terms` terms.
+/// The Taylor series of e^{iωτ} − 1 within `radius` of a period τ, with `terms` terms.
 inline TaylorNumber moving_phase(double omega, double period, double radius, std::size_t terms) {
   const double angle = omega * period;
   TaylorNumber result{{circle_increment(angle)}, 0.0};
@@ -36,11 +36,11 @@ inline TaylorNumber moving_phase(double omega, double period, double radius, std
   return result;
 }
 
-/// The phasor g = cosine − i sine of the harmonic input within `radius` of a period, from
-/// g′ = A_d c + iωg of the exact force and g′ = A_d c of the held one, A_d′ = A A_d.
+/// The phasor g = cosine − i sine of the harmonic input within `radius` of a period, from g′ = A_d
+/// c + iωg for the exact force and g′ = A_d c for the held one, A_d′ = A A_d.
 ///
-/// In the coordinates that balance A, with p_j and γ_j the sizes of the terms of A_d c and g and
-/// r = max(‖A‖, ω) radius, max(γ_j r, p_j radius) grows by at most 2 r/(j + 1).
+/// In the coordinates that balance A, let p_j and γ_j be the sizes of the terms of A_d c and g and
+/// r = max(‖A‖, ω) radius. Then max(γ_j r, p_j radius) grows by at most 2 r/(j + 1) per term.
 template <class Plant>
 MovingVector moving_input(const Plant& plant, const LoopMap<double>& map, ForceHold hold,
                           double omega, double radius, std::size_t terms) {
@@ -70,22 +70,22 @@ MovingVector moving_input(const Plant& plant, const LoopMap<double>& map, ForceH
   return result;
 }
 
-/// Whether the one stays above the other.
+/// Whether one Taylor number is above the other over the whole stretch.
 inline Stretch stretch_of(const SquaresDifference& gap) {
   return gap.least > 0.0 ? Stretch::holds : gap.at_centre > 0.0 ? Stretch::open : Stretch::fails;
 }
 
-/// Whether the loop is shown to be stable and to keep the conductor's steady amplitude below that
-/// of no control, all within `radius` of a period.
+/// Whether the loop is proved to be stable, and its conductor's steady amplitude to be below that
+/// without control, for all periods within `radius` of a given one.
 ///
-/// With y = (λI − S)⁻¹ g and Y = (λI − S)⁻¹ s of the closed loop, λ = e^{iωτ}, and c reading the
-/// conductor,
+/// With y = (λI − S)⁻¹ g and Y = (λI − S)⁻¹ s for the closed loop, λ = e^{iωτ}, and c the row of
+/// the conductor's displacement,
 ///
 ///     Z/Z₀ = n/(n − (c Y)(K y)),   n = (c y)(1 + K Y)
 ///
-/// so that no pole of the plant without control enters; Z itself is c y. Of the amplitude the
-/// series and what they leave out are bounded, the round-off of its own sums is not.
-/// @param reference  m/N, what c y is to stay below; NaN: Z₀
+/// so that the poles of the plant without control do not matter; Z itself is c y. The truncation
+/// errors of the series are bounded, the round-off of its sums is not.
+/// @param reference  bound for |c y| (m/N); NaN: |Z₀|
 template <class Plant>
 Stretch attenuation(const Plant& plant, const SamplingFamily<Plant>& family,
                     const PdGains<double>& gains, ForceHold hold, double omega, double period,

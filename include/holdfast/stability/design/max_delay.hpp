@@ -32,7 +32,7 @@
 
 namespace holdfast {
 
-/// The criterion by which a sampling period counts as feasible.
+/// The criterion for a feasible sampling period.
 enum class DelayCriterion {
   stable,      ///< some differential gain stabilises the loop
   attenuates,  ///< τ < 1/(2f), so that the samples show the vibration, and some stabilising
@@ -40,34 +40,34 @@ enum class DelayCriterion {
                ///< control
 };
 
-/// A question about the slowest computer that still serves, for one excitation frequency.
+/// A search for the largest feasible sampling period at one excitation frequency.
 struct MaxDelayOptions {
   double frequency;          ///< f (Hz), > 0
   double proportional_gain;  ///< P (N/m), finite; Eq. (6) tunes it to f
-  DelayCriterion criterion = DelayCriterion::attenuates;  ///< what counts as feasible
-  ForceHold hold = ForceHold::sampled;  ///< how the excitation enters; of `attenuates` only
-  double delay_fraction = 0.0;    ///< δ/τ, 0 … 1000, kept while τ varies; by matrices ≤ 1
-  double shortest_period = 1e-5;  ///< s; the search starts there, or at 1/(1000 f) if less
-  /// s; where it gives up, > `shortest_period`; 0: where every longer period is shown to be stable
-  /// if that is within 200 periods of the plant's slowest mode, else at 20 of them.
+  DelayCriterion criterion = DelayCriterion::attenuates;  ///< criterion for a feasible period
+  ForceHold hold = ForceHold::sampled;  ///< hold of the excitation; used by `attenuates` only
+  double delay_fraction = 0.0;  ///< δ/τ, 0 … 1000, constant while τ varies; by matrices ≤ 1
+  double shortest_period = 1e-5;  ///< s; start of the search, or 1/(1000 f) if that is less
+  /// End of the search (s), > `shortest_period`; 0: where every longer period is proved to be
+  /// stable if that is within 200 periods of the plant's slowest mode, else 20 of these periods.
   double longest_period = 0.0;
-  double search_ratio = 1.00001;  ///< > 1: infeasible windows narrower than this may be missed
-                                  ///< where no D is shown to serve all over a step of this ratio
-  int most_steps = 20000;  ///< ≥ 1; of the search, each some 40 µs or more for two masses,
-                           ///< after which it gives up
+  double search_ratio = 1.00001;  ///< > 1; infeasible windows narrower than this ratio may be
+                                  ///< missed where no D is proved to serve over a whole step
+  int most_steps = 20000;  ///< ≥ 1; most steps of the search, each some 40 µs or more for two
+                           ///< masses
   std::function<void()> watch = {};  ///< called at each step; may throw to end the search
   /// Whether `attenuates` compares with the plant without control under the true force; else under
-  /// the force held as with control, as `AmplitudeOptions` has it.
+  /// the force held as with control (see `AmplitudeOptions`).
   bool relative_to_true_force = false;
 
-  /// ω = 2π f (rad/s).
+  /// The angular frequency ω = 2π f (rad/s).
   double angular_frequency() const { return 2.0 * pi<double> * frequency; }
 
-  /// τ and the δ that belongs to it.
+  /// The sampling with period τ and the corresponding δ.
   Sampling<double> sampling(double period) const { return {period, delay_fraction * period}; }
 };
 
-/// @throws InvalidParameter outside the ranges that the members of `MaxDelayOptions` state
+/// Validates the options. @throws InvalidParameter outside the ranges stated at their members
 inline void validate(const MaxDelayOptions& options) {
   require_positive("frequency", options.frequency, "Hz");
   require_finite("proportional gain", options.proportional_gain, "N/m");
@@ -82,10 +82,10 @@ inline void validate(const MaxDelayOptions& options) {
 
 namespace detail {
 
-/// The stable D of one sampling period and its response, at the question's P.
+/// The stabilising D of one sampling period and its response, for the given P.
 struct DelayOffer {
-  std::vector<Interval<double>> stable;                 ///< D that stabilise
-  std::optional<SteadyResponse<double>> response = {};  ///< nothing for the criterion `stable`
+  std::vector<Interval<double>> stable;                 ///< intervals of D that stabilise
+  std::optional<SteadyResponse<double>> response = {};  ///< empty for the criterion `stable`
 };
 
 template <class Plant>
@@ -109,7 +109,7 @@ SteadyResponse<Scalar> delay_response(const ConductorWithAbsorber& plant,
   return response.relative_to(true_amplitude_per_force(plant, omega));
 }
 
-/// The offer of a conductor by its modes.
+/// The stabilising D and the response of a conductor by its modes.
 template <class Scalar = double>
 DelayOffer delay_offer(const ConductorWithAbsorber& plant, const MaxDelayOptions& options,
                        double sampling_period) {
@@ -121,14 +121,14 @@ DelayOffer delay_offer(const ConductorWithAbsorber& plant, const MaxDelayOptions
   return offer;
 }
 
-/// False where the criterion asks for samples that show the vibration and they do not.
+/// False where the criterion requires samples that resolve the vibration and they do not.
 inline bool shows_vibration(const MaxDelayOptions& options, double sampling_period) {
   return options.criterion == DelayCriterion::stable ||
          2.0 * options.frequency * sampling_period < 1.0;
 }
 
-/// The D of a period's offer that serves best: of minimum amplitude where that is asked, or inside
-/// the first stable interval; NaN where none serves.
+/// The best D for a period: that of minimum amplitude where attenuation is required, else one
+/// inside the first stable interval; NaN where none is feasible.
 inline double serving_gain(const MaxDelayOptions& options, double period, const DelayOffer& offer) {
   if (!shows_vibration(options, period) || offer.stable.empty()) return std::nan("");
   if (!offer.response) return offer.stable.front().representative();
@@ -136,7 +136,7 @@ inline double serving_gain(const MaxDelayOptions& options, double period, const 
   return best.ratio_to_uncontrolled < 1.0 ? best.differential_gain : std::nan("");
 }
 
-/// The ratio that the best of the stabilising D leaves; NaN where none is asked for or there.
+/// The least amplitude ratio over the stabilising D; NaN where it is not required or none exists.
 inline double least_ratio(const MaxDelayOptions& options, const DelayOffer& offer) {
   if (!offer.response) return std::numeric_limits<double>::quiet_NaN();
   return offer.response->best_differential_gain(options.proportional_gain, offer.stable)
@@ -146,11 +146,11 @@ inline double least_ratio(const MaxDelayOptions& options, const DelayOffer& offe
 }  // namespace detail
 
 /// The open intervals of D (N s/m) that make one sampling period feasible, exact and ascending:
-/// those that stabilise and, to attenuate, those of them with an amplitude below that of no
+/// those that stabilise and, for attenuation, also have an amplitude below that without
 /// control.
 /// @tparam Plant           two masses, in closed form, or a plant of any order with ports
-/// @param plant            within its ranges, which are not checked here
-/// @param options          within its ranges (`validate`), which are not checked here
+/// @param plant            plant within its ranges, which are not checked here
+/// @param options          options within their ranges (`validate`), which are not checked here
 /// @param sampling_period  τ (s), > 0
 template <class Plant>
 std::vector<Interval<double>> feasible_differential_gains(const Plant& plant,
@@ -166,20 +166,20 @@ std::vector<Interval<double>> feasible_differential_gains(const Plant& plant,
 /// How the search for the largest sampling period ended.
 enum class MaxDelayOutcome {
   found,      ///< every period up to `sampling_period` is feasible, a slightly longer one is not
-  unlimited,  ///< every period is feasible: from the end of the search on the loop is shown to be
-              ///< stable however slow the sampling (`SlowSamplingBound`); `sampling_period` is
+  unlimited,  ///< every period is feasible: beyond the end of the search the loop is proved to be
+              ///< stable for any sampling period (`SlowSamplingBound`); `sampling_period` is
               ///< infinite
-  beyond_search,  ///< every period up to the end of the search, which is `sampling_period`, is
-                  ///< feasible; of longer ones nothing is known
-  never,  ///< not even the shortest period of the search is feasible; `sampling_period` is 0
+  beyond_search,  ///< every period up to the end of the search is feasible, which is
+                  ///< `sampling_period`; longer ones are unknown
+  never,          ///< the shortest period of the search is infeasible; `sampling_period` is 0
 };
 
-/// The lack of a longer period.
+/// The cause of infeasibility beyond the largest period.
 enum class MaxDelayLimit {
-  none,         ///< nothing that is known: the outcome is `unlimited` or `beyond_search`
-  stability,    ///< the gains that serve below no longer stabilise
-  attenuation,  ///< those that stabilise no longer bring the amplitude below that of no control
-  nyquist,      ///< τ = 1/(2f): the samples no longer show the vibration
+  none,         ///< no known cause: the outcome is `unlimited` or `beyond_search`
+  stability,    ///< feasible gains of shorter periods no longer stabilise
+  attenuation,  ///< stabilising gains no longer bring the amplitude below that without control
+  nyquist,      ///< τ = 1/(2f): the samples no longer resolve the vibration
 };
 
 /// The largest sampling period τ* such that every τ in (0, τ*] is feasible.
@@ -187,14 +187,14 @@ struct MaxDelay {
   MaxDelayOutcome outcome;   ///< how the search ended
   double sampling_period;    ///< τ* (s)
   double differential_gain;  ///< D (N s/m) at τ*: of minimum amplitude, or inside the stable
-                             ///< interval; a limit of gains that serve, not one to use without a
-                             ///< margin; NaN where the outcome is `never`
-  MaxDelayLimit limit;  ///< what is lacking beyond τ*, or at once where the outcome is `never`
+                             ///< interval; a limit without any margin, not a recommended gain; NaN
+                             ///< where the outcome is `never`
+  MaxDelayLimit limit;       ///< cause of infeasibility beyond τ*, or at once for `never`
 };
 
 namespace detail {
 
-/// From where on D = 0 stabilises however slow the sampling; infinite where that is not shown.
+/// The period from which on D = 0 stabilises for every longer one; infinite where not proved.
 template <class Plant>
 double certain_from(const Plant& plant, const MaxDelayOptions& options) {
   return SlowSamplingBound(plant, {options.proportional_gain, 0.0}, options.delay_fraction)
@@ -204,7 +204,7 @@ inline double certain_from(const ConductorWithAbsorber& /*plant*/, const MaxDela
   return std::numeric_limits<double>::infinity();
 }
 
-/// How far stability is looked for where the question does not say it.
+/// The default end of the search for stability.
 template <class Plant>
 double longest_of_stability(const Plant& plant, double certain) {
   const double slowest = slowest_mode_period(plant);
@@ -216,8 +216,8 @@ inline double longest_of_stability(const ConductorWithAbsorber& plant, double /*
   return 20.0 * 2.0 * pi<double> / slowest;
 }
 
-/// Joins feasible periods to one another and finds where that ends: by links, each of which one D
-/// is shown to serve all along, or of a conductor by its modes by steps of the search ratio.
+/// The search that joins feasible periods up to their end: by a D that is proved to serve on a
+/// whole stretch, or, for a conductor by its modes, by steps of the search ratio.
 template <class Plant>
 class DelaySearch {
  public:
@@ -270,9 +270,9 @@ class DelaySearch {
   }
   double gain_at(double period) const { return serving_gain(options_, period, offer_at(period)); }
 
-  /// The limit that a period is beyond. Where the amplitude jumps past that of no control, the
-  /// interval of D that served has vanished.
-  /// @param before  the least ratio just below the period, NaN where there is none
+  /// The cause of infeasibility at a period. Where the amplitude jumps beyond that without control,
+  /// the feasible interval of D has vanished.
+  /// @param before  least ratio just below the period, NaN without one
   MaxDelayLimit limit_at(double period, double before) const {
     const DelayOffer offer = offer_at(period);
     if (!shows_vibration(options_, period)) return MaxDelayLimit::nyquist;
@@ -281,7 +281,7 @@ class DelaySearch {
                                                         : MaxDelayLimit::attenuation;
   }
 
-  /// The search limit, or the longest period of it whose samples show the vibration.
+  /// The end of the search, or its longest period whose samples resolve the vibration.
   double longest(double certain) const {
     const double asked = options_.longest_period;
     if (options_.criterion == DelayCriterion::stable)
@@ -298,8 +298,8 @@ class DelaySearch {
     if (options_.watch) options_.watch();
   }
 
-  /// Moves `feasible_` to the goal while there are steps left; @return an infeasible period met on
-  /// the way.
+  /// Moves `feasible_` towards the goal while there are steps left; @return an infeasible period
+  /// found on the way.
   std::optional<double> advance(double goal) {
     const double longest_step = is_walked_ ? options_.search_ratio : longest_link_;
     double ratio = longest_step;
@@ -325,8 +325,8 @@ class DelaySearch {
     return std::nullopt;
   }
 
-  /// Whether some D serves at a period, one of which is kept. Of a conductor by its modes all roots
-  /// of a loop cost less than all its stable D: the D that served last is asked first.
+  /// Whether a period is feasible with some D, which is stored. For a conductor by its modes all
+  /// roots of a loop cost less than all its stable D: so the last feasible D is tested first.
   bool is_served(double period) {
     if constexpr (is_walked_) {
       const PdGains<double> gains{options_.proportional_gain, start_};
@@ -345,7 +345,7 @@ class DelaySearch {
     return !gains.empty();
   }
 
-  /// True where one D that serves at both ends serves in between.
+  /// Whether one D that is feasible at both ends is proved to be so in between.
   bool links(double next, const Intervals& gains) {
     Intervals common = intersection(gains_, gains);
     std::sort(common.begin(), common.end(),
@@ -380,7 +380,7 @@ class DelaySearch {
            WalkOutcome::clear;
   }
 
-  /// Positive where some D stabilises: 1 − min ρ over D, to a ten-thousandth of itself.
+  /// A number that is positive where some D stabilises: 1 − min ρ over D, to four digits.
   double stability_reserve(double period) {
     const auto loop = loop_polynomial(sampled_loop(plant_, options_.sampling(period)));
     const auto least = MinimumRadiusSearch(loop, options_.proportional_gain, 1e-5).from(start_);
@@ -388,16 +388,16 @@ class DelaySearch {
     return least.margin;
   }
 
-  /// Positive where some stabilising D attenuates: 1 less the least ratio; −1 where none
-  /// stabilises.
+  /// A number that is positive where some stabilising D attenuates: 1 − the least ratio; −1 where
+  /// none stabilises.
   double attenuation_reserve(double period) {
     const auto offer = offer_at(period);
     return offer.response ? 1.0 - least_ratio(options_, offer) : -1.0;
   }
 
-  /// The last feasible period of a bracket whose ends differ: halved while it is wide, since
-  /// whether there is a gain is told much sooner than by how much it is missed; to the end where
-  /// the latter is not known in closed form.
+  /// The last feasible period of a bracket whose ends differ. The bracket is halved while it is
+  /// wide, since the existence of a gain costs less than the reserve; it is halved to the end where
+  /// the reserve has no closed form.
   double boundary_between(double feasible, double infeasible) {
     constexpr double wide = is_walked_ ? 1.0 + 1e-9 : has_closed_forms<Plant> ? 1.01 : 1.0 + 1e-13;
     while (infeasible > wide * feasible) {
@@ -421,7 +421,7 @@ class DelaySearch {
     return last_feasible_before(feasible, infeasible);
   }
 
-  /// Round-off may place the sign change a little beyond the last period with an interval of gains.
+  /// The last period with an interval of gains; round-off may put the sign change beyond it.
   double last_feasible_before(double feasible, double infeasible) const {
     for (double step = 1e-13 * infeasible; infeasible - step > feasible; step *= 2.0)
       if (!gains_at(infeasible - step).empty()) return infeasible - step;
@@ -440,18 +440,18 @@ class DelaySearch {
 
 }  // namespace detail
 
-/// The largest sampling period, link by link.
+/// The largest sampling period, found by joining feasible periods.
 ///
-/// A longer period is joined to those known to be feasible by one D that is shown to serve at both
-/// and everywhere in between, stretch by stretch (`MovingSpectrum`, `detail::attenuation`). Where
-/// no longer period joins, the boundary is found by a bracketing root finder on a function that
-/// changes its sign there: 1 − min ρ over D (`minimum_radius`), or 1 less the minimum amplitude
-/// ratio over the stabilising D; of a plant of another order than the two masses', by halving on
-/// whether there is a D at all. A step by less than search_ratio, as the last one to τ*, is
-/// feasible at its ends and taken to be so in between. Source: Kollár 2022, Fig. 5.
+/// A longer period is joined to the feasible ones by one D that is proved to serve at both and
+/// everywhere in between, stretch by stretch (`MovingSpectrum`, `detail::attenuation`). Where no
+/// longer period can be joined, the boundary is found by a bracketing root finder on a function
+/// that changes its sign there: 1 − min ρ over D (`minimum_radius`), or 1 − the minimum amplitude
+/// ratio over the stabilising D; for a plant of another order than the two masses', by halving on
+/// the existence of a D. A step by less than search_ratio, like the last one to τ*, is feasible at
+/// its ends and assumed to be so in between. Source: Kollár 2022, Fig. 5.
 /// @tparam Plant  two masses, in closed form, or a plant of any order with ports; `validate` checks
 ///                it
-/// @throws InvalidParameter for a plant or question outside the admissible ranges
+/// @throws InvalidParameter where the plant or an option is outside its admissible range
 template <class Plant>
 MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options) {
   validate(plant);
@@ -460,15 +460,15 @@ MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options)
   return detail::DelaySearch(plant, options).answer();
 }
 
-/// The largest sampling period of the computer on a conductor by its modes: as
-/// `max_sampling_period` of two masses asks, but walked, each period so many times the one before,
-/// a short one up to ten times that step, by as much of the longest that shows every natural motion
-/// and the excitation: by all roots with the D that served last, or else by all intervals of stable
-/// D. Where none serves the edge is halved to 10⁻⁹. A stretch of periods narrower than a step is
-/// missed, and nothing is shown of what lies in between or beyond.
-/// @param plant    its poles not none and none of its hardware's
-/// @param options  within their ranges; search ratio and most steps do not count
-/// @param ratio    of two neighbouring periods, > 1
+/// The largest sampling period of the computer on a conductor by its modes, as
+/// `max_sampling_period` of two masses, but found in steps. A step is (ratio − 1) times the longest
+/// period that resolves all natural motions and the excitation, at least times the present period
+/// and at most times ten of it. It is tested by all roots with the last feasible D, or else by all
+/// stable intervals of D. At an infeasible period the edge is halved to 10⁻⁹. Infeasible windows
+/// narrower than a step are missed; nothing is proved between the steps or beyond.
+/// @param plant    conductor with its poles, without any of its hardware
+/// @param options  within their ranges; search ratio and most steps are not used
+/// @param ratio    ratio of two successive periods, > 1
 /// @throws InvalidParameter outside these ranges
 template <class Scalar = double>
 MaxDelay modal_max_sampling_period(const ConductorWithAbsorber& plant,

@@ -23,38 +23,38 @@
 
 namespace holdfast {
 
-/// A range of excitation frequencies, Hz.
+/// A range of excitation frequencies (Hz).
 struct FrequencyBand {
   double lower;  ///< Hz, > 0
   double upper;  ///< Hz, > lower, ≤ 1/(2τ)
 };
 
-/// @throws InvalidParameter unless 0 < lower < upper ≤ 1/(2τ), so that the samples show the
-/// vibration
+/// Validates a band. @throws InvalidParameter unless 0 < lower < upper ≤ 1/(2τ), so that the
+/// samples resolve the vibration
 inline void validate(const FrequencyBand& band, double sampling_period) {
   require_positive("lower frequency", band.lower, "Hz");
   require_positive("width of the frequency band", band.upper - band.lower, "Hz");
   require_within("upper frequency", band.upper, "Hz", 0.0, 0.5 / sampling_period);
 }
 
-/// The squared amplitude ratio to no control at one frequency, as a function of D.
+/// The squared amplitude ratio (with control to without) at one frequency, as a function of D.
 struct RatioAtFrequency {
   double frequency;                   ///< Hz
-  RatioOfQuadratics<double> squared;  ///< N(D)/M(D), D in N s/m, at the P of the band
+  RatioOfQuadratics<double> squared;  ///< N(D)/M(D), D in N s/m, for the band's P
 };
 
 /// A frequency at which the amplitude ratio is largest.
 struct WorstFrequency {
   double frequency;  ///< Hz
-  double ratio;  ///< |Z₁| over that without control; ∞ where a root of the loop is e^{2πifτ}
+  double ratio;  ///< |Z₁| over that without control; ∞ where the loop has the root e^{2πifτ}
 };
 
-/// The loop of a plant as AmplitudeBand asks for it.
+/// The model of a plant that AmplitudeBand requires.
 /// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
 template <class Plant>
 struct PlantOverBand {
   Plant plant;               ///< that of the loop
-  AmplitudeOptions options;  ///< τ, δ, the hold of the force and what ratios are relative to
+  AmplitudeOptions options;  ///< τ, δ, the hold of the force and the reference of the ratios
   SampledLoop<double> loop = sampled_loop(plant, options.sampling);          ///< of the plant
   AffinePolynomial<double, 5> polynomial = characteristic_polynomial(loop);  ///< of the loop
 
@@ -63,31 +63,31 @@ struct PlantOverBand {
     return detail::response_of_loop(plant, loop, options.hold, angular_frequency,
                                     options.relative_to_true_force);
   }
-  /// λ − 1 of the loop's roots.
+  /// The offsets λ − 1 of the loop's roots.
   std::vector<std::complex<double>> loop_roots(const PdGains<double>& gains) const {
     return roots(polynomial.at(gains));
   }
-  /// λ − 1 of the zeros of the uncontrolled amplitude to the held force.
+  /// The offsets λ − 1 of the zeros of the uncontrolled amplitude under the held force.
   std::vector<std::complex<double>> uncontrolled_zeros() const {
     const auto open_loop = resolvent<double, 4>(loop.increment);
     return roots(open_loop.between(RowVector<double, 4>::Unit(0), loop.held_excitation), 1e-14);
   }
 };
 
-/// The amplitude ratio to no control over a band of frequencies at a fixed P.
+/// The amplitude ratio to no control over a band of frequencies, for a given P.
 ///
-/// Peaks belong to roots of the loop close to the unit circle, where the controlled amplitude is
-/// large, and to zeros of the uncontrolled amplitude close to it. Both are known with their widths:
-/// the grid over the band is uniform, refined about the zeros, and for each D about the loop's
-/// roots. Its highest points are then refined by golden-section search.
+/// Peaks belong to roots of the loop near the unit circle, where the controlled amplitude is large,
+/// and to zeros of the uncontrolled amplitude near it. Both are known with their widths: the grid
+/// over the band is uniform, refined about the zeros, and for each D about the loop's roots. Its
+/// highest points are then refined by golden-section search.
 /// @tparam Model  PlantOverBand, or ConductorOverBand of modal_design.hpp
 template <class Model>
 class AmplitudeBand {
  public:
-  /// Solves for the steady response at each frequency of the grid, 401 and those about the zeros.
-  /// @param model              the loop
+  /// Solves for the steady response at each frequency of the grid: 401 and those about the zeros.
+  /// @param model              model of the loop
   /// @param proportional_gain  P (N/m), finite
-  /// @param band               within its range (`validate`), which is not checked here
+  /// @param band               band within its range (`validate`), which is not checked here
   AmplitudeBand(Model model, double proportional_gain, const FrequencyBand& band)
       : model_(std::move(model)), proportional_gain_(proportional_gain), band_(band) {
     constexpr int uniform = 400;
@@ -105,7 +105,7 @@ class AmplitudeBand {
     return {frequency, response.squared_ratio(proportional_gain_)};
   }
 
-  /// Where in the band the ratio is largest at one D.
+  /// The frequency of the band with the largest ratio for a given D.
   WorstFrequency worst(double differential_gain) const {
     const std::vector<RatioAtFrequency> points = points_for(differential_gain);
     std::vector<double> values;
@@ -132,7 +132,7 @@ class AmplitudeBand {
     return value >= 0.0 ? value : std::numeric_limits<double>::infinity();
   }
 
-  /// The grid, refined about the loop's roots at one D.
+  /// The grid, refined about the loop's roots for a given D.
   std::vector<RatioAtFrequency> points_for(double differential_gain) const {
     std::vector<RatioAtFrequency> points = grid_;
     std::vector<double> near_roots;
@@ -148,7 +148,7 @@ class AmplitudeBand {
     return points;
   }
 
-  /// Frequencies about those of roots near the unit circle, spaced by their distance from it.
+  /// Adds frequencies about those of roots near the unit circle, as dense as the roots are near.
   void append_about(const std::vector<std::complex<double>>& from_one,
                     std::vector<double>& frequencies) const {
     const double unit = 2.0 * pi<double> * model_.options.sampling.period;
@@ -164,7 +164,7 @@ class AmplitudeBand {
     }
   }
 
-  /// The highest point between two neighbours of a grid point that is higher than both.
+  /// The maximum between two neighbours of a grid point that is higher than both.
   WorstFrequency refined(double left, double middle, double right, double differential_gain) const {
     constexpr double golden = 0.61803398874989485;
     WorstFrequency best{middle, value(at(middle), differential_gain)};
@@ -186,31 +186,31 @@ class AmplitudeBand {
   std::vector<RatioAtFrequency> grid_;
 };
 
-/// How the search for one D for a whole band of frequencies ended.
+/// The outcome of the search for one D for a whole band of frequencies.
 enum class MinimaxOutcome {
   found,          ///< `worst_ratio` and `lower_bound` agree to 1e−8
-  not_converged,  ///< they do not; the D is still one that gives `worst_ratio`
+  not_converged,  ///< they do not agree; the D still gives `worst_ratio`
   none,           ///< no D is admissible: the numbers are NaN
 };
 
-/// One D, at a fixed P, for all frequencies of a band.
+/// The D, for a given P, that serves all frequencies of a band best.
 struct MinimaxAmplitude {
-  MinimaxOutcome outcome;  ///< whether a D is admissible, and whether the two bounds agree
-  /// D (N s/m); at the edge of the admissible ones a limit.
+  MinimaxOutcome outcome;  ///< existence of an admissible D and agreement of the bounds
+  /// The D (N s/m); at the edge of the admissible intervals it is a limit.
   double differential_gain = std::nan("");
-  /// The largest amplitude ratio to no control over the band at this D.
+  /// The largest amplitude ratio to no control over the band with this D.
   double worst_ratio = std::nan("");
-  double worst_frequency = std::nan("");  ///< Hz, where
+  double worst_frequency = std::nan("");  ///< frequency of that ratio (Hz)
   double lower_bound = std::nan("");      ///< no admissible D has a smaller worst ratio than this
   double attenuation = std::nan("");      ///< −20 log₁₀ of `worst_ratio` (dB)
 };
 
 namespace detail {
 
-/// min over D of the largest of finitely many quotients of quadratics.
+/// The minimum over D of the largest of finitely many quotients of quadratics.
 ///
-/// The minimum lies at an end of an admissible interval, where one quotient is stationary, or where
-/// two of them cross: roots of quadratics and quartics, collected as frequencies are added.
+/// The minimum is at an end of an admissible interval, where one quotient is stationary, or where
+/// two of them intersect: roots of quadratics and quartics, collected as frequencies are added.
 class WorstOfFrequencies {
  public:
   explicit WorstOfFrequencies(const std::vector<Interval<double>>& admissible)
@@ -231,7 +231,7 @@ class WorstOfFrequencies {
     ratios_.push_back(ratio);
   }
 
-  /// D and the ratio there.
+  /// A D and the ratio for it.
   struct Least {
     double differential_gain;
     double ratio;
@@ -264,8 +264,8 @@ class WorstOfFrequencies {
   std::vector<double> candidates_;
 };
 
-/// The exchange of frequencies over a band, among the D that the options admit.
-/// @tparam Model  of the plant, as AmplitudeBand has it
+/// The exchange of frequencies over a band, for the admissible D of the options.
+/// @tparam Model  model of the plant, see AmplitudeBand
 template <class Model, class Plant>
 MinimaxAmplitude exchanged(const Plant& plant, const AmplitudeOptions& options,
                            double proportional_gain, const FrequencyBand& band) {
@@ -302,19 +302,19 @@ MinimaxAmplitude exchanged(const Plant& plant, const AmplitudeOptions& options,
 
 }  // namespace detail
 
-/// The D that minimises the largest amplitude ratio to no control over a band, at a fixed P.
+/// The D that minimises the largest amplitude ratio to no control over a band, for a given P.
 ///
-/// Exchange of frequencies: the minimax over the frequencies collected so far bounds the answer
-/// from below; the worst frequency of the whole band at that D bounds it from above and is added.
-/// The gap of the two is the error, up to what the search over frequencies misses (`AmplitudeBand`;
-/// peaks are resolved to 1e−9 of the band).
+/// Exchange of frequencies: the minimax over the frequencies collected so far is a lower bound; the
+/// worst frequency of the whole band for that D gives an upper bound and is added. The gap between
+/// both is the error, up to maxima missed in the search over frequencies (`AmplitudeBand`; peaks
+/// are resolved to 1e−9 of the band).
 /// @tparam Plant             anything with `state_matrix()`, `control_input()` and
 ///                           `excitation_input()` that `validate` checks
-/// @param plant              within its ranges
-/// @param options            τ, δ, the hold of the force and the largest spectral radius admitted
+/// @param plant              plant within its ranges
+/// @param options            τ, δ, the hold of the force and the largest admissible spectral radius
 /// @param proportional_gain  P (N/m), finite
 /// @param band               Hz, 0 < lower < upper ≤ 1/(2τ)
-/// @throws InvalidParameter outside the admissible ranges
+/// @throws InvalidParameter where an argument is outside its admissible range
 template <class Plant>
 MinimaxAmplitude minimax_amplitude(const Plant& plant, const AmplitudeOptions& options,
                                    double proportional_gain, const FrequencyBand& band) {

@@ -18,48 +18,48 @@
 
 namespace holdfast {
 
-/// −20 log₁₀ of an amplitude ratio (dB): 6 dB halve the amplitude, a negative number amplifies.
+/// The attenuation −20 log₁₀ of an amplitude ratio (dB): 6 dB halve it, negative values amplify.
 inline double attenuation(double ratio) { return -20.0 * std::log10(ratio); }
 
-/// Where the minimum amplitude lies.
+/// The location of the minimum amplitude.
 enum class MinimumAmplitudeOutcome {
-  stationary,  ///< at a D inside the admissible ones
-  edge,        ///< at the edge of the admissible D: a limit, approached by D that are admissible
-  none,        ///< nowhere: no D is admissible; D and the ratio are NaN
-  aliased,     ///< nowhere: 2fτ ≥ 1, so that the samples do not show the vibration; NaN likewise
+  stationary,  ///< at a D inside the admissible intervals
+  edge,        ///< at the edge of the admissible intervals: a limit of admissible D
+  none,        ///< no D is admissible; D and the ratio are NaN
+  aliased,     ///< 2fτ ≥ 1: the samples do not resolve the vibration; D and the ratio are NaN
 };
 
-/// The sampled loop in which an amplitude is to be least.
+/// The options of a sampled loop whose amplitude is minimised.
 struct AmplitudeOptions {
   Sampling<double> sampling;  ///< τ (s) > 0, δ (s) 0 … 1000 τ, of two masses up to τ
   ForceHold hold = ForceHold::sampled;  ///< how the excitation enters a sample
-  /// A D is admissible if the spectral radius stays below this, 0 < … ≤ 1; 1 asks for stability,
-  /// less for a transient that decays at least like largest_radiusʲ.
+  /// The bound, 0 < … ≤ 1, below which the spectral radius of an admissible D stays: 1 requires
+  /// stability, less a transient that decays at least like largest_radiusʲ.
   double largest_radius = 1.0;
-  /// 0 … < 1; what of the way from the boundary of stability to the D of minimum radius a D must
-  /// keep away from it, measured along D and in the rate of decay, −ln ρ. 0 admits the boundary
-  /// itself as a limit; 1/2 is what the program recommends by. Of a ModalResponse it is measured
-  /// about the D of largest modulus margin, and in that (modal_design.hpp), unless by_decay.
+  /// The margin, 0 … < 1: share of the way from the boundary of stability to the D of minimum
+  /// radius that keeps an admissible D off the boundary, along D and in the rate of decay, −ln ρ. 0
+  /// admits the boundary as a limit; the program recommends with 1/2. For a ModalResponse it refers
+  /// to the D of largest modulus margin (modal_design.hpp), unless by_decay.
   double margin = 0.0;
-  /// Whether ratios are relative to the plant without control under the true force
-  /// (`true_amplitude_per_force`); else to the same with the force held as with control, as in
-  /// Kollár 2022, Fig. 5.
+  /// Whether ratios refer to the plant without control under the true force
+  /// (`true_amplitude_per_force`); else to the plant without control under the force held as with
+  /// control (Kollár 2022, Fig. 5).
   bool relative_to_true_force = false;
-  /// Whether the margin of a ModalResponse too is about the D of minimum radius, as of two masses.
+  /// Whether a ModalResponse has its margin about the D of minimum radius too, as two masses.
   bool by_decay = false;
 };
 
-/// The D of least steady amplitude at one frequency and one P.
+/// The D of least steady amplitude at one frequency, for a given P.
 struct MinimumAmplitude {
-  MinimumAmplitudeOutcome outcome;          ///< where D lies, or why there is none
+  MinimumAmplitudeOutcome outcome;          ///< where the D lies, or why there is none
   double differential_gain = std::nan("");  ///< D (N s/m)
-  /// The amplitude of z₁ it leaves over that without control.
+  /// The amplitude of z₁ with this D over that without control.
   double ratio_to_uncontrolled = std::nan("");
   double attenuation =
       std::nan("");  ///< −20 log₁₀ of that ratio (dB), positive where control helps
 };
 
-/// @throws InvalidParameter outside the ranges that the members of `AmplitudeOptions` state
+/// Validates the options. @throws InvalidParameter outside the ranges stated at their members
 inline void validate(const AmplitudeOptions& options) {
   const Sampling<double>& sampling = options.sampling;
   require_positive("sampling period tau", sampling.period, "s");
@@ -71,7 +71,7 @@ inline void validate(const AmplitudeOptions& options) {
 
 namespace detail {
 
-/// Part of the interval that holds one D, no farther from it than `share` of the way to the end.
+/// The part of the interval around one D, up to `share` of the way to either end.
 template <class Scalar>
 std::vector<Interval<Scalar>> within_share(const std::vector<Interval<Scalar>>& intervals,
                                            const Scalar& from, const Scalar& share) {
@@ -81,7 +81,7 @@ std::vector<Interval<Scalar>> within_share(const std::vector<Interval<Scalar>>& 
   return {};
 }
 
-/// The gains that `admissible_differential_gains` has, of a ModalResponse too.
+/// The gains of `admissible_differential_gains` by their decay, for a ModalResponse too.
 template <class Loop>
 std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proportional_gain,
                                                const AmplitudeOptions& options) {
@@ -98,15 +98,15 @@ std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proporti
 
 }  // namespace detail
 
-/// The open intervals of D (N s/m) that the options admit at one P: with a margin m > 0 those with
+/// The open intervals of D (N s/m) that the options admit for one P: with a margin m > 0 those with
 ///
 ///     ρ(D) < ρ_min^m  and  D = D* + (1 − m)(D_s − D*),  D_s stable
 ///
-/// about the D* of minimum radius, which is always among them where any D stabilises. They are
-/// those of `minimum_amplitude`; of a ModalResponse another overload has more to choose from.
-/// @param loop               of `sampled_loop` or `loop_map`
+/// about the D* of minimum radius, which is always among them if any D stabilises. They are the D
+/// that `minimum_amplitude` searches; a ModalResponse has another overload with more criteria.
+/// @param loop               loop of `sampled_loop` or `loop_map`
 /// @param proportional_gain  P (N/m), finite
-/// @param options            within their ranges, which are not checked here
+/// @param options            options within their ranges, which are not checked here
 template <class Loop>
 std::vector<Interval<double>> admissible_differential_gains(const Loop& loop,
                                                             double proportional_gain,
@@ -116,8 +116,8 @@ std::vector<Interval<double>> admissible_differential_gains(const Loop& loop,
 
 namespace detail {
 
-/// The D of least steady amplitude among some.
-/// @param admissible  perhaps none
+/// The D of least steady amplitude in given intervals.
+/// @param admissible  intervals of D, perhaps none
 template <class Scalar>
 MinimumAmplitude least_amplitude(const SteadyResponse<Scalar>& response, double proportional_gain,
                                  const std::vector<Interval<double>>& admissible) {
@@ -130,7 +130,7 @@ MinimumAmplitude least_amplitude(const SteadyResponse<Scalar>& response, double 
 }
 
 /// The D of least steady amplitude of a loop among the admissible ones.
-/// @param response_at  () → SteadyResponse at the frequency, taken where there are such D
+/// @param response_at  () → SteadyResponse at the frequency, called only if a D is admissible
 template <class Loop, class ResponseAt>
 MinimumAmplitude minimum_amplitude_of(const Loop& loop, const AmplitudeOptions& options,
                                       double frequency, double proportional_gain,
@@ -143,17 +143,17 @@ MinimumAmplitude minimum_amplitude_of(const Loop& loop, const AmplitudeOptions& 
 
 }  // namespace detail
 
-/// The D of least steady amplitude among the admissible ones.
+/// The D of least steady amplitude among the admissible D.
 ///
-/// The admissible D are exact intervals, the amplitude over them is a quotient of two quadratics
-/// (`SteadyResponse::best_differential_gain`): nothing is scanned.
+/// The admissible D are exact intervals and the amplitude over them is a quotient of two quadratics
+/// (`SteadyResponse::best_differential_gain`): no grid of D is needed.
 /// @tparam Plant             two masses, in closed form, or a plant of any order with ports;
 ///                           `validate` checks it
-/// @param plant              within its ranges
-/// @param options            τ, δ, the hold of the force and the largest spectral radius admitted
+/// @param plant              plant within its ranges
+/// @param options            τ, δ, the hold of the force and the largest admissible spectral radius
 /// @param frequency          f (Hz), > 0
 /// @param proportional_gain  P (N/m), finite; Eq. (6) tunes it to f
-/// @throws InvalidParameter outside the admissible ranges
+/// @throws InvalidParameter where an argument is outside its admissible range
 template <class Plant>
 MinimumAmplitude minimum_amplitude(const Plant& plant, const AmplitudeOptions& options,
                                    double frequency, double proportional_gain) {

@@ -16,12 +16,12 @@ namespace holdfast {
 /// The pair of gains of least steady amplitude at one frequency.
 struct MinimumAmplitudeGains {
   double proportional_gain;   ///< P (N/m)
-  MinimumAmplitude quietest;  ///< D and what it leaves, or why no pair is admissible
+  MinimumAmplitude quietest;  ///< the D and its amplitude, or why no pair is admissible
 };
 
 namespace detail {
 
-/// The D of least amplitude at one P, among those of a modulus margin.
+/// The D of least amplitude for a given P, among those with a given modulus margin.
 template <class Scalar>
 MinimumAmplitude quietest_at_modulus(const UnitCircleCrossings<Scalar>& circle, double p,
                                      const AmplitudeOptions& options,
@@ -34,7 +34,7 @@ MinimumAmplitude quietest_at_modulus(const UnitCircleCrossings<Scalar>& circle, 
   return least_amplitude(response, p, admissible);
 }
 
-/// Whether one pair leaves less than another.
+/// Whether one pair has a smaller amplitude than another.
 inline bool is_quieter(const MinimumAmplitude& one, const MinimumAmplitude& other) {
   if (one.outcome == MinimumAmplitudeOutcome::none) return false;
   return other.outcome == MinimumAmplitudeOutcome::none ||
@@ -43,22 +43,22 @@ inline bool is_quieter(const MinimumAmplitude& one, const MinimumAmplitude& othe
 
 }  // namespace detail
 
-/// The P and D of least steady amplitude of a loop by its poles, among the stable ones with
+/// The P and D of least steady amplitude of a loop given by its poles, among the stable pairs with
 ///
 ///     min |1 − P G_z − D G_v| ≥ m   over the unit circle, m the options' margin itself
 ///
-/// that is, with a sensitivity of 1/m at most: m = 1/2 leaves a gain margin of 6 dB upwards and a
-/// phase margin of 29° at least.
+/// that is, with a sensitivity of at most 1/m: m = 1/2 gives a gain margin of at least 6 dB upwards
+/// and a phase margin of at least 29°.
 ///
-/// At each P the D is exact; P itself is searched, at 65 places of a range that is doubled while
-/// the best of them is at its end, and about the best by golden section. A better P between two
-/// places may be missed: this is a search and no proof.
-/// @param loop       of the plant by its poles, at the sampling of the options
-/// @param options    within their ranges
+/// For each P the D is exact. P is searched at 65 places of a range that is doubled while the best
+/// place is at its end, and by golden section about the best. A better P between two places may be
+/// missed: this is a search, not a proof.
+/// @param loop       loop of the plant given by its poles, with the sampling of the options
+/// @param options    options within their ranges
 /// @param frequency  f (Hz), > 0
-/// @param range      of P (N/m) to begin from, lower < upper, finite
-/// @param response   as `minimum_amplitude` of such a loop takes it
-/// @throws InvalidParameter outside the admissible ranges
+/// @param range      initial range of P (N/m), lower < upper, finite
+/// @param response   see `minimum_amplitude` of such a loop
+/// @throws InvalidParameter where an argument is outside its admissible range
 /// Source of the margin: K. J. Åström and R. M. Murray, Feedback Systems (2008), 9.3.
 template <class Scalar>
 MinimumAmplitudeGains minimum_amplitude_gains(const ModalResponse<Scalar>& loop,

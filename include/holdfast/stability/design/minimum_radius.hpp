@@ -14,30 +14,30 @@
 
 namespace holdfast {
 
-/// Outcomes of the search for the D of minimum spectral radius.
+/// The outcomes of the search for the D of minimum spectral radius.
 enum class MinimumRadiusOutcome {
   point,       ///< one D has the minimum radius
-  plateau,     ///< a root that D does not move sets the radius over the whole `interval`
+  plateau,     ///< a root that D does not move determines the radius over the whole `interval`
   idle,        ///< no D changes the radius; `interval` is the whole line and D is 0
-  unresolved,  ///< P is so large that round-off hides the minimum radius: D is the start, `radius`
-               ///< is that of the start and `lower_bound` is 0
+  unresolved,  ///< P is so large that round-off hides the minimum: D is the start, `radius` belongs
+               ///< to the start and `lower_bound` is 0
 };
 
-/// The differential gain at which the sampled loop decays fastest, at a fixed P.
+/// The differential gain with which the sampled loop decays fastest, for a given P.
 struct MinimumRadius {
-  MinimumRadiusOutcome outcome;  ///< whether one D has the radius, many, all, or none is known to
+  MinimumRadiusOutcome outcome;  ///< whether one D has it, an interval, all, or it is unresolved
   double differential_gain;      ///< D (N s/m), inside `interval`
-  double radius;                 ///< the least ρ = max |λ|; stable ⇔ below 1
-  double margin;                 ///< 1 − radius without cancellation
-  double lower_bound;            ///< no D at all has a radius below this; ≤ radius
-  Interval<double> interval;     ///< the D (N s/m) with that radius to 1e−12
+  double radius;                 ///< least ρ = max |λ|; stable ⇔ below 1
+  double margin;                 ///< 1 − radius, computed without cancellation
+  double lower_bound;            ///< every D has at least this radius; ≤ radius
+  Interval<double> interval;     ///< D (N s/m) with that radius to 1e−12
 };
 
 namespace detail {
 
-/// Calls `consider` with where a function whose level sets these are may be least: the middle of
-/// each interval, and the vertex of the V where the secants of its two ends meet, between its level
-/// and the one above in which it lies.
+/// Calls `consider` with probable minima of a function, given its level sets: the middle of each
+/// interval, and the vertex of the V where the secants of its two ends meet, between its level and
+/// the level of the outer interval around it.
 /// @param outer     intervals of a higher level
 template <class Consider>
 void consider_promising(const std::vector<Interval<double>>& intervals,
@@ -53,23 +53,23 @@ void consider_promising(const std::vector<Interval<double>>& intervals,
   }
 }
 
-/// Narrows the least level r at which {D : ρ(P, D) < r} is not empty.
+/// The search for the least level r for which {D : ρ(P, D) < r} is not empty.
 ///
-/// The set is a union of intervals known for every r, and it grows with r, so that each level
-/// tested bounds the global minimum from above or from below. Levels to test come from ρ in the
-/// middle of the intervals and where the secants of their two ends meet, which are exact in the
-/// limit for a smooth minimum and for two branches that cross.
-/// @tparam Loop  the loop's polynomial in `double`, as `LoopPolynomial`
+/// The set is a union of intervals known for every r, and grows with r, so that each tested level
+/// bounds the global minimum from above or from below. Levels are taken from ρ in the middle of the
+/// intervals and where the secants of their two ends meet, which is exact in the limit for a smooth
+/// minimum and for two crossing branches.
+/// @tparam Loop  polynomial of the loop in `double`, see `LoopPolynomial`
 template <class Loop>
 class MinimumRadiusSearch {
  public:
   using Intervals = std::vector<Interval<double>>;
 
-  /// @param accuracy  what the margin may err by as a share of itself; 0 for all digits
+  /// @param accuracy  admissible relative error of the margin; 0 for full precision
   MinimumRadiusSearch(const Loop& loop, double proportional_gain, double accuracy = 0.0)
       : loop_(loop), proportional_gain_(proportional_gain), accuracy_(accuracy) {}
 
-  /// @param start  any D; the closer the quicker
+  /// Runs the search. @param start  any D; one near the minimum is quicker
   MinimumRadius from(double start) {
     if (!begin(loop_.radius_offset({proportional_gain_, start}))) {
       return {MinimumRadiusOutcome::unresolved, start, loop_.centre + upper_,
@@ -96,14 +96,14 @@ class MinimumRadiusSearch {
     return loop_.differential_gains_within(proportional_gain_, offset);
   }
 
-  /// Below this, levels differ by round-off.
+  /// The difference of levels below which they are equal but for round-off.
   double tolerance() const {
     const double round_off = 1e-14 * (loop_.centre == 0.0 ? std::abs(upper_) : loop_.scale());
     return round_off + accuracy_ * std::abs((1.0 - loop_.centre) - upper_) + 1e-18;
   }
   double closing_step() const { return 4.0 * tolerance(); }
 
-  /// False where no level has gains, as when coefficients overflow.
+  /// Starts from a level; false where no level has gains, for example by overflow.
   bool begin(double level) {
     lower_ = -loop_.centre;
     upper_ = level;
@@ -116,7 +116,7 @@ class MinimumRadiusSearch {
     return !intervals_.empty();
   }
 
-  /// The best ρ in sight if it improves, else a step below the level, doubled while it finds gains.
+  /// The next level: the best ρ found if it is lower, else a step down, doubled while gains remain.
   double next_level() {
     double best = upper_;
     consider_promising(intervals_, previous_, [&](double differential) {
@@ -130,9 +130,9 @@ class MinimumRadiusSearch {
     return std::max(below, middle);
   }
 
-  /// The gains a trifle above the least level: where two roots meet, the radius answers to the
-  /// square root of a change of D, and the very D of the minimum is a rounding error away from a
-  /// much larger radius.
+  /// The gains slightly above the least level: where two roots coincide, the radius depends on D
+  /// like a square root, and a rounding error of the exact minimum's D would give a much larger
+  /// radius.
   MinimumRadius answer() const {
     const Intervals close = within(upper_ + 1e-12 * std::max(loop_.scale(), std::abs(upper_)));
     const Interval<double> interval = close.empty() ? intervals_.front() : close.front();
@@ -156,18 +156,18 @@ class MinimumRadiusSearch {
   Intervals intervals_, previous_;
 };
 
-/// A loop of any order as `MinimumRadiusSearch` asks for it, radii counted from 1.
+/// The model of a loop of any order for `MinimumRadiusSearch`, with radii counted from 1.
 /// @tparam Loop  a `LoopMap<double>` or `ModalResponse<double>`
 template <class Loop>
 struct RadiusLevels {
-  const Loop& loop;     ///< kept outside
-  double centre = 1.0;  ///< from which radii are counted
+  const Loop& loop;     ///< the loop, which is not copied
+  double centre = 1.0;  ///< number that radii are counted from
 
-  /// Number of which round-off of a root is a share: the commands on their way have entries of 1.
+  /// The scale of the roots' round-off: 1, the size of the entries of delayed commands.
   double scale() const { return 1.0; }
-  /// ρ(P, D) − 1.
+  /// The offset ρ(P, D) − 1 of the spectral radius.
   double radius_offset(const PdGains<double>& gains) const { return loop_excess(loop, gains); }
-  /// The D with ρ(P, D) < 1 + offset.
+  /// The intervals of D with ρ(P, D) < 1 + offset.
   std::vector<Interval<double>> differential_gains_within(double proportional_gain,
                                                           double offset) const {
     if (!(1.0 + offset > 0.0)) return {};
@@ -177,18 +177,18 @@ struct RadiusLevels {
 
 }  // namespace detail
 
-/// min over D of ρ(S(P, D)): the global minimum, not by scanning.
+/// The D of minimum spectral radius, min over D of ρ(S(P, D)): a global minimum, without a grid.
 ///
 /// {D : ρ(P, D) < r} is a union of intervals in closed form, those in which the polynomial in λ/r
-/// is stable (`stable_intervals`); of a loop of any order they come from the crossings of the
+/// is stable (`stable_intervals`); for a loop of any order they follow from the crossings of the
 /// circle of radius r (`circle_crossings`). The minimum radius is the r at which the set becomes
-/// empty; of a `LoopMap` to about 10⁻⁹, what round-off makes of two roots that meet. ρ grows
-/// without bound as |D| does: the minimum exists unless no coefficient contains D.
-/// @tparam Loop              any in `double` that has a `loop_polynomial`, or a `LoopMap`
-/// @param loop               of `sampled_loop` or `loop_map`
+/// empty; for a `LoopMap` it is accurate to about 10⁻⁹, by round-off of two coinciding roots. ρ
+/// grows without bound with |D|: the minimum exists unless no coefficient contains D.
+/// @tparam Loop              type in `double` with a `loop_polynomial`, or a `LoopMap`
+/// @param loop               loop of `sampled_loop` or `loop_map`
 /// @param proportional_gain  P (N/m), finite
-/// @param start              a D (N s/m) to begin from, finite; any will do
-/// @throws InvalidParameter for gains that are not finite
+/// @param start              initial D (N s/m), finite and arbitrary
+/// @throws InvalidParameter where a gain is not finite
 template <class Loop>
 MinimumRadius minimum_radius(const Loop& loop, double proportional_gain, double start = 0.0) {
   require_finite("proportional gain P", proportional_gain, "N/m");

@@ -15,35 +15,35 @@
 
 namespace holdfast {
 
-/// How the search for the pair of gains ended.
+/// The outcome of the search for the pair of gains of minimum spectral radius.
 enum class MinimumRadiusGainsOutcome {
   found,  ///< `radius` and `lower_bound` agree to 1e−6 of the roots' distance from λ = 1
-  open,   ///< they do not: better gains may exist, but none with a radius below `lower_bound`
+  open,   ///< they do not agree: better gains may exist, but none with a radius below `lower_bound`
   idle,   ///< the gains, or a combination of them, do not move the roots: P is 0, D the best for it
 };
 
-/// The pair of gains at which the sampled loop decays fastest.
+/// The pair of gains with which the sampled loop decays fastest.
 struct MinimumRadiusGains {
-  MinimumRadiusGainsOutcome outcome;  ///< whether `radius` is known to be the least
+  MinimumRadiusGainsOutcome outcome;  ///< whether `radius` is proved to be the least
   PdGains<double> gains;              ///< P (N/m), D (N s/m)
-  double radius;                      ///< ρ = max |λ| there
-  double margin;                      ///< 1 − radius without cancellation
-  double lower_bound;                 ///< no gains at all have a radius below this; ≤ radius
+  double radius;                      ///< spectral radius ρ = max |λ| with these gains
+  double margin;                      ///< 1 − radius, computed without cancellation
+  double lower_bound;                 ///< every pair of gains has at least this radius; ≤ radius
 };
 
 namespace detail {
 
 constexpr int binomial(int n, int k) { return k == 0 ? 1 : binomial(n - 1, k - 1) * n / k; }
 
-/// Narrows a range to what two values leave of it.
+/// Intersects a range with the interval between two values.
 inline void narrow(Interval<double>& range, double low, double high) {
   range.lower = std::max(range.lower, std::min(low, high));
   range.upper = std::min(range.upper, std::max(low, high));
 }
 
-/// A rectangle that holds all gains with all |λ′| < 1. The coefficient of λ′^k, an affine function
-/// b_k + P p_k + D d_k of the gains, is then within ± C(5, k): five strips, any two of which bound
-/// a parallelogram. Infinite where the strips are all parallel.
+/// A rectangle that contains all gains with all |λ′| < 1. The coefficient of λ′^k, an affine
+/// function b_k + P p_k + D d_k of the gains, is then within ± C(5, k): five strips, any two of
+/// which bound a parallelogram. Infinite where all strips are parallel.
 template <class Scalar>
 GainWindow window_of_unit_radius(const AffinePolynomial<Scalar, 5>& in_powers_of_mu) {
   const auto q = in_powers_of_mu.template transformed<PolynomialVariable::about_centre>(
@@ -69,14 +69,14 @@ GainWindow window_of_unit_radius(const AffinePolynomial<Scalar, 5>& in_powers_of
   return window;
 }
 
-/// Narrows the least level r at which {(P, D) : ρ < r} is not empty.
+/// The search for the least level r for which {(P, D) : ρ < r} is not empty.
 ///
 /// The shape of that set over P changes only at the special points of its boundary
 /// (`boundary_features`); between neighbouring ones a single P decides whether the set has gains
-/// there (`stable_intervals`). So each level tested bounds the global minimum from above or from
-/// below. Levels to test come from min ρ over D (`MinimumRadiusSearch`) in the middle of the P
-/// intervals and where the secants of their ends meet.
-/// @tparam Loop  the loop's polynomial in `double`, as `LoopPolynomial`
+/// (`stable_intervals`). So each tested level bounds the global minimum from above or from below.
+/// Levels are taken from min ρ over D (`MinimumRadiusSearch`) in the middle of the P intervals and
+/// where the secants of their ends meet.
+/// @tparam Loop  polynomial of the loop in `double`, see `LoopPolynomial`
 template <class Loop>
 class MinimumRadiusGainsSearch {
  public:
@@ -116,7 +116,7 @@ class MinimumRadiusGainsSearch {
             least.lower_bound};
   }
 
-  /// One step down from above, or where that no longer helps one from below.
+  /// Takes one step from above, or, where that no longer helps, one from below.
   void refine() {
     const double found = descend();
     const double drop = upper_ - found, margin = std::abs((1.0 - loop_.centre) - found);
@@ -137,7 +137,7 @@ class MinimumRadiusGainsSearch {
     }
   }
 
-  /// The P intervals in which some D has a radius below the level.
+  /// The intervals of P in which some D has a radius below the level.
   Intervals within(double offset) const {
     if (!(loop_.centre + offset > 0.0)) return {};
     const auto polynomial = loop_.at_radius(offset);
@@ -162,7 +162,7 @@ class MinimumRadiusGainsSearch {
     return result;
   }
 
-  /// The minimum radius over D at promising P; keeps the gains if they are the best so far.
+  /// The minimum radius over D at promising P; the gains are stored if they are the best so far.
   double descend() {
     double best = upper_;
     consider_promising(intervals_, previous_, [&](double proportional) {
@@ -186,15 +186,15 @@ class MinimumRadiusGainsSearch {
 
 }  // namespace detail
 
-/// min over P and D of ρ(S(P, D)): the global minimum over the whole plane, not by scanning.
+/// The pair of gains of minimum spectral radius, min over P and D of ρ(S(P, D)): a global minimum.
 ///
 /// Whether {(P, D) : ρ < r} is empty is decided in closed form for every r: the special points of
-/// its boundary cut the P axis into ranges within which one P speaks for all. The minimum radius is
-/// the r at which it becomes empty. There two pairs often coincide; the roots then answer to the
-/// square root of a change of the gains, and gains in `double` hold the radius to about 1e−8. Where
-/// all roots of the plant have decayed to 1e−6 within a sample the outcome may be `open`.
+/// its boundary divide the P axis into ranges in each of which one P is representative. The minimum
+/// radius is the r at which the set becomes empty. There two pairs often coincide; the roots then
+/// depend on the gains like a square root, and gains in `double` give the radius to about 1e−8. If
+/// all roots of the plant decay to 1e−6 within a sample the outcome may be `open`.
 /// @tparam Loop  any in `double` that has a `loop_polynomial`
-/// @param loop   of `sampled_loop`
+/// @param loop   loop of `sampled_loop`
 template <class Loop>
 MinimumRadiusGains minimum_radius_gains(const Loop& loop) {
   return detail::MinimumRadiusGainsSearch(loop_polynomial(loop)).run();

@@ -21,13 +21,13 @@
 
 namespace holdfast {
 
-/// The open intervals of D (N s/m) at which every root of a loop has |λ| < radius, by
+/// The open intervals of D (N s/m) with which every root of a loop has |λ| < radius, by
 /// `UnitCircleCrossings` of G(λ radius).
-/// @param response           of the plant by its poles
+/// @param response           response of the plant given by its poles
 /// @param proportional_gain  P (N/m), finite
-/// @param radius             > 0
+/// @param radius             bound of |λ|, > 0
 /// @return none where the response has no poles
-/// @throws InvalidParameter for a P that is not finite
+/// @throws InvalidParameter where P is not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> differential_gains_within_radius(
     const ModalResponse<Scalar>& response, const detail::Undeduced<Scalar>& proportional_gain,
@@ -40,8 +40,8 @@ std::vector<Interval<Scalar>> differential_gains_within_radius(
 
 namespace detail {
 
-/// Narrows an interval by golden section.
-/// @param left_is_better  (left, right) ↦ whether the first of two places in it is
+/// Narrows an interval to a minimum by golden section.
+/// @param left_is_better  (left, right) ↦ whether the first of two places in it is better
 template <class Scalar, class Better>
 void narrow_to_best(Scalar lower, Scalar upper, int steps, const Better& left_is_better) {
   const Scalar golden(0.3819660112501051);
@@ -52,8 +52,8 @@ void narrow_to_best(Scalar lower, Scalar upper, int steps, const Better& left_is
   }
 }
 
-/// The least ρ(P, D) − 1 over some D in an interval and that D, each of which the roots are asked,
-/// and about the best of them, where it is less than what is known, by golden section.
+/// The least ρ(P, D) − 1 over D in an interval, with that D: from the roots at some D and by golden
+/// section about the best of them, if it is below a known value.
 template <class Scalar>
 std::pair<Scalar, Scalar> least_excess(const ModalResponse<Scalar>& response, const Scalar& p,
                                        const Interval<Scalar>& gains, const Scalar& known) {
@@ -79,14 +79,14 @@ std::pair<Scalar, Scalar> least_excess(const ModalResponse<Scalar>& response, co
 
 }  // namespace detail
 
-/// min over D of ρ(P, D) of a loop by its poles: as of a `LoopMap`, from the D within each radius,
-/// the margin to a millionth of itself; and since a circle of some radius may pass so near to a
-/// pole that the turn of p on it says nothing, the roots themselves are asked at some D of the
-/// stable ones, and about the best of them where that is better.
-/// @param response           of the plant by its poles, which it has
+/// The minimum over D of ρ(P, D) of a loop given by its poles. As for a `LoopMap` it follows from
+/// the D within each radius, the margin to a millionth of itself. A circle of some radius may be so
+/// near a pole that the winding of p on it is undecided; therefore the roots themselves are
+/// computed for some stable D, and about the best of them where that is better.
+/// @param response           response of the plant given by its poles, which must exist
 /// @param proportional_gain  P (N/m), finite
-/// @param start              a D (N s/m) to begin from, finite
-/// @throws InvalidParameter for gains that are not finite
+/// @param start              initial D (N s/m), finite
+/// @throws InvalidParameter where a gain is not finite
 template <class Scalar>
 MinimumRadius minimum_radius(const ModalResponse<Scalar>& response, double proportional_gain,
                              double start = 0.0) {
@@ -108,7 +108,7 @@ MinimumRadius minimum_radius(const ModalResponse<Scalar>& response, double propo
 
 namespace detail {
 
-/// The distance of a loop's p(e^{iθ}) = 1 − P G_z − D G_v from 0, as D moves it.
+/// The distance of a loop's p(e^{iθ}) = 1 − P G_z − D G_v from 0 as a function of D.
 template <class Scalar>
 class ModulusLevels {
  public:
@@ -122,7 +122,7 @@ class ModulusLevels {
     }
   }
 
-  /// The stable D with |p| > modulus at all angles: |p|² is a quadratic of D at each.
+  /// The stable D with |p| > modulus at all angles; |p|² is a quadratic in D at each angle.
   std::vector<Interval<Scalar>> beyond(const Scalar& modulus) const {
     std::vector<Interval<Scalar>> nearer;
     for (const Place& at : places_) {
@@ -147,12 +147,12 @@ class ModulusLevels {
     return kept;
   }
 
-  /// A modulus and the D that has it.
+  /// A modulus margin and the D with it.
   struct Largest {
     Scalar modulus, gain;
   };
 
-  /// The largest modulus that some D has, to ten digits; 0 where no D is stable.
+  /// The largest modulus margin over D, to ten digits; 0 where no D is stable.
   Largest largest() const {
     Largest found{Scalar(0), std::numeric_limits<Scalar>::quiet_NaN()};
     if (stable_.empty()) return found;
@@ -168,7 +168,7 @@ class ModulusLevels {
     return found;
   }
 
-  /// The stable D.
+  /// The intervals of stable D.
   const std::vector<Interval<Scalar>>& stable() const { return stable_; }
 
  private:
@@ -182,21 +182,21 @@ class ModulusLevels {
 
 }  // namespace detail
 
-/// The open intervals of D (N s/m) that the options admit at one P, of a loop by its poles: with a
-/// margin m > 0 those with
+/// The open intervals of D (N s/m) that the options admit for a given P, of a loop given by its
+/// poles: with a margin m > 0 those with
 ///
 ///     min |1 − P G_z − D G_v| > m max_D min |1 − P G_z − D G_v|  and  D = D* + (1 − m)(D_s − D*)
 ///
-/// about the D* of the largest modulus margin, the minima being over the unit circle and D_s
+/// about the D* of the largest modulus margin, with minima over the unit circle and D_s
 /// stable.
 ///
-/// The D of least radius, about which two masses measure a margin, is none to go by on a conductor:
-/// its slowest mode decides that radius, whatever the others do.
+/// The D of least radius, to which the margin of two masses refers, is unsuitable for a conductor:
+/// its slowest mode alone determines that radius.
 /// Source of the modulus margin: K. J. Åström and R. M. Murray, Feedback Systems (2008), 9.3.
 /// @tparam Scalar            double
-/// @param response           of the plant by its poles
+/// @param response           response of the plant given by its poles
 /// @param proportional_gain  P (N/m), finite
-/// @param options            within their ranges, which are not checked here
+/// @param options            options within their ranges, which are not checked here
 template <class Scalar>
 std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<Scalar>& response,
                                                             double proportional_gain,
@@ -215,15 +215,15 @@ std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<
                                                              Scalar(options.largest_radius)));
 }
 
-/// The D of least steady amplitude of a loop by its poles among the admissible ones, as
+/// The D of least steady amplitude of a loop given by its poles, among the admissible D, as
 /// `minimum_amplitude` of a plant.
-/// @param loop               of the plant by its poles, at the sampling of the options
-/// @param options            within their ranges
+/// @param loop               loop of the plant given by its poles, with the sampling of the options
+/// @param options            options within their ranges
 /// @param frequency          f (Hz), > 0
 /// @param proportional_gain  P (N/m), finite
-/// @param response           `steady_response` of the same at f, relative to what is wanted; the
-///                           options' own wish does not count
-/// @throws InvalidParameter outside the admissible ranges
+/// @param response           its `steady_response` at f, relative to the wanted reference; the
+///                  reference in the options is not used
+/// @throws InvalidParameter where an argument is outside its admissible range
 template <class Scalar>
 MinimumAmplitude minimum_amplitude(const ModalResponse<Scalar>& loop,
                                    const AmplitudeOptions& options, double frequency,
@@ -236,13 +236,13 @@ MinimumAmplitude minimum_amplitude(const ModalResponse<Scalar>& loop,
                                       [&] { return response; });
 }
 
-/// The loop of a conductor by its modes as AmplitudeBand asks for it, ratios being to the plant
-/// without control under the true force.
+/// The model of a conductor by its modes for AmplitudeBand; ratios refer to the plant without
+/// control under the true force.
 template <class Scalar>
 struct ConductorOverBand {
-  ConductorWithAbsorber conductor;  ///< with all its poles
+  ConductorWithAbsorber conductor;  ///< conductor with all its poles
   AmplitudeOptions options;         ///< τ, δ and the hold of the force
-  /// Response of the conductor.
+  /// The response of the loop.
   ModalResponse<Scalar> loop = modal_response<Scalar>(conductor, options.sampling);
 
   /// The steady response at ω (rad/s).
@@ -250,15 +250,15 @@ struct ConductorOverBand {
     return steady_response<Scalar>(conductor, options.sampling, options.hold, angular_frequency)
         .relative_to(true_amplitude_per_force(conductor, angular_frequency));
   }
-  /// λ − 1 of the loop's roots.
+  /// The offsets λ − 1 of the loop's roots.
   std::vector<std::complex<double>> loop_roots(const PdGains<double>& gains) const {
     auto found = holdfast::loop_roots(loop, gains);
     if (found.empty()) return UnitCircleCrossings<Scalar>(loop).roots_nearby(gains);
     for (std::complex<double>& root : found) root -= 1.0;
     return found;
   }
-  /// H/H′ at s of the receptance that is nought with the conductor's: its own, or with devices the
-  /// sum over the poles.
+  /// The Newton step H/H′ at s for a zero of the conductor's receptance: of the bare conductor's,
+  /// or with devices of the sum over the poles.
   std::complex<double> receptance_step(const std::complex<double>& s) const {
     if (!conductor.has_devices)
       return receptance(conductor.modes, s) / detail::receptance_slope(conductor.modes, s);
@@ -270,8 +270,8 @@ struct ConductorOverBand {
     }
     return sum / slope;
   }
-  /// λ − 1 of the zeros of the receptance, one between every two modes, by Newton's steps from the
-  /// middle, and of the absorber's own motion on a conductor that stands still.
+  /// The offsets λ − 1 of the zeros of the receptance, one between every two modes, by Newton's
+  /// method from the middle, and of the absorber's own motion on a fixed conductor.
   std::vector<std::complex<double>> uncontrolled_zeros() const {
     const auto& modes = conductor.modes;
     const auto& absorber = conductor.absorber;
@@ -290,14 +290,14 @@ struct ConductorOverBand {
   }
 };
 
-/// The D that minimises the largest amplitude ratio to no control over a band, at a fixed P, of a
-/// conductor by its modes: as `minimax_amplitude` of a plant.
-/// @param conductor          with all its poles
-/// @param options            within their ranges; their wish what ratios are relative to does not
-///                           count
+/// The D that minimises the largest amplitude ratio to no control over a band, for a given P, for a
+/// conductor by its modes; see `minimax_amplitude` of a plant.
+/// @param conductor          conductor with all its poles
+/// @param options            options within their ranges; the reference of the ratios is not
+///                 used
 /// @param proportional_gain  P (N/m), finite
 /// @param band               Hz, 0 < lower < upper ≤ 1/(2τ)
-/// @throws InvalidParameter outside the admissible ranges
+/// @throws InvalidParameter where an argument is outside its admissible range
 template <class Scalar = double>
 MinimaxAmplitude modal_minimax_amplitude(const ConductorWithAbsorber& conductor,
                                          const AmplitudeOptions& options, double proportional_gain,

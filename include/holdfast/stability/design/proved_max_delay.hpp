@@ -10,25 +10,25 @@
 
 namespace holdfast {
 
-/// How far sampling periods are walked for a proof.
+/// The range and the steps of sampling periods for a proof.
 struct ProvedPeriodWalk {
   double from = 0.0;         ///< s, > 0; the shortest period
   double to = 0.0;           ///< s, ≥ from; the longest
   double resolution = 1e-6;  ///< > 0; the shortest step, as a share of the period
-  int most_steps = 20000;    ///< after which the walk ends
+  int most_steps = 20000;    ///< number of steps after which the walk ends
 };
 
-/// The largest period T (s) such that every period from the shortest to T is proved to have a D
-/// (N s/m) that stabilises: stretch by stretch one D, of which `SamplingProof` shows it for all
-/// periods of the stretch. Below the shortest nothing is said, and beyond T nothing is refuted.
-/// @param poles              as EnclosedResponse takes them
+/// The largest period T (s) such that every period from the shortest to T is proved to have a D (N
+/// s/m) that stabilises: on each stretch of periods one D, by `SamplingProof`. Nothing is claimed
+/// below the shortest period, and nothing is refuted beyond T.
+/// @param poles              poles as for EnclosedResponse
 /// @param proportional_gain  P (N/m)
-/// @param line               along which the period moves
-/// @param walk               from where to where, and how finely
-/// @param gains_at           period → open intervals of D that doubles find to stabilise
-/// @param watch              called for each step; what it throws ends the work
-/// @return 0 where none is proved to serve at the shortest
-/// @throws InvalidParameter for another walk
+/// @param line               line along which the period varies
+/// @param walk               range and steps
+/// @param gains_at           period → open intervals of D that stabilise by computation in doubles
+/// @param watch              called for each step; an exception from it ends the work
+/// @return 0 where no D is proved to stabilise at the shortest period
+/// @throws InvalidParameter where the walk is not admissible
 template <class GainsAt, class Watch>
 double proved_max_sampling_period(const std::vector<EnclosedPole>& poles, double proportional_gain,
                                   const EnclosedSamplings& line, const ProvedPeriodWalk& walk,

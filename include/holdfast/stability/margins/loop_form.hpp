@@ -22,11 +22,11 @@
 
 namespace holdfast {
 
-/// The open intervals of one gain, the other being held, in which the loop of the two masses is
-/// stable: in closed form (`stable_intervals`).
-/// @param loop   of `sampled_loop`
+/// The open intervals of one gain, for a fixed value of the other, in which the loop of the two
+/// masses is stable: in closed form (`stable_intervals`).
+/// @param loop   loop of `sampled_loop`
 /// @param free   the gain that varies
-/// @param gains  the other one; the value of the free one does not matter
+/// @param gains  the fixed gain; the value of the free one is not used
 /// @throws InvalidParameter where loop or fixed gain are not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_gains(const SampledLoop<Scalar>& loop, FreeGain free,
@@ -36,9 +36,9 @@ std::vector<Interval<Scalar>> stable_gains(const SampledLoop<Scalar>& loop, Free
                                         : stable_proportional_gains(polynomial, gains.differential);
 }
 
-/// The loop whose D multiplies the backward difference (z_j − z_{j−1})/τ of the readings: one state
-/// more, the reading before.
-/// @param map  with a measured velocity, of any order
+/// The loop whose D multiplies the backward difference (z_j − z_{j−1})/τ of the readings; it has
+/// one more state, the previous reading.
+/// @param map  loop of any order with a measured velocity
 template <class Scalar>
 LoopMap<Scalar> with_velocity_by_difference(const LoopMap<Scalar>& map) {
   const Eigen::Index n = map.size();
@@ -57,11 +57,11 @@ LoopMap<Scalar> with_velocity_by_difference(const LoopMap<Scalar>& map) {
   return other;
 }
 
-/// The open intervals of D (N s/m) at which every root of a loop of any order has |λ| < radius:
-/// those that stabilise the loop whose roots are as much smaller; radius 1 gives `stable_gains`.
-/// @param map                of `loop_map`
+/// The open intervals of D (N s/m) with which every root of a loop of any order has |λ| < radius:
+/// those that stabilise the loop with roots λ/radius. Radius 1 gives `stable_gains`.
+/// @param map                loop of `loop_map`
 /// @param proportional_gain  P (N/m), finite
-/// @param radius             > 0
+/// @param radius             bound of |λ|, > 0
 template <class Scalar>
 std::vector<Interval<Scalar>> differential_gains_within_radius(
     LoopMap<Scalar> map, const detail::Undeduced<Scalar>& proportional_gain,
@@ -76,7 +76,7 @@ std::vector<Interval<Scalar>> differential_gains_within_radius(
 
 namespace detail {
 
-/// The sampled loop of a plant: `SampledLoop` of the two masses, `LoopMap` of any other.
+/// The sampled loop of a plant: a `SampledLoop` for two masses, a `LoopMap` for any other plant.
 template <class Plant>
 auto loop_of(const Plant& plant, const Sampling<double>& sampling) {
   if constexpr (has_closed_forms<Plant>) {
@@ -87,8 +87,8 @@ auto loop_of(const Plant& plant, const Sampling<double>& sampling) {
   }
 }
 
-/// The plant as one of any order: of the two masses `linear_plant`, whose loop may be late by many
-/// samples.
+/// The plant in the form of any order: for two masses their `linear_plant`, whose loop may have a
+/// delay of many samples.
 template <class Plant>
 decltype(auto) with_ports(const Plant& plant) {
   if constexpr (has_closed_forms<Plant>) {
@@ -98,8 +98,8 @@ decltype(auto) with_ports(const Plant& plant) {
   }
 }
 
-/// The roots s of the continuous loop without delay, to which the sampled loop tends as τ → 0; with
-/// no gains the poles of the plant.
+/// The roots s of the continuous loop without delay, the limit of the sampled loop for τ → 0;
+/// without gains the poles of the plant.
 template <class Plant>
 auto continuous_roots(const Plant& plant, const PdGains<double>& gains) {
   if constexpr (has_closed_forms<Plant>) {
@@ -111,7 +111,7 @@ auto continuous_roots(const Plant& plant, const PdGains<double>& gains) {
   }
 }
 
-/// 2π over the least |s| > 0 of the plant without control, s.
+/// The period 2π/|s| of the slowest mode of the plant without control, from the least |s| > 0 (s).
 template <class Plant>
 double slowest_mode_period(const Plant& plant) {
   double slowest = std::numeric_limits<double>::infinity();

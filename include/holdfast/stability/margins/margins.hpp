@@ -24,69 +24,69 @@
 
 namespace holdfast {
 
-/// Whether there is anything to measure margins from.
+/// Whether the loop is stable, so that it has margins.
 enum class MarginOutcome {
-  stable,      ///< all margins are there
-  not_stable,  ///< a root on the unit circle or outside: every end is `undefined`
+  stable,      ///< all margins are defined
+  not_stable,  ///< a root is on the unit circle or outside: every end is `undefined`
 };
 
-/// How far one can go in one direction.
+/// The end of the stable range of a quantity in one direction.
 enum class MarginEndOutcome {
   undefined,      ///< the loop is not stable: the numbers are NaN
   boundary,       ///< a root reaches the unit circle at `position`
-  none,           ///< stable all the way; `position` is where the quantity's range ends
-  beyond_search,  ///< shown to be stable as far as `position`, where the search ended: the end of
-                  ///< its range, of its work, or a root so near the circle that round-off decides
+  none,           ///< stable up to the end of the quantity's range, which is `position`
+  beyond_search,  ///< stable at least up to `position`, where the search ended: at its limit, by
+                  ///< its number of steps, or at a root so near the circle that round-off decides
 };
 
-/// One end of the stable stretch of a quantity about its value.
+/// One end of the stable interval of a quantity around its value.
 struct MarginEnd {
-  MarginEndOutcome outcome = MarginEndOutcome::undefined;      ///< what is met in this direction
-  double position = std::numeric_limits<double>::quiet_NaN();  ///< the quantity there
-  /// From the value; ∞ where there is no boundary, and of `beyond_search` how far was looked.
+  MarginEndOutcome outcome = MarginEndOutcome::undefined;      ///< kind of the end
+  double position = std::numeric_limits<double>::quiet_NaN();  ///< value of the quantity there
+  /// The distance from the value; ∞ without a boundary, for `beyond_search` the searched distance.
   double distance = std::numeric_limits<double>::quiet_NaN();
-  BoundaryCurve curve = BoundaryCurve::plus_one;  ///< which root crosses; of a `boundary` only
-  /// Hz; of the motion there, |arg λ|/(2πτ). NaN without a boundary.
+  BoundaryCurve curve = BoundaryCurve::plus_one;  ///< curve of the crossing root, for a `boundary`
+  /// The frequency of the motion at the boundary, |arg λ|/(2πτ) (Hz); NaN without a boundary.
   double frequency = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The stable stretch about a value: down and up from it.
+/// The stable interval around a value: its lower and its upper end.
 struct TwoSidedMargin {
   MarginEnd below;  ///< towards smaller values
   MarginEnd above;  ///< towards larger values
 };
 
-/// Changes that the loop can bear before it loses its stability, one quantity moving at a time.
+/// The stability margins of a loop: the changes of a single quantity that leave it stable.
 struct StabilityMargins {
-  MarginOutcome outcome;             ///< whether the loop is stable as it is
+  MarginOutcome outcome;             ///< whether the loop itself is stable
   double unit_circle;                ///< 1 − ρ, not positive where the loop is not stable
   TwoSidedMargin differential_gain;  ///< D (N s/m)
   TwoSidedMargin proportional_gain;  ///< P (N/m)
-  TwoSidedMargin sampling_period;    ///< τ (s), δ/τ kept; its range is (0, ∞)
-  TwoSidedMargin processing_delay;   ///< δ (s), τ kept; its range is [0, ∞)
+  TwoSidedMargin sampling_period;    ///< τ (s), with δ/τ constant; its range is (0, ∞)
+  TwoSidedMargin processing_delay;   ///< δ (s), with τ constant; its range is [0, ∞)
 };
 
-/// How far margins are looked for.
+/// The limits of the search for margins.
 struct MarginSearch {
-  /// > 1; the walk towards longer sampling periods gives up at this multiple of τ or, if that is
-  /// longer, at twenty periods of the plant's slowest mode, unless stability at all longer ones is
-  /// certain before.
+  /// The limit of the walk towards longer sampling periods, > 1: it ends at this multiple of τ or,
+  /// if that is longer, at twenty periods of the plant's slowest mode, unless stability at all
+  /// longer periods is proved before.
   double longest_period_ratio = 1000.0;
-  /// ≥ 1; steps of a walk along τ or δ, after which it gives up. Steps are about as long as the
-  /// plant's fastest mode turns by a radian, and each takes some 40 µs for two masses.
+  /// The largest number of steps of a walk along τ or δ, ≥ 1. In a step the plant's fastest mode
+  /// turns by about a radian; for two masses each takes some 40 µs.
   int most_steps = 20000;
 };
 
 namespace detail {
 
-/// The share of a position that may be left unproved before a boundary of τ or δ: an earlier one
-/// can lie within it, and nowhere else.
+/// The share of a position that may remain unproved before a boundary of τ or δ: an earlier
+/// boundary can be within it, and nowhere else.
 constexpr double smallest_step = 1e-6;
-/// Samples beyond δ, at which the walk towards longer delays gives up.
+/// The delay in samples beyond δ, at which the walk towards longer delays ends.
 constexpr double most_delays = 10.0;
 
 /// The end at which a root λ crosses the unit circle.
-/// @param from_one  |λ − 1|
+/// @param from_one  distance |λ − 1|
 inline MarginEnd crossing_end(const std::complex<double>& root, double from_one, double position,
                               double value, double period) {
   const bool real = std::abs(root.imag()) <= 1e-6 * from_one;
@@ -97,7 +97,7 @@ inline MarginEnd crossing_end(const std::complex<double>& root, double from_one,
           std::abs(std::arg(root)) / (2.0 * pi<double> * period)};
 }
 
-/// The end at which that root crosses which is nearest to the unit circle.
+/// The end at which the root nearest to the unit circle crosses it.
 template <class Loop>
 MarginEnd boundary_end(const Loop& loop, const PdGains<double>& gains, double position,
                        double value) {
@@ -112,7 +112,7 @@ MarginEnd boundary_end(const Loop& loop, const PdGains<double>& gains, double po
   return crossing_end(1.0 + nearest, std::abs(nearest), position, value, loop.sampling.period);
 }
 
-/// An end without a boundary.
+/// The end of a range without a boundary.
 inline MarginEnd no_boundary(double position) {
   return {MarginEndOutcome::none, position, std::numeric_limits<double>::infinity()};
 }
@@ -121,7 +121,7 @@ inline MarginEnd beyond_search(double position, double value) {
   return {MarginEndOutcome::beyond_search, position, std::abs(position - value)};
 }
 
-/// Both ends of the interval that holds the value; undefined where none does.
+/// Both ends of the interval that contains the value; undefined where none does.
 /// @param boundary_at  position, finite → MarginEnd
 template <class BoundaryAt>
 TwoSidedMargin margin_in(const std::vector<Interval<double>>& intervals, double value,
@@ -135,8 +135,8 @@ TwoSidedMargin margin_in(const std::vector<Interval<double>>& intervals, double 
   return {};
 }
 
-/// The first loss of stability along a path through the samplings, the gains held, between a value
-/// and `limit`; `otherwise` where there is none.
+/// The first loss of stability along a path of samplings, with constant gains, between a value and
+/// `limit`; `otherwise` where there is none.
 /// @param first  length of the first step, > 0
 template <class Family>
 MarginEnd margin_along(const Family& family, const PdGains<double>& gains, double value,
@@ -189,9 +189,9 @@ TwoSidedMargin period_margin(const Plant& plant, const Sampling<double>& samplin
           towards(std::max(period, std::min(certain, longest)), no_longer)};
 }
 
-/// Both margins of δ, one stretch (k − 1) τ … k τ after the other, in each of which as many
-/// commands are on their way. At the seams one root comes or goes at λ = 0, and no other moves. No
-/// delay is too long for a loop without gains.
+/// Both margins of δ, found in one stretch (k − 1) τ … k τ after the other, each with a constant
+/// number of delayed commands. Between stretches one root appears or vanishes at λ = 0, and no
+/// other root moves. A loop without gains is stable for any delay.
 template <class Plant>
 TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling,
                             const PdGains<double>& gains, const MarginSearch& search) {
@@ -224,27 +224,27 @@ TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling
 
 }  // namespace detail
 
-/// @throws InvalidParameter outside the ranges that the members of `MarginSearch` state
+/// Validates the search. @throws InvalidParameter outside the ranges stated at its members
 inline void validate(const MarginSearch& search) {
   require_positive("longest period ratio minus one", search.longest_period_ratio - 1.0, "");
   require_positive("most steps", search.most_steps, "");
 }
 
-/// How far D, P, τ and δ, each on its own, are from the boundary of stability.
+/// The distances of D, P, τ and δ, one quantity at a time, from the boundary of stability.
 ///
-/// D and P: the stable interval about the value, all crossings of the unit circle being known
-/// (`circle_crossings`). τ and δ: from the value outwards, step by step, all roots are shown to lie
-/// inside the unit circle all over the step (`MovingSpectrum`), so that no boundary is passed over,
-/// and the one that stops this is found by a bracketing root finder on ρ − 1. Below a millionth of
-/// τ the continuous loop decides alone; towards τ = ∞ stability may be certain
+/// For D and P: the stable interval around the value, from all crossings of the unit circle
+/// (`circle_crossings`). For τ and δ: stepwise from the value outwards, with a proof that all
+/// roots are inside the unit circle all over the step (`MovingSpectrum`). So no boundary is passed
+/// over; the one that stops the proof is found by a bracketing root finder on ρ − 1. Below a
+/// millionth of τ the continuous loop decides alone; for τ → ∞ stability may be proved
 /// (`SlowSamplingBound`).
-/// @tparam Plant    two masses, whose periods are walked in closed form, or a plant of any order
-///                  with ports; `validate` checks it
-/// @param plant     within its ranges
+/// @tparam Plant    two masses, with periods in closed form, or a plant of any order with ports;
+///                `validate` checks it
+/// @param plant     plant within its ranges
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ, of a plant with ports 0 … 1000 τ
 /// @param gains     P (N/m) and D (N s/m), finite
-/// @param search    of the walks along τ and δ; D and P need none
-/// @throws InvalidParameter for a plant, sampling, gains or search outside their ranges
+/// @param search    limits of the walks along τ and δ
+/// @throws InvalidParameter where plant, sampling, gains or search are outside their ranges
 template <class Plant>
 StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& sampling,
                                    const PdGains<double>& gains, const MarginSearch& search = {}) {
@@ -274,25 +274,25 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
           detail::delay_margin(general, sampling, gains, search)};
 }
 
-/// Margins of the loop of the two masses as a whole: gain, phase or a further delay alone.
+/// The margins of the two masses' loop as a whole: of its gain, its phase and a further delay.
 ///
-/// The characteristic polynomial is a + x b, x = 1 being a common factor of both gains, so that the
-/// loop opened at the drive is L = −b/a and closes where L = 1.
+/// The characteristic polynomial is a + x b, where x = 1 is a common factor of both gains. So the
+/// loop opened at the drive is L = −b/a, and its roots are where L = 1.
 struct LoopMargins {
-  MarginOutcome outcome;  ///< whether the loop is stable as it is; else all below but ρ is NaN
+  MarginOutcome outcome;  ///< whether the loop is stable; else all below but ρ is NaN
   double unit_circle;     ///< 1 − ρ, not positive where the loop is not stable
   double largest_factor =
-      std::nan("");  ///< x > 1 of both gains up to which the loop is stable; ∞ without an end
-  double least_factor = std::nan("");  ///< x < 1 down to which it is, −∞ without an end
+      std::nan("");  ///< largest factor x > 1 of both gains with stability; ∞ without an end
+  double least_factor = std::nan("");  ///< least factor x < 1 with stability, −∞ without an end
   double phase =
-      std::nan("");  ///< rad; the least |φ| that makes e^{iφ}L(e^{iθ}) = 1; ∞ where |L| = 1 nowhere
-  MarginEnd delay = {};  ///< towards longer δ (s), τ kept
+      std::nan("");  ///< rad; least |φ| with e^{iφ}L(e^{iθ}) = 1; ∞ if |L| ≠ 1 everywhere
+  MarginEnd delay = {};  ///< towards longer δ (s), with τ constant
 };
 
 namespace detail {
 
-/// The least |arg L| on the unit circle where |L| = 1. There w = iy in the half plane's variable,
-/// and |a|² − |b|² is a polynomial in Y = y².
+/// The phase margin, the least |arg L| on the unit circle where |L| = 1. There w = iy in the
+/// half-plane's variable, and |a|² − |b|² is a polynomial in Y = y².
 template <class Scalar>
 Scalar phase_margin(const Polynomial<Scalar, 5>& constant_part,
                     const Polynomial<Scalar, 5>& slope_part) {
@@ -319,15 +319,15 @@ Scalar phase_margin(const Polynomial<Scalar, 5>& constant_part,
 /// The margins of the loop as a whole.
 ///
 /// Gain: the stable interval of a common factor of both gains, from all crossings of the circle
-/// (`stable_intervals`). Phase: all crossovers |L| = 1, roots of one polynomial. Delay: as of
-/// `stability_margins` of a plant of any order, proved stretch by stretch, up to
-/// ten samples, whole ones and more.
+/// (`stable_intervals`). Phase: all crossovers |L| = 1, roots of one polynomial. Delay: as
+/// `stability_margins` of a plant of any order, proved stretch by stretch, up to ten samples and
+/// more.
 /// @tparam Plant    two masses
-/// @param plant     within its ranges
+/// @param plant     plant within its ranges
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ
 /// @param gains     P (N/m) and D (N s/m), finite
-/// @param search    of the walk along δ
-/// @throws InvalidParameter for a plant, sampling, gains or search outside their ranges
+/// @param search    limits of the walk along δ
+/// @throws InvalidParameter where plant, sampling, gains or search are outside their ranges
 template <class Plant>
 LoopMargins loop_margins(const Plant& plant, const Sampling<double>& sampling,
                          const PdGains<double>& gains, const MarginSearch& search = {}) {

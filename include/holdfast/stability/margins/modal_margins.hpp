@@ -19,7 +19,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// The margins of a loop by the poles of its plant.
+/// The margins of a loop given by the poles of its plant.
 template <class Scalar>
 struct ModalMargins {
   using Response = ModalResponse<Scalar>;
@@ -43,7 +43,7 @@ struct ModalMargins {
     });
   }
 
-  /// Stable interval of a common factor of both gains, about 1.
+  /// The stable interval of a common factor of both gains, around 1.
   Interval<Scalar> factors() const {
     const UnitCircleCrossings<Scalar> circle(loop_response());
     for (const Interval<Scalar>& interval : circle.stable_gains(FreeGain::differential, {}))
@@ -51,7 +51,7 @@ struct ModalMargins {
     return {Scalar(1), Scalar(1)};
   }
 
-  /// The least |arg L| where |L| = 1, L = P G_z + D G_v.
+  /// The phase margin, the least |arg L| where |L| = 1, L = P G_z + D G_v.
   Scalar phase() const {
     const auto loop_gain = [&](const Scalar& angle) {
       const auto g = response.at_angle(angle);
@@ -73,9 +73,9 @@ struct ModalMargins {
     return least;
   }
 
-  /// Walks a quantity from its value until the loop is not stable, or to a limit.
-  /// @param sampling_at  of the quantity
-  /// @param next         the place after one, towards the limit
+  /// Walks a quantity from its value to the first instability or to a limit.
+  /// @param sampling_at  map from the quantity to the sampling
+  /// @param next         map from a position to the next one, towards the limit
   template <class SamplingAt, class Next>
   MarginEnd walk(Scalar value, Scalar limit, const SamplingAt& sampling_at,
                  const Next& next) const {
@@ -101,8 +101,8 @@ struct ModalMargins {
     return beyond_search(inside, value);
   }
 
-  /// The end between a place where the loop is stable and one beyond where it is not.
-  /// @param of_period  of τ, δ/τ kept; else of δ
+  /// The end between a stable position and an unstable one beyond it.
+  /// @param of_period  the quantity is τ, with δ/τ constant; else δ
   MarginEnd between(Scalar inside, Scalar outside, bool of_period) const {
     const Scalar value = of_period ? sampling.period : sampling.processing_delay;
     return walk(
@@ -137,7 +137,7 @@ struct ModalMargins {
     return modal_response<Scalar>(poles, other).with_sensor(has_velocity_sensor);
   }
 
-  /// Whose G_v is P G_z + D G_v of the loop.
+  /// The response whose G_v is P G_z + D G_v of the loop.
   Response loop_response() const {
     const Scalar p = gains.proportional, d = gains.differential;
     if (!has_velocity_sensor)
@@ -153,7 +153,7 @@ struct ModalMargins {
     return {period, sampling.processing_delay / sampling.period * period};
   }
 
-  /// ρ − 1; where not all roots are found, no more than its sign, by the turn of p.
+  /// The excess ρ − 1; where not all roots are found only its sign, by the winding of p.
   Scalar excess_of(const Response& other) const {
     const Scalar excess = loop_excess(other, gains, Scalar(1e-3));
     if (std::isfinite(excess)) return excess;
@@ -162,7 +162,7 @@ struct ModalMargins {
   }
 
   /// The end at which a root crosses the unit circle.
-  /// @param there  response and gains just outside, where that root is the largest
+  /// @param there  response and gains just outside, where the crossing root is the largest
   static MarginEnd boundary_at(const Response& there, const PdGains<Scalar>& with, Scalar position,
                                Scalar value, Scalar period) {
     std::complex<Scalar> root = largest_loop_root(there, with);
@@ -174,19 +174,19 @@ struct ModalMargins {
 
 }  // namespace detail
 
-/// How far D, P, τ and δ, each on its own, are from the boundary of stability, of a loop by the
-/// poles of its plant.
+/// The distances of D, P, τ and δ, one quantity at a time, from the boundary of stability, for a
+/// loop given by the poles of its plant.
 ///
-/// D and P as `UnitCircleCrossings` has them. τ and δ are walked, τ by 5 % and δ by an eighth of a
-/// sample at a time, with all roots at each step: a stretch of instability narrower than a step is
-/// missed, which `proved_sampling_margins` would find, and what is not met is `beyond_search`,
-/// never `none` but for δ = 0.
-/// @param poles     `plant_poles`, all of them; kept outside while this runs
+/// For D and P by `UnitCircleCrossings`. τ and δ are walked, τ by 5 % and δ by an eighth of a
+/// sample at a time, with all roots at each step: an unstable window narrower than a step is
+/// missed, which `proved_sampling_margins` would find. Without a boundary the end is
+/// `beyond_search`, never `none` except for δ = 0.
+/// @param poles     all `plant_poles`; they must outlive the call
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @param gains     P (N/m) and D (N s/m), finite
-/// @param search    its ratios bound the walks, τ downwards too
-/// @param has_velocity_sensor  else D multiplies the backward difference of the readings
-/// @throws InvalidParameter outside these ranges
+/// @param search    limits of the walks, for τ downwards too
+/// @param has_velocity_sensor  false: D multiplies the backward difference of the readings
+/// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
 StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
                                          const Sampling<detail::Undeduced<Scalar>>& sampling,
@@ -209,9 +209,9 @@ StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
           margins.of_delay()};
 }
 
-/// The end of the margin of τ, δ/τ kept, or of δ, between a place up to which the loop is stable
-/// and one beyond where it is not, as `proved_margins` finds them.
-/// `of_period` tells which; the velocity is measured.
+/// The end of the margin of τ (with δ/τ constant) or of δ between a position up to which the loop
+/// is stable and an unstable one beyond, as `proved_margins` finds them.
+/// With `of_period` it is the margin of τ; the velocity is measured.
 template <class Scalar = double>
 MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                            const Sampling<detail::Undeduced<Scalar>>& sampling,
@@ -222,8 +222,8 @@ MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                                                                             of_period);
 }
 
-/// The margins of such a loop as a whole, δ walked, all as above.
-/// @throws InvalidParameter outside the same ranges
+/// The margins of such a loop as a whole, with δ walked; arguments as above.
+/// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
 LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,
                                const Sampling<detail::Undeduced<Scalar>>& sampling,

@@ -18,43 +18,43 @@
 
 namespace holdfast {
 
-/// Why the proof of one direction goes no further.
+/// The reason for the end of a proof in one direction.
 enum class ProofStop {
-  at_end,     ///< it came to where it was to end, or an unstable loop was met beyond
+  at_end,     ///< it reached its end, or an unstable loop was found beyond
   work,       ///< its steps were used up
-  undecided,  ///< a root is so near the circle that enclosures do not tell it from one on it
+  undecided,  ///< a root is too near the circle for enclosures to separate it
 };
 
-/// Proved margin in one direction from a value.
+/// The proved margin in one direction from a value.
 struct ProvedMarginEnd {
-  /// The loop is stable at every position from the value to this one, both included; NaN where it
-  /// is not proved to be stable at the value.
+  /// The loop is proved to be stable at every position from the value to this one, both included;
+  /// NaN where it is not proved to be stable at the value.
   double stable_to = std::numeric_limits<double>::quiet_NaN();
-  /// The loop is not stable at this position beyond it; NaN where none was met. What lies between
-  /// is undecided.
+  /// The loop is proved to be unstable at this position beyond; NaN without one. The positions in
+  /// between are undecided.
   double unstable_at = std::numeric_limits<double>::quiet_NaN();
-  ProofStop stop = ProofStop::undecided;  ///< why it goes no further
+  ProofStop stop = ProofStop::undecided;  ///< reason for the end of the proof
 };
 
-/// Down and up from a value.
+/// The proved margins down and up from a value.
 struct ProvedMargin {
   ProvedMarginEnd below;  ///< towards smaller values
   ProvedMarginEnd above;  ///< towards larger values
 };
 
-/// How finely margins are proved, and how long.
+/// The resolution and the work of a proof of margins.
 struct ProvedMarginsOptions {
-  double resolution = 1e-6;  ///< the shortest step, as a share of the way to the boundary, > 0
-  int most_steps = 20000;    ///< of the walk along each direction, after which it ends
+  double resolution = 1e-6;  ///< shortest step, as a share of the way to the boundary, > 0
+  int most_steps = 20000;    ///< number of steps in each direction after which the walk ends
 };
 
-/// The margins of `StabilityMargins` as theorems on the decimals of the loop.
+/// The margins of `StabilityMargins` as theorems on the loop of the given decimals.
 struct ProvedMargins {
-  ProvedStability stability = ProvedStability::undecided;  ///< of the loop as it is
+  ProvedStability stability = ProvedStability::undecided;  ///< verdict on the loop itself
   ProvedMargin differential_gain;                          ///< D (N s/m)
   ProvedMargin proportional_gain;                          ///< P (N/m)
-  ProvedMargin sampling_period;                            ///< τ (s), δ/τ kept
-  ProvedMargin processing_delay;                           ///< δ (s), τ kept
+  ProvedMargin sampling_period;                            ///< τ (s), with δ/τ constant
+  ProvedMargin processing_delay;                           ///< δ (s), with τ constant
 };
 
 namespace detail {
@@ -63,12 +63,12 @@ inline GainBox box_of(const Enclosure& proportional, const Enclosure& differenti
   return {proportional.lower(), proportional.upper(), differential.lower(), differential.upper()};
 }
 
-/// Whether no loop of a box has a root on the unit circle.
+/// Whether it is proved that no loop of a box has a root on the unit circle.
 inline bool is_off_circle(CircleArcs& arcs, const GainBox& box) {
   return arcs.meeting(box, arcs.all()).empty();
 }
 
-/// Verdict on the loops of a box together.
+/// The common verdict on the loops of a box.
 inline ProvedStability stability_of(CircleArcs& arcs, const GainBox& box) {
   if (!is_off_circle(arcs, box)) return ProvedStability::undecided;
   const auto outside = arcs.roots_outside(middle_of(box));
@@ -76,7 +76,7 @@ inline ProvedStability stability_of(CircleArcs& arcs, const GainBox& box) {
   return *outside == 0 ? ProvedStability::stable : ProvedStability::unstable;
 }
 
-/// One of the gains varies.
+/// A path along which one of the gains varies.
 struct GainPath {
   CircleArcs& arcs;
   FreeGain free;
@@ -92,7 +92,7 @@ struct GainPath {
   }
 };
 
-/// The sampling varies.
+/// A path along which the sampling varies.
 struct SamplingPath {
   const std::vector<EnclosedPole>& poles;
   PdGains<double> gains;
@@ -107,10 +107,10 @@ struct SamplingPath {
   }
 };
 
-/// Walks along a path from a value of which the loop is proved to be stable, as long as no root
-/// meets the circle: roots move continuously, so none gets outside. Where it ends, looks for an
-/// unstable loop beyond.
-/// @param watch  called for each step; what it throws ends the work
+/// Walks along a path from a value with a proved stable loop, as long as no root meets the circle:
+/// roots move continuously, so that none gets outside. At its end it searches for an unstable loop
+/// beyond.
+/// @param watch  called for each step; an exception from it ends the work
 template <class Path, class Watch>
 ProvedMarginEnd walked_end(const Path& path, double value, double limit,
                            const ProvedMarginsOptions& options, const Watch& watch) {
@@ -145,15 +145,15 @@ ProvedMarginEnd walked_end(const Path& path, double value, double limit,
   return end;
 }
 
-/// Where a walk is to end: a little beyond the boundary that doubles have found, or where they
-/// found none at the end of their search.
+/// The intended end of a walk: slightly beyond the boundary found in doubles, or, without one, the
+/// end of that search.
 inline double limit_beyond(const MarginEnd& end, double value, double otherwise) {
   if (end.outcome == MarginEndOutcome::boundary) return value + 1.1 * (end.position - value);
   if (end.outcome == MarginEndOutcome::undefined) return value;
   return std::isfinite(end.position) ? end.position : otherwise;
 }
 
-/// Proves all margins of one loop.
+/// The proof of all margins of one loop.
 template <class Watch>
 struct MarginProver {
   const std::vector<EnclosedPole>& poles;
@@ -203,7 +203,7 @@ struct MarginProver {
             towards(path, period, limit_beyond(above, period, longest))};
   }
 
-  /// One stretch (k − 1) τ … k τ after the other; at the seams a root comes or goes at λ = 0.
+  /// The margin of δ, stretch by stretch (k − 1) τ … k τ; between them a root is at λ = 0.
   ProvedMarginEnd of_delay(const MarginEnd& by_doubles, int direction) const {
     const double delay = sampling.processing_delay;
     const double limit =
@@ -227,16 +227,16 @@ struct MarginProver {
 
 }  // namespace detail
 
-/// Proves how far D, P, τ and δ may move, one at a time, before the loop of the decimals loses its
-/// stability: every position of the stretch is proved, so that no window of instability is passed
-/// over. The loop is stable at the value (`CircleArcs::roots_outside`), and on each step of the
-/// walk, an interval of positions in enclosures, no root meets the unit circle.
-/// @param poles       of `enclosed_poles`
-/// @param sampling    as EnclosedResponse takes it
+/// Proves by how much D, P, τ and δ, one at a time, may change before the loop of the given
+/// decimals loses its stability. Every position in the margin is proved, so that no unstable window
+/// is missed: the loop is stable at the value (`CircleArcs::roots_outside`), and on each step of
+/// the walk, an interval of positions in enclosures, no root meets the unit circle.
+/// @param poles       poles of `enclosed_poles`
+/// @param sampling    τ and δ as for EnclosedResponse
 /// @param gains       P (N/m) and D (N s/m), finite
-/// @param found       what doubles have found: only how far to walk is taken from it
-/// @param options     how finely
-/// @param watch       called for each step; what it throws ends the work
+/// @param found       margins found in doubles; they only limit the walks
+/// @param options     resolution and work
+/// @param watch       called for each step; an exception from it ends the work
 /// @throws InvalidParameter where sampling or gains are not admissible
 template <class Watch>
 ProvedMargins proved_margins(const std::vector<EnclosedPole>& poles,
@@ -247,8 +247,8 @@ ProvedMargins proved_margins(const std::vector<EnclosedPole>& poles,
   return detail::MarginProver<Watch>{poles, sampling, gains, found, options, watch}.prove();
 }
 
-/// The margins of τ and δ alone, of a loop that is stable; of D, P and the loop as it is nothing is
-/// said. All else is as above.
+/// Proves the margins of τ and δ only, for a loop known to be stable; D, P and the loop itself are
+/// not examined. The arguments are those above.
 /// @throws InvalidParameter where sampling or gains are not admissible
 template <class Watch>
 ProvedMargins proved_sampling_margins(const std::vector<EnclosedPole>& poles,

@@ -25,28 +25,28 @@ namespace holdfast {
 
 namespace detail {
 
-/// λ − 1 of all roots of the two masses' loop.
+/// The offsets λ − 1 of all roots of the two masses' loop.
 template <class Scalar>
 std::vector<std::complex<Scalar>> roots_from_one(const SampledLoop<Scalar>& loop,
                                                  const PdGains<Undeduced<Scalar>>& gains) {
   return roots(characteristic_polynomial(loop).at(gains));
 }
 
-/// ρ − 1 of the two masses' loop.
+/// The excess ρ − 1 of the two masses' loop.
 template <class Scalar>
 Scalar loop_excess(const SampledLoop<Scalar>& loop, const PdGains<Undeduced<Scalar>>& gains) {
   return loop_polynomial(loop).excess(gains);
 }
 
-/// The roots of a loop of any order, given by μ = λ − 1 so that nothing is lost where sampling is
-/// fast.
+/// The roots of a loop of any order as μ = λ − 1, so that no digits are lost with fast
+/// sampling.
 template <class Scalar>
 Vector<std::complex<Scalar>, Eigen::Dynamic> roots_from_one(const LoopMap<Scalar>& map,
                                                             const PdGains<Scalar>& gains) {
   return balanced_eigenvalues<Scalar, Eigen::Dynamic>(map.closed_increment(gains));
 }
 
-/// ρ − 1 of a loop of any order, |1 + μ| − 1 being taken without cancellation.
+/// The excess ρ − 1 of a loop of any order; |1 + μ| − 1 is computed without cancellation.
 template <class Scalar>
 Scalar loop_excess(const LoopMap<Scalar>& map, const PdGains<Scalar>& gains) {
   Scalar largest(-1);
@@ -62,36 +62,36 @@ extern template double loop_excess(const LoopMap<double>&, const PdGains<double>
 
 }  // namespace detail
 
-/// A line through the samplings of one plant, along which a single number varies: the period τ, the
-/// delay keeping its share of it, or the delay δ at a fixed period, as long as the number of
-/// commands on their way stays.
+/// A family of samplings of one plant with a single parameter: the period τ, with the delay a
+/// constant share of it, or the delay δ at a fixed period, as long as the number of delayed
+/// commands is constant.
 /// @tparam Plant  two masses, whose loop is a `SampledLoop` in closed form, or a plant of any order
 ///                with ports, whose loop is a `LoopMap`
 template <class Plant>
 class SamplingFamily {
  public:
-  /// τ varies, δ = delay_fraction · τ.
-  /// @param plant           within its ranges, which are not checked here
-  /// @param delay_fraction  0 … 1; ≥ 0 of a plant with ports
+  /// The family with varying τ and δ = delay_fraction · τ.
+  /// @param plant           plant within its ranges, which are not checked here
+  /// @param delay_fraction  0 … 1; for a plant with ports ≥ 0
   static SamplingFamily of_period(const Plant& plant, double delay_fraction) {
     return {plant, 0.0, delay_fraction, holdfast::held_commands({1.0, delay_fraction})};
   }
 
-  /// δ varies from (k − 1) τ to k τ.
-  /// @param plant   within its ranges, which are not checked here
+  /// The family with δ from (k − 1) τ to k τ.
+  /// @param plant   plant within its ranges, which are not checked here
   /// @param period  τ (s), > 0
-  /// @param held    k, 1 of the two masses, ≥ 1 of a plant with ports
+  /// @param held    k, 1 for two masses, ≥ 1 for a plant with ports
   static SamplingFamily of_delay(const Plant& plant, double period, int held = 1) {
     return {plant, period, 0.0, held};
   }
 
-  /// The sampling at a position (s): τ, or δ at the fixed period.
+  /// The sampling at a position (s): at that τ, or at that δ and the fixed period.
   Sampling<double> at(double position) const {
     if (fixed_period_ > 0.0) return {fixed_period_, position};
     return {position, delay_fraction_ * position};
   }
 
-  /// The plant under the sampling at a position (s); costs two matrix exponentials.
+  /// The loop of the plant at a position (s); costs two matrix exponentials.
   auto loop_at(double position) const {
     if constexpr (has_closed_forms<Plant>) {
       return sampled_loop(plant_, at(position));
@@ -105,22 +105,22 @@ class SamplingFamily {
     return detail::loop_map_keeping<Plant, double>(plant_, at(position), held_);
   }
 
-  /// How fast τ grows along the path.
+  /// The derivative of τ along the path.
   double period_rate() const { return fixed_period_ > 0.0 ? 0.0 : 1.0; }
-  /// How fast the time k τ − δ grows that a new command acts within a sample.
+  /// The derivative of k τ − δ, the time in a sample during which a new command acts.
   double action_rate() const { return fixed_period_ > 0.0 ? -1.0 : held_ - delay_fraction_; }
 
-  /// The closed map within `radius` (s) of a centre, x counted in radii.
+  /// The Taylor series of the closed map within `radius` (s) of a centre, x in units of the radius.
   ///
   /// With h = k τ − δ and the rates τ′ and h′ along the path, the rows of the state are
   ///
   ///     ∂ʲ[A_d, Γ₁, Γ₀] = A^{j−1} (τ′ʲ [A A_d, A_d b, 0] + h′ʲ e^{Ah} b [0, −1, 1]),   j ≥ 1
   ///
-  /// the third column being fed by K where k = 1. What is beyond the last term is at most the next
-  /// one's size times Σ (‖A‖ radius/(m + 2))ⁱ, in the coordinates that balance A.
-  /// @param map     of `map_at`, at the centre
-  /// @param gains   P and D
-  /// @param radius  (s), ≥ 0
+  /// where the third column is multiplied by K if k = 1. The truncation error is at most the size
+  /// of the next term times Σ (‖A‖ radius/(m + 2))ⁱ, in the coordinates that balance A.
+  /// @param map     map of `map_at`, at the centre
+  /// @param gains   gains P and D
+  /// @param radius  half width (s), ≥ 0
   TaylorMatrix moving(const LoopMap<double>& map, const PdGains<double>& gains,
                       double radius) const {
     constexpr int order = 12;
@@ -150,8 +150,8 @@ class SamplingFamily {
     return result;
   }
 
-  /// How the command enters, s, within `radius` (s) of a centre, as `moving` has the map: where
-  /// k = 1, by Γ₀, whose derivatives are A^{j−1} h′ʲ e^{Ah} b.
+  /// The Taylor series of the command's input column s within `radius` (s) of a centre, as `moving`
+  /// of the map: for k = 1 by Γ₀, whose derivatives are A^{j−1} h′ʲ e^{Ah} b.
   MovingVector moving_command(const LoopMap<double>& map, double radius) const {
     // The map of unit feedback from one more row, of which s is the column: its bound holds for s.
     const Eigen::Index size = map.size(), n = size - map.held_commands;
@@ -173,7 +173,7 @@ class SamplingFamily {
     return result;
   }
 
-  /// Whether the loop is shown to be stable within `radius` (s) of a centre.
+  /// Whether the loop is proved to be stable within `radius` (s) of a centre.
   Stretch stability(const PdGains<double>& gains, double centre, double radius) const {
     const MovingSpectrum roots(moving(map_at(centre), gains, radius));
     return roots.inside()             ? Stretch::holds
@@ -182,7 +182,7 @@ class SamplingFamily {
   }
 
  private:
-  /// [A A_d, A_d b, 0], N × (N + k).
+  /// The matrix [A A_d, A_d b, 0], N × (N + k).
   Eigen::MatrixXd rate_by_period(const LoopMap<double>& map) const {
     const Eigen::Index size = map.size(), n = size - map.held_commands;
     const Eigen::MatrixXd transition = map.open_map.topLeftCorner(n, n);
@@ -192,7 +192,7 @@ class SamplingFamily {
     return rate;
   }
 
-  /// e^{Ah} b [0, −1, 1], N × (N + k), the last column being K where k = 1.
+  /// The matrix e^{Ah} b [0, −1, 1], N × (N + k), with K in place of the last column's 1 for k = 1.
   Eigen::MatrixXd rate_by_action(const LoopMap<double>& map, const PdGains<double>& gains) const {
     const Eigen::Index k = map.held_commands, size = map.size(), n = size - k;
     const Eigen::VectorXd present =

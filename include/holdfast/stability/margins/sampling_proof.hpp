@@ -18,21 +18,21 @@ namespace holdfast {
 
 namespace detail {
 
-/// All decimals to which one of two doubles is the nearest, and what is between.
+/// The interval of all decimals whose nearest double is one of two doubles or lies between them.
 inline Enclosure decimals_between(double from, double to) {
   return {Enclosure::of_decimal(from).lower(), Enclosure::of_decimal(to).upper()};
 }
 
 }  // namespace detail
 
-/// A line through the samplings of one loop, along which a position (s) moves: τ, δ/τ being kept,
-/// or δ, τ being kept, as long as the number of commands on their way stays.
+/// A line in the samplings of one loop along which a position (s) varies: τ with δ/τ constant, or δ
+/// with τ constant, as long as the number of delayed commands is constant.
 struct EnclosedSamplings {
-  Enclosure fixed_period;  ///< τ (s) where δ moves, else 0
-  Enclosure last_share;    ///< φ − (k − 1) of δ = φ τ where τ moves, within 0 … 1
-  int commands = 1;        ///< k
+  Enclosure fixed_period;  ///< τ (s) where δ varies, else 0
+  Enclosure last_share;    ///< φ − (k − 1) for δ = φ τ where τ varies, within 0 … 1
+  int commands = 1;        ///< number k of delayed commands
 
-  /// τ moves from that of a sampling, as EnclosedSampling::of takes it.
+  /// The line of τ through a given sampling, see EnclosedSampling::of.
   static EnclosedSamplings of_period(const Sampling<double>& sampling) {
     const int commands = held_commands(sampling);
     const Enclosure share =
@@ -41,32 +41,32 @@ struct EnclosedSamplings {
     return {
         0.0, {std::clamp(share.lower(), 0.0, 1.0), std::clamp(share.upper(), 0.0, 1.0)}, commands};
   }
-  /// δ moves within (k − 1) τ … k τ.
+  /// The line of δ within (k − 1) τ … k τ.
   static EnclosedSamplings of_delay(double period, int commands) {
     return {Enclosure::of_decimal(period), 0.0, commands};
   }
 
-  /// The samplings at some positions together.
+  /// An enclosure of all samplings at some positions.
   EnclosedSampling over(const Enclosure& positions) const {
     if (!moves_period()) return EnclosedSampling::of_delay(fixed_period, positions, commands);
     return {positions, last_share * positions, (Enclosure(1.0) - last_share) * positions, commands};
   }
-  /// The doubles next to τ and δ at a position.
+  /// The doubles nearest to τ and δ at a position.
   Sampling<double> next_to(double position) const {
     if (!moves_period()) return {fixed_period.middle(), std::max(position, 0.0)};
     return {position, (commands - 1 + last_share.middle()) * position};
   }
 
-  /// A time that moves with the position.
+  /// A time as a function of the position.
   struct Time {
     Enclosure at;    ///< (s)
-    Enclosure rate;  ///< its derivative by the position
+    Enclosure rate;  ///< its derivative with respect to the position
   };
-  /// τ at a position.
+  /// The period τ at a position.
   Time period_at(const Enclosure& position) const {
     return moves_period() ? Time{position, 1.0} : Time{fixed_period, 0.0};
   }
-  /// k τ − δ there.
+  /// The time k τ − δ at a position.
   Time present_at(const Enclosure& position) const {
     const Enclosure share = 1.0 - last_share, all = static_cast<double>(commands) * fixed_period;
     return moves_period() ? Time{share * position, share} : Time{all - position, -1.0};
@@ -76,28 +76,28 @@ struct EnclosedSamplings {
   bool moves_period() const { return fixed_period.upper() == 0.0; }
 };
 
-/// Proves that a loop is stable at all samplings of a stretch of a line.
+/// Proves that a loop is stable at all samplings on a segment of a line.
 ///
-/// With k commands on their way and h = k τ − δ the roots of the loop are those of the polynomial
+/// With k delayed commands and h = k τ − δ the roots of the loop are those of the polynomial
 ///
 ///     p(λ) = q(λ) Π_j (λ − e_j),   q(λ) = λᵏ − Σ_j (P + D s_j) r_j (γ₀_j λ + γ₁_j)/(λ − e_j)
 ///     e = e^{s τ},   γ₀ = (e^{s h} − 1)/s,   γ₁ = (e^{s τ} − e^{s h})/s
 ///
-/// whose first coefficient is 1, as that of Π (λ − z_i). So for any nodes z_i, as many as roots and
-/// all different, Lagrange's interpolation of their difference says
+/// whose leading coefficient is 1, like that of Π (λ − z_i). So for any distinct nodes z_i, as many
+/// as roots, Lagrange's interpolation of the difference gives
 ///
 ///     p(λ)/Π_i (λ − z_i) = 1 + Σ_i W_i/(λ − z_i),   W_i = p(z_i)/Π_{l≠i} (z_i − z_l),
 ///
-/// and where all |z_i| < 1 and Σ |W_i|/|λ − z_i| < 1 on the unit circle, which bounds the sum
-/// beyond it, no root is on it or beyond. Nodes near the roots have small W_i (K. Weierstrass,
-/// 1891). Over a stretch x₀ + ϱ t, |t| ≤ 1, the nodes follow the roots on spirals, and p(z_i(t)) is
-/// enclosed to the second order. Work: for N roots some N² operations of curves, 2 ms for 40 modes.
+/// If all |z_i| < 1 and Σ |W_i|/|λ − z_i| < 1 on the unit circle, which bounds the sum outside too,
+/// there is no root on the circle or outside. Nodes near the roots have small W_i (K. Weierstrass,
+/// 1891). On a segment x₀ + ϱ t, |t| ≤ 1, the nodes follow the roots on spirals, and p(z_i(t)) is
+/// enclosed to second order. Work: for N roots some N² operations of curves, 2 ms for 40 modes.
 template <class Scalar>
 class SamplingProof {
  public:
-  /// @param poles  as EnclosedResponse takes them
-  /// @param gains  P and D of the decimals
-  /// @param line   of the samplings it is asked for
+  /// @param poles  poles as for EnclosedResponse
+  /// @param gains  P and D of the given decimals
+  /// @param line   line of samplings that segments are taken from
   SamplingProof(const std::vector<EnclosedPole>& poles, const PdGains<double>& gains,
                 EnclosedSamplings line)
       : line_(line), gains_(gains) {
@@ -119,14 +119,14 @@ class SamplingProof {
     }
   }
 
-  /// A node over a stretch, t from −1 at its start to 1 at its end.
+  /// A node on a segment, t from −1 at its start to 1 at its end.
   struct Node {
     EnclosedSpiral path;  ///< z_i(t)
-    double correction;    ///< at least |W_i(t)| everywhere
+    double correction;    ///< upper bound of |W_i(t)| on the segment
   };
 
-  /// Nodes that a proof for all positions from … to (s) would rest on; empty where the roots in the
-  /// middle are not found.
+  /// The nodes for a proof at all positions from … to (s); empty where the roots at the middle are
+  /// not found.
   std::vector<Node> nodes_over(double from, double to) const;
 
   /// Whether the loop is proved to be stable at all positions from … to (s).
@@ -141,16 +141,16 @@ class SamplingProof {
   struct Motion {
     ComplexEnclosure s, reading;  // (P + D s) r/s
   };
-  /// A pole's part in q as the position moves: of the command before the last, and of the last.
+  /// The two terms of a pole in q as functions of the position: of the previous and last command.
   struct Part {
     EnclosedSpiral pole;  // e^{sτ}
     EnclosedCurve past, present;
 
-    /// Numerator over λ − e^{sτ}.
+    /// The numerator over λ − e^{sτ}.
     EnclosedCurve over(const EnclosedCurve& node) const { return present * node + past; }
   };
 
-  /// The middles of a part at a node z, and how they move.
+  /// The midpoints of a pole's term at a node z, with their derivatives.
   struct PartInDoubles {
     std::complex<double> pole, pole_moves, present, over, over_moves;
 
@@ -162,7 +162,7 @@ class SamplingProof {
           over_moves(part.present.slope().middle() * z + part.past.slope().middle()) {}
   };
 
-  /// @param reach  ϱ (s)
+  /// @param reach  half length ϱ (s)
   std::vector<Part> parts_at(const Enclosure& position, const Enclosure& reach) const {
     const auto period = line_.period_at(position), present = line_.present_at(position);
     std::vector<Part> parts;
@@ -177,8 +177,8 @@ class SamplingProof {
 
   static ComplexEnclosure exact(const std::complex<double>& z) { return {z, 0.0}; }
 
-  /// Nodes near the roots, those near poles first and in the order of these; empty where the roots
-  /// are not found. Whatever they are, nothing false is proved of them.
+  /// Nodes near the roots, those near poles first and in the order of the poles; empty where the
+  /// roots are not found. The proof is valid for any nodes.
   Nodes nodes_at(double position, const std::vector<Part>& parts) const {
     using Complex = std::complex<double>;
     const Sampling<double> sampling = line_.next_to(position);
@@ -195,8 +195,8 @@ class SamplingProof {
     return nodes;
   }
 
-  /// How fast root i turns and grows: σ of G(z e^{σt}; t) = 0, in doubles, where G = (z − e_i) q of
-  /// the root near pole i, with its own part taken out, and q of the others.
+  /// The rate at which root i turns and grows: σ of G(z e^{σt}; t) = 0, in doubles. Near pole i, G
+  /// = (z − e_i) q with that pole's own term separated; for the other roots G = q.
   std::complex<double> rate_of(std::size_t i, const std::complex<double>& z,
                                const std::vector<Part>& parts) const {
     using Complex = std::complex<double>;
@@ -222,7 +222,7 @@ class SamplingProof {
     return std::abs(rate) < 0.5 ? rate : 0.0;
   }
 
-  /// A node and what it must not meet within the stretch, in doubles.
+  /// A node and a point that it must not meet on the segment, in doubles.
   struct Encounter {
     std::complex<double> away, drift;  // from that to the node, and how this moves
 
@@ -234,7 +234,7 @@ class SamplingProof {
     bool is_near(double room) const {
       return std::abs(away) < std::min(room, std::max(2.5 * std::abs(drift), 1e-3 * room));
     }
-    /// Direction of length 1, across the drift and inwards from a point; without a drift anywhere.
+    /// The unit vector across the drift and inwards from a point; without a drift arbitrary.
     std::complex<double> aside_from(const std::complex<double>& point, std::size_t i) const {
       if (!(std::abs(drift) > 0.0)) return std::polar(1.0, static_cast<double>(i));
       const std::complex<double> across = drift / std::abs(drift) * std::complex<double>(0.0, 1.0);
@@ -242,8 +242,8 @@ class SamplingProof {
     }
   };
 
-  /// Moves nodes aside, by little beside their way to the circle, that would meet each other, as
-  /// roots do which come to the real line and part along it, or the pole of another.
+  /// Moves nodes apart, by little beside their distance from the circle, that would meet each other
+  /// (like roots that meet on the real line) or another node's pole.
   static void make_room(Nodes& nodes, const std::vector<Part>& parts) {
     const auto room_of = [](const EnclosedSpiral& node) {
       return 0.3 * (1.0 - std::abs(node.start().middle()));
@@ -269,8 +269,8 @@ class SamplingProof {
       }
   }
 
-  /// Makes nodes that are nearly each other's conjugates just that, and those nearly real real.
-  /// @return of each node its partner, which may be itself; empty where one has none
+  /// Makes nodes that are nearly conjugate exactly so, and nearly real ones real.
+  /// @return the partner of each node, which may be itself; empty where one has none
   static std::vector<std::size_t> mirror(Nodes& nodes) {
     constexpr double rounding = 1e-9;
     std::vector<std::size_t> partners(nodes.size(), nodes.size());
@@ -295,11 +295,11 @@ class SamplingProof {
     return partners;
   }
 
-  /// At least |W_i| over the stretch. Poles and nodes are taken in pairs,
+  /// An upper bound of |W_i| on the segment. Poles and nodes are taken in pairs,
   ///
   ///     (z_i − e_j)/(z_i − z_j) = 1/(1 − (z_j − e_j)/(z_i − e_j))
   ///
-  /// @param own  z_j − e_j
+  /// @param own  differences z_j − e_j
   double correction(std::size_t i, const Nodes& nodes, const std::vector<Part>& parts,
                     const std::vector<EnclosedCurve>& own) const {
     const EnclosedCurve node = nodes[i].curve();
@@ -319,7 +319,7 @@ class SamplingProof {
     return (Enclosure(sum.most()) / divisor).upper();
   }
 
-  /// Whether Σ |W_i|/|λ − z_i| < 1 on the unit circle, as a whole or arc by arc.
+  /// Whether Σ |W_i|/|λ − z_i| < 1 is proved on the unit circle, as a whole or arc by arc.
   static bool are_held_inside(const std::vector<Node>& nodes) {
     std::vector<double> inside;
     Enclosure sum;

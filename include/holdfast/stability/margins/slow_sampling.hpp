@@ -17,8 +17,8 @@
 
 namespace holdfast {
 
-/// A bound on the loop's gain that falls as the sampling period grows, and so tells from which
-/// period on the sampled loop is stable however slow the sampling.
+/// A bound on the loop's return ratio that falls as the sampling period grows; it gives a period
+/// from which on the sampled loop is stable for all longer ones.
 ///
 /// With the plant's poles s_i = −a_i + iω_i, K (sI − A)⁻¹ b = n(s)/p(s), c_i = n(s_i)/(s_i
 /// p′(s_i)), g = K A⁻¹ b = −n(0)/p(0) = Σ c_i, φ = δ/τ and e_i = e^{s_i τ}, the loop's return ratio
@@ -31,15 +31,15 @@ namespace holdfast {
 ///
 ///     |L| ≤ |g| + 2 Σ |c_i| e^{−a_i χτ}/(1 − e^{−a_iτ}),   χ = 1 − φ, and χ = 1 for φ = 1
 ///
-/// the latter from L = −g/λ² + Σ c_i e_i (λ − 1)/(λ²(λ − e_i)). For the two-mass plant g = 0: a
-/// constant force between the masses does not move the conductor. Commands that wait for whole
-/// samples more divide L by powers of λ, which leaves the bound as it is.
+/// the last case following from L = −g/λ² + Σ c_i e_i (λ − 1)/(λ²(λ − e_i)). For the two-mass plant
+/// g = 0: a constant force between the masses does not move the conductor. Commands delayed by
+/// further whole samples divide L by powers of λ, which does not change the bound.
 class SlowSamplingBound {
  public:
-  /// @tparam Plant          any order; of poles that are not apart nothing is certain
-  /// @param plant           within its ranges, which are not checked here
+  /// @tparam Plant          any order; without a bound for multiple poles
+  /// @param plant           plant within its ranges, which are not checked here
   /// @param gains           P (N/m) and D (N s/m), finite
-  /// @param delay_fraction  φ, 0 … 1, kept while τ varies
+  /// @param delay_fraction  φ, 0 … 1, constant while τ varies
   template <class Plant>
   SlowSamplingBound(const Plant& plant, const PdGains<double>& gains, double delay_fraction)
       : delay_fraction_(delay_fraction) {
@@ -63,7 +63,7 @@ class SlowSamplingBound {
     return bound;
   }
 
-  /// A period (s) from which on every longer one is stable; infinite where the bound shows none.
+  /// A period (s) beyond which every loop is stable; infinite where the bound gives none.
   double certain_from() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto [slowest, fastest] = std::minmax_element(decay_.begin(), decay_.end());
@@ -107,7 +107,7 @@ class SlowSamplingBound {
     static_gain_ = std::abs(feedback.dot(eliminated(a, b)));
   }
 
-  /// The decay of a pole, 0 where it is undamped but for round-off.
+  /// The decay rate of a pole, 0 where it is undamped up to round-off.
   static double decay_of(const std::complex<double>& pole) {
     return -pole.real() > 1e-12 * std::abs(pole) ? -pole.real() : 0.0;
   }

@@ -9,21 +9,21 @@
 
 namespace holdfast {
 
-/// The variable x of a polynomial, which says where its roots are stable: each is a type of its
-/// own.
+/// The variable x of a polynomial, which determines the stable region of its roots: each variable
+/// is a type of its own.
 enum class PolynomialVariable {
   half_plane,    ///< s, or w of `in_half_plane`: Re x < 0
   about_one,     ///< λ − 1: |1 + x| < 1
-  about_centre,  ///< λ − c, c being told beside it (`LoopPolynomial`): |c + x| < 1
+  about_centre,  ///< λ − c, with c given by `LoopPolynomial`: |c + x| < 1
 };
 
 /// A polynomial whose coefficients are affine in the two gains:
 ///
 ///     p(x; P, D) = base(x) + P · proportional(x) + D · differential(x)
 ///
-/// The characteristic polynomial of the loop has this form because both gains sit in one row of the
+/// The characteristic polynomial of the loop has this form because both gains are in one row of the
 /// feedback matrix. Each (P, D) costs 2 (Degree + 1) multiply-adds.
-/// @tparam Variable  x; unless given that of the loop's own polynomial, s of degree 4, else λ − 1
+/// @tparam Variable  x; by default that of the loop's polynomial, s for degree 4, else λ − 1
 template <class Scalar, int Degree,
           PolynomialVariable Variable =
               Degree == 4 ? PolynomialVariable::half_plane : PolynomialVariable::about_one>
@@ -38,14 +38,14 @@ struct AffinePolynomial {
   }
 
   /// Applies one linear change of variable to all three parts.
-  /// @tparam To  the variable after it
+  /// @tparam To  the new variable
   template <PolynomialVariable To, class LinearMap>
   AffinePolynomial<Scalar, Degree, To> transformed(const LinearMap& map) const {
     return {map(base), map(proportional), map(differential)};
   }
 };
 
-/// @throws InvalidParameter unless all coefficients are finite
+/// Validates a polynomial. @throws InvalidParameter unless all coefficients are finite
 template <class Scalar, int Degree, PolynomialVariable Variable>
 void validate(const AffinePolynomial<Scalar, Degree, Variable>& polynomial) {
   const Scalar sum =
@@ -57,14 +57,14 @@ void validate(const AffinePolynomial<Scalar, Degree, Variable>& polynomial) {
 template <class Scalar, int Degree>
 using HalfPlanePolynomial = AffinePolynomial<Scalar, Degree, PolynomialVariable::half_plane>;
 
-/// A polynomial in λ − 1 in the variable w of the half-plane (math/poly/polynomial.hpp).
+/// The polynomial transformed from λ − 1 to the half-plane's variable w (math/poly/polynomial.hpp).
 template <class Scalar, int Degree>
 HalfPlanePolynomial<Scalar, Degree> in_half_plane(
     const AffinePolynomial<Scalar, Degree, PolynomialVariable::about_one>& polynomial) {
   return polynomial.template transformed<PolynomialVariable::half_plane>(
       [](const Polynomial<Scalar, Degree>& p) { return in_half_plane<Scalar, Degree + 1>(p); });
 }
-/// One that is there already.
+/// The polynomial itself, which is already in the half-plane's variable.
 template <class Scalar, int Degree>
 const HalfPlanePolynomial<Scalar, Degree>& in_half_plane(
     const HalfPlanePolynomial<Scalar, Degree>& polynomial) {
@@ -76,7 +76,7 @@ const HalfPlanePolynomial<Scalar, Degree>& in_half_plane(
 ///     det(sI − A − bK) = det(sI − A) − P [1 0 0 0] adj(sI − A) b − D [0 1 0 0] adj(sI − A) b
 ///
 /// All roots in the left half-plane ⇔ asymptotically stable. Source: Kollár 2022, §4.1.
-/// @throws InvalidParameter for two masses that are not admissible
+/// @throws InvalidParameter where the two masses are not admissible
 template <class Scalar, template <class> class Plant>
 AffinePolynomial<Scalar, 4> characteristic_polynomial(const Plant<Scalar>& plant) {
   detail::require_admissible(plant);
@@ -97,7 +97,7 @@ AffinePolynomial<Scalar, 4> characteristic_polynomial(const Plant<Scalar>& plant
 namespace detail {
 
 /// det(λI − S) of the sampled loop in powers of μ = λ − centre, with λ Γ₀ + Γ₁ = μ Γ₀ + c Γ₀ + Γ₁.
-/// @param centre  c, 1 or 0
+/// @param centre  centre c, 1 or 0
 template <class Scalar>
 AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial_about(
     int centre, const SampledLoop<Scalar>& loop) {
@@ -125,13 +125,13 @@ AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial_about(
 /// Characteristic polynomial det(λI − S) of the sampled loop, degree 5, written in powers of μ = λ
 /// − 1.
 ///
-/// Eliminating the stored force u_{j−1} leaves
+/// Elimination of the stored force u_{j−1} gives
 ///
 ///     det(λI − S) = λ det(λI − A_d) − K adj(λI − A_d) (λ Γ₀ + Γ₁)
 ///
-/// When sampling is fast the plant's four roots crowd around λ = 1, where powers of λ lose them to
-/// round-off; powers of λ − 1 do not. `shifted` and `in_half_plane` change the variable. All
-/// |λ| < 1 ⇔ asymptotically stable. For δ = 0, λ = 0 is a structural root.
+/// With fast sampling the plant's four roots are close to λ = 1, where powers of λ lose them to
+/// round-off; powers of λ − 1 do not. `shifted` and `in_half_plane` change the variable. All |λ| <
+/// 1 ⇔ asymptotically stable. For δ = 0, λ = 0 is a structural root.
 template <class Scalar>
 AffinePolynomial<Scalar, 5> characteristic_polynomial(const SampledLoop<Scalar>& loop) {
   const auto about_one = detail::polynomial_about(1, loop);

@@ -20,8 +20,8 @@ struct QuadraticFactor {
   Scalar linear;    ///< U
   Scalar constant;  ///< V
 
-  /// The larger |λ| of its two roots: √(1 − U + V) of a pair, |1 − U/2| + √(U²/4 − V) of real
-  /// roots.
+  /// The larger modulus |λ| of its two roots: √(1 − U + V) for a pair, |1 − U/2| + √(U²/4 − V) for
+  /// real roots.
   Scalar radius() const {
     using std::abs;
     using std::sqrt;
@@ -34,31 +34,31 @@ struct QuadraticFactor {
   }
 };
 
-/// Follows the dominant factor of a polynomial that changes little from one call to the next, as
-/// along a row of a chart, and gives the spectral radius; lane by lane for packs.
+/// The continuation of the dominant factor of a polynomial that changes little from one call to the
+/// next, as along a row of a chart; it gives the spectral radius, lane by lane for packs.
 ///
-/// The factor of the calls before is extrapolated and corrected by Newton's method in (U, V)
+/// The factor is extrapolated from the previous calls and corrected by Newton's method in (U, V)
 /// (Bairstow's iteration): with quotients b, c of two divisions by μ² + Uμ + V,
 ///
 ///     [c₂ c₃; c₁ c₂] [δU; δV] = [b₁; b₀]
 ///
-/// quadratically convergent as long as the factor shares no root with its quotient. That the
-/// quotient has no root beyond the radius is tested by Liénard and Chipart's conditions; a lane
-/// that fails either is found again from all its roots. The polynomial must have a root λ = 0 as a
-/// partner for a real dominant root: the sampled loop without processing delay has it, any other is
+/// It converges quadratically as long as the factor shares no root with its quotient. Liénard and
+/// Chipart's conditions test that the quotient has no root beyond the radius; a lane that fails is
+/// recomputed from all its roots. The polynomial must have a root λ = 0 as a partner for a real
+/// dominant root: the sampled loop without processing delay has it, any other polynomial is
 /// multiplied by λ (`with_root_at_zero`).
 ///
-/// Work per call and iteration: 5 Degree multiply-adds and a division; 45 more for the test.
-/// Error of the radius: 2e−13 relative where two roots have moduli that close, otherwise round-off
-/// times the condition of the dominant root. Source: L. Bairstow, 1914.
+/// Work per call and iteration: 5 Degree multiply-adds and a division; 45 more for the test. Error
+/// of the radius: 2e−13 relative where two roots have moduli within it, otherwise round-off times
+/// the condition of the dominant root. Source: L. Bairstow, 1914.
 template <class Scalar, int Degree>
 class DominantFactor {
  public:
   static_assert(Degree == 5 || Degree == 6, "the sampled loop has 5 roots, or 6 with λ = 0 added");
-  /// The number that one lane holds.
+  /// The number type of one lane.
   using Value = typename Lanes<Scalar>::Value;
 
-  /// ρ = max |λ| for a monic polynomial in powers of μ.
+  /// The spectral radius ρ = max |λ| of a monic polynomial in powers of μ.
   Scalar radius(const Polynomial<Scalar, Degree>& polynomial) {
     Factor factor = extrapolated();
     Quotient quotient{};
@@ -74,7 +74,7 @@ class DominantFactor {
   }
 
  private:
-  /// The factor from all roots: of a dominant pair, or of a dominant real root and λ = 0.
+  /// The factor from all roots: a dominant pair, or a dominant real root and λ = 0.
   static QuadraticFactor<Value> dominant_factor(const Polynomial<Value, Degree>& in_powers_of_mu) {
     const Value one(1);
     std::complex<Value> dominant(-one);
@@ -94,7 +94,7 @@ class DominantFactor {
   static constexpr double settled_step_ = 1e-8;  // its square, the error left, is round-off
   static constexpr double slack_ = 2e-13;
 
-  /// Newton steps until all lanes have settled.
+  /// Performs Newton steps until all lanes have converged.
   static Mask<Scalar> converge(const Polynomial<Scalar, Degree>& polynomial, Factor& factor,
                                Quotient& quotient, int most_iterations) {
     Mask<Scalar> settled = Scalar(0) > Scalar(1);
@@ -104,8 +104,8 @@ class DominantFactor {
     return settled;
   }
 
-  /// Lanes that did not settle, from the factor before: where cells are far apart the extrapolation
-  /// may lead further away than no extrapolation.
+  /// Restarts the lanes that did not converge from the previous factor: where cells are far apart
+  /// extrapolation may increase the error.
   void start_nearby(const Polynomial<Scalar, Degree>& polynomial, Factor& factor,
                     Quotient& quotient, Mask<Scalar>& settled) const {
     Factor other = history_[0];
@@ -119,7 +119,7 @@ class DominantFactor {
     settled = settled | also;
   }
 
-  /// The cubic through the last four factors, one step on.
+  /// The extrapolation of the cubic through the last four factors.
   Factor extrapolated() const {
     const auto at = [this](Scalar Factor::*part) {
       return Scalar(4) * (history_[0].*part + history_[2].*part) -
@@ -128,7 +128,7 @@ class DominantFactor {
     return {at(&Factor::linear), at(&Factor::constant)};
   }
 
-  /// One Newton step; true where it was small enough to be the last.
+  /// Performs one Newton step; true where it was small enough to be the last one.
   static Mask<Scalar> improve(const Polynomial<Scalar, Degree>& a, Factor& factor,
                               Quotient& quotient) {
     using std::abs;
@@ -149,7 +149,7 @@ class DominantFactor {
     return u_settled & v_settled;
   }
 
-  /// b_k = a_k − U b_{k+1} − V b_{k+2}: quotient b_n … b₂, remainder b₁ (μ + U) + b₀.
+  /// Divides: b_k = a_k − U b_{k+1} − V b_{k+2}; quotient b_n … b₂, remainder b₁ (μ + U) + b₀.
   static void divide(const Polynomial<Scalar, Degree>& a, const Scalar& u, const Scalar& v,
                      Polynomial<Scalar, Degree>& b) {
     b[Degree] = a[Degree];
@@ -157,7 +157,7 @@ class DominantFactor {
     for (int k = Degree - 2; k >= 0; --k) b[k] = (a[k] - v * b[k + 2]) - u * b[k + 1];
   }
 
-  /// True where no root of the quotient lies beyond the radius (and a slack for equal moduli).
+  /// Whether no root of the quotient is beyond the radius (with a tolerance for equal moduli).
   static Mask<Scalar> bounds(const Quotient& in_powers_of_mu, const Scalar& radius) {
     Quotient q = in_powers_of_mu;
     for (int start = 0; start < Degree - 2; ++start) {  // to powers of λ
@@ -169,7 +169,7 @@ class DominantFactor {
     return lienard_chipart_stable<Scalar, Degree - 1>(at_half_plane(q));
   }
 
-  /// (1 − w)ⁿ q((1 + w) / (1 − w)) for n = 3, 4.
+  /// The quotient in the half-plane's variable, (1 − w)ⁿ q((1 + w) / (1 − w)) for n = 3, 4.
   static Quotient at_half_plane(const Quotient& q) {
     Quotient a;
     if constexpr (Degree == 5) {
@@ -215,7 +215,7 @@ class DominantFactor {
   std::array<Factor, 4> history_ = {nothing(), nothing(), nothing(), nothing()};
 };
 
-/// The polynomial times λ = 1 + μ: one further root λ = 0.
+/// The polynomial times λ = 1 + μ, with the additional root λ = 0.
 template <class Scalar, int Size>
 Vector<Scalar, Size + 1> with_root_at_zero(const Vector<Scalar, Size>& in_powers_of_mu) {
   return multiply<Scalar, Size, 2>(in_powers_of_mu, {Scalar(1), Scalar(1)});

@@ -15,24 +15,24 @@
 
 namespace holdfast {
 
-/// det(λI − S) in powers of λ − 1 where the plant moves little between samples, and in powers of λ
-/// where hardly anything is left of its motion from one sample to the next.
+/// The polynomial det(λI − S) in powers of λ − 1 where the plant moves little between samples, and
+/// in powers of λ where its motion decays almost completely within a sample.
 ///
-/// In the first case the roots crowd at λ = 1, in the second at λ = 0; written about that place
-/// they are not moved by a root of round-off. Radii are carried as their offset from it as well.
+/// In the first case the roots are close to λ = 1, in the second to λ = 0; about that centre
+/// round-off does not hide their distance. Radii too are stored as their offset from it.
 template <class Scalar>
 struct LoopPolynomial {
   Scalar centre;  ///< 1 or 0
   /// Monic, in powers of λ − centre.
   AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial;
 
-  /// The size of the roots' distances from the centre, for tolerances.
+  /// The scale of the roots' distances from the centre, for tolerances.
   Scalar scale() const {
     if (centre == Scalar(0)) return Scalar(0);
     return std::min(Scalar(1), std::pow(std::abs(polynomial.base[0]), Scalar(0.25)));
   }
 
-  /// ρ(P, D) − centre, the largest |λ|, without cancellation.
+  /// The offset ρ(P, D) − centre of the largest |λ|, computed without cancellation.
   Scalar radius_offset(const PdGains<Scalar>& gains) const {
     Scalar largest = -centre;
     for (const std::complex<Scalar>& root : roots(polynomial.at(gains))) {
@@ -45,12 +45,12 @@ struct LoopPolynomial {
     return largest;
   }
 
-  /// ρ(P, D) − 1.
+  /// The excess ρ(P, D) − 1.
   Scalar excess(const PdGains<Scalar>& gains) const {
     return (centre - Scalar(1)) + radius_offset(gains);
   }
 
-  /// The polynomial of λ′ = λ/r in powers of λ′ − 1: stable where all |λ| < r.
+  /// The polynomial in λ′ = λ/r, in powers of λ′ − 1; it is stable where all |λ| < r.
   /// @param offset  r − centre, above −centre
   AffinePolynomial<Scalar, 5> at_radius(const Scalar& offset) const {
     const Scalar radius = centre + offset;
@@ -67,7 +67,7 @@ struct LoopPolynomial {
   }
 };
 
-/// The loop's polynomial about 0 where the balanced A_d has a norm below 1/4, about 1 elsewhere.
+/// The loop's polynomial: about 0 where the balanced A_d has a norm below 1/4, else about 1.
 template <class Scalar>
 LoopPolynomial<Scalar> loop_polynomial(const SampledLoop<Scalar>& loop) {
   const Scalar norm =
@@ -76,12 +76,12 @@ LoopPolynomial<Scalar> loop_polynomial(const SampledLoop<Scalar>& loop) {
   return {Scalar(1), detail::polynomial_about(1, loop)};
 }
 
-/// The open intervals of D (N s/m) at which every root of the sampled loop has |λ| < radius; radius
-/// 1 gives `stable_differential_gains`.
-/// @param loop               of `sampled_loop`
+/// The open intervals of D (N s/m) with which every root of the sampled loop has |λ| < radius;
+/// radius 1 gives `stable_differential_gains`.
+/// @param loop               loop of `sampled_loop`
 /// @param proportional_gain  P (N/m), finite
-/// @param radius             > 0
-/// @throws InvalidParameter for others
+/// @param radius             bound of |λ|, > 0
+/// @throws InvalidParameter where loop, P or radius are not admissible
 template <class Scalar>
 std::vector<Interval<Scalar>> differential_gains_within_radius(const SampledLoop<Scalar>& loop,
                                                                const Scalar& proportional_gain,

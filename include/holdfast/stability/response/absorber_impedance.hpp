@@ -10,19 +10,19 @@
 
 namespace holdfast {
 
-/// Z_eff(s) of the computer's force, as part of it that has the frequency of the motion, over the
-/// conductor's velocity (N s/m):
+/// The impedance Z_eff(s) of the computer's force (N s/m): the part of that force with the
+/// frequency of the motion, over the conductor's velocity:
 ///
 ///     Z_eff = −(D + P/s) F(s) D(s) e^{−s(δ + τ/2)} sinh(sτ/2)/(sτ/2)
 ///
-/// with the lags F of the measurement filter and D of the drive, (1 − e^{−sτ})/(sτ) beside D where
-/// the velocity is a difference of readings; sinh(sτ/2)/(sτ/2) = sinc(ωτ/2) at
-/// s = iω. What the hold sends out besides has frequencies ω + 2πk/τ; where the conductor answers
-/// there, only the sampled loop (`ModalResponse`) is exact (unchecked).
-/// @param sampling  τ and δ
-/// @param gains     P and D
+/// with the lags F of the measurement filter and D of the drive, and (1 − e^{−sτ})/(sτ) beside D
+/// where the velocity is a difference of readings; sinh(sτ/2)/(sτ/2) = sinc(ωτ/2) at s = iω. The
+/// hold also emits frequencies ω + 2πk/τ; where the conductor responds to them, only the sampled
+/// loop (`ModalResponse`) is exact (unchecked).
+/// @param sampling  τ and δ of the loop
+/// @param gains     gains P and D
 /// @param hardware  measurement filter and drive
-/// @param s         1/s, ≠ 0
+/// @param s         complex frequency (1/s), ≠ 0
 inline std::complex<double> drive_impedance(const Sampling<double>& sampling,
                                             const PdGains<double>& gains,
                                             const LoopHardware& hardware,
@@ -38,13 +38,13 @@ inline std::complex<double> drive_impedance(const Sampling<double>& sampling,
          detail::HardwarePoles::lag(lags.drive, s) * detail::HardwarePoles::lag(lags.filter, s);
 }
 
-/// Z(s) = (M_c s² + K_p)/s + T_a Z_eff of the absorber with its computer (N s/m), force over
-/// velocity of the conductor; to `drive_impedance` applies what is said there (unchecked).
-/// @param absorber  with its clamp
+/// The impedance Z(s) = (M_c s² + K_p)/s + T_a Z_eff of the absorber with its computer (N s/m),
+/// force over velocity of the conductor; the restriction of `drive_impedance` applies (unchecked).
+/// @param absorber  absorber with its clamp
 /// @param sampling  τ and δ
 /// @param gains     P and D
 /// @param hardware  measurement filter and drive
-/// @param s         1/s, ≠ 0
+/// @param s         complex frequency (1/s), ≠ 0
 inline std::complex<double> absorber_impedance(const Absorber<double>& absorber,
                                                const Sampling<double>& sampling,
                                                const PdGains<double>& gains,

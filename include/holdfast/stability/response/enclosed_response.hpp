@@ -14,33 +14,33 @@
 
 namespace holdfast {
 
-/// f(λ + w) = value + slope · w + r, |r| ≤ rest, wherever |w| is no more than a radius.
+/// An expansion f(λ + w) = value + slope · w + r, |r| ≤ rest, valid for |w| up to a radius.
 struct EnclosedExpansion {
   ComplexEnclosure value;  ///< f(λ)
   ComplexEnclosure slope;  ///< f′(λ)
-  double rest = 0.0;       ///< of r; infinite where f may have a pole that near
+  double rest = 0.0;       ///< bound of r; infinite where f may have a pole within the radius
 };
 
-/// Enclosed factors of P and D, F_z and F_v of `EnclosedResponse`, about a point.
+/// Expansions of the factors F_z and F_v of P and D (`EnclosedResponse`) about a point.
 struct EnclosedCommandResponse {
   EnclosedExpansion displacement;  ///< F_z (m/N)
   EnclosedExpansion velocity;      ///< F_v (m/(N s))
 };
 
-/// How long the commands of a sample act: those of one sampling, or of all in a range.
+/// The times for which the commands of a sample act, for one sampling or enclosing a range of them.
 struct EnclosedSampling {
   Enclosure period;   ///< τ (s)
-  Enclosure past;     ///< δ − (k − 1) τ (s), of the last command but one
-  Enclosure present;  ///< k τ − δ (s), of the last one
-  int commands;       ///< k, on their way
+  Enclosure past;     ///< δ − (k − 1) τ (s), of the previous command
+  Enclosure present;  ///< k τ − δ (s), of the last command
+  int commands;       ///< number k of delayed commands
 
-  /// All of them, in this order.
+  /// Sets all four members, in this order.
   EnclosedSampling(Enclosure of_period, Enclosure of_past, Enclosure of_present, int on_their_way)
       : period(of_period), past(of_past), present(of_present), commands(on_their_way) {}
 
-  /// @param sampling  the decimals to which τ > 0 and δ ≥ 0 are nearest, δ ≤ 1000 τ; a δ that
-  ///                  exceeds a whole number of samples by less than 10⁻¹² of itself is that many
-  /// @throws InvalidParameter where the sampling is another
+  /// @param sampling  the decimals nearest to τ > 0 and δ ≥ 0, δ ≤ 1000 τ; a δ that exceeds a whole
+  ///                  number of samples by less than 10⁻¹² of itself counts as that number
+  /// @throws InvalidParameter where the sampling is not admissible
   static EnclosedSampling of(const Sampling<double>& sampling) {
     require_positive("sampling period tau", sampling.period, "s");
     require_within("processing delay", sampling.processing_delay, "s", 0.0,
@@ -48,7 +48,7 @@ struct EnclosedSampling {
     return of_delay(Enclosure::of_decimal(sampling.period),
                     Enclosure::of_decimal(sampling.processing_delay), held_commands(sampling));
   }
-  /// Sampling with all δ of a range that lie within (k − 1) τ … k τ.
+  /// The sampling that encloses all δ of a range within (k − 1) τ … k τ.
   static EnclosedSampling of_delay(const Enclosure& period, const Enclosure& delay, int commands) {
     const auto within_sample = [&](const Enclosure& time) {
       return Enclosure(std::clamp(time.lower(), 0.0, period.lower()),
@@ -61,42 +61,42 @@ struct EnclosedSampling {
 };
 
 /// The zero-order-hold transfer functions of `ModalResponse` in enclosures, times λᵏ so that a
-/// delay of many samples takes no inverse power: the characteristic function of the loop is
+/// delay of many samples needs no inverse power: the characteristic function of the loop is
 ///
 ///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ),   F(λ) = λᵏ G(λ) = Σ (a_j λ + b_j)/(λ − e^{s_j τ})
 ///
-/// with k, a_j and b_j as there. Poles in a pair are one real quotient n(λ)/g(λ) of degree 2, of
-/// which the first two terms about λ leave exactly
+/// with k, a_j and b_j as there. A pair of poles forms one real quotient n(λ)/g(λ) of degree 2,
+/// with the exact remainder after the first two terms about λ
 ///
 ///     f(λ + w) − f − f′ w = w² (n₂ − f g₂ − f′ g′ − f′ g₂ w)/g(λ + w)
 ///
-/// A point costs some 300 operations of enclosures a pair.
+/// One point costs some 300 operations of enclosures per pair.
 class EnclosedResponse {
  public:
-  /// @param poles     of `enclosed_poles`, at least one, none of which may be 0
-  /// @param sampling  within one stretch (k − 1) τ ≤ δ ≤ k τ
+  /// @param poles     poles of `enclosed_poles`, at least one, none of which may be 0
+  /// @param sampling  samplings in one stretch (k − 1) τ ≤ δ ≤ k τ
   EnclosedResponse(const std::vector<EnclosedPole>& poles, const EnclosedSampling& sampling)
       : commands_(sampling.commands) {
     for (const EnclosedPole& pole : poles) add(pole, sampling);
   }
-  /// @param poles     of `enclosed_poles`, at least one, none of which may be 0
-  /// @param sampling  as `EnclosedSampling::of`
-  /// @throws InvalidParameter where it is another
+  /// @param poles     poles of `enclosed_poles`, at least one, none of which may be 0
+  /// @param sampling  sampling as for `EnclosedSampling::of`
+  /// @throws InvalidParameter where the sampling is not admissible
   EnclosedResponse(const std::vector<EnclosedPole>& poles, const Sampling<double>& sampling)
       : EnclosedResponse(poles, EnclosedSampling::of(sampling)) {}
 
-  /// F_z and F_v about a point.
-  /// @param lambda  λ
-  /// @param radius  of the disc about it
+  /// The expansions of F_z and F_v about a point.
+  /// @param lambda  point λ
+  /// @param radius  radius of the disc about it
   EnclosedCommandResponse about(const ComplexEnclosure& lambda, double radius) const {
     EnclosedCommandResponse sum;
     for (const Section& section : sections_) section.add_to(sum, lambda, radius);
     return sum;
   }
 
-  /// λᵏ about a point, |r| ≤ k (k − 1)/2 (|λ| + radius)^{k−2} radius².
-  /// @param lambda  λ
-  /// @param radius  of the disc about it
+  /// The expansion of λᵏ about a point, |r| ≤ k (k − 1)/2 (|λ| + radius)^{k−2} radius².
+  /// @param lambda  point λ
+  /// @param radius  radius of the disc about it
   EnclosedExpansion power_about(const ComplexEnclosure& lambda, double radius) const {
     const auto k = static_cast<double>(commands_);
     EnclosedExpansion result;
@@ -109,9 +109,9 @@ class EnclosedResponse {
     return result;
   }
 
-  /// k, the commands on their way.
+  /// The number k of delayed commands.
   int held_commands() const { return commands_; }
-  /// How many of the plant's own eigenvalues e^{sτ} have a modulus above r; nothing where one may
+  /// The number of the plant's own eigenvalues e^{sτ} with a modulus above r; nothing where one may
   /// lie on that circle.
   /// @param radius  r, > 0
   std::optional<int> poles_outside(double radius) const {
@@ -129,7 +129,7 @@ class EnclosedResponse {
   }
 
  private:
-  /// n(λ) of one of F_z and F_v, constant coefficient first.
+  /// The numerator n(λ) of F_z or F_v, constant coefficient first.
   using Numerator = std::array<Enclosure, 3>;
 
   struct Section {
@@ -156,7 +156,7 @@ class EnclosedResponse {
     }
   };
 
-  /// g and its slope about a point.
+  /// The denominator g and its derivative about a point.
   struct Around {
     const ComplexEnclosure& lambda;
     ComplexEnclosure inverse_divisor, divisor_slope;

@@ -11,7 +11,7 @@
 
 namespace holdfast {
 
-/// Measurements of a loop's computer per newton of its own command, at one λ.
+/// The response of the measured displacement and velocity to a unit command, at one λ.
 template <class Scalar>
 struct CommandResponse {
   std::complex<Scalar> displacement;  ///< G_z(λ) (m/N)
@@ -22,22 +22,22 @@ struct CommandResponse {
 ///
 ///     G_z(λ) = h_z (λI − S₀)⁻¹ s,   G_v(λ) = h_v (λI − S₀)⁻¹ s
 ///
-/// from the command to what P and D multiply: the characteristic equation of the loop is
-/// 1 − P G_z(λ) − D G_v(λ) = 0. S₀ − I is brought to Hessenberg form once, H = Qᵀ(S₀ − I)Q; a value
-/// costs the elimination of one subdiagonal, about 4 n² complex multiply-adds, n = N + k.
+/// from the command to the quantities that P and D multiply; the characteristic equation of the
+/// loop is 1 − P G_z(λ) − D G_v(λ) = 0. S₀ − I is brought to Hessenberg form once, H = Qᵀ(S₀ − I)Q;
+/// a value costs the elimination of one subdiagonal, about 4 n² complex multiply-adds, n = N + k.
 /// Source: A. J. Laub, Efficient multivariable frequency response computations, IEEE TAC 26 (1981).
 template <class Scalar>
 class LoopResponse {
  public:
-  using Complex = std::complex<Scalar>;  ///< of λ and of what is returned
+  using Complex = std::complex<Scalar>;  ///< type of λ and of the responses
 
-  /// @param map  the loop, whose gains do not matter
+  /// @param map  map of the loop; its gains are not used
   explicit LoopResponse(const LoopMap<Scalar>& map);
 
-  /// G_z and G_v at λ = 1 + μ, given by μ so that nothing is lost where sampling is fast.
+  /// The responses G_z and G_v at λ = 1 + μ; μ as the argument preserves digits with fast sampling.
   CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const;
 
-  /// G_z and G_v at λ = e^{iθ}.
+  /// The responses G_z and G_v at λ = e^{iθ}.
   /// @param angle  θ (rad), 0 … π
   CommandResponse<Scalar> at_angle(const Scalar& angle) const {
     return at_distance_from_one(circle_increment(angle));

@@ -18,21 +18,21 @@
 
 namespace holdfast {
 
-/// How a mode of the conductor is damped, by itself and by the absorber with its computer.
+/// The damping of a mode of the conductor, by itself and with the absorber and its computer.
 struct ModeDamping {
   double angular_frequency;   ///< ω_n (rad/s) of the bare conductor
   double bare;                ///< ζ_n without absorber
-  std::complex<double> root;  ///< s (1/s) of the loop that the mode becomes; NaN: not followed
-  double first_order;         ///< ζ_n with what a light device would add to it
+  std::complex<double> root;  ///< s (1/s) of the loop's root that belongs to the mode; NaN: lost
+  double first_order;         ///< ζ_n with the first-order contribution of a light device
 
-  /// −Re s/|s|; negative where the mode grows.
+  /// The damping ratio −Re s/|s|; negative where the mode grows.
   double damping() const { return -root.real() / std::abs(root); }
 };
 
 namespace detail {
 
-/// The eigenvalue s of the plant, as a response has it, that another route gives nearly.
-/// @return NaN where there is none
+/// The eigenvalue s of the plant, in its response, that is nearest to a value computed otherwise.
+/// @return NaN without a close one
 inline std::complex<double> matched_pole(const std::vector<std::complex<double>>& increments,
                                          const std::complex<double>& s, double period) {
   const std::complex<double> mu = complex_expm1(s * period);
@@ -45,18 +45,18 @@ inline std::complex<double> matched_pole(const std::vector<std::complex<double>>
 
 }  // namespace detail
 
-/// The damping of each mode of a conductor with the absorber and its computer: of the root of the
-/// sampled loop that the bare mode becomes as first the absorber and then the gains are let grow
-/// from nothing to what they are, s = ln λ/τ without the ambiguity of the logarithm; beside it the
-/// law of first order in a light device.
+/// The damping of each mode of a conductor with the absorber and its computer. The bare mode is
+/// continued to a root of the sampled loop as first the absorber and then the gains grow from zero
+/// to their values; s = ln λ/τ without the ambiguity of the logarithm. The first-order law for a
+/// light device is given too.
 ///
-/// A mode is followed, not proved: where two roots meet on their way, which of them is whose is a
-/// matter of name, and where the steps become too small its damping is NaN. Work: some hundred
-/// values of the transfer functions a mode.
-/// @param modes     of the bare conductor, as the absorber's place sees them
-/// @param absorber  with its clamp
+/// The continuation is no proof: where two roots meet on their way, their assignment is arbitrary,
+/// and where the steps become too small the damping is NaN. Work: some hundred values of the
+/// transfer functions per mode.
+/// @param modes     modes of the bare conductor at the absorber's place
+/// @param absorber  absorber with its clamp
 /// @param sampling  τ and δ
-/// @param gains     P and D; 0: without control
+/// @param gains     gains P and D; 0: without control
 /// @param hardware  measurement filter and drive
 /// @throws InvalidParameter where modes, absorber, sampling or hardware are not admissible
 template <class Scalar = double>

@@ -23,41 +23,41 @@
 namespace holdfast {
 
 /// The zero-order-hold transfer functions of `LoopResponse` as sums over the plant's eigenvalues
-/// s_k: with k commands on their way and δ′ of the delay within a sample,
+/// s_k: with k delayed commands and δ′ the delay within a sample,
 ///
 ///     G(λ) = λ^{1−k} Σ (a_k + b_k/λ) / (λ − e^{s_k τ}),
 ///     a_k = γ_k β_k (e^{s_k(τ−δ′)} − 1)/s_k,   b_k = γ_k β_k e^{s_k(τ−δ′)} (e^{s_k δ′} − 1)/s_k
 ///
-/// A value costs 10 N complex operations where LoopResponse takes 4 N²; no power of λ is formed, so
-/// that hundreds of modes keep nine digits and more. Where eigenvalues (nearly) coincide, as those
-/// of a critically damped drive do, LoopResponse gives the values.
+/// A value costs 10 N complex operations where LoopResponse takes 4 N². No power of λ is formed, so
+/// that hundreds of modes retain nine digits and more. Where eigenvalues (nearly) coincide, like
+/// those of a critically damped drive, LoopResponse is used.
 template <class Scalar>
 class ModalResponse {
  public:
-  using Complex = std::complex<Scalar>;  ///< of λ and of what is returned
+  using Complex = std::complex<Scalar>;  ///< type of λ and of the responses
 
-  /// @param plant     any order
+  /// @param plant     plant of any order
   /// @param sampling  τ > 0 and δ ≥ 0, which may exceed τ by up to 1000 samples
-  /// @throws InvalidParameter where the sampling is another or the state matrix is not finite
+  /// @throws InvalidParameter where the sampling is not admissible or the state matrix not finite
   template <class Plant>
   ModalResponse(const Plant& plant, const Sampling<Scalar>& sampling);
 
-  /// s_k with γ_k β_k of what P and of what D multiplies.
+  /// A pole s_k with its residues γ_k β_k for the quantities that P and D multiply.
   struct Residue {
     Complex s;             ///< 1/s
     Complex displacement;  ///< m/(N s)
     Complex velocity;      ///< m/(N s²)
   };
 
-  /// @param residues  of all eigenvalues of a plant
-  /// @param sampling  as above
-  /// @throws InvalidParameter where the sampling is another
+  /// @param residues  residues of all eigenvalues of a plant
+  /// @param sampling  sampling as above
+  /// @throws InvalidParameter where the sampling is not admissible
   ModalResponse(const std::vector<Residue>& residues, const Sampling<Scalar>& sampling)
       : ModalResponse(sampling) {
     for (const Residue& residue : residues) add(residue);
   }
 
-  /// G_z and G_v at λ = 1 + μ, given by μ so that nothing is lost where sampling is fast.
+  /// The responses G_z and G_v at λ = 1 + μ; μ as the argument preserves digits with fast sampling.
   CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const {
     if (dense_) return weighted(dense_->at_distance_from_one(mu), mu);
     return finished(poles_.sums_at(mu), mu);
@@ -65,15 +65,15 @@ class ModalResponse {
 
   class Nearby;
 
-  /// G_z and G_v at λ = e^{iθ}.
+  /// The responses G_z and G_v at λ = e^{iθ}.
   /// @param angle  θ (rad), 0 … π
   CommandResponse<Scalar> at_angle(const Scalar& angle) const {
     return at_distance_from_one(circle_increment(angle));
   }
 
-  /// The response of a loop whose roots are those of this one's divided by r: G(rλ).
+  /// The response G(rλ) of a loop whose roots are those of this one divided by r.
   /// @param offset  r − 1, above −1
-  /// @return nothing where LoopResponse gives the values
+  /// @return nothing where LoopResponse is used
   std::optional<ModalResponse> at_radius(const Scalar& offset) const {
     if (dense_) return std::nullopt;
     ModalResponse scaled = *this;
@@ -99,36 +99,36 @@ class ModalResponse {
     return scaled;
   }
 
-  /// Filter of the displacements that are read, whose output D multiplies: G_v = w(λ) G_z,
-  /// w(λ) = constant + change (1 − 1/λ); 1/s, or N/m where it stands for both gains.
+  /// The filter w(λ) = constant + change (1 − 1/λ) of the displacement readings whose output D
+  /// multiplies: G_v = w(λ) G_z; 1/s, or N/m where it replaces both gains.
   using Weight = typename PoleSum<Scalar>::Weight;
 
-  /// The response of a computer that has no sensor of the velocity.
-  /// @param weight  of the readings
+  /// The response of a computer without a velocity sensor.
+  /// @param weight  filter of the readings
   ModalResponse with_velocity_from_displacement(const Weight& weight) const {
     ModalResponse other = *this;
     other.weight_ = weight;
     return other;
   }
 
-  /// The response where D multiplies the backward difference of the readings,
-  /// G_v = (1 − 1/λ) G_z/τ, unless there is a sensor of the velocity.
+  /// The response where D multiplies the backward difference of the readings, G_v = (1 − 1/λ)
+  /// G_z/τ, unless there is a velocity sensor.
   ModalResponse with_sensor(bool of_velocity) const {
     if (of_velocity) return *this;
     return with_velocity_from_displacement({Scalar(0), Scalar(1) / period_});
   }
 
-  /// e^{s_k τ} − 1 of the plant's eigenvalues.
+  /// The increments e^{s_k τ} − 1 of the plant's eigenvalues.
   std::vector<Complex> pole_increments() const {
     std::vector<Complex> increments;
     for (const Pole& pole : poles_.all()) increments.push_back(pole.increment);
     return increments;
   }
 
-  /// k, the commands on their way.
+  /// The number k of delayed commands.
   int held_commands() const { return commands_; }
 
-  /// 1 − P G_z − D G_v as a sum over all poles; without parts where LoopResponse gives the values.
+  /// The function 1 − P G_z − D G_v as a sum over all poles; empty where LoopResponse is used.
   PoleSum<Scalar> loop_parts(const PdGains<Scalar>& gains) const {
     PoleSum<Scalar> loop;
     loop.power = commands_ - 1;
@@ -147,10 +147,10 @@ class ModalResponse {
     return loop;
   }
 
-  /// Whether a command comes between two samples.
+  /// Whether a command takes effect between two samples.
   bool is_late_within_sample() const { return late_ > Scalar(0); }
 
-  /// How many of the plant's own eigenvalues grow.
+  /// The number of the plant's own eigenvalues that grow.
   int unstable_poles() const { return unstable_; }
 
  private:
@@ -160,7 +160,7 @@ class ModalResponse {
     Complex past_displacement, past_velocity;  // b_k
   };
 
-  /// Σ a_k/(λ − e_k), of z and of v.
+  /// The sums Σ a_k/(λ − e_k) for z and for v.
   struct Sums {
     Complex z{0}, v{0};
   };
@@ -261,14 +261,14 @@ class ModalResponse {
   Scalar radius_{1};              // r of G(rλ)
 };
 
-/// A response about one place, where many of its values are wanted: the poles nearest to it one by
-/// one, what all others add by its Taylor series, to the digits of the sums. Of N poles the nearest
-/// 3 √N, so that values at 30 angles a pole cost N^{3/2} operations together and not N².
+/// The response about one place for many values there: the nearest poles one by one, the sum of all
+/// others by its Taylor series, to the accuracy of the sums. The nearest are 3 √N of N poles, so
+/// that values at 30 angles per pole cost N^{3/2} operations together, not N².
 template <class Scalar>
 class ModalResponse<Scalar>::Nearby {
  public:
-  /// @param response  must outlive this
-  /// @param centre    μ of the place
+  /// @param response  the response, which must outlive this object
+  /// @param centre    offset μ of the place
   Nearby(const ModalResponse& response, const Complex& centre)
       : response_(response), centre_(centre) {
     std::vector<Pole> all = response.poles_.all();
@@ -288,10 +288,10 @@ class ModalResponse<Scalar>::Nearby {
       k < count ? near_.add(*poles[k].second) : add_far(*poles[k].second);
   }
 
-  /// Whether the series holds at μ: within an eighth of the way to the poles that are in it.
+  /// Whether the series is valid at μ: within an eighth of the distance to its nearest pole.
   bool holds(const Complex& mu) const { return std::abs(mu - centre_) <= reach_ / Scalar(8); }
 
-  /// G_z and G_v at μ.
+  /// The responses G_z and G_v at μ.
   CommandResponse<Scalar> at(const Complex& mu) const {
     if (response_.dense_) return response_.at_distance_from_one(mu);
     Sums sums = far_.back();
@@ -304,7 +304,7 @@ class ModalResponse<Scalar>::Nearby {
     return response_.finished({sums.z + near.z, sums.v + near.v}, mu);
   }
 
-  /// The distance from μ to the nearest pole, or a little less where none is near.
+  /// The distance from μ to the nearest pole, or a lower bound where none is near.
   Scalar nearest(const Complex& mu) const {
     const Scalar far = std::min(Scalar(2), reach_ - std::abs(mu - centre_));
     Scalar least = std::numeric_limits<Scalar>::infinity();
@@ -316,7 +316,7 @@ class ModalResponse<Scalar>::Nearby {
   }
 
  private:
-  /// 1/(μ − e) = Σ (−1)^j (μ − μ₀)^j/(μ₀ − e)^{j+1}.
+  /// Adds a far pole to the series: 1/(μ − e) = Σ (−1)^j (μ − μ₀)^j/(μ₀ − e)^{j+1}.
   void add_far(const Pole& pole) {
     const Complex ratio = -Scalar(1) / (centre_ - pole.increment);
     Complex factor = -ratio;
@@ -351,8 +351,8 @@ ModalResponse<Scalar>::ModalResponse(const Plant& plant, const Sampling<Scalar>&
     add({values[k], of_z[k] * beta[k], of_v[k] * beta[k]});
 }
 
-/// The response of which these are all poles.
-/// @param poles     of `plant_poles`
+/// The response of a plant given by all its poles.
+/// @param poles     poles of `plant_poles`
 /// @param sampling  τ and δ
 /// @throws InvalidParameter where the sampling is not admissible
 template <class Scalar = double>
@@ -366,9 +366,9 @@ ModalResponse<Scalar> modal_response(const std::vector<PlantPole>& poles,
 }
 
 /// The response of a conductor by its modes with the absorber and the loop's hardware: from their
-/// poles, or where those are not all told apart from the eigenvalues of the plant.
+/// poles, or, where those are not all separated, from the eigenvalues of the plant.
 /// @tparam Scalar    double, as above
-/// @param conductor  with all its poles, or none
+/// @param conductor  conductor with all its poles, or without poles
 /// @param sampling   τ and δ
 /// @throws InvalidParameter where conductor, absorber, hardware or sampling are not admissible
 template <class Scalar = double>
@@ -381,7 +381,7 @@ ModalResponse<Scalar> modal_response(const ConductorWithAbsorber& conductor,
   return response.with_sensor(conductor.hardware.has_velocity_sensor);
 }
 
-/// The response of modes as the absorber's place sees them, whose poles are found here.
+/// The response of modes at the absorber's place, whose poles are computed here.
 /// @throws InvalidParameter where modes, absorber or sampling are not admissible
 template <class Scalar = double>
 ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
@@ -391,14 +391,14 @@ ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduc
       ConductorWithAbsorber{modes, absorber, plant_poles(modes, absorber)}, sampling);
 }
 
-/// The roots λ of the loop 1 = P G_z(λ) + D G_v(λ), all of them: as many as the plant has states
-/// and commands are on their way, by `pole_sum_roots`. A velocity by difference adds the memory of
-/// one reading, and a root; with D = 0 that root is 0 and not among them.
-/// @param response  of the plant by its poles
-/// @param gains     P and D
-/// @param enough    as `pole_sum_roots` takes it
-/// @return nothing where they are not found, the response has no sum over poles, or more than 20
-///         commands are on their way
+/// All roots λ of the loop 1 = P G_z(λ) + D G_v(λ), by `pole_sum_roots`: as many as the plant has
+/// states and delayed commands. A velocity by difference adds the previous reading, and a root;
+/// with D = 0 that root is 0 and left out.
+/// @param response  response of the plant given by its poles
+/// @param gains     gains P and D
+/// @param enough    accuracy, see `pole_sum_roots`
+/// @return nothing where they are not found, the response is no sum over poles, or more than 20
+///         commands are delayed
 template <class Scalar>
 std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& response,
                                              const PdGains<Scalar>& gains,
@@ -406,10 +406,10 @@ std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& respon
   return pole_sum_roots(response.loop_parts(gains), response.is_late_within_sample(), enough);
 }
 
-/// The root of a loop of largest modulus.
-/// @param response  of the plant by its poles
-/// @param gains     P and D
-/// @param enough    as `pole_sum_roots` takes it
+/// The loop's root of largest modulus.
+/// @param response  response of the plant given by its poles
+/// @param gains     gains P and D
+/// @param enough    accuracy, see `pole_sum_roots`
 /// @return NaN where `loop_roots` finds none
 template <class Scalar>
 std::complex<Scalar> largest_loop_root(const ModalResponse<Scalar>& response,
@@ -423,10 +423,10 @@ std::complex<Scalar> largest_loop_root(const ModalResponse<Scalar>& response,
   return *largest;
 }
 
-/// ρ − 1 of a loop, ρ the largest modulus of its roots; NaN where `loop_roots` finds none.
-/// @param response  of the plant by its poles
-/// @param gains     P and D
-/// @param enough    as `pole_sum_roots` takes it
+/// The excess ρ − 1 of a loop, ρ being its largest root modulus; NaN where `loop_roots` finds none.
+/// @param response  response of the plant given by its poles
+/// @param gains     gains P and D
+/// @param enough    accuracy, see `pole_sum_roots`
 template <class Scalar>
 Scalar loop_excess(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains,
                    const Scalar& enough = Scalar(0)) {

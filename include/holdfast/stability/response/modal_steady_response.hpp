@@ -15,9 +15,9 @@
 
 namespace holdfast {
 
-/// |z| / F_m (m/N) of a conductor by its modes with the absorber, without control, under the true
-/// force F_m cos ωt at the absorber's place: |H′/(1 + H′K_p)| at s = iω (unchecked).
-/// @param conductor          with its poles where devices are on the span
+/// The amplitude |z| / F_m (m/N) of a conductor by its modes with the absorber, without control,
+/// under the true force F_m cos ωt at the absorber's place: |H′/(1 + H′K_p)| at s = iω (unchecked).
+/// @param conductor          conductor, with its poles where devices are on the span
 /// @param angular_frequency  ω (rad/s), > 0
 inline double true_amplitude_per_force(const ConductorWithAbsorber& conductor,
                                        double angular_frequency) {
@@ -26,7 +26,7 @@ inline double true_amplitude_per_force(const ConductorWithAbsorber& conductor,
 
 namespace detail {
 
-/// `steady_response` of a conductor where all poles are there and the velocity is measured
+/// The `steady_response` of a conductor with all its poles and a measured velocity
 /// (unchecked).
 template <class Scalar>
 SteadyResponse<Scalar> steady_response_by_poles(const ConductorWithAbsorber& conductor,
@@ -65,14 +65,14 @@ SteadyResponse<Scalar> steady_response_by_poles(const ConductorWithAbsorber& con
 
 }  // namespace detail
 
-/// The steady response of the loop of a conductor by its modes, the force acting at the absorber's
-/// place: as `steady_response` of `linear_plant`, in N operations.
-/// @param conductor          with all its poles, or none; the plant is asked where there are none,
-///                           or one of them is the hardware's
+/// The steady response of the loop of a conductor by its modes to a force at the absorber's place,
+/// as `steady_response` of `linear_plant`, in N operations.
+/// @param conductor          conductor with all its poles, or without; the plant is used where
+///                   there are none, or where one belongs to the hardware
 /// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
 /// @param hold               how the excitation enters a sample
 /// @param angular_frequency  ω (rad/s), > 0
-/// @throws InvalidParameter outside these ranges
+/// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
 SteadyResponse<Scalar> steady_response(const ConductorWithAbsorber& conductor,
                                        const Sampling<double>& sampling, ForceHold hold,

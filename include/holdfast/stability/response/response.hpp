@@ -24,32 +24,32 @@
 
 namespace holdfast {
 
-/// The steady response to unit forces at ω, as complex amplitudes of what P and D multiply and of
-/// the conductor's displacement z. What is measured need not be the conductor's own motion, but
-/// for instance a filter's; of the two masses it is z₁ and ż₁, and z is z₁.
+/// The steady response to unit forces at ω: complex amplitudes of the quantities that P and D
+/// multiply and of the conductor's displacement z. The measured quantities may be, for example, a
+/// filter's output; for the two masses they are z₁ and ż₁, and z is z₁.
 template <class Scalar>
 struct LoopPhasors {
-  std::complex<Scalar> control_displacement;  ///< t_z (m/N): what P multiplies, by the control
-  std::complex<Scalar> control_velocity;      ///< t_v (m/(N s)): what D multiplies, by the control
-  std::complex<Scalar> force_displacement;    ///< f_z (m/N): what P multiplies, by the excitation
-  std::complex<Scalar> force_velocity;        ///< f_v (m/(N s)): what D multiplies, likewise
-  std::complex<Scalar> control_conductor;     ///< t_c (m/N): z to the control force
-  std::complex<Scalar> force_conductor;       ///< f_c (m/N): z to the excitation
+  std::complex<Scalar> control_displacement;  ///< t_z (m/N): P's quantity per control force
+  std::complex<Scalar> control_velocity;      ///< t_v (m/(N s)): D's quantity per control force
+  std::complex<Scalar> force_displacement;    ///< f_z (m/N): P's quantity per excitation
+  std::complex<Scalar> force_velocity;        ///< f_v (m/(N s)): D's quantity per excitation
+  std::complex<Scalar> control_conductor;     ///< t_c (m/N): z per control force
+  std::complex<Scalar> force_conductor;       ///< f_c (m/N): z per excitation
 };
 
 /// The responses of a sampled loop to unit forces at ω, one a column of Y:
 ///
 ///     (λI − S₀) Y = [s, g],   λ = e^{iωτ}
 ///
-/// s being how the command enters and g the phasor of the excitation, which moves no command. Of
-/// the two masses the stored command is eliminated: S₀ = A_d and s = Γ₀ + Γ₁/λ.
+/// with the input column s of the command and the phasor g of the excitation, which moves no
+/// command. For two masses the stored command is eliminated: S₀ = A_d and s = Γ₀ + Γ₁/λ.
 /// @tparam Loop              `SampledLoop` of the two masses, or `LoopMap` of any order, whose
 /// gains
 ///                           do not matter
 /// @param loop               the loop
 /// @param input              `harmonic_input` of the same loop and ω
 /// @param angular_frequency  ω (rad/s), > 0
-/// @throws InvalidParameter for an input of another size than the loop
+/// @throws InvalidParameter where the input has another size than the loop
 template <class Loop, class Scalar, int States>
 LoopPhasors<Scalar> loop_phasors(const Loop& loop, const HarmonicInput<Scalar, States>& input,
                                  const detail::Undeduced<Scalar>& angular_frequency) {
@@ -84,7 +84,7 @@ LoopPhasors<Scalar> loop_phasors(const Loop& loop, const HarmonicInput<Scalar, S
 
 namespace detail {
 
-/// Coefficients of |a + x b|² = |a|² + 2 Re(ā b) x + |b|² x².
+/// The coefficients of |a + x b|² = |a|² + 2 Re(ā b) x + |b|² x².
 template <class Scalar>
 Vector<Scalar, 3> squared_modulus(const std::complex<Scalar>& a, const std::complex<Scalar>& b) {
   return {std::norm(a), Scalar(2) * std::real(std::conj(a) * b), std::norm(b)};
@@ -101,7 +101,7 @@ struct RatioOfQuadratics {
   /// The quotient at D = x; infinite or NaN where M vanishes.
   Scalar at(const Scalar& x) const { return evaluate(numerator, x) / evaluate(denominator, x); }
 
-  /// N′M − N M′, a quadratic: its roots are where the quotient is stationary.
+  /// The quadratic N′M − N M′, whose roots are the stationary points of the quotient.
   Vector<Scalar, 3> slope_numerator() const {
     const Vector<Scalar, 3>&n = numerator, &m = denominator;
     return {n[1] * m[0] - n[0] * m[1], Scalar(2) * (n[2] * m[0] - n[0] * m[2]),
@@ -109,15 +109,15 @@ struct RatioOfQuadratics {
   }
 };
 
-/// The steady response of the sampled loop without backlash to F_m cos ωt.
+/// The steady response of the sampled loop without backlash to the excitation F_m cos ωt.
 ///
 /// With z_j = Re(Z e^{iωτj}) and λ = e^{iωτ} the conductor's amplitude is a Möbius function of the
 /// gains,
 ///
 ///     Z / F_m = (f_c + P (t_c f_z − f_c t_z) + D (t_c f_v − f_c t_v)) / (1 − P t_z − D t_v)
 ///
-/// (`LoopPhasors`), whose numerator does not contain P where z and ż themselves are measured, as of
-/// the two masses: there
+/// (`LoopPhasors`). Its numerator does not contain P where z and ż themselves are measured, as for
+/// the two masses:
 ///
 ///     Z₁ / F_m = (f₁ + D (t₁ f₂ − t₂ f₁)) / (1 − P t₁ − D t₂)
 ///
@@ -128,7 +128,7 @@ class SteadyResponse {
  public:
   using Complex = std::complex<Scalar>;  ///< the type of the phasors
 
-  /// @param loop               of `sampled_loop`, or of `loop_map` with any gains
+  /// @param loop               loop of `sampled_loop`, or of `loop_map` with any gains
   /// @param input              `held_harmonic` or `exact_harmonic` of the same loop and ω
   /// @param angular_frequency  ω (rad/s), > 0, else InvalidParameter
   template <class Loop, int States>
@@ -138,7 +138,7 @@ class SteadyResponse {
     require_positive("angular frequency", static_cast<double>(angular_frequency), "rad/s");
   }
 
-  /// From the responses to unit forces.
+  /// Constructs it from the responses to unit forces.
   explicit SteadyResponse(const LoopPhasors<Scalar>& phasors)
       : phasors_(phasors),
         reference_(std::abs(phasors.force_conductor)),
@@ -148,7 +148,7 @@ class SteadyResponse {
         differential_slope_(phasors.control_conductor * phasors.force_velocity -
                             phasors.force_conductor * phasors.control_velocity) {}
 
-  /// |Z₁| / F_m in m/N at the given gains.
+  /// The amplitude |Z₁| / F_m (m/N) with the given gains.
   Scalar amplitude_per_force(const PdGains<Scalar>& gains) const {
     return std::abs(without_differential(gains.proportional) +
                     gains.differential * differential_slope_) /
@@ -156,12 +156,12 @@ class SteadyResponse {
                     gains.differential * phasors_.control_velocity);
   }
 
-  /// |Z₁| / F_m without control, m/N, with the same hold of the force.
+  /// The amplitude |Z₁| / F_m without control (m/N), with the same hold of the force.
   Scalar uncontrolled_amplitude_per_force() const { return std::abs(phasors_.force_conductor); }
 
-  /// This response with ratios relative to another amplitude without control, as that under the
+  /// This response with ratios relative to another amplitude without control, for example under the
   /// true force (`true_amplitude_per_force`).
-  /// @param amplitude_per_force  m/N, > 0
+  /// @param amplitude_per_force  reference amplitude (m/N), > 0
   SteadyResponse relative_to(const Scalar& amplitude_per_force) const {
     SteadyResponse response = *this;
     response.reference_ = amplitude_per_force;
@@ -169,7 +169,7 @@ class SteadyResponse {
     return response;
   }
 
-  /// The response of a computer that has the velocity from the displacements that it reads: its D
+  /// The response of a computer that computes the velocity from its displacement readings: its D
   /// multiplies (ẑ_j − ẑ_{j−1})/τ.
   /// @param angle   ωτ (rad)
   /// @param period  τ (s), > 0
@@ -182,17 +182,17 @@ class SteadyResponse {
     return SteadyResponse(phasors).relative_to(reference_);
   }
 
-  /// Amplitude relative to no control; below 1 the control attenuates.
+  /// The amplitude relative to no control; below 1 the control attenuates.
   Scalar ratio_to_uncontrolled(const PdGains<Scalar>& gains) const {
     return amplitude_per_force(gains) / reference_;
   }
 
-  /// The square of `ratio_to_uncontrolled` as a function of D at a fixed P:
+  /// The square of `ratio_to_uncontrolled` as a function of D for a given P:
   ///
   ///     |f₁ + D (t₁ f₂ − t₂ f₁)|² / (|1 − P t₁ − D t₂|² |f₁|²)
   ///
-  /// with the amplitude that ratios are relative to in place of |f₁| below; or, f₁ above being f_c
-  /// + P (t_c f_z − f_c t_z) where z itself is not measured.
+  /// with the reference amplitude in place of |f₁| in the denominator; where z itself is not
+  /// measured, f₁ in the numerator is f_c + P (t_c f_z − f_c t_z).
   RatioOfQuadratics<Scalar> squared_ratio(const Scalar& proportional_gain) const {
     return {detail::squared_modulus(without_differential(proportional_gain), differential_slope_),
             squared_reference_ * detail::squared_modulus(
@@ -200,7 +200,7 @@ class SteadyResponse {
                                      -phasors_.control_velocity)};
   }
 
-  /// The open intervals of D, stable or not, in which the amplitude stays below that of no control:
+  /// The open intervals of D, stable or not, in which the amplitude is below that without control:
   /// where N − M < 0.
   /// @param proportional_gain  P (N/m), finite
   std::vector<Interval<Scalar>> differential_gains_below(const Scalar& proportional_gain) const {
@@ -208,18 +208,18 @@ class SteadyResponse {
     return where_negative<Scalar>(square.numerator - square.denominator);
   }
 
-  /// A differential gain and the amplitude ratio that it gives.
+  /// A differential gain with its amplitude ratio.
   struct Best {
-    /// D (N s/m); NaN where no interval offers a finite D.
+    /// The D (N s/m); NaN where no interval contains a finite D.
     Scalar differential_gain = std::numeric_limits<Scalar>::quiet_NaN();
-    /// |Z₁| over that without control; infinite without a D.
+    /// The amplitude |Z₁| over that without control; infinite without a D.
     Scalar ratio_to_uncontrolled = std::numeric_limits<Scalar>::infinity();
   };
 
-  /// The D of least steady amplitude over given (stable) intervals of D at a fixed P.
+  /// The D of least steady amplitude in given (stable) intervals of D, for a given P.
   ///
-  /// |Z₁|² is a quotient of two quadratics in D, so its stationary points are the roots of one
-  /// quadratic; they and the finite interval ends are compared. An interval end is the limit of
+  /// |Z₁|² is a quotient of two quadratics in D, so that its stationary points are the roots of one
+  /// quadratic; they and the finite interval ends are compared. An interval end is a limit of
   /// stable gains.
   Best best_differential_gain(const Scalar& proportional_gain,
                               const std::vector<Interval<Scalar>>& intervals) const {
@@ -242,7 +242,7 @@ class SteadyResponse {
   }
 
  private:
-  /// f_c + P (t_c f_z − f_c t_z), the numerator of Z at D = 0.
+  /// The numerator f_c + P (t_c f_z − f_c t_z) of Z at D = 0.
   Complex without_differential(const Scalar& proportional_gain) const {
     return phasors_.force_conductor + proportional_gain * proportional_slope_;
   }
@@ -255,13 +255,13 @@ class SteadyResponse {
   Complex differential_slope_;  // t_c f_v − f_c t_v
 };
 
-/// The steady response of a plant's loop: in closed form of the two masses with δ ≤ τ, of any other
-/// plant, and for longer delays, from the loop's map.
-/// @param plant              any order; its ports say what is measured and what the conductor is
+/// The steady response of a plant's loop: in closed form for two masses with δ ≤ τ, else from the
+/// loop's map.
+/// @param plant              plant of any order; its ports define measurement and conductor
 /// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
 /// @param hold               how the excitation enters a sample
 /// @param angular_frequency  ω (rad/s), > 0
-/// @throws InvalidParameter outside these ranges
+/// @throws InvalidParameter where an argument is outside its range
 template <class Plant>
 SteadyResponse<double> steady_response(const Plant& plant, const Sampling<double>& sampling,
                                        ForceHold hold, double angular_frequency) {
@@ -278,11 +278,11 @@ SteadyResponse<double> steady_response(const Plant& plant, const Sampling<double
   return of(loop_map(plant, sampling));
 }
 
-/// |Z| / F_m (m/N) of the plant without control under the true force F_m cos ωt, |h (iωI − A)⁻¹ c|:
-/// the amplitude that no computer's hold of the force has a part in.
-/// @param plant              any order; asymptotically stable, or this is no steady motion
+/// The amplitude |Z| / F_m (m/N) of the plant without control under the true force F_m cos ωt, |h
+/// (iωI − A)⁻¹ c|, independent of any hold of the force.
+/// @param plant              plant of any order; only if asymptotically stable is the motion steady
 /// @param angular_frequency  ω (rad/s), > 0
-/// @throws InvalidParameter outside this range
+/// @throws InvalidParameter where ω is outside its range
 template <class Plant>
 double true_amplitude_per_force(const Plant& plant, double angular_frequency) {
   require_positive("angular frequency", angular_frequency, "rad/s");
@@ -293,7 +293,7 @@ double true_amplitude_per_force(const Plant& plant, double angular_frequency) {
 
 namespace detail {
 
-/// The steady response of a plant's loop, relative to what the options say.
+/// The steady response of a plant's loop, relative to the reference in the options.
 template <class Plant, class Loop>
 SteadyResponse<double> response_of_loop(const Plant& plant, const Loop& loop, ForceHold hold,
                                         double angular_frequency, bool relative_to_true_force) {
