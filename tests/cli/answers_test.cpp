@@ -205,7 +205,7 @@ TEST(Answers, SayThatALoopLivesOnItsPlay) {
   const std::string text = answers.text(help, "answer");
   EXPECT_FALSE(holds(text, "Yes")) << text;
   EXPECT_GT(number_behind(text, "spectral radius "), 1.0);
-  expect_holds(answers.text(play, "answer"), {"From ", "without play the loop is unstable"});
+  expect_holds(answers.text(play, "answer"), {"those from ", "without play the loop is unstable"});
 }
 
 TEST(Answers, CompareWithThePlantWithoutAComputer) {

@@ -54,7 +54,7 @@ TEST(ExploreJob, SaysWhatIsMissingWhereThePageWasNotBuilt) {
   const InstalledProgram program("");
   const Outcome outcome = program.run("explore --output page.html");
   EXPECT_EQ(outcome.exit_code, 1);
-  expect_holds(outcome.errors, {"cmake --preset wasm", "emscripten"});
+  expect_holds(outcome.errors, {"was not built", "./run --explorer"});
   EXPECT_FALSE(fs::exists(program / "page.html"));
 }
 

@@ -271,11 +271,11 @@ Answer which_gain(const Question& question) {
 
 /// "; with the gains of the case up to 12 ms; the case has 1 ms."
 std::string own_period_text(const Case& the_case) {
-  const StabilityMargins margins = stability_margins_of(the_case, gains_of(the_case)).margins;
+  const auto [margins, everywhere] = stability_margins_of(the_case, gains_of(the_case));
   const MarginEnd& longest = margins.sampling_period.above;
-  const char* limit = margins.outcome == MarginOutcome::not_stable    ? "not stable even now"
-                      : longest.outcome == MarginEndOutcome::boundary ? "stable up to"
-                                                                      : "no limit";
+  const char* limit = everywhere ? "stable up to" : "stable by steps";
+  if (longest.outcome != MarginEndOutcome::boundary) limit = "no limit";
+  if (margins.outcome == MarginOutcome::not_stable) limit = "not stable even now";
   return page_text("own period",
                    {{"limit", page_text(limit, {{"longest", milliseconds(longest.position)}})},
                     {"own", milliseconds(the_case.control.sampling_period)}});
