@@ -179,8 +179,8 @@ auto basins_of(const BuiltMasses& moving, const JobContext& context, const State
                const OrbitLimits& limits) {
   const auto tiles = tiles_on(context);
   if (!has_event_pack(moving.loop)) return find_basins(moving.loop, states, limits, tiles);
-  return find_basins_by(pack_kernels(context.instructions).approaches, moving.loop, states, limits,
-                        tiles);
+  return find_basins_by(pack_kernels(context.instructions).run_on_lanes, moving.loop, states,
+                        limits, tiles);
 }
 auto basins_of(const BuiltPlant& moving, const JobContext& context, const States& states,
                const OrbitLimits& limits) {

@@ -252,10 +252,10 @@ std::string without_numbers(const std::string& question) {
       });
     };
     const auto& rules = table().rules;
-    const bool is_value = option.find_first_of("0123456789:") == std::string::npos &&
+    const bool is_named = option.find_first_of("0123456789:") == std::string::npos &&
                           (std::any_of(rules.begin(), rules.end(), speaks) ||
                            option == "--stable-interval" || option == "--largest");
-    if (is_value && kept.find(option) == std::string::npos) kept += " " + option;
+    if (is_named && kept.find(option) == std::string::npos) kept += " " + option;
   }
   return kept;
 }

@@ -78,8 +78,8 @@ class KernelsOn {
     detail::group_event_metrics<Pack>(motions, count, results, [&] { source.pause(); });
   }
 
-  static void approaches(const ImplementedLoop& loop, LaneScheduler& of_caller) {
-    run_on_lanes<Pack>(loop, of_caller);
+  static void run_on_lanes(const ImplementedLoop& loop, LaneScheduler& of_caller) {
+    holdfast::run_on_lanes<Pack>(loop, of_caller);
   }
 
   static std::unique_ptr<MotionKernel> propagate(const PeriodicallyForcedMotion<double>& motion) {
@@ -87,7 +87,7 @@ class KernelsOn {
   }
 
  public:
-  static constexpr PackKernels all{chart, metrics, event_metrics, approaches, propagate};
+  static constexpr PackKernels all{chart, metrics, event_metrics, run_on_lanes, propagate};
 };
 
 }  // namespace holdfast::program

@@ -88,7 +88,7 @@ struct PackKernels {
   void (*event_metrics)(const detail::PreparedEventMotion* motions, std::size_t count,
                         MotionMetrics* results, MotionSource& source);
   /// run_on_lanes().
-  void (*approaches)(const ImplementedLoop& loop, LaneScheduler& scheduler);
+  void (*run_on_lanes)(const ImplementedLoop& loop, LaneScheduler& scheduler);
   std::unique_ptr<MotionKernel> (*propagate)(const PeriodicallyForcedMotion<double>& motion);
 };
 

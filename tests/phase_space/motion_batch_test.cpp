@@ -109,7 +109,7 @@ class CountedScheduler final : public LaneScheduler {
   std::int64_t samples = 0;
 };
 
-TEST(Approaches, EachMotionIsThatOfEventMotion) {
+TEST(LaneScheduler, EachMotionIsThatOfEventMotion) {
   const test::ExactMotion motion = test::kollar_exact(0.005, 0.001);
   test::Random random(3);
   std::vector<Vector<double, 4>> starts;
@@ -127,7 +127,7 @@ TEST(Approaches, EachMotionIsThatOfEventMotion) {
   EXPECT_EQ(scheduler.samples, samples);
 }
 
-TEST(Approaches, OfNothingEndAtOnce) {
+TEST(LaneScheduler, OfNothingEndAtOnce) {
   CountedScheduler none({}, 20, 5);
   run_on_lanes<double>(test::kollar_exact(0.005, 0.001).loop, none);
   EXPECT_EQ(none.samples, 0);

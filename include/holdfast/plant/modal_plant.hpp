@@ -22,10 +22,11 @@ struct PlaceMode {
   Scalar shape;              ///< φ_n at the absorber, in any unit: M_n scales with its square
   Scalar mass;               ///< M_n (kg), > 0
 
-  /// The divisor s² + 2 ζ_n ω_n s + ω_n² (1/s²) of a force.
-  std::complex<Scalar> divisor(const std::complex<Scalar>& s) const {
-    return s * (s + Scalar(2) * damping_ratio * angular_frequency) +
-           angular_frequency * angular_frequency;
+  /// The response 1/(s² + 2 ζ_n ω_n s + ω_n²) (s²) of q_n to φ_n f/M_n.
+  std::complex<Scalar> response(const std::complex<Scalar>& s) const {
+    const std::complex<Scalar> divisor = s * (s + Scalar(2) * damping_ratio * angular_frequency) +
+                                         angular_frequency * angular_frequency;
+    return std::conj(divisor) / std::norm(divisor);
   }
 };
 
@@ -64,8 +65,7 @@ std::complex<Scalar> receptance(const std::vector<PlaceMode<Scalar>>& modes,
                                 const std::complex<Scalar>& s) {
   std::complex<Scalar> sum(0);
   for (const PlaceMode<Scalar>& mode : modes)
-    sum += mode.shape * mode.shape / (mode.mass * std::norm(mode.divisor(s))) *
-           std::conj(mode.divisor(s));
+    sum += mode.shape * mode.shape / mode.mass * mode.response(s);
   return sum;
 }
 

@@ -28,8 +28,8 @@ inline std::complex<double> receptance_slope(const std::vector<PlaceMode<double>
   std::complex<double> sum(0);
   for (const PlaceMode<double>& mode : modes) {
     const double damping = 2.0 * mode.damping_ratio * mode.angular_frequency;
-    const std::complex<double> inverted = std::conj(mode.divisor(s)) / std::norm(mode.divisor(s));
-    sum -= mode.shape * mode.shape / mode.mass * (2.0 * s + damping) * (inverted * inverted);
+    const std::complex<double> response = mode.response(s);
+    sum -= mode.shape * mode.shape / mode.mass * (2.0 * s + damping) * (response * response);
   }
   return sum;
 }

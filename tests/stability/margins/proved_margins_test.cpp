@@ -293,6 +293,13 @@ TEST(SamplingProof, CorrectionsAreThoseOfTheEigenvalues) {
   EXPECT_GE(sharp, asked / 2) << asked;
 }
 
+/// Nodes and poles are in one order, also of poles that die out within a sample.
+TEST(SamplingProof, CountsPolesThatDieOutWithinASample) {
+  const ProvedLoop loop(string_with_absorber(3, 0.02, {80.0}), {0.02, 0.007}, {-10.0, -1.0});
+  const auto line = EnclosedSamplings::of_period(loop.sampling);
+  EXPECT_TRUE(SamplingProof<double>(loop.poles, loop.gains, line).is_stable(0.02, 0.022));
+}
+
 TEST(SamplingProof, IsOfNoStretchWithAnUnstableLoop) {
   for (const ProvedLoop& loop : proved_loops()) {
     const MarginEnd edge = loop.walked().sampling_period.above;

@@ -180,7 +180,7 @@ class NaturalMotions {
   Complex shape_in_mode(const Shape& natural, std::size_t n) const {
     const PlaceMode<double>& mode = loop_.modes[n];
     if (natural.weak && n == natural.mode) return natural.own;
-    return natural.force * mode.shape / (mode.mass * mode.divisor(natural.s));
+    return natural.force * mode.shape / mode.mass * mode.response(natural.s);
   }
 
   static void add(Full& state, Eigen::Index at, const Complex& s, const Complex& part) {

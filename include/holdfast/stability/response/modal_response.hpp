@@ -166,10 +166,9 @@ class ModalResponse {
   };
 
   /// Poles, of which no e^{iθ} is as far as those that fill up the last vector of the processor.
-  /// What is late joins the rest, (b/λ)/(λ − e) being (b/e)/(λ − e) − (b/e)/λ, but where hardly
-  /// anything of a pole is left after a sample.
+  /// A late command's residues b join the a: (b/λ)/(λ − e) = (b/e)/(λ − e) − (b/e)/λ.
   struct Poles : detail::ComplexRows<Scalar, 3> {
-    std::vector<Pole> late;        // of which hardly anything is left
+    std::vector<Pole> late;        // with their b, hardly anything being left after a sample
     Complex past_z{0}, past_v{0};  // −Σ b/e of all others
 
     Poles() : detail::ComplexRows<Scalar, 3>(Scalar(-8)) {}
@@ -187,12 +186,14 @@ class ModalResponse {
         this->push_back({of.increment, of.displacement + of_z, of.velocity + of_v});
       }
     }
+    /// The late ones last, as `pole_sum_roots` leaves the roots of those that have died out.
     std::vector<Pole> all() const {
-      std::vector<Pole> poles = late;
+      std::vector<Pole> poles;
       for (std::size_t k = 0; k < this->size(); ++k) {
         const auto row = (*this)[k];
         poles.push_back({row[0], row[1], row[2], Complex(0), Complex(0)});
       }
+      poles.insert(poles.end(), late.begin(), late.end());
       return poles;
     }
     Sums sums_at(const Complex& mu) const {
@@ -271,14 +272,13 @@ class ModalResponse<Scalar>::Nearby {
   /// @param centre    offset μ of the place
   Nearby(const ModalResponse& response, const Complex& centre)
       : response_(response), centre_(centre) {
-    std::vector<Pole> all = response.poles_.all();
-    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(response.poles_.late.size()));
+    const std::vector<Pole> all = response.poles_.all();
     std::vector<std::pair<Scalar, const Pole*>> poles;
     poles.reserve(all.size());
-    for (const Pole& pole : all) poles.emplace_back(std::norm(centre - pole.increment), &pole);
-    const auto wanted = static_cast<std::size_t>(
-        Scalar(8) + Scalar(3) * std::sqrt(static_cast<Scalar>(poles.size())));
-    const std::size_t count = std::min(wanted, poles.size());
+    for (std::size_t k = 0; k < response.poles_.size(); ++k)  // without the late ones
+      poles.emplace_back(std::norm(centre - all[k].increment), &all[k]);
+    const Scalar wanted = Scalar(8) + Scalar(3) * std::sqrt(static_cast<Scalar>(poles.size()));
+    const std::size_t count = std::min(static_cast<std::size_t>(wanted), poles.size());
     if (count < poles.size()) {
       std::nth_element(poles.begin(), poles.begin() + static_cast<std::ptrdiff_t>(count),
                        poles.end());
