@@ -24,25 +24,14 @@ namespace {
 
 constexpr double most_states = 1e7;
 
-class AttractorSetTest final : public AttractionTest {
- public:
-  explicit AttractorSetTest(const AttractorSet<IdealLoop<double>>& attractor_set)
-      : attractor_set_(attractor_set) {}
-  int attracted_by(const ForcedMotionMemory<double>& memory) const override {
-    return attractor_set_.attracted_by(memory);
-  }
-
- private:
-  const AttractorSet<IdealLoop<double>>& attractor_set_;
-};
-
 /// MotionBatch on the packs of an instruction set.
-class PropagatorOnPacks : public CopiedKernel<MotionKernel> {
- public:
-  using CopiedKernel::CopiedKernel;
+struct PropagatorOnPacks {
+  MotionKernel kernel;
+
   void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
-           const AttractorSet<IdealLoop<double>>& attractor_set) {
-    (*this)->run(motions, count, samples, AttractorSetTest(attractor_set));
+           const AttractorSet<IdealLoop<double>>& set) {
+    kernel(motions, count, samples,
+           {[&set](const ForcedMotionMemory<double>& memory) { return set.attracted_by(memory); }});
   }
 };
 
@@ -167,7 +156,7 @@ using States = std::vector<Vector<double, 4>>;
 auto basins_of(const SampledMasses& moving, const JobContext& context, const States& states,
                const OrbitLimits& limits) {
   const auto propagate = [&](const auto& motion) {  // in packs
-    return PropagatorOnPacks(pack_kernels(context.instructions).propagate(motion));
+    return PropagatorOnPacks{pack_kernels(context.instructions).propagate(motion)};
   };
   return find_basins_by(propagate, moving.loop, states, limits, tiles_on(context));
 }

@@ -158,23 +158,6 @@ void report_refusals(const std::vector<GainPlane>& all, bool quiet) {
   for (const std::string& refusal : refusals) report_warning(refusal, quiet);
 }
 
-/// Warning where the judge calls a loop within the intervals unstable; else empty.
-std::string judge_warning(const Case& the_case, const std::vector<GainPlane>& all) {
-  const JudgedLoop judge = judged_loop_of(the_case);
-  for (const GainPlane& answer : all)
-    for (const Interval<double>& interval : answer.intervals) {
-      const double middle = interval.representative();
-      const bool is_d = &answer.gain == &differential;
-      if (judge.is_stable(is_d ? PdGains<double>{answer.value, middle}
-                               : PdGains<double>{middle, answer.value}))
-        continue;
-      return "by " + std::to_string(judge.modes) + " modes of the conductor, up to " +
-             format_rounded(judge.highest) + " Hz, the loop is unstable at " + answer.gain.symbol +
-             " = " + format_rounded(middle) + " too, in the middle of an interval";
-    }
-  return "";
-}
-
 /// Words for the columns of angles.
 Values angle_words(bool continuous) {
   if (continuous) return {{"unit", "rad/s"}, {"angle", "angular frequency of the root pair"}};
@@ -221,8 +204,6 @@ void write_stable_intervals(const JobContext& context, const FixedGains& fixed, 
   report_refusals(all, context.quiet);
   if (!is_two_masses(context.case_data))
     report_warning(truncation_warning(context.case_data, fixed, all), context.quiet);
-  if (has_chosen_modes(context.case_data))
-    report_warning(judge_warning(context.case_data, all), context.quiet);
   for (const GainPlane& answer : all) {
     for (const Interval<double>& interval : answer.intervals)
       table.row(answer.gain.column, answer.value, interval.lower, interval.upper);

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 
 #include "holdfast/phase_space/lane_scheduler.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
@@ -17,39 +16,15 @@ namespace holdfast::program {
 /// in here bears the pack.
 template <class Pack>
 class KernelsOn {
-  struct NoRadius {
-    explicit NoRadius(const LoopChart&) {}
-    void fill(std::int64_t, std::int64_t, double*) const {}
-  };
-
-  template <class RadiusRows>
-  class Chart final : public ChartKernel {
-   public:
-    explicit Chart(const LoopChart& chart) : stability_(chart), radius_(chart) {}
-    std::unique_ptr<ChartKernel> copy() const override { return std::make_unique<Chart>(*this); }
-    void fill(std::int64_t first, std::int64_t count, std::uint8_t* stable,
-              double* radius) override {
-      stability_.fill(first, count, stable);
-      radius_.fill(first, count, radius);
-    }
-
-   private:
-    StabilityChartRows<Pack> stability_;
-    RadiusRows radius_;
-  };
-
-  class Motion final : public MotionKernel {
-   public:
-    explicit Motion(const MotionBatch<Pack>& batch) : batch_(batch) {}
-    std::unique_ptr<MotionKernel> copy() const override { return std::make_unique<Motion>(*this); }
-    void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
-             const AttractionTest& test) override {
-      batch_.run(motions, count, samples, test);
-    }
-
-   private:
-    MotionBatch<Pack> batch_;
-  };
+  template <int Degree>
+  static ChartKernel chart_with_radius(const LoopChart& of) {
+    return
+        [stable_rows = StabilityChartRows<Pack>(of), rows = RadiusChartRows<Pack, Degree>(of)](
+            std::int64_t first, std::int64_t count, std::uint8_t* stable, double* radius) mutable {
+          stable_rows.fill(first, count, stable);
+          rows.fill(first, count, radius);
+        };
+  }
 
   /// The caller's, as MetricGroup wants it: no kernel of the program looks at samples.
   struct Source {
@@ -61,10 +36,13 @@ class KernelsOn {
     void operator()(const std::size_t*, std::int64_t, const Mask<Pack>&) const {}
   };
 
-  static std::unique_ptr<ChartKernel> chart(const LoopChart& of, bool radius) {
-    if (!radius) return std::make_unique<Chart<NoRadius>>(of);
-    if (has_processing_delay(of)) return std::make_unique<Chart<RadiusChartRows<Pack, 6>>>(of);
-    return std::make_unique<Chart<RadiusChartRows<Pack, 5>>>(of);
+  static ChartKernel chart(const LoopChart& of, bool radius) {
+    if (radius)
+      return has_processing_delay(of) ? chart_with_radius<6>(of) : chart_with_radius<5>(of);
+    return [rows = StabilityChartRows<Pack>(of)](std::int64_t first, std::int64_t count,
+                                                 std::uint8_t* stable, double*) mutable {
+      rows.fill(first, count, stable);
+    };
   }
 
   static void metrics(const SweepMotion* motions, const detail::SampleSpan* spans,
@@ -82,8 +60,10 @@ class KernelsOn {
     holdfast::run_on_lanes<Pack>(loop, of_caller);
   }
 
-  static std::unique_ptr<MotionKernel> propagate(const PeriodicallyForcedMotion<double>& motion) {
-    return std::make_unique<Motion>(MotionBatch<Pack>(motion));
+  static MotionKernel propagate(const PeriodicallyForcedMotion<double>& motion) {
+    return [batch = MotionBatch<Pack>(motion)](
+               ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
+               const AttractionTest& test) mutable { batch.run(motions, count, samples, test); };
   }
 
  public:

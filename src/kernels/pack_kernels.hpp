@@ -2,8 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <utility>
+#include <functional>
 
 #include "holdfast/phase_space/lane_scheduler.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
@@ -23,16 +22,10 @@
 
 namespace holdfast::program {
 
-/// Rows of a chart of the sampled loop on the packs of an instruction set: StabilityChartRows, and
-/// RadiusChartRows where the spectral radius is asked for.
-class ChartKernel {
- public:
-  virtual ~ChartKernel() = default;
-  virtual std::unique_ptr<ChartKernel> copy() const = 0;
-  /// @param radius  not read by a kernel without the spectral radius
-  virtual void fill(std::int64_t first, std::int64_t count, std::uint8_t* stable,
-                    double* radius) = 0;
-};
+/// Fills `count` rows of a chart of the sampled loop from `first` on: StabilityChartRows, and
+/// RadiusChartRows where the spectral radius is asked for. Each tile of a chart has its own copy.
+using ChartKernel = std::function<void(std::int64_t first, std::int64_t count, std::uint8_t* stable,
+                                       double* radius)>;
 
 /// Source of motions for the kernel of the metrics.
 class MotionSource {
@@ -44,43 +37,19 @@ class MotionSource {
   virtual void pause() = 0;
 };
 
-/// Test of the orbit that a motion surely tends to, as AttractorSet has it.
-class AttractionTest {
- public:
-  virtual ~AttractionTest() = default;
-  virtual int attracted_by(const ForcedMotionMemory<double>& memory) const = 0;
+/// Tells the orbit that a motion surely tends to, as AttractorSet does.
+struct AttractionTest {
+  std::function<int(const ForcedMotionMemory<double>& memory)> attracted_by;
 };
 
-/// MotionBatch on the packs of an instruction set.
-class MotionKernel {
- public:
-  virtual ~MotionKernel() = default;
-  virtual std::unique_ptr<MotionKernel> copy() const = 0;
-  virtual void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
-                   const AttractionTest& test) = 0;
-};
-
-/// A kernel that is copied with what has it, as each tile of a chart has its own.
-template <class Kernel>
-class CopiedKernel {
- public:
-  explicit CopiedKernel(std::unique_ptr<Kernel> kernel) : kernel_(std::move(kernel)) {}
-  ~CopiedKernel() = default;
-  CopiedKernel(const CopiedKernel& other) : kernel_(other.kernel_->copy()) {}
-  CopiedKernel& operator=(const CopiedKernel&) = delete;
-  CopiedKernel(CopiedKernel&&) noexcept = default;
-  CopiedKernel& operator=(CopiedKernel&&) noexcept = default;
-
-  Kernel* operator->() { return kernel_.get(); }
-
- private:
-  std::unique_ptr<Kernel> kernel_;
-};
+/// Runs motions on a MotionBatch. Each tile of starts has its own copy.
+using MotionKernel = std::function<void(ActiveTrajectory* motions, std::size_t count,
+                                        std::int64_t samples, const AttractionTest& test)>;
 
 /// The kernels of one instruction set.
 struct PackKernels {
   /// Throws InvalidParameter where the chart is not admissible.
-  std::unique_ptr<ChartKernel> (*chart)(const LoopChart& chart, bool radius);
+  ChartKernel (*chart)(const LoopChart& chart, bool radius);
   /// detail::group_metrics().
   void (*metrics)(const SweepMotion* motions, const detail::SampleSpan* spans, std::size_t count,
                   MotionMetrics* results, MotionSource& source);
@@ -89,7 +58,7 @@ struct PackKernels {
                         MotionMetrics* results, MotionSource& source);
   /// run_on_lanes().
   void (*run_on_lanes)(const ImplementedLoop& loop, LaneScheduler& scheduler);
-  std::unique_ptr<MotionKernel> (*propagate)(const PeriodicallyForcedMotion<double>& motion);
+  MotionKernel (*propagate)(const PeriodicallyForcedMotion<double>& motion);
 };
 
 /// One unit each, compiled for its instruction set; those that the program does not have are not

@@ -62,8 +62,7 @@ TEST(EventLyapunov, AtSamplesItIsTheSpectrumOfTheSampledMotion) {
   }
 }
 
-/// The growth of one tangent vector by two neighbours of the motion, brought near again at every
-/// sample.
+/// The growth of one tangent vector by two neighbours, brought near again at every sample.
 class GrowthByDifferences {
  public:
   explicit GrowthByDifferences(const EventMotion<>& motion, const Vector<double, 7>& direction)

@@ -214,8 +214,15 @@ TEST(String, SaysWhatTheModesLeftOutWouldChange) {
   EXPECT_NEAR(fast.number(0, "lower") / slow.number(0, "lower"), 1.0, 0.1);
 }
 
-/// Of one mode the motions are those of two masses, and what is swept, certified and judged of
-/// them.
+/// Waves of 24 Hz end the gains, far above 300 modes of 1200 m; the closed form ends at 305 N s/m.
+TEST(String, KeepsTheModesThatEndTheGains) {
+  const CsvTable table =
+      table_of("boundary --stable-interval --p 0 --quiet --case '" HOLDFAST_SOURCE_DIR
+               "/tests/cases/crossing-1200m.toml'");
+  EXPECT_NEAR(table.number(0, "upper"), 305.0, 3.0);
+}
+
+/// Motions, sweeps, orbits and verdicts of one mode are those of two masses.
 TEST(String, OrbitVerdictAndSweepOfOneModeAreThoseOfTwoMasses) {
   const std::string settings =
       " --set control.sampling_period=0.005 --set control.differential_gain=-4"

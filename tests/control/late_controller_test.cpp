@@ -1,5 +1,4 @@
-// Whole samples of delay as the memory of a controller, against the map of the loop with all its
-// commands.
+// Whole samples of delay as a controller's memory, against the loop map with all commands.
 
 #include "holdfast/control/late_controller.hpp"
 

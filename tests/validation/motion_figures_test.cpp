@@ -141,8 +141,7 @@ TEST(Figure8, TestingEntryAtTheSampleOfTheExitWouldBeAnotherMotion) {
 
 using test::kollar_case;
 
-/// Largest |z(t + lag) − z(t)| over the last `lag` samples of a long motion, relative to the
-/// motion's size.
+/// Largest |z(t + lag) − z(t)| over the last `lag` samples, relative to the motion's size.
 double closure(const KollarCase& which, double duration, std::size_t lag) {
   const auto samples = test::record(which, duration);
   double gap = 0, size = 0;

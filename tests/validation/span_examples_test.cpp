@@ -1,5 +1,4 @@
-// Published numbers about spans beside ours: docs/spans.md tells their sources and where they
-// differ.
+// Published numbers about spans beside ours; sources and differences are in docs/spans.md.
 #include <array>
 #include <cmath>
 #include <complex>

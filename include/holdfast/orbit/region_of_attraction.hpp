@@ -50,7 +50,8 @@ Vector<Scalar, 6> deviation_weights(const IdealLoop<Scalar>& loop) {
 
 /// The radius of the neighbourhood (m) for a given memory of the drive; not positive where an orbit
 /// that stays inside does not fit into its gap.
-inline double attraction_radius(const AttractionBall& point, const BacklashMemory<double>& drive) {
+template <class Neighbourhood>
+double attraction_radius(const Neighbourhood& point, const BacklashMemory<double>& drive) {
   if (!point.stays_inside) return point.radius;
   return point.radius * std::min(point.lowest - drive.lower, drive.upper - point.highest);
 }
@@ -241,6 +242,18 @@ std::vector<DeviationSegment> deviation_segments(DeviationFlow<Deviations> flow,
   return segments;
 }
 
+/// Sets how far an orbit goes, and whether it stays inside its gap.
+template <class Neighbourhood>
+void set_extent(Neighbourhood& of, const PeriodicOrbit& orbit) {
+  of.stays_inside = orbit.memory.inside && orbit.engaged_fraction() == 0.0;
+  of.lowest = std::numeric_limits<double>::infinity();
+  of.highest = -of.lowest;
+  for (const auto& state : orbit.states) {
+    of.lowest = std::min(of.lowest, relative_displacement(state));
+    of.highest = std::max(of.highest, relative_displacement(state));
+  }
+}
+
 /// The neighbourhoods at the starts of the segments.
 template <class Scalar>
 std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
@@ -248,13 +261,7 @@ std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
                                              std::int64_t samples_of_segment,
                                              const std::vector<double>& radii) {
   AttractionBall ball{};
-  ball.stays_inside = orbit.memory.inside && orbit.engaged_fraction() == 0.0;
-  ball.lowest = std::numeric_limits<double>::infinity();
-  ball.highest = -ball.lowest;
-  for (const auto& state : orbit.states) {
-    ball.lowest = std::min(ball.lowest, relative_displacement(state));
-    ball.highest = std::max(ball.highest, relative_displacement(state));
-  }
+  set_extent(ball, orbit);
   std::vector<AttractionBall> balls;
   Backlash<Scalar> law(loop.backlash_width, orbit.memory);
   for (; ball.sample < orbit.period_samples(); ++ball.sample) {

@@ -223,7 +223,7 @@ class SpanPoles {
     return s;
   }
 
-  /// Adds the pole continued from s; for a pair that meets on the real axis both poles.
+  /// Adds the pole continued from s; of a pair that meets on the real axis `separate` finds one.
   template <class Stiffness>
   void follow(std::vector<Followed>& found, const Stiffness& stiffness, const Complex& begin,
               bool is_pair, std::size_t place) const {
@@ -233,9 +233,7 @@ class SpanPoles {
     const Complex s = polished(root_from_pole(loop_gain, begin), stiffness, place);
     const bool stays = std::abs(s.imag()) > 1e-9 * std::abs(s);
     found.push_back({begin, stays ? upper(s) : s, stays, std::nullopt});
-    if (!is_pair || stays) return;
-    const Complex other = polished(root_from_pole(loop_gain, std::conj(begin)), stiffness, place);
-    found.push_back({std::conj(begin), other, false, std::nullopt});
+    if (is_pair && !stays) found.push_back({std::conj(begin), std::nan(""), false, std::nullopt});
   }
 
   /// The root that represents its pair.
@@ -246,6 +244,7 @@ class SpanPoles {
   static Complex pull(const Motions& motions, const Complex& s, std::size_t but) {
     Complex sum(0.0);
     for (std::size_t j = 0; j < motions.size(); ++j) {
+      if (std::isnan(motions[j].s.real())) continue;
       if (j != but) sum += 1.0 / (s - motions[j].s);
       if (motions[j].is_pair) sum += 1.0 / (s - std::conj(motions[j].s));
     }
@@ -274,16 +273,16 @@ class SpanPoles {
     for (std::size_t k = 0; k < found.size(); ++k) {
       if (found[k].weak || is_apart(found, k)) continue;
       Complex s = 1.001 * found[k].begin;
-      for (int turn = 0; turn < 100; ++turn) {
+      for (int turn = 0; turn < 300; ++turn) {
         const Complex step = 1.0 / (all(s) - pull(found, s, k));
         const double share = std::abs(step) / std::abs(s);
         if (!std::isfinite(share)) break;
         s -= step * std::min(1.0, 0.1 / share);
         if (share < 1e-9) break;
       }
-      const bool is_pair = std::abs(s.imag()) > 1e-9 * std::abs(s);
-      found[k].s = polished(is_pair ? upper(s) : s, stiffness, place);
-      found[k].is_pair = is_pair;
+      s = polished(s, stiffness, place);
+      found[k].is_pair = std::abs(s.imag()) > 1e-9 * std::abs(s);
+      found[k].s = found[k].is_pair ? upper(s) : s;
     }
   }
 

@@ -15,8 +15,13 @@ namespace {
 SampledModes sampled_modes_of(const Case& the_case, bool controlled) {
   const std::vector<PlantPole> poles = conductor_with_absorber_of(the_case).poles;
   const IdealLoop<double> ideal = ideal_loop_of(the_case);
-  ModalLoop loop{place_modes_of(the_case), absorber_of(the_case), ideal.sampling, ideal.gains,
-                 ideal.excitation,         ideal.backlash_width,  ideal.hold};
+  ModalLoop loop{conductor_modes_of(the_case).modes,
+                 absorber_of(the_case),
+                 ideal.sampling,
+                 ideal.gains,
+                 ideal.excitation,
+                 ideal.backlash_width,
+                 ideal.hold};
   if (!controlled) loop.sampling.processing_delay = 0.0;
   return {controlled ? loop : uncontrolled(loop),
           modal_state(loop.modes, initial_state_of(the_case)), poles};

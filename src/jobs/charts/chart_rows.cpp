@@ -157,11 +157,10 @@ std::vector<GridAxis> gain_axes(const GainGrid& grid) {
 }
 
 ChartRows sampled_chart(const LoopChart& chart, bool radius, InstructionSet instructions) {
-  using Kernel = CopiedKernel<ChartKernel>;
-  Kernel kernel(pack_kernels(instructions).chart(chart, radius));
-  const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
-                        const ChartMemory& memory) mutable {
-    kernel->fill(first, count, memory.flags(offset), radius ? memory.numbers(0, offset) : nullptr);
+  const auto fill = [=, kernel = pack_kernels(instructions).chart(chart, radius)](
+                        std::int64_t first, std::int64_t count, std::int64_t offset,
+                        const ChartMemory& memory) {
+    kernel(first, count, memory.flags(offset), radius ? memory.numbers(0, offset) : nullptr);
   };
   return {chart.slow.values.count, chart.fast.values.count, radius ? 1U : 0U, fill};
 }

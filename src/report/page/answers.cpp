@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <utility>
 
 #include "case/case_keys.hpp"
@@ -32,8 +31,7 @@ std::string percent(double share) { return rounded(100.0 * share, 3) + " %"; }
 std::string damping(double gain) { return rounded(gain, 4) + " N s/m"; }
 
 std::string range_of(double value) {
-  const std::string text = format_number(value);
-  return text + ":" + text + ":1";
+  return format_number(value) + ":" + format_number(value) + ":1";
 }
 
 /// A share of the vibration without control above which control is not worth its drive.
@@ -49,6 +47,9 @@ struct LoopVibration {
   double ratio() const { return controlled / free; }
 };
 
+/// Seconds of a motion: 20, or as long as the case's force lasts.
+double duration_of(const Case& the_case) { return std::min(20.0, end_of_force(the_case)); }
+
 /// Common ground of all answers about a case.
 struct Question {
   const Case& the_case;
@@ -58,14 +59,17 @@ struct Question {
   double radius_without_play;  ///< spectral radius of the loop without play
 
   bool is_unstable_without_play() const { return !(radius_without_play < 1.0); }
+  /// Seconds until a twentieth of the slowest natural motion is left; without play, where it
+  /// decays.
+  double settling() const {
+    return std::log(20.0) * the_case.control.sampling_period / -std::log(radius_without_play);
+  }
+  bool is_transient() const { return settling() > 0.5 * duration_of(the_case); }
   bool asks_for_no_force() const {
     const PdGains<double> gains = gains_of(the_case);
     return gains.proportional == 0.0 && gains.differential == 0.0;
   }
 };
-
-/// Seconds of a motion: 20, or as long as the case's force lasts.
-double duration_of(const Case& the_case) { return std::min(20.0, end_of_force(the_case)); }
 
 /// Throws InvalidParameter where the case's loop is not admissible.
 Question question_about(const Case& the_case, InstructionSet set) {
@@ -169,6 +173,8 @@ Answer does_it_help(const Question& question) {
   } else {
     answer.answer = help_text(question, vibration);
     answer.detail += force_text(vibration) + exact_switching_text(question);
+    if (question.is_transient())
+      answer.detail += page_text("not settled", {{"time", rounded(question.settling(), 2)}});
   }
   const std::string names = borrowed_control(the_case);
   answer.detail +=
@@ -220,24 +226,19 @@ std::string gain_of_case_text(const Case& the_case) {
                                      {"tuned", rounded(tuned, 4)}});
 }
 
-/// The vibration with a gain and the play that the case has; nothing where there is none.
-std::optional<LoopVibration> in_play(const Question& question, double differential_gain) {
-  if (!(question.the_case.backlash.width > 0.0)) return std::nullopt;
-  const Case changed = case_with(question.the_case, "control.differential_gain", differential_gain);
-  const LoopVibration vibration = vibrations_of({changed}, question).front();
-  return std::isfinite(vibration.ratio()) ? std::optional(vibration) : std::nullopt;
-}
-
 /// Adds to the answer what the play makes of a gain; where it spoils the gain, to its first
 /// sentence.
 void add_play(Answer& answer, const Question& question, double differential_gain, double ideal) {
-  const std::optional<LoopVibration> vibration = in_play(question, differential_gain);
-  if (!vibration) return;
-  const bool spoilt = ideal < worthwhile && !(vibration->ratio() < worthwhile);
+  if (!(question.the_case.backlash.width > 0.0)) return;
+  const Case changed = case_with(question.the_case, "control.differential_gain", differential_gain);
+  const LoopVibration vibration = vibrations_of({changed}, question).front();
+  if (!std::isfinite(vibration.ratio())) return;
+  const bool spoilt =
+      ideal < worthwhile && !(vibration.ratio() < worthwhile) && !question.is_transient();
   const Values values = {{"play", millimetres(question.the_case.backlash.width)},
-                         {"ratio", percent(vibration->ratio())}};
+                         {"ratio", percent(vibration.ratio())}};
   if (spoilt) answer.answer += page_text("spoilt by play", values);
-  answer.detail += (spoilt ? "" : page_text("left in play", values)) + force_text(*vibration);
+  answer.detail += (spoilt ? "" : page_text("left in play", values)) + force_text(vibration);
 }
 
 Answer which_gain(const Question& question) {

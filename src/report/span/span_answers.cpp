@@ -1,6 +1,8 @@
 #include "report/page/answers.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_loop.hpp"
@@ -178,24 +180,19 @@ Answer which_frequency(const Case& the_case, const Axis& axis, const Values& val
 std::string taken_text(const Case& the_case, const SpanEnd& end, const std::string& name,
                        const Axis& axis) {
   if (end.devices.empty()) return page_text("end without device", {{"end", name}});
-  struct Share {
-    double share, frequency;
-  };
-  const TautString<double> string = string_of(the_case);
-  Share least{2.0, 0.0}, most{-1e9, 0.0};
-  for (std::int64_t k = 0; k < axis.count; ++k) {
-    const auto response = end_response(string, end, 2.0 * pi<double> * axis.at(k));
-    const double share = response.absorbed_fraction();
-    if (share < least.share) least = {share, axis.at(k)};
-    if (share > most.share) most = {share, axis.at(k)};
-  }
-  const bool one = rounded(100.0 * least.share, 2) == rounded(100.0 * most.share, 2);
+  std::vector<std::pair<double, double>> shares;  // taken at a frequency (Hz)
+  for (std::int64_t k = 0; k < axis.count; ++k)
+    shares.emplace_back(
+        end_response(string_of(the_case), end, 2.0 * pi<double> * axis.at(k)).absorbed_fraction(),
+        axis.at(k));
+  const auto [least, most] = std::minmax_element(shares.begin(), shares.end());
+  const bool one = rounded(100.0 * least->first, 2) == rounded(100.0 * most->first, 2);
   return page_text(one ? "taken at all" : "taken by an end",
                    {{"end", name},
-                    {"least", rounded(100.0 * least.share, 2)},
-                    {"least frequency", rounded(least.frequency, 3)},
-                    {"most", rounded(100.0 * most.share, 3)},
-                    {"most frequency", rounded(most.frequency, 3)}});
+                    {"least", rounded(100.0 * least->first, 2)},
+                    {"least frequency", rounded(least->second, 3)},
+                    {"most", rounded(100.0 * most->first, 3)},
+                    {"most frequency", rounded(most->second, 3)}});
 }
 
 Answer what_devices_take(const Case& the_case, const Axis& axis) {
@@ -240,12 +237,10 @@ Answer how_modes_are_damped(const Case& the_case) {
 
 Answer is_loop_stable(const Case& the_case) {
   return answered(asked("loop"), [&](Answer& answer) {
-    if (!has_active_absorber(the_case)) {
-      answer.answer = page_text("no loop");
-      return;
-    }
-    const std::string note = instability_note(the_case, true);
-    answer.answer = note.empty() ? page_text("stable loop") : page_text("loop", {{"note", note}});
+    const bool active = has_active_absorber(the_case);
+    const std::string note = active ? instability_note(the_case, true) : "";
+    answer.answer = !note.empty() ? page_text("loop", {{"note", note}})
+                                  : page_text(active ? "stable loop" : "no loop");
   });
 }
 

@@ -1,5 +1,4 @@
-// The proof that a moving spectrum stays inside, against the spectra of the matrices that it
-// covers.
+// The proof that a moving spectrum stays inside, against spectra of the matrices covered.
 
 #include "holdfast/math/linalg/moving_spectrum.hpp"
 

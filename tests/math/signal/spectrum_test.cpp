@@ -32,8 +32,7 @@ double defined_amplitude(const std::vector<double>& signal, std::size_t k) {
 }
 
 TEST(Spectrum, IsThatOfTheSumsThatDefineIt) {
-  // The fast transform's error grows with the logarithm of the length, relative to the largest
-  // line.
+  // The error relative to the largest line grows with the logarithm of the length.
   test::Random random(29);
   for (const std::size_t size : {2U, 3U, 64U, 97U, 100U, 231U}) {
     std::vector<double> signal(size);

@@ -112,8 +112,7 @@ inline std::optional<Vector<double, 7>> difference_along(const EventMotion<>& mo
   return 0.5 * (ends[0] - ends[1]);
 }
 
-/// The derivative along a direction, by differences over two steps of which the first error is
-/// taken out.
+/// The derivative along a direction by differences over two steps, without their first error.
 struct Difference {
   Vector<double, 7> value;
   double error;  ///< of the larger step against the smaller one, in `sizes`

@@ -56,8 +56,7 @@ TEST(OrbitRange, IsThatOfTheContinuation) {
   }
 }
 
-/// Between two values the states bend away from the line that is proposed, by no more than is
-/// proved.
+/// Between two values the states bend away from the proposed line by no more than is proved.
 TEST(OrbitRange, BoundsHowTheStatesBend) {
   const IdealLoop<double> loop = test::proved_loop(0.001, 0.0005);
   const PeriodicOrbit orbit = test::orbit_to_prove(loop);
@@ -83,8 +82,7 @@ TEST(OrbitRange, BoundsHowTheStatesBend) {
   EXPECT_LE(most, proof.displacement_error);
 }
 
-/// A line that is tangent to the states at the middle leaves them at the ends, by no more than is
-/// proved.
+/// A tangent to the states at the middle leaves them at the ends by no more than is proved.
 TEST(OrbitRange, BoundsHowTheStatesLeaveATangent) {
   const IdealLoop<double> loop = test::proved_loop(0.001, 0.0005);
   const PeriodicOrbit orbit = test::orbit_to_prove(loop);

@@ -57,8 +57,7 @@ TEST(Progress, CountsFromManyThreadsAndUpdatesSeldom) {
   EXPECT_LT(std::count(shown.begin(), shown.end(), '\n'), 1000);
 }
 
-/// A job that counts nothing, and one whose next step is long in coming, show that they are at
-/// work.
+/// A job that counts nothing, and one whose next step takes long, show that they are at work.
 TEST(Progress, TicksWhereAJobSaysNothing) {
   using namespace std::chrono_literals;
   const auto wait_for = [](const Ticking&) { std::this_thread::sleep_for(200ms); };

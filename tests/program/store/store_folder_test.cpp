@@ -172,8 +172,7 @@ TEST(StoreFolder, ARemovalThatIsCutShortIsFinishedByTheNext) {
   }
 }
 
-// What describes a store and its axes is looked at whenever it is opened; a chunk says where it
-// belongs.
+// A store's description and axes are checked when it is opened; a chunk says where it belongs.
 TEST(StoreFolder, NoticesDamageOfEveryFileThatDescribesIt) {
   const TemporaryFolder folder;
   const fs::path path = folder / "x.zarr";

@@ -14,14 +14,17 @@
 
 namespace holdfast {
 
-/// An eigenvalue of a product of many matrices, stored by its logarithm since it may
-/// underflow.
+/// An eigenvalue of a product of many matrices, by its logarithm since it may underflow.
 struct Multiplier {
   double log_modulus;  ///< ln |λ|; −∞ for a null direction
   double angle;        ///< arg λ (rad), in (−π, π]
 
   /// The eigenvalue λ itself; 0 where it underflows.
   std::complex<double> value() const { return std::polar(std::exp(log_modulus), angle); }
+  /// Whether the first of two has the larger modulus.
+  static bool is_larger(const Multiplier& a, const Multiplier& b) {
+    return a.log_modulus > b.log_modulus;
+  }
 };
 
 namespace detail {
@@ -63,8 +66,7 @@ struct ScaledTriangle {
   }
 };
 
-/// Columns in general position, so that no coordinate axis invariant under the maps is taken for
-/// the leading direction.
+/// Columns in general position: no invariant coordinate axis is taken for the leading direction.
 template <class Columns>
 Columns generic_columns(Eigen::Index rows, Eigen::Index columns) {
   Columns dense(rows, columns);
@@ -77,8 +79,7 @@ Columns generic_columns(Eigen::Index rows, Eigen::Index columns) {
   return dense;
 }
 
-/// Performs one cycle of orthogonal iteration over the period: Q becomes the orthogonal factor
-/// after the last map.
+/// Turns the basis Q once around the period. @return the product of the triangular factors
 template <class Scalar, int Size>
 ScaledTriangle<Scalar, Size> turn_basis(const std::vector<Matrix<Scalar, Size>>& maps,
                                         Matrix<Scalar, Size>& basis) {
@@ -140,8 +141,7 @@ std::vector<Multiplier> multipliers_of_turn(const Matrix<Scalar, Size>& turn,
   }
   multipliers.resize(static_cast<std::size_t>(turn.rows()),
                      {-std::numeric_limits<double>::infinity(), 0.0});
-  std::stable_sort(multipliers.begin(), multipliers.end(),
-                   [](const auto& a, const auto& b) { return a.log_modulus > b.log_modulus; });
+  std::stable_sort(multipliers.begin(), multipliers.end(), Multiplier::is_larger);
   return multipliers;
 }
 

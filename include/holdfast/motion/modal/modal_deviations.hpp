@@ -83,20 +83,19 @@ class ModalDeviations {
 
   /// Advances over one sampling period, in which the drive transmits or not.
   void advance(bool engaged) {
-    const Row force = engaged ? read(command_) : Row(Row::Zero(force_.size()));
-    Columns re = decay_.re.asDiagonal() * re_;
-    re.noalias() -= decay_.im.asDiagonal() * im_;
-    Columns im = decay_.re.asDiagonal() * im_;
-    im.noalias() += decay_.im.asDiagonal() * re_;
-    if (engaged) {
-      re.noalias() += present_.re * force;
-      im.noalias() += present_.im * force;
+    for (Eigen::Index j = 0; j < force_.size(); ++j) {
+      auto re = re_.col(j), im = im_.col(j);
+      const double force = engaged ? command_.re.dot(re) - command_.im.dot(im) : 0.0;
+      // All terms in one pass: their matrices one by one would not stay in the processor's cache.
+      for (Eigen::Index k = 0; k < count_; ++k) {
+        const double real = re[k], imag = im[k];
+        re[k] = decay_.re[k] * real - decay_.im[k] * imag + present_.re[k] * force +
+                past_.re[k] * force_[j];
+        im[k] = decay_.re[k] * imag + decay_.im[k] * real + present_.im[k] * force +
+                past_.im[k] * force_[j];
+      }
+      force_[j] = force;
     }
-    re.noalias() += past_.re * force_;
-    im.noalias() += past_.im * force_;
-    re_.swap(re);
-    im_.swap(im);
-    force_ = force;
   }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/eigenvalues.hpp"
 #include "holdfast/math/linalg/gram_schmidt.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/math/roots/pole_sum_roots.hpp"
@@ -176,8 +178,7 @@ class ModalItineraryMaps {
 
 /// The maps of stretches of an itinerary, in the units of `maps`. A stretch ends within sixteen
 /// samples after its product grew a thousandfold.
-/// @return empty where this happens more than 64 times: such an orbit cannot be distinguished from
-///         rounding
+/// @return empty where there are more than 64: such an orbit cannot be told from rounding
 /// Work: 32 m² multiply-adds a sample, of m natural motions.
 inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& maps,
                                                    const Itinerary& itinerary) {
@@ -200,10 +201,8 @@ inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& map
 
 /// The ten largest multipliers of one period, or all where there are fewer.
 ///
-/// Somewhat more than ten deviations are followed and orthonormalised period after period until
-/// their span is invariant (orthogonal iteration); periods of any length and contraction keep their
-/// digits. If this converges too slowly and the period is short, the eigenvalues of the whole map
-/// are computed.
+/// The eigenvalues of a single block where they are above its rounding; else by orthogonal
+/// iteration of sixteen deviations around the period, which keeps the digits of any contraction.
 /// @param maps       maps of the loop
 /// @param itinerary  contacts of one period
 /// @param blocks     maps_of_blocks() of the sequence
@@ -214,15 +213,24 @@ std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itiner
   constexpr std::size_t between = 8, most_samples = 40000, fewest_turns = 3, most_turns = 20;
   ModalDeviations flow = maps.deviations();
   const Eigen::Index order = flow.order(), count = std::min(order, leading + beside);
-  const auto most =
-      std::max(most_turns * itinerary.size(), std::max(most_samples, itinerary.size()));
+  const auto shown = std::min(count, leading);
+  if (blocks.size() == 1) {
+    constexpr double of_rounding = 1e-9;
+    std::vector<Multiplier> found;
+    for (const std::complex<double>& value : eigenvalues(blocks.front()))
+      found.push_back({std::log(std::abs(value)), std::arg(value)});
+    std::sort(found.begin(), found.end(), Multiplier::is_larger);
+    found.resize(static_cast<std::size_t>(shown));
+    if (found.back().log_modulus > std::log(of_rounding * blocks.front().norm())) return found;
+  }
+  const auto most = std::max(most_turns * itinerary.size(), most_samples);
   auto basis = detail::generic_columns<Eigen::MatrixXd>(order, count);
   orthonormalise(basis);
   Eigen::MatrixXd turn;
   detail::ScaledTriangle<double, Eigen::Dynamic> triangle(count);
   bool spans = false;
-  std::size_t taken = 0;
-  for (std::size_t turns = 0; taken < most && !(spans && turns >= fewest_turns); ++turns) {
+  for (std::size_t turns = 0; turns * itinerary.size() < most && !(spans && turns >= fewest_turns);
+       ++turns) {
     const Eigen::MatrixXd before = basis;
     triangle = detail::ScaledTriangle<double, Eigen::Dynamic>(count);
     flow.begin(basis);
@@ -235,15 +243,11 @@ std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itiner
       triangle.multiply_from_left(orthonormalise(basis), size);
       flow.begin(basis);
     }
-    taken += itinerary.size();
     turn = before.transpose() * basis;
-    const Eigen::Index shown = std::min(count, leading);
     spans = (basis.leftCols(shown) - before * turn.leftCols(shown)).norm() < 1e-9;
   }
-  std::vector<Multiplier> found = spans || blocks.size() != 1
-                                      ? detail::multipliers_of_turn(turn, triangle)
-                                      : multipliers_of_product(blocks);
-  found.resize(std::min(found.size(), static_cast<std::size_t>(leading)));
+  auto found = detail::multipliers_of_turn(turn, triangle);
+  found.resize(static_cast<std::size_t>(shown));
   return found;
 }
 

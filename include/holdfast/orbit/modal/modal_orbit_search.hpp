@@ -69,13 +69,7 @@ std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalIti
   ModalAttraction found;
   found.first = solution->first;
   found.memory = orbit.memory;
-  found.stays_inside = orbit.memory.inside && orbit.engaged_fraction() == 0.0;
-  found.lowest = std::numeric_limits<double>::infinity();
-  found.highest = -found.lowest;
-  for (const auto& state : orbit.states) {
-    found.lowest = std::min(found.lowest, relative_displacement(state));
-    found.highest = std::max(found.highest, relative_displacement(state));
-  }
+  detail::set_extent(found, orbit);
   for (std::int64_t periods = 1; periods <= 64; periods *= 2) {
     maps.look();
     const std::optional<Eigen::MatrixXd> measure = discrete_lyapunov(power);
@@ -90,8 +84,7 @@ std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalIti
     Flow(flow).follow(sphere, periods * orbit.period_samples(), segment);
     found.radius = segment.radius;
     found.inscribed_share = 1.0 / found.root.norm();
-    if (found.radius > 0.0) return found;
-    return std::nullopt;
+    return found.radius > 0.0 ? std::optional(std::move(found)) : std::nullopt;
   }
   return std::nullopt;
 }
@@ -112,17 +105,14 @@ bool attracts(const ModalAttraction& region, const Motion& motion, const Eigen::
   const BacklashMemory<double>& drive = memory.backlash;
   const bool same_direction = drive.previous_velocity * region.memory.previous_velocity > 0.0;
   if (drive.inside != region.memory.inside || !(drive.inside || same_direction)) return false;
-  double radius = region.radius;
-  if (region.stays_inside)
-    radius *= std::min(region.lowest - drive.lower, drive.upper - region.highest);
-  const bool gap_counts = drive.inside && !region.stays_inside;
   const Eigen::VectorXcd amplitudes = motion.amplitudes();
   const Eigen::Index order = units.size(), pairs = order - 1 - amplitudes.size();
   Eigen::VectorXd deviation(order + 1);
   deviation << amplitudes.real(), amplitudes.head(pairs).imag(), memory.previous_force, 0.0;
   deviation.head(order) = (deviation.head(order) - region.first).cwiseQuotient(units);
-  if (gap_counts) deviation[order] = drive.lower - region.memory.lower;
-  return (region.root.triangularView<Eigen::Upper>() * deviation).norm() < radius;
+  if (drive.inside && !region.stays_inside) deviation[order] = drive.lower - region.memory.lower;
+  return (region.root.triangularView<Eigen::Upper>() * deviation).norm() <
+         attraction_radius(region, drive);
 }
 
 namespace detail {
@@ -161,8 +151,7 @@ std::optional<PeriodicOrbit> orbit_without_backlash(const ModalLoop& loop, const
   for (const std::complex<double>& root : maps.roots())
     multipliers.push_back({samples * std::log(std::abs(root)),
                            std::remainder(samples * std::arg(root), 2.0 * pi<double>)});
-  std::sort(multipliers.begin(), multipliers.end(),
-            [](const auto& one, const auto& other) { return one.log_modulus > other.log_modulus; });
+  std::sort(multipliers.begin(), multipliers.end(), Multiplier::is_larger);
   multipliers.resize(std::min<std::size_t>(multipliers.size(), 10));
   const Itinerary itinerary(static_cast<std::size_t>(ratio.denominator), 1);
   PeriodicOrbit orbit{

@@ -82,26 +82,34 @@ constexpr int most_judged = 2000;
 
 /// rad/s.
 double twice_the_rate_of(const Case& the_case) {
+  require_keys(the_case, {"control.sampling_period"});
   return 4.0 * pi<double> / the_case.control.sampling_period;
 }
 
-/// The share of a wave of mode n that the nearer end sends back to the absorber.
-double echo(const Case& the_case, const TautString<double>& string, int n) {
-  const double place = the_case.absorber.position;
-  const double near = std::min(place, string.span - place) / string.span;
-  return std::exp(-2.0 * pi<double> * n * near *
-                  bare_damping_of(the_case, string.angular_frequency(n)));
+/// The number of modes, `n` to `most`, up to `highest` (rad/s) of which a wave that has gone twice
+/// over `way` spans keeps `share` of its amplitude.
+int returning_modes(const Case& the_case, int n, double highest, int most = most_judged,
+                    double way = 1.0, double share = 0.05) {
+  const TautString<double> string = string_of(the_case);
+  for (double omega; n < most; ++n)
+    if ((omega = string.angular_frequency(n)) >= highest ||
+        std::exp(-2.0 * pi<double> * n * way * bare_damping_of(the_case, omega)) < share)
+      break;
+  return n;
 }
 
 /// A force that jumps at samples sends out waves with an edge, far faster than the samples show.
+/// Gains end at up to five times the frequency of the absorber, by waves that come back.
 int chosen_modes(const Case& the_case) {
-  const TautString<double> string = string_of(the_case);
   const int most = is_cable(the_case) ? most_modes_of_cable : most_modes_of_string;
-  constexpr double sharpness = 5.0, hardly = 0.1;
-  const double seen = sharpness * seen_frequency(the_case);
-  int n = fewest_modes;
-  while (n < most && string.angular_frequency(n) <= seen && echo(the_case, string, n) > hardly) ++n;
-  return n;
+  constexpr double sharpness = 5.0, decisive = 5.0, hardly = 0.1;
+  const double place = the_case.absorber.position / the_case.conductor.span;
+  const int n = returning_modes(the_case, fewest_modes, sharpness * seen_frequency(the_case), most,
+                                std::min(place, 1.0 - place), hardly);
+  if (is_cable(the_case) || !has_absorber(the_case)) return n;
+  const auto& plant = the_case.plant;
+  return returning_modes(the_case, n,
+                         decisive * std::sqrt(plant.absorber_stiffness / plant.absorber_mass));
 }
 
 /// Radians in the span of the fastest wave that is to be seen, but for its being damped out: so
@@ -192,21 +200,9 @@ ConductorModes coarser_modes_of(const Case& the_case, const ConductorModes& cond
              : all_modes_of_string(the_case, half);
 }
 
-ConductorModes finer_modes_of(const Case& the_case, const ConductorModes& conductor) {
-  return all_conductor_modes_of(
-      the_case, is_cable(the_case) ? std::max(conductor.apart, fewest_modes) : conductor.apart);
-}
-
 ConductorModes judged_modes_of(const Case& the_case) {
-  const TautString<double> string = string_of(the_case);
-  const double twice_the_rate = twice_the_rate_of(the_case);
-  const auto comes_back = [&](int n) {
-    const double damping = bare_damping_of(the_case, string.angular_frequency(n));
-    return std::exp(-2.0 * pi<double> * n * damping) > 0.05;
-  };
-  int n = chosen_modes(the_case);
-  while (n < most_judged && string.angular_frequency(n) < twice_the_rate && comes_back(n)) ++n;
-  return all_modes_of_string(the_case, n);
+  return all_modes_of_string(
+      the_case, returning_modes(the_case, chosen_modes(the_case), twice_the_rate_of(the_case)));
 }
 
 ConductorModes cut_modes_of(const Case& the_case) {
@@ -237,10 +233,6 @@ ConductorModes conductor_modes_of(const Case& the_case) {
 
 bool lacks_bars(const Case& the_case) {
   return is_cable(the_case) && radians_of(the_case, 0) > most_bars;
-}
-
-std::vector<PlaceMode<double>> place_modes_of(const Case& the_case) {
-  return conductor_modes_of(the_case).modes;
 }
 
 }  // namespace holdfast::program

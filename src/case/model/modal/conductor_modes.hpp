@@ -28,16 +28,16 @@ struct ConductorModes {
 /// Modes that a modal case is computed with: plant.modes and no more; or 60, and up to 300 of a
 /// string and 200 of a cable, the faster ones bundled. Beyond 60 those are kept whose waves the
 /// nearer end sends back by more than a tenth, up to five times what half the sampling rate and
-/// twice the force's frequency reach. Throws NoAnswer where a cable has no equilibrium, or not so
+/// twice the force's frequency reach; and of a string as many more as `judged_modes_of` has up to
+/// five times the absorber's frequency. Throws NoAnswer where a cable has no equilibrium, or not so
 /// many modes for its bars.
 ConductorModes conductor_modes_of(const Case& the_case);
 
 /// All modes of the conductor, about so many of them kept apart.
 ConductorModes all_conductor_modes_of(const Case& the_case, int apart);
 
-/// All modes of what was cut, and the same conductor with half as many kept apart, of a cable also
-/// by fewer bars: how far an answer depends on them.
-ConductorModes finer_modes_of(const Case& the_case, const ConductorModes& conductor);
+/// The same conductor with half as many kept apart, of a cable also by fewer bars: how far an
+/// answer depends on them.
 ConductorModes coarser_modes_of(const Case& the_case, const ConductorModes& conductor);
 
 /// All modes of the string by which its stability is judged: kept apart up to twice the sampling
@@ -50,8 +50,5 @@ ConductorModes cut_modes_of(const Case& the_case);
 
 /// Whether a cable would need more bars than it has for the waves that sampling shows.
 bool lacks_bars(const Case& the_case);
-
-/// The modes of `conductor_modes_of`.
-std::vector<PlaceMode<double>> place_modes_of(const Case& the_case);
 
 }  // namespace holdfast::program

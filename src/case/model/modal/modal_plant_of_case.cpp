@@ -139,7 +139,7 @@ LinearPlant<double> modal_plant_of(const Case& the_case) {
   if (!the_case.devices.empty())
     throw NoAnswer("conductor and absorber as matrices know no devices: take the devices away");
   return linear_plant(ConductorWithAbsorber{
-      place_modes_of(the_case), absorber_of(the_case), {}, hardware_of(the_case)});
+      conductor_modes_of(the_case).modes, absorber_of(the_case), {}, hardware_of(the_case)});
 }
 
 ModalResponse<double> command_response_of(const Case& the_case) {
@@ -168,8 +168,12 @@ OtherModes other_modes_of(const Case& the_case) {
   };
   const ConductorModes kept = conductor_modes_of(the_case);
   if (std::isfinite(the_case.plant.modes))
-    return {circle_by(finer_modes_of(the_case, kept)), "with all modes"};
-  const ConductorModes other = coarser_modes_of(the_case, kept);
+    return {circle_by(all_conductor_modes_of(the_case, std::max(kept.apart, 60))),
+            "with all modes"};
+  ConductorModes other = coarser_modes_of(the_case, kept);
+  if (has_chosen_modes(the_case))
+    if (ConductorModes judged = judged_modes_of(the_case); judged.apart > kept.apart)
+      other = std::move(judged);
   const std::string fewer_bars =
       is_cable(the_case) ? " and " + std::to_string(other.bars) + " bars" : "";
   return {circle_by(other), "with " + std::to_string(other.apart) + " modes kept apart" +
@@ -263,7 +267,7 @@ ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case, const Vector<double, 4>& seen) {
   const bool own = has_own_plant(the_case);
   const Vector<double, Eigen::Dynamic> conductor =
-      own ? the_case.own->state : modal_state(place_modes_of(the_case), seen);
+      own ? the_case.own->state : modal_state(conductor_modes_of(the_case).modes, seen);
   const double read =
       own ? the_case.own->plant->connections.measured_displacement.dot(conductor) : seen[0];
   const Eigen::Index commands =

@@ -58,8 +58,8 @@ struct OtherModes {
   bool is_stable(const PdGains<double>& gains) const { return circle.roots_outside(gains) == 0; }
 };
 
-/// With all modes where the case gives how many; else with half as many kept apart, and of a cable
-/// with fewer bars.
+/// With all modes where the case gives how many; else those of the judge (below), or half as many
+/// where it has no more, and of a cable with fewer bars.
 OtherModes other_modes_of(const Case& the_case);
 
 /// The loop of a case's absorber and computer as the one judge of its stability sees it: on the
