@@ -77,7 +77,7 @@ void settle(JobContext& context) {
     context.plant_remark = settle_plant(context.case_data);
   } catch (const MissingKeys& missing) {
     if (context.job != "case") throw;
-    context.plant_remark = std::string("the plant is left open: ") + missing.what();
+    context.plant_remark = std::string("the plant is not computed: ") + missing.what();
   }
   report_warning(context.plant_remark, context.quiet);
 }
@@ -201,7 +201,7 @@ void Job::examine_for_this(JobContext& context, bool needs_plant) const {
 
 JobContext Job::context(const std::optional<std::string>& case_file, bool needs_plant) const {
   if (case_file && common_->case_file)
-    throw WrongInput("--case " + *common_->case_file + ": the case is " + *case_file + " already");
+    throw WrongInput("--case " + *common_->case_file + ": give only --check " + *case_file);
   const std::optional<std::string>& file = case_file ? case_file : common_->case_file;
   JobContext context;
   context.job = options_->get_name();

@@ -81,10 +81,10 @@ std::vector<std::string> with_job_first(const CLI::App& program, std::vector<std
 /// Refuses an option that stands in the job's place, and says where it belongs.
 [[noreturn]] void refuse_option_before_job(const CLI::App& program, const std::string& word) {
   if (option_of_every_job(program, word) != nullptr)
-    throw WrongInput("which job? Here are options alone; holdfast --help lists the jobs");
+    throw WrongInput("which job? Only options are given; holdfast --help lists the jobs");
   throw WrongInput("option " + word +
-                   " before the job: only those of every job may stand there, such as --case and "
-                   "--set; a job's own stand behind its name");
+                   " stands before the job: put it after the job's name; only options of every "
+                   "job, such as --case and --set, may stand before");
 }
 
 /// The first word is the job; CLI11 would only say that something was not expected.

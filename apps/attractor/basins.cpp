@@ -85,7 +85,7 @@ StateGrid grid_of(const std::vector<std::string>& axes) {
       static_cast<double>(grid.slow.axis.count) * static_cast<double>(grid.fast.axis.count);
   if (count > most_states)
     throw WrongInput("--axis: " + format_number(count) + " initial states are more than " +
-                     format_number(most_states));
+                     format_number(most_states) + ": give fewer");
   return grid;
 }
 
@@ -200,7 +200,7 @@ struct BasinsQuestion {
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
-    if (motions && map.empty()) throw WrongInput("--motions is of a map: give --map");
+    if (motions && map.empty()) throw WrongInput("--motions works only with a map: give --map");
     if (!map.empty()) {
       const auto more = axes.empty() ? States{} : states_of(context, grid_of(axes));
       return write_motion_cells(context, {map, largest_period, switching, motions, more});
@@ -260,7 +260,7 @@ void BasinsQuestion::follow(const JobContext& context,
   const double all = static_cast<double>(states.size()) * static_cast<double>(axis.axis.count);
   if (all > most_states)
     throw WrongInput("--along " + *along + ": " + format_number(all) + " motions are more than " +
-                     format_number(most_states));
+                     format_number(most_states) + ": give fewer");
   Table table(context, columns_of("followed basins", {{"key", axis.key}}));
   const auto each_value = [&](auto continuation, const auto& find) {
     for (std::int64_t k = 0; k < axis.axis.count; ++k) {

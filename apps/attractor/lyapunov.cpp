@@ -53,8 +53,7 @@ void require_bearable_modes(const Case& the_case, const MovingLoop& moving,
   constexpr double bearable = 20.0;
   if (!options.largest &&
       the_case.control.processing_delay >= bearable * the_case.control.sampling_period)
-    throw WrongInput(
-        "with so many commands on their way only the largest exponent is computed: add --largest");
+    throw WrongInput("all exponents need control.processing_delay below 20 samples: add --largest");
   report_warning(dense_work_warning(the_case, options.switching), quiet);
 }
 
@@ -106,7 +105,7 @@ void write_exponents(const JobContext& context, const MovingLoop& moving,
   const double period = context.case_data.control.sampling_period;
   const std::int64_t steps = steps_of(context, options);
   const std::int64_t discard = samples_within(options.discard, period) - 1;
-  if (discard >= steps) throw WrongInput("--discard leaves nothing of --duration");
+  if (discard >= steps) throw WrongInput("--discard must be shorter than --duration");
   Table table(context, columns_of("exponents"));
   const auto scope = options.largest ? LyapunovScope::largest : LyapunovScope::all;
   const LyapunovRun run{steps - discard, discard, options.standard_error, scope};
@@ -115,7 +114,7 @@ void write_exponents(const JobContext& context, const MovingLoop& moving,
   if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(end.time);
   tell_of_end(context, end);
   if (options.standard_error > 0.0 && result.outcome == LyapunovOutcome::sample_limit)
-    report_warning("--standard-error was not reached within --duration", context.quiet);
+    report_warning("--standard-error was not reached: give a longer --duration", context.quiet);
   report_warning(open_sign_warning(result), context.quiet);
   report_warning(stepped_reading_warning(context.case_data), context.quiet);
   report_warning(

@@ -31,11 +31,11 @@ struct CableOptions {
     const double time = duration.value_or(usual_duration);
     if (interval > time)
       throw WrongInput("--interval = " + format_number(interval) + ": admissible is at most " +
-                       format_number(time) + ", the --duration");
+                       format_number(time) + " s, the --duration");
     if (time > most_rows * interval)
       throw WrongInput("--interval = " + format_number(interval) + ": admissible is at least " +
                        format_number(time / most_rows) +
-                       ", ten million rows in the --duration of " + format_number(time));
+                       " s: ten million rows at most in --duration " + format_number(time));
     return {force, time, interval, elements, reading};
   }
 };
@@ -100,7 +100,7 @@ struct PeaksQuestion {
                 std::abs(plant_peak - elements_peak) / std::abs(elements_peak));
     }
     if (!has_peak)
-      throw NoAnswer("no motion has its first opposite peak within " +
+      throw NoAnswer("no motion reaches its first opposite peak within " +
                      format_number(cable.duration.value_or(duration)) +
                      " s: give a longer --duration");
     table.commit();

@@ -35,7 +35,7 @@ const FitParameter& parameter_named(std::string_view name) {
   for (const FitParameter& known : known_parameters)
     if (name == known.name) return known;
   throw WrongInput("--parameters: " + one_line(name) +
-                   " is none of conductor_mass, conductor_stiffness, conductor_damping, "
+                   " is not one of conductor_mass, conductor_stiffness, conductor_damping, "
                    "absorber_stiffness, absorber_damping");
 }
 
@@ -64,7 +64,7 @@ fit::DecayFitOptions question_of(const FitQuestion& options) {
   for (const std::string_view name : split(options.parameters, ',')) {
     const fit::PlantParameter parameter = parameter_named(trimmed(name)).parameter;
     if (std::count(question.free.begin(), question.free.end(), parameter) > 0)
-      throw WrongInput("--parameters: " + one_line(trimmed(name)) + " stands there twice");
+      throw WrongInput("--parameters: " + one_line(trimmed(name)) + " is given twice");
     question.free.push_back(parameter);
   }
   const std::string target = options.target.value_or("history");
@@ -73,8 +73,8 @@ fit::DecayFitOptions question_of(const FitQuestion& options) {
                                         : fit::DecayTarget::first_peak_period_and_decrement;
   const std::size_t most = target == "peak" ? 1 : target == "measures" ? 2 : 5;
   if (question.free.size() > most)
-    throw WrongInput("--parameters: --target " + target + " determines " + std::to_string(most) +
-                     " of them at most");
+    throw WrongInput("--parameters: --target " + target + " determines at most " +
+                     std::to_string(most) + " of them");
   question.robust = !options.plain;
   question.fit_initial_displacement = options.data.has_value();
   return question;
@@ -87,7 +87,7 @@ void require_starts(const fit::DecayFitOptions& options, const TwoMass<double>& 
     if (parameter == fit::PlantParameter::absorber_damping || parameter_of(plant, parameter) > 0.0)
       continue;
     throw WrongInput(std::string("--parameters: the fit starts from plant.") +
-                     description_of(parameter).name + ", which is 0; admissible is greater than 0");
+                     description_of(parameter).name + ", which is 0: give it a value above 0");
   }
 }
 
@@ -116,7 +116,7 @@ std::string course_warning(const fit::DecayMinimum& best, const DecayRecord& rec
   const double share = best.residual / std::abs(record.displacements.front());
   if (share < 0.3) return "";
   return "the two-mass plant misses the record by " + format_number(std::round(share * 100.0)) +
-         " % of its start: released at rest at its first row, it moves otherwise";
+         " % of the first displacement: released there at rest, the plant moves otherwise";
 }
 
 /// A record of a motion beyond the absorber's reach is likely one in millimetres.
@@ -127,7 +127,7 @@ std::string unit_warning(const std::string& file, const DecayRecord& record, con
   const double reach = reach_of_absorber(the_case);
   if (largest <= reach) return "";
   return file + ": displacement_m reaches " + format_rounded(largest) +
-         " m, where the absorber's " + "place has a reach of " + format_rounded(reach) +
+         " m, but the absorber's place can move only " + format_rounded(reach) +
          " m: is it in mm, " + format_rounded(1e-3 * largest) + " m?";
 }
 
@@ -137,8 +137,8 @@ std::string time_warning(const std::string& file, const DecayRecord& record,
   const double half = pi<double> * std::sqrt(plant.conductor_mass / plant.conductor_stiffness);
   const double usual = usual_step(record.times);
   if (!(usual > half)) return "";
-  return file + ": its rows are " + format_rounded(usual) + " s apart, where the conductor has a " +
-         "period of " + format_rounded(2.0 * half) + " s: is time_s in ms?";
+  return file + ": its rows are " + format_rounded(usual) + " s apart; the conductor's period is " +
+         format_rounded(2.0 * half) + " s: is time_s in ms?";
 }
 
 /// A fit to the rows does not mind a gap, in which an extreme may be missed.
@@ -148,9 +148,9 @@ std::string gap_warning(const std::string& file, const DecayRecord& record,
   if (gap.empty()) return "";
   if (fit::is_measured(question.target))
     throw WrongInput(file + ": " + gap +
-                     ", in which a peak may be missed; --target history is fitted to the rows that "
-                     "are there");
-  return file + ": " + gap + "; the fit is to the rows that are there";
+                     ", in which a peak may be missed; give --target history, which fits only the "
+                     "rows of the file");
+  return file + ": " + gap + "; only the rows of the file are fitted";
 }
 
 /// The record of a file, with what is doubtful of it.

@@ -54,7 +54,8 @@ struct ModesQuestion {
     const Conductor<double> conductor = conductor_of(context.case_data);
     const ElementsModes found = elements_modes(conductor, elements, count);
     if (found.outcome != EquilibriumOutcome::converged)
-      throw NoAnswer("no static equilibrium of the elements was found");
+      throw NoAnswer("no static equilibrium of the cable in " + std::to_string(elements) +
+                     " elements was found: try another --elements, or check [conductor]");
     IrvineFrequencies irvine(conductor, count);
     Table table(context, columns_of("modes"));
     for (int k = 0; k < count; ++k) {

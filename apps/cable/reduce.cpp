@@ -87,7 +87,7 @@ std::optional<AbsorberDampingFit> fitted_damping(const JobContext& context) {
     report_warning(misfit_warning(found), context.quiet);
     return found;
   } catch (const NoAnswer& reason) {
-    report_error(std::string("absorber_damping is left open: ") + reason.what());
+    report_error(std::string("absorber_damping is not computed: ") + reason.what());
     return std::nullopt;
   }
 }

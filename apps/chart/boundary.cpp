@@ -250,7 +250,7 @@ struct BoundaryQuestion {
     } else if (features) {
       write_boundary_features(context, window(), continuous);
     } else if (job.has("--d")) {
-      throw WrongInput("--d goes with --stable-interval, --regions or --features");
+      throw WrongInput("--d works only with --stable-interval, --regions or --features");
     } else {
       write_boundary(context, proportional_range(), continuous);
     }

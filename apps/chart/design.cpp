@@ -23,7 +23,7 @@ constexpr Named<MinimumAmplitudeOutcome> amplitude_names[] = {
     {MinimumAmplitudeOutcome::none, "none"},
     {MinimumAmplitudeOutcome::aliased, "aliased"}};
 
-constexpr const char* ratios_shown = "ratios are to the true force's";
+constexpr const char* ratios_shown = "ratios refer to the true force";
 
 std::string no_gain_text(double proportional_gain, double largest_radius) {
   return "at P = " + format_rounded(proportional_gain) +
@@ -34,8 +34,8 @@ std::string no_gain_text(double proportional_gain, double largest_radius) {
 void warn_of_edge(double spectral_radius, double sampling_period, bool quiet) {
   if (spectral_radius > 1.0 - 1e-6 * std::min(1.0, sampling_period))
     report_warning(
-        "without a margin the D of least amplitude is a limit on the boundary of stability, "
-        "of spectral radius 1; --margin 0.5 keeps away from it",
+        "without a margin the D of least amplitude lies on the boundary of stability (spectral "
+        "radius 1): give --margin 0.5 to stay away from it",
         quiet);
 }
 
@@ -45,7 +45,7 @@ void warn_of_no_gain(MinimumAmplitudeOutcome outcome, double proportional_gain,
   if (outcome == MinimumAmplitudeOutcome::none)
     report_warning(std::isfinite(proportional_gain)
                        ? no_gain_text(proportional_gain, largest_radius)
-                       : "no P and D of those searched have that margin",
+                       : "none of the P and D searched have the required margin",
                    quiet);
   if (outcome == MinimumAmplitudeOutcome::aliased)
     report_warning(
@@ -133,7 +133,7 @@ void write_band_gain(const JobContext& context, const Range& band,
   report_warning(held_force_warning(the_case, options.sampling.period, band.max, ratios_shown),
                  context.quiet);
   if (answer.outcome == MinimaxOutcome::not_converged)
-    report_warning("the search stopped early: another D may have a worst ratio down to " +
+    report_warning("the search stopped early: another D may lower the worst ratio to " +
                        format_rounded(answer.lower_bound),
                    context.quiet);
   const GainMargins margins = gain_margins(loop, {p, answer.differential_gain});
@@ -149,9 +149,9 @@ void write_band_gain(const JobContext& context, const Range& band,
 void write_fastest_pair(const JobContext& context) {
   const auto answer = minimum_radius_gains(loop_of(context.case_data));
   if (answer.outcome == MinimumRadiusGainsOutcome::idle)
-    report_warning("the gains do not move all roots; P is set to 0", context.quiet);
+    report_warning("many pairs P, D are equally fast: that with P = 0 is given", context.quiet);
   if (answer.outcome == MinimumRadiusGainsOutcome::open)
-    report_warning("the search has not closed: better gains may exist", context.quiet);
+    report_warning("the search ended unfinished: better gains may exist", context.quiet);
   Table table(context, columns_of("best pair"));
   const GainMargins margins = gain_margins(LinearLoop(context.case_data), answer.gains);
   table.row(answer.gains.proportional, answer.gains.differential, answer.radius, answer.lower_bound,

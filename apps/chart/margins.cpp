@@ -35,7 +35,7 @@ ProofWords proof_words(const ProvedMarginEnd& proved, double value) {
   if (is_whole(proved, value)) return {"proved", proved.stable_to};
   const std::string why = proved.stop == ProofStop::work
                               ? "the steps of the proof are used up"
-                              : "a root is too near the unit circle to be told from one on it";
+                              : "a root is too near the unit circle to be judged";
   if (proved.stable_to == value) return {"not proved: " + why, std::nan("")};
   return {"in part: " + why, proved.stable_to};
 }
@@ -96,14 +96,14 @@ void MarginsQuestion::run(const JobContext& context) const {
     throw NoAnswer("the loop is not stable, so it has no margins: its spectral radius is " +
                    format_rounded(LinearLoop(the_case).radius(gains_of(the_case))));
   if (const std::string otherwise = judged_otherwise(the_case); !otherwise.empty())
-    throw NoAnswer(otherwise + ": it has no margins");
+    throw NoAnswer(otherwise + ": the loop has no margins");
   std::optional<ProvedMargins> proved;
   if (prove) proved = proved_margins_of(the_case, gains, margins);
   if (!prove && !looked_everywhere) {
     std::string doubt =
-        "sampling_period was walked in steps of 5 % and processing_delay in eighths of a sample: a "
-        "gap of instability narrower than that is not seen";
-    if (!poles_if_proved(the_case).empty()) doubt += "; --prove looks at every position";
+        "sampling_period was searched in steps of 5 % and processing_delay in eighths of a sample: "
+        "an unstable interval narrower than a step is missed";
+    if (!poles_if_proved(the_case).empty()) doubt += "; --prove checks every value";
     report_warning(doubt, context.quiet);
   }
   MarginsTable table(context, proved);

@@ -27,14 +27,14 @@ struct MaxDelayQuestion {
   void run(const JobContext& context) {
     const Case& the_case = context.case_data;
     if (prove && criterion != "stable")
-      throw WrongInput("--prove is of stability alone: give --criterion stable");
+      throw WrongInput("--prove works only for stability: give --criterion stable");
     if (prove) poles_ = proved_poles_of(the_case);
     const LinearLoop loop(the_case);
     answer(context, loop);
     if (loop.walks() && !prove)
       report_warning(
-          "the period is walked by 3 %, a short one by up to 30 %, with the plant of the case's "
-          "own: a stretch of instability narrower than a step is missed",
+          "the period was searched in steps of 3 % (short ones up to 30 %) with the plant of the "
+          "case: an unstable interval narrower than a step is missed",
           context.quiet);
   }
 
@@ -59,7 +59,7 @@ struct MaxDelayQuestion {
     for (const auto& [question, answer, proved] : answers_of(context, loop, axis)) {
       if (answer.outcome == MaxDelayOutcome::beyond_search)
         report_warning("at " + format_rounded(question.frequency) +
-                           " Hz the search ended without a limit at a period of " +
+                           " Hz the search found no limit up to a period of " +
                            format_rounded(answer.sampling_period) +
                            " s; longer ones are not judged",
                        context.quiet);
@@ -76,8 +76,8 @@ struct MaxDelayQuestion {
     table.commit();
     if (on_boundary_ > 0)
       report_warning(std::to_string(on_boundary_) + " of " + std::to_string(axis.count) +
-                         " D lie on the boundary of stability: their periods are limits; take "
-                         "shorter ones and let holdfast design find a D with a margin",
+                         " D lie on the boundary of stability, and their periods are limits: take "
+                         "shorter periods and find D with a margin by holdfast design",
                      context.quiet);
     report_warning(held_force_, context.quiet);
   }
@@ -112,7 +112,7 @@ struct MaxDelayQuestion {
     if (loop.excess(question.sampling(answer.sampling_period), gains) > -1e-9) ++on_boundary_;
     if (question.criterion == DelayCriterion::attenuates && held_force_.empty())
       held_force_ = held_force_warning(context.case_data, answer.sampling_period,
-                                       question.frequency, "what attenuates is below the true one");
+                                       question.frequency, "attenuation refers to the true force");
   }
 
   std::vector<EnclosedPole> poles_;  // of what is proved

@@ -50,7 +50,8 @@ struct ModalDampingQuestion {
           "MIN:MAX:COUNT");
     const Axis positions = parse_axis("--position", *position);
     const Axis dampings = parse_axis("--damping", *damping);
-    require_text_meant(context, positions.count * dampings.count, "cells", "--position, --damping");
+    require_text_meant(context, positions.count * dampings.count, "cells",
+                       "give fewer by --position or --damping");
     Table table(context, columns_of("place-strength"));
     const auto chart = place_strength_chart(context.case_data, static_cast<int>(device.value_or(1)),
                                             positions, dampings, static_cast<int>(count));
@@ -78,19 +79,19 @@ struct ModalDampingQuestion {
       not_light += counts && !(std::abs(added - promised) < 0.5 * std::abs(promised)) ? 1 : 0;
     }
     if (number < count && number > 0)
-      report_warning("the conductor tells " + std::to_string(number) + " modes apart, not " +
-                         std::to_string(count) + ": plant.modes = " + std::to_string(count) +
-                         " asks for as many",
+      report_warning("only " + std::to_string(number) + " modes are computed, not " +
+                         std::to_string(count) + ": set plant.modes = " + std::to_string(count) +
+                         " to compute as many",
                      quiet);
     if (not_light > 0)
-      report_warning("damping_ratio_first_order is the law of light devices; to " +
+      report_warning("damping_ratio_first_order holds only for light devices: for " +
                          std::to_string(not_light) +
-                         " of the modes shown they are not light: it is more than twice off",
+                         " of the modes shown the added damping is wrong by half or more",
                      quiet);
     if (lost > 0)
       report_warning(std::to_string(lost) +
-                         " mode(s) could not be followed as devices and gains grow: their damping "
-                         "is nan",
+                         " mode(s) have damping nan: they could not be followed from the bare span "
+                         "while devices and gains were raised from zero",
                      quiet);
   }
 };

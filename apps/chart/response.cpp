@@ -21,10 +21,10 @@ struct ResponseQuestion {
   void run(const JobContext& context) const {
     const HarmonicExcitation<double> excitation = excitation_of(context.case_data);
     const auto response = LinearLoop(context.case_data).response(excitation.frequency);
-    report_warning(held_force_warning(context.case_data,
-                                      "amplitudes are those of the force as it "
-                                      "is held, ratios to the true force's"),
-                   context.quiet);
+    report_warning(
+        held_force_warning(context.case_data,
+                           "amplitudes are for the held force, ratios refer to the true force"),
+        context.quiet);
     const GainGrid grid{parse_axis("--p", shown_gains(context, "--p", p)),
                         parse_axis("--d", shown_gains(context, "--d", d))};
     write_chart(context, {gain_axes(grid), cell_columns_of("response")},

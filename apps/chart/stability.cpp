@@ -21,7 +21,7 @@ LoopParameter parameter_of(const std::string& key) {
     if (key == name) return parameter;
     known += (known.empty() ? "" : ", ") + std::string(name);
   }
-  throw WrongInput("--axis: stability does not depend on " + key + "; it does on " + known);
+  throw WrongInput("--axis: stability does not depend on " + key + "; give one of " + known);
 }
 
 /// An axis whose two ends the key admits.
@@ -87,7 +87,7 @@ struct StabilityQuestion {
     job.add("--undecided", undecided);
   }
   void run(const JobContext& context) const {
-    if (undecided && !prove) throw WrongInput("--undecided is of a proved chart: give --prove");
+    if (undecided && !prove) throw WrongInput("--undecided needs a proved chart: give --prove");
     if (prove) return prove_gains(context);
     axes.empty() ? run_over_gains(context) : run_over_axes(context);
   }
@@ -139,7 +139,7 @@ void StabilityQuestion::prove_gains(const JobContext& context) const {
   const GainGrid grid = gains_of_chart(context);
   if (grid.proportional.count < 2 || grid.differential.count < 2)
     throw WrongInput(
-        "--prove proves what lies between the points of --p and of --d, two of each at least");
+        "--prove needs cells between points of --p and --d: give at least two points of each");
   Table table(context, columns_of("proved stability"));
   const double share = undecided.value_or(1e-3);
   const ProvedChart chart = proved_stability_of(context.case_data, grid, continuous, share);
@@ -149,9 +149,9 @@ void StabilityQuestion::prove_gains(const JobContext& context) const {
               gains.differential_to, name_in(proved_names, stability), gains.area() / area);
   table.commit();
   if (left > share)
-    report_warning(
-        "of the area " + format_rounded(left) + " is left undecided, more than --undecided",
-        context.quiet);
+    report_warning(format_rounded(left) + " of the area is undecided, more than the " +
+                       format_rounded(share) + " allowed: give a larger --undecided",
+                   context.quiet);
 }
 
 }  // namespace

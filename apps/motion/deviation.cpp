@@ -40,8 +40,7 @@ struct DeviationQuestion {
     });
     require_completed(outcome, first.time());
     if (told_until < 0.0)
-      throw NoAnswer(
-          "the neighbour is nearer to the motion than rounding tells: take a larger --offset");
+      throw NoAnswer("the neighbour's distance is below rounding errors: take a larger --offset");
     table.note("above_rounding_until_s", format_number(told_until));
     tell_of_end(context, end_of(first));
     const TrustedDigits trusted =
@@ -58,10 +57,11 @@ struct DeviationQuestion {
     if (first == nullptr) return;
     Vector<double, 4> second = first->state;
     second[0] += offset;
-    report_warning(
-        "after " + format_rounded(duration) + " s the motions are still " + format_rounded(last) +
-            " apart: " + apart_text(first->loop, first->state, second) + rate_text(trusted),
-        context.quiet);
+    report_warning("after " + format_rounded(duration) +
+                       " s the states of the two motions still differ by " + format_rounded(last) +
+                       " (norm in SI units): " + apart_text(first->loop, first->state, second) +
+                       rate_text(trusted),
+                   context.quiet);
   }
 };
 

@@ -12,8 +12,8 @@ namespace {
 std::vector<double> values_of(const Axis& axis, const std::string& text) {
   constexpr std::int64_t most_values = 1'000'000;
   if (axis.count > most_values)
-    throw WrongInput("--axis " + text + ": at most " + std::to_string(most_values) +
-                     " values make a diagram");
+    throw WrongInput("--axis " + text + ": a diagram has at most " + std::to_string(most_values) +
+                     " values");
   std::vector<double> values;
   values.reserve(static_cast<std::size_t>(axis.count));
   for (std::int64_t k = 0; k < axis.count; ++k) values.push_back(axis.at(k));
@@ -45,9 +45,9 @@ struct DiagramQuestion {
       const MotionKind kind = motion_kind_of(there, switching);
       sampled = sampled && is_sampled(kind);
       if (is_of_masses(kind) != masses)
-        throw WrongInput("--axis " + axis + ": with " +
+        throw WrongInput("--axis " + axis + ": some values give " +
                          modal_words(masses ? there : context.case_data) +
-                         " another loop is meant than without; a diagram is of one of them");
+                         ", others do not: leave out one kind of values");
     }
     report_warning(dense_work_warning(context.case_data, switching), context.quiet);
     const auto diagram_of = [&](const auto& moving_at) {
@@ -88,7 +88,7 @@ struct DiagramQuestion {
     table.commit();
     if (diverged > 0) {
       report_warning(std::to_string(diverged) + " of " + std::to_string(2 * values.size()) +
-                         " motions diverge and show nothing",
+                         " motions diverge and are left out",
                      context.quiet);
     }
   }

@@ -34,15 +34,15 @@ struct SimulateQuestion {
 
   void run(const JobContext& context) const {
     const std::optional<Kick> kicked = parsed_kick();
-    if (from > duration) throw WrongInput("--from lies after --duration: no row is left");
+    if (from > duration) throw WrongInput("give a --from within --duration: no row is left");
     if (kicked) require_within_span("--kick", kicked->displacement, context.case_data);
-    if (kicked && kicked->time > duration) throw WrongInput("--kick acts after --duration");
+    if (kicked && kicked->time > duration) throw WrongInput("give a --kick within --duration");
     const std::int64_t samples = samples_of(context.case_data, duration);
     require_text_meant(context, samples_of(context.case_data, duration - from), "rows",
                        "a later --from or a shorter --duration leaves fewer");
     Table table(context, motion_columns(switching));
     table.expect(samples_of(context.case_data, duration - from));
-    if (elements && plant != "elements") throw WrongInput("--elements goes with --plant elements");
+    if (elements && plant != "elements") throw WrongInput("--elements needs --plant elements");
     if (plant == "elements") {
       write_elements(context, table, samples);
       table.commit();
@@ -70,13 +70,13 @@ struct SimulateQuestion {
     if (no_control || the_case.backlash.width == 0.0) return;
     if (the_case.backlash.law == "none" || the_case.backlash.law == "dead_zone") return;
     table.note("play_at_start",
-               "at neither end: the drive transmits from rest, the first motion of z2 - z1 puts "
-               "the play behind it, the first reversal crosses all of it");
+               "at neither end: from rest the drive transmits, and its first reversal crosses the "
+               "whole play");
   }
 
   /// Rows of the nonlinear cable.
   void write_elements(const JobContext& context, Table& table, std::int64_t samples) const {
-    if (kick) throw WrongInput("--plant elements does not go with --kick");
+    if (kick) throw WrongInput("--plant elements takes no --kick: leave --kick out");
     Progress progress(static_cast<std::uint64_t>(samples), "simulate, samples",
                       progress_wanted(context));
     const ElementsQuestion question{elements.value_or(200), !no_control, samples};

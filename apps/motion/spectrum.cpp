@@ -37,25 +37,25 @@ struct SteadyRecord {
 SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& options) {
   const double period = context.case_data.control.sampling_period;
   const double discard = options.discard.value_or(options.duration / 2.0);
-  if (!(discard < options.duration)) throw WrongInput("--discard leaves nothing of --duration");
+  if (!(discard < options.duration)) throw WrongInput("--discard must be shorter than --duration");
   const std::int64_t samples = samples_of(context.case_data, options.duration);
   const std::int64_t kept =
       whole_period_samples(samples - samples_within(discard, period),
                            excitation_of(context.case_data).frequency, period);
-  if (kept < 2) throw WrongInput("--duration and --discard leave fewer than two samples");
+  if (kept < 2) throw WrongInput("give a longer --duration: fewer than two samples are left");
   constexpr std::int64_t most = 100'000'000;
   if (kept > most)
-    throw NoAnswer("a record of " + std::to_string(kept) + " samples is longer than the " +
-                   std::to_string(most) +
-                   " whose spectrum is taken: a shorter --duration less "
-                   "--discard, or a longer control.sampling_period, has fewer");
+    throw NoAnswer(
+        "a record of " + std::to_string(kept) + " samples is longer than the limit of " +
+        std::to_string(most) +
+        ": give a shorter --duration, a longer --discard or a longer control.sampling_period");
   const HarmonicExcitation<double> force = excitation_of(context.case_data);
   const double length = static_cast<double>(kept) * period;
   if (force.amplitude > 0.0 && !not_before(length, 1.0 / force.frequency))
     throw WrongInput("--duration and --discard leave " + format_rounded(length) +
                      " s, less than one period of the excitation, " +
                      format_rounded(1.0 / force.frequency) +
-                     " s: no line of a spectrum is at its frequency");
+                     " s: the spectrum has no line at its frequency; give a longer --duration");
   const double from = static_cast<double>(samples - kept) * period;
   const MovingLoop moving = moving_loop_of(context.case_data, {options.switching});
   auto digits = digits_beside(moving, {}, from);

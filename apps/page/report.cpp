@@ -9,8 +9,8 @@ namespace {
 void require_no_devices(const Case& the_case) {
   if (the_case.devices.empty()) return;
   throw WrongInput(
-      "report --for control knows the absorber alone, and the case has [[device]] beside it: take "
-      "the devices away, or ask for --for span");
+      "report --for control includes only the absorber, but the case has [[device]]: remove the "
+      "devices, or give --for span");
 }
 
 struct ReportQuestion {

@@ -47,9 +47,9 @@ struct AbsorptionQuestion {
     const auto ends = span_ends(devices, string.span);
     const SpanEnd asked = chosen(ends);
     if (end.empty() && !ends[0].devices.empty() && !ends[1].devices.empty())
-      report_warning("devices are at both ends; this is the left one (--end right: the other)",
+      report_warning("the left end is shown; give --end right for the devices at the right end",
                      context.quiet);
-    require_text_meant(context, axis.count, "rows", "--frequency");
+    require_text_meant(context, axis.count, "rows", "give fewer by --frequency");
     report_warning(instability_note(the_case, !no_control), context.quiet);
     Table table(context, columns_of("absorption"));
     for (std::int64_t k = 0; k < axis.count; ++k) {

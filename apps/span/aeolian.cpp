@@ -61,10 +61,9 @@ WindHistory wind_history_of(const Case& the_case, bool controlled, double freque
       2.0 * setting.modes * setting.stations * duration * frequency * setting.steps_per_cycle;
   if (setting.modes > 1000 || work > most_work)
     throw WrongInput("--history " + format_number(frequency) + ", --duration " +
-                     format_number(duration) + ": the span has its mode " +
-                     std::to_string(setting.modes * 2 / 3) +
-                     " there, and the history would take hours; ask for a lower frequency, a "
-                     "shorter history, or a part of the span (conductor.span)");
+                     format_number(duration) + ": mode " + std::to_string(setting.modes * 2 / 3) +
+                     " of the span vibrates there, and the history would take hours; give a lower "
+                     "frequency, a shorter --duration, or a part of the span (conductor.span)");
   return wind_history(setting);
 }
 
@@ -78,11 +77,11 @@ std::string history_text(const WindHistory& history, const std::vector<AeolianRo
     lowest = std::min(lowest, row.damped.amplitude.amplitude);
     highest = std::max(highest, row.damped.amplitude.amplitude);
   }
-  return "at its largest place it vibrates with " + format_rounded(history.amplitude / diameter) +
+  return "where it vibrates most, the span has " + format_rounded(history.amplitude / diameter) +
          " diameters (root mean square times 1.41) at " + format_rounded(history.frequency) +
-         " Hz in mode " + std::to_string(history.mode) + "; the energy balance has " +
+         " Hz in mode " + std::to_string(history.mode) + "; the energy balance gives " +
          range_text(format_rounded(lowest / diameter), format_rounded(highest / diameter)) +
-         (is_bound ? ", where 0.01 is as little as the laws of the wind were measured for" : "");
+         (is_bound ? ", where 0.01 is the lower limit of the laws of the wind" : "");
 }
 
 struct AeolianQuestion {
@@ -107,7 +106,7 @@ struct AeolianQuestion {
     const AeolianBalance balance(the_case, !no_control);
     report_warning(self_damping_note(the_case), context.quiet);
     report_warning(unknown_strain_note(balance), context.quiet);
-    require_text_meant(context, axis.count, "rows", "--frequency");
+    require_text_meant(context, axis.count, "rows", "give fewer by --frequency");
     Table table(context, columns_of("aeolian"));
     RangeCount ranges;
     for (std::int64_t k = 0; k < axis.count; ++k) {

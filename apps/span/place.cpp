@@ -28,8 +28,8 @@ std::size_t device_named(const std::optional<std::string>& word, const Case& the
       *number == std::floor(*number))
     return static_cast<std::size_t>(*number);
   throw WrongInput("--device " + one_line(text) + ": must be " +
-                   (count == 0   ? "absorber, for the case has no [[device]]"
-                    : count == 1 ? "1, the one [[device]] of the case, or absorber"
+                   (count == 0   ? "absorber, as the case has no [[device]]"
+                    : count == 1 ? "1, the only [[device]] of the case, or absorber"
                                  : "a number from 1 to " + std::to_string(count) +
                                        ", of a [[device]] of the case, or absorber"));
 }
@@ -51,7 +51,7 @@ struct PlaceQuestion {
 
   void read_modes(PlacementQuestion& question) const {
     if (goal == "strain")
-      throw WrongInput("--modes goes with --for damping: the wind's strain is over a band");
+      throw WrongInput("--modes works only with --for damping: leave --for strain out");
     const Range range = parse_range("--modes", *modes);
     constexpr double most = 1000.0;
     if (!(range.min >= 1.0) || range.max > most || range.min != std::floor(range.min) ||
@@ -69,14 +69,13 @@ struct PlaceQuestion {
     question.frequencies = parse_frequencies("--frequency", frequency);
     constexpr std::int64_t most = 100000;
     if (question.frequencies.count > most)
-      throw WrongInput("--frequency " + one_line(frequency) + ": a search is over 100000 " +
-                       "frequencies at most");
+      throw WrongInput("--frequency " + one_line(frequency) + ": give at most 100000 frequencies");
     if (goal == "damping") question.goal = PlacementGoal::ratio;
     if (modes) read_modes(question);
     question.moves_position = question.is_absorber() ? move.has_value() : !keep.has_value();
     question.margin = margin.value_or(question.margin);
     if (margin && !question.is_absorber())
-      throw WrongInput("--margin is of the absorber's gains, and device " +
+      throw WrongInput("--margin is only for the absorber's gains, and device " +
                        std::to_string(question.device) + " has none");
     return question;
   }
@@ -90,7 +89,7 @@ std::string companion_note(const Case& the_case, std::size_t number) {
   for (std::size_t k = 0; k < the_case.devices.size(); ++k)
     if (k + 1 != number && the_case.devices[k].position == the_case.devices[number - 1].position)
       return "device " + std::to_string(k + 1) + " sits at the same place as device " +
-             std::to_string(number) + " and stays there: where both are one damper, move both";
+             std::to_string(number) + " and stays there: if both form one damper, move both";
   return "";
 }
 

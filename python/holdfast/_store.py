@@ -53,7 +53,7 @@ class Store:
         """What holdfast itself needs of the store."""
         description = self._attributes().get("holdfast")
         if not isinstance(description, dict) or "chunk" not in description:
-            raise ValueError(f"{self.path} is no store of cells that holdfast has written")
+            raise ValueError(f"{self.path} is not a store that holdfast has written")
         return description
 
     @property

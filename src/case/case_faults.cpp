@@ -44,9 +44,9 @@ CaseFault jitter_fault(const Case& c) {
   const double late = within_sample({period, c.control.processing_delay}).processing_delay;
   if (2.0 * jitter + late <= period * (1.0 + rounding)) return {};
   return {{"control.jitter", "control.processing_delay", "control.sampling_period"},
-          "twice " + said(c, "control.jitter") + " and " +
-              (late < c.control.processing_delay ? "what is no whole sample of " : "") +
-              said(c, "control.processing_delay") + " together must not exceed " +
+          "twice " + said(c, "control.jitter") + " plus " +
+              (late < c.control.processing_delay ? "the fraction of a sample in " : "") +
+              said(c, "control.processing_delay") + " must not exceed " +
               said(c, "control.sampling_period")};
 }
 
@@ -55,8 +55,8 @@ CaseFault contact_fault(const Case& c) {
   if (b.law == "dead_zone") return {};
   const auto fault = [&](const char* key) -> CaseFault {
     return {{key, "backlash.law"},
-            said(c, key) + " is of the stops of a dead zone: it must be 0 unless " +
-                "backlash.law = \"dead_zone\", here it is \"" + b.law + "\""};
+            said(c, key) + " has no effect with backlash.law = \"" + b.law +
+                "\": set it to 0, or set backlash.law = \"dead_zone\""};
   };
   if (b.contact_stiffness > 0.0) return fault("backlash.contact_stiffness");
   if (b.contact_damping > 0.0) return fault("backlash.contact_damping");
@@ -69,8 +69,8 @@ CaseFault tension_fault(const Case& c) {
   if (!(std::abs(left - tension) > tolerance * tension) || std::isinf(tension)) return {};
   return {{"conductor.tension", "conductor.sag"},
           said(c, "conductor.tension") + " and " + said(c, "conductor.sag") +
-              ", which leaves a tension of " + format_rounded(left) +
-              " N, contradict each other: give one of them"};
+              " contradict each other: this sag gives a tension of " + format_rounded(left) +
+              " N; give only one of the two"};
 }
 
 CaseFault modes_fault(const Case& c) {
@@ -78,23 +78,23 @@ CaseFault modes_fault(const Case& c) {
   if (c.plant.model != "cable" || !std::isfinite(c.plant.modes) || c.plant.modes <= most) return {};
   return {{"plant.modes", "plant.model"},
           "plant.modes = " + format_number(c.plant.modes) +
-              ": of plant.model = \"cable\" at most " + format_number(most) +
-              " modes are found; without plant.modes all count"};
+              ": plant.model = \"cable\" allows at most " + format_number(most) +
+              "; leave plant.modes out to include all modes"};
 }
 
 CaseFault absorber_fault(const Case& c) {
   if (has_absorber(c) || std::isnan(c.plant.absorber_mass)) return {};
   if (is_two_masses(c))
     return {{"plant.absorber_mass", "plant.model"},
-            "plant.absorber_mass = 0: of plant.model = \"two_masses\" the second mass must be "
-            "greater than 0 kg; a span without absorber is one of the other models"};
+            "plant.absorber_mass = 0: plant.model = \"two_masses\" needs a second mass greater "
+            "than 0 kg; for a span without absorber set another plant.model"};
   const auto& control = c.control;
   if (!control.proportional_gain_tuned && control.proportional_gain == 0.0 &&
       control.differential_gain == 0.0)
     return {};
   return {{"control.proportional_gain", "control.differential_gain", "plant.absorber_mass"},
-          "plant.absorber_mass = 0: without absorber there is nothing that a drive moves: "
-          "control.proportional_gain and control.differential_gain must be 0"};
+          "plant.absorber_mass = 0: without an absorber the drive moves nothing; set "
+          "control.proportional_gain and control.differential_gain to 0"};
 }
 
 CaseFault speeds_fault(const Case& c) {
@@ -102,11 +102,11 @@ CaseFault speeds_fault(const Case& c) {
   if (speeds.size() != hours.size())
     return {{"site.hours", "site.speeds"},
             "site.speeds has " + std::to_string(speeds.size()) + " numbers and site.hours " +
-                std::to_string(hours.size()) + ": each speed has its hours"};
+                std::to_string(hours.size()) + ": give one number of hours for each speed"};
   if (!speeds.empty() && std::isfinite(c.site.weibull_scale))
     return {{"site.weibull_scale", "site.speeds"},
-            "site.speeds with site.hours and site.weibull_scale are both given: one of them says "
-            "how often the wind blows"};
+            "site.speeds (with site.hours) and site.weibull_scale are both given: give only one of "
+            "them"};
   for (std::size_t k = 1; k < speeds.size(); ++k)
     if (!(speeds[k - 1] < speeds[k]))
       return {{"site.speeds"},
@@ -116,8 +116,8 @@ CaseFault speeds_fault(const Case& c) {
   const double all = std::accumulate(hours.begin(), hours.end(), 0.0);
   if (all <= most) return {};
   return {{"site.hours"},
-          "site.hours are " + format_rounded(all) + " h together: a year has " +
-              format_number(most) + " at most"};
+          "site.hours add up to " + format_rounded(all) + " h, but a year has " +
+              format_number(most) + " h at most"};
 }
 
 CaseFault noise_fault(const Case& c) {
@@ -152,12 +152,12 @@ CaseFault force_fault(const Case& c) {
   if (c.wind && !fine) {
     return {{"wind.speed", "wind.diameter", "wind.effective_length", "wind.strouhal",
              "wind.lift_coefficient", "wind.air_density"},
-            "the wind gives an excitation of " + format_number(force.amplitude) + " N at " +
-                format_number(force.frequency) + " Hz, which must be finite and above 0 Hz"};
+            "[wind] gives an excitation of " + format_number(force.amplitude) + " N at " +
+                format_number(force.frequency) + " Hz: make both finite and the frequency > 0"};
   }
   if (!std::isinf(resolved_proportional_gain(c))) return {};
   return {{"control.proportional_gain", "excitation.frequency", "plant.absorber_mass"},
-          "the tuned proportional gain k2 - m2 (2 pi frequency)^2 is not finite"};
+          "the tuned gain, Eq. 6, is not finite: lower the frequency or plant.absorber_mass"};
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ CaseFault conductor_fault(const Case& the_case) {
   if (c.sag >= span / 2.0) {
     const bool is_left = std::isfinite(c.tension) && !the_case.is_given("conductor.sag");
     return {{is_left ? "conductor.tension" : "conductor.sag", "conductor.span"},
-            (is_left ? said(the_case, "conductor.tension") + " leaves a sag of " +
+            (is_left ? said(the_case, "conductor.tension") + " gives a sag of " +
                            format_rounded(c.sag) + " m, which"
                      : said(the_case, "conductor.sag")) +
                 " must be less than half of " + said(the_case, "conductor.span")};
@@ -186,8 +186,8 @@ CaseFault conductor_fault(const Case& the_case) {
       "conductor.mass_per_length", "conductor.span", "conductor.gravity"};
   if ((strain < smallest_strain || strain > largest_strain) && !is_half_borrowed(the_case, keys)) {
     return {keys, "the conductor's own weight would stretch it by " + format_rounded(strain) +
-                      " of its length; admissible is from 1e-10, less than which cannot be "
-                      "computed, to 0.1, more than which no cable bears"};
+                      " of its length; admissible is 1e-10 (less cannot be computed) to 0.1 (more "
+                      "breaks any cable)"};
   }
   return {};
 }
@@ -223,7 +223,7 @@ void require_within_span(const std::string& option, double displacement, const C
   const double span = the_case.conductor.span;
   if (!(std::abs(displacement) >= span)) return;
   throw WrongInput(option + ": a displacement of " + format_number(displacement) +
-                   " m is beyond the span, " + said(the_case, "conductor.span"));
+                   " m is not less than the span, " + said(the_case, "conductor.span"));
 }
 
 }  // namespace holdfast::program

@@ -107,9 +107,9 @@ std::string unknown_device_key(const DeviceKeyName& name) {
 
 std::string no_device(const DeviceKeyName& name, std::size_t devices) {
   const std::string next = std::to_string(devices + 1);
-  return "there is no device " + std::to_string(name.number) + ", the case has " +
-         (devices == 0 ? "none" : std::to_string(devices)) + "; device." + next +
-         ".kind adds device " + next;
+  return "there is no device " + std::to_string(name.number) + ": the case has " +
+         (devices == 0 ? "none" : std::to_string(devices)) + "; give device." + next +
+         ".kind to add device " + next;
 }
 
 void require_value(std::string_view value, const std::string& place) {
@@ -129,7 +129,7 @@ toml::table device_override(const std::string& text, std::string_view value,
                             const std::string& place, std::size_t devices) {
   const auto name = device_key_name(text);
   if (!name)
-    throw WrongInput(place + ": a key of a device is device.NUMBER.KEY, such as device.1.damping");
+    throw WrongInput(place + ": write the key of a device as device.NUMBER.KEY: device.1.damping");
   const DeviceKey* key = find_device_key(name->key);
   if (key == nullptr) throw WrongInput(place + ": " + unknown_device_key(*name));
   const bool adds = name->number == devices + 1 && name->key == "kind";
@@ -280,11 +280,11 @@ void CaseReader::begin_devices(const toml::node& list, const std::string& name, 
   };
   const toml::array* devices = list.as_array();
   if (devices == nullptr)
-    throw WrongInput(place(list) + "device must be a list of tables, [[device]] before each");
+    throw WrongInput(place(list) + "device must be a list of tables: write [[device]] before each");
   for (const toml::node& device : *devices) {
     if (!device.is_table())
       throw WrongInput(place(device) + "device = " + value_text(device) +
-                       ": must be a list of tables, [[device]] before each");
+                       ": must be a list of tables: write [[device]] before each");
     begin_device(place(device) + "[[device]]", layer);
   }
 }
@@ -336,13 +336,13 @@ void CaseReader::check_wind() const {
     if (!key.required || is_settled || last_given({key.name}) != nullptr) continue;
     throw WrongInput(wind_place_ + ": " + key.name + " is missing: " + key.description +
                      "; admissible is " + key.admissible() +
-                     "; holdfast case --init FILE --wind writes all of them");
+                     "; holdfast case --init FILE --wind writes a complete [wind]");
   }
   // An excitation below the layer that brought the wind is replaced; one beside it or above it
   // would be passed over without a word.
   const Given* force = last_given({"excitation.amplitude", "excitation.frequency"});
   if (force == nullptr || force->layer < wind_layer_) return;
-  throw WrongInput(force->place + ": [wind] stands in place of [excitation]; give one of them (" +
+  throw WrongInput(force->place + ": [wind] replaces this key; remove this key or [wind] (" +
                    wind_place_ + ")");
 }
 

@@ -185,9 +185,9 @@ std::string unknown_key(std::string_view name) {
 
 void require_in_force(const Case& the_case, const CaseKey& key) {
   if (key.table() == "wind" && !the_case.wind)
-    throw WrongInput(key.name + ": the case has no [wind]");
+    throw WrongInput(key.name + ": the case has no [wind]; add this table");
   if (key.replaced_by_wind && the_case.wind)
-    throw WrongInput(key.name + ": the case has [wind], which stands in place of [excitation]");
+    throw WrongInput(key.name + ": the case has [wind], which replaces this key");
 }
 
 void set_case_value(Case& the_case, std::string_view name, double value) {
@@ -215,7 +215,7 @@ double case_value(const Case& the_case, std::string_view name) {
   if (key.tuned != nullptr) return resolved_proportional_gain(the_case);
   Case copy = the_case;
   const double* value = key.number(copy);
-  if (value == nullptr) throw WrongInput(key.name + ": the case has no [wind]");
+  if (value == nullptr) throw WrongInput(key.name + ": the case has no [wind]; add this table");
   return *value;
 }
 

@@ -57,10 +57,10 @@ std::string record_doubt(const Case& the_case) {
   std::string said = gap_text(times);
   const auto add = [&](const std::string& more) { said += (said.empty() ? "" : "; ") + more; };
   if (first > 1.5 * usual)
-    add("its first row is at " + format_rounded(first) + " s, and before there is no force");
+    add("its first row is at " + format_rounded(first) + " s; before that the force is 0");
   if (periods > many && times.size() >= a_series)
-    add("its rows are " + format_rounded(usual) + " s apart, " + format_rounded(periods) +
-        " sampling periods: is time_s in ms?");
+    add("its rows are " + format_rounded(usual) + " s apart (" + format_rounded(periods) +
+        " sampling periods): is time_s in ms?");
   return said.empty() ? "" : the_case.excitation.record + ": " + said;
 }
 

@@ -62,8 +62,8 @@ void require_keys(const Case& the_case, const std::vector<std::string>& keys) {
   std::string listed;
   for (const std::string& name : missing) listed += (listed.empty() ? "" : ", ") + key_text(name);
   const bool is_named = std::any_of(missing.begin(), missing.end(), is_library_key);
-  throw MissingKeys("the case does not give what this needs: " + listed +
-                    (is_named ? "; a conductor of the library has its own by conductor.name" : ""));
+  throw MissingKeys("the case does not give what the job needs: " + listed +
+                    (is_named ? "; conductor.name takes a conductor's data from the library" : ""));
 }
 
 double needed(const Case& the_case, std::string_view key) {

@@ -23,7 +23,7 @@ class LevelScanner {
 
  private:
   TomlExcess found(const std::string& what) const {
-    return {line_, what + " nested deeper than " + std::to_string(most_levels)};
+    return {line_, what + " nested deeper than " + std::to_string(most_levels) + " levels"};
   }
 
   void step() {

@@ -59,12 +59,12 @@ std::string_view value_of_line(std::string_view text, std::size_t line) {
 /// Guess at the mistake in a value that no TOML can be read from; empty where there is none.
 std::string guess_of_value(std::string_view value) {
   if (value.empty() || value.front() == '[' || value.front() == '"') return "";
-  if (has_decimal_comma(value)) return "; a number has a decimal point, not a comma: 0.5";
+  if (has_decimal_comma(value)) return "; write a decimal point, not a comma: 0.5";
   const std::size_t blank = value.find_first_of(" \t");
   const bool number_first = parse_number(value.substr(0, blank)).has_value();
   if (number_first && blank != std::string_view::npos)
-    return "; a number stands alone, in the unit that `holdfast case --check` gives for its key, "
-           "or with another one in quotes: \"28.2 kN\"";
+    return "; write the number alone, in the unit that `holdfast case --check` shows, or with "
+           "another unit in quotes: \"28.2 kN\"";
   return "";
 }
 
@@ -134,7 +134,7 @@ std::vector<double> read_numbers(const KeyForm& key, const toml::node& node,
   for (const toml::node& one : *list) {
     const auto value = number_in(one, key.unit, place);
     if (!value || !key.range.contains(*value))
-      throw WrongInput(place + ": " + value_text(one) + " must be as in " + key.admissible());
+      throw WrongInput(place + ": not " + value_text(one) + "; admissible is " + key.admissible());
     values.push_back(*value + 0.0);
   }
   return values;
@@ -161,8 +161,8 @@ std::vector<std::array<double, 3>> read_harmonics(const KeyForm& key, const toml
   for (const toml::node& one : *list) {
     const auto harmonic = harmonic_of(one, place);
     if (!harmonic) {
-      throw WrongInput(place + ": the harmonic " + value_text(one) + " must be as in " +
-                       key.admissible());
+      throw WrongInput(place + ": the harmonic " + value_text(one) +
+                       " is not admissible; admissible is " + key.admissible());
     }
     harmonics.push_back(*harmonic);
   }
@@ -228,8 +228,8 @@ std::optional<double> number_in(const toml::node& node, const std::string& unit,
   if (!written) return std::nullopt;
   if (const auto value = in_own_unit(*written, unit)) return value;
   const std::string known = units_in_words(unit);
-  throw WrongInput(place + ": " + shortened(written->unit, 20) + " is no unit of it: " +
-                   (known.empty() ? "it is a number without unit" : "it may be in " + known));
+  throw WrongInput(place + ": " + shortened(written->unit, 20) + " is not a unit of this key: " +
+                   (known.empty() ? "write a number without unit" : "use " + known));
 }
 
 void read_value(const KeyForm& key, const ValuePlace& value, const toml::node& node,

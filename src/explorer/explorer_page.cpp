@@ -40,8 +40,8 @@ std::vector<fs::path> places_of_page() {
   for (const fs::path& place : places_of_page())
     places += (places.empty() ? "no " : " and no ") + place.string();
   throw NoAnswer("the explorer's page was not built: " + places +
-                 "; in the project's folder, ./run --explorer makes it" +
-                 (folder_of_library.empty() ? "" : ", and pip install . takes it along"));
+                 "; make it in the project's folder by ./run --explorer" +
+                 (folder_of_library.empty() ? "" : ", then install it by pip install ."));
 }
 
 std::optional<fs::path> built_page() {
@@ -68,7 +68,7 @@ bool can_explore(const Case& the_case) {
 
 void write_explorer_page(const fs::path& output, const Case& the_case, const CaseSource& source) {
   if (!the_case.excitation.record.empty())
-    throw WrongInput("excitation.record: the explorer is one page, without the file of a force");
+    throw WrongInput("excitation.record: the explorer cannot include a recorded force; remove it");
   const std::optional<fs::path> file = built_page();
   if (!file) refuse_without_page();
   const std::string name =

@@ -131,21 +131,6 @@ std::string asked_words(const Rule& rule, const Asked& asked) {
   return asked.job;
 }
 
-/// The jobs of the table of which no rule refuses a feature.
-std::string jobs_that_answer(const std::string& feature) {
-  std::map<std::string, bool> answers;
-  for (const SupportCell& cell : support_cells())
-    if (cell.features.back() == feature) {
-      const std::string job = words_in(cell.question)[0];
-      const auto known = answers.try_emplace(job, false).first;
-      known->second = known->second || cell.support.refusal.empty();
-    }
-  std::string names;
-  for (const auto& [job, does] : answers)
-    if (does) names += (names.empty() ? "" : ", ") + job;
-  return names;
-}
-
 Support support_of(const Words& there, const Asked& asked) {
   Support support;
   for (const Rule& rule : table().rules) {
@@ -168,6 +153,34 @@ Support support_of(const Words& there, const Asked& asked) {
                              ": " + asked.job + " is computed " + rule.idealises;
   }
   return support;
+}
+
+/// A question of the table as it would come from a command line.
+Asked asked_of(const std::string& question) {
+  const Words words = words_in(question);
+  Asked asked{words[0], {}};
+  for (std::size_t k = 1; k < words.size(); ++k) {
+    if (words[k].rfind("--", 0) != 0) continue;
+    asked.options.push_back(words[k]);
+    if (k + 1 < words.size() && words[k + 1].rfind("--", 0) != 0)
+      asked.options.push_back(words[k] + " " + words[k + 1]);
+  }
+  return asked;
+}
+
+/// The jobs of the table's questions about a feature of which no rule refuses all that is there.
+std::string jobs_that_answer(const std::string& feature, const Words& there) {
+  std::map<std::string, bool> answers;
+  for (const SupportCell& cell : support_cells())
+    if (cell.features.back() == feature) {
+      const std::string job = words_in(cell.question)[0];
+      const auto known = answers.try_emplace(job, false).first;
+      known->second = known->second || support_of(there, asked_of(cell.question)).refusal.empty();
+    }
+  std::string names;
+  for (const auto& [job, does] : answers)
+    if (does) names += (names.empty() ? "" : ", ") + job;
+  return names;
 }
 
 }  // namespace
@@ -195,24 +208,11 @@ Support support_of(const Case& the_case, const Asked& asked) {
   // Whose job as a whole does not answer asks which do.
   if (is_of_plant(support.refused_by))
     support.refusal +=
-        "; jobs that do are " + jobs_that_answer(words_of_feature(support.refused_by));
+        "; jobs that do are " + jobs_that_answer(words_of_feature(support.refused_by), there);
   return support;
 }
 
 namespace {
-
-/// A question of the table as it would come from a command line.
-Asked asked_of(const std::string& question) {
-  const Words words = words_in(question);
-  Asked asked{words[0], {}};
-  for (std::size_t k = 1; k < words.size(); ++k) {
-    if (words[k].rfind("--", 0) != 0) continue;
-    asked.options.push_back(words[k]);
-    if (k + 1 < words.size() && words[k + 1].rfind("--", 0) != 0)
-      asked.options.push_back(words[k] + " " + words[k + 1]);
-  }
-  return asked;
-}
 
 /// @param named  at most one plant among them, and that first
 SupportCell cell_of(const std::string& question, const Words& named) {

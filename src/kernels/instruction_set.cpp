@@ -76,8 +76,8 @@ InstructionSet chosen_instruction_set(std::string_view name) {
   const InstructionSet set = instruction_set_named(name);
   if (is_compiled(set) && processor_has(set)) return set;
   throw WrongInput("--instructions " + std::string(name) +
-                   (is_compiled(set) ? ": this processor has not got them; it has "
-                                     : ": this program is not compiled for it; it has ") +
+                   (is_compiled(set) ? ": not supported by this processor; available: "
+                                     : ": not compiled into this program; available: ") +
                    available_instruction_names());
 }
 

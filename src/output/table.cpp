@@ -19,8 +19,7 @@ const std::optional<std::filesystem::path>& csv_target(
   if (is_netcdf_name(path) || is_store_name(path)) {
     throw WrongInput("--output " + path->string() +
                      ": only stability, response, basins and sweep write netCDF and Zarr stores; "
-                     "give a name that "
-                     "ends in .csv");
+                     "give a name that ends in .csv");
   }
   return path;
 }
@@ -53,9 +52,9 @@ std::uint64_t Table::nans(std::size_t column) {
 void Table::require_numbers() {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (columns_[i].may_be_nan() || nans(i) == 0) continue;
-    const std::string said = columns_[i].name + " has no number in " + std::to_string(nans(i)) +
-                             " of " + std::to_string(writer_.rows()) +
-                             " rows: the values of the case are too far apart to compute it";
+    const std::string said = columns_[i].name + " is nan in " + std::to_string(nans(i)) + " of " +
+                             std::to_string(writer_.rows()) +
+                             " rows: the values of the case differ too much in size to compute it";
     if (10 * nans(i) > writer_.rows()) throw NoAnswer(said);
     report_warning(said, context_.quiet);
   }
@@ -83,9 +82,10 @@ void require_text_meant(const JobContext& context, std::int64_t count, const std
   const bool received = is_received(context);
   const std::int64_t most = received ? 200'000'000 : 10'000'000;
   if (count > most && !context.yes)
-    throw WrongInput(std::to_string(count) + " " + what +
-                     (received ? " are gigabytes of memory: " : " are a table of gigabytes: ") +
-                     instead + "; give --yes if " + (received ? "they are" : "text is") + " meant");
+    throw WrongInput(
+        std::to_string(count) + " " + what +
+        (received ? " would take gigabytes of memory: " : " would make a table of gigabytes: ") +
+        instead + "; give --yes to " + (received ? "take them" : "write them as text"));
 }
 
 void tell_trust(const JobContext& context, Table& table, const TrustedDigits& trusted) {

@@ -58,8 +58,8 @@ std::optional<std::string> expanded(std::string_view file, std::size_t size) {
 
 [[noreturn]] void refuse_zstd() {
   throw NoAnswer(
-      "chunks compressed by Zstandard cannot be had: this program was built without it (Debian "
-      "package libzstd-dev)");
+      "chunks compressed by Zstandard need a program built with it: install libzstd-dev and build "
+      "again");
 }
 std::string compressed(std::string_view) { refuse_zstd(); }
 std::optional<std::string> expanded(std::string_view, std::size_t) { refuse_zstd(); }

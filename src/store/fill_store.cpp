@@ -146,7 +146,7 @@ class StoreFilling {
     if (is_done(chunk)) return count_found(chunk);
     if (store_.has(chunk))
       tell(store_.file_of(chunk).string() +
-           " or what belongs to it is damaged, and is computed anew");
+           " or a file that belongs to it is damaged, and is computed anew");
     under_way.begin(
         [this, chunk, claim = std::move(claim), result = work_.compute(chunk)]() mutable {
           store_.put(chunk, result.values);
@@ -230,7 +230,7 @@ void fill_store(const JobContext& context, const StoreDescription& description,
     const int threads = worker_threads(context.threads, *group);
     make_collective_call(*group, [&] { fill_store(context, *store, *group, threads, work); });
   } catch (...) {
-    if (group->rank() == 0) report_kept_chunks(*store, "the same command goes on");
+    if (group->rank() == 0) report_kept_chunks(*store, "repeat the same command to continue");
     throw;
   }
 }

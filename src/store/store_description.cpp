@@ -203,7 +203,7 @@ Documents documents_of_format_2(const StoreDescription& store) {
   if (store.packing != ChunkPacking::zstd)
     throw NoAnswer(
         "--zarr-format 2: this program was built without Zstandard (Debian package libzstd-dev); "
-        "format 3 needs nothing");
+        "give --zarr-format 3");
   Documents documents;
   Json consolidated = Json::object();
   const auto add = [&](const std::string& path, const Json& json) {

@@ -161,12 +161,12 @@ bool is_chunk_name(std::string_view name, int format, const ChunkGrid& grid) {
 
 [[noreturn]] void refuse_link(const fs::path& path) {
   throw WrongInput("cannot write " + path.string() +
-                   ": is a symbolic link, which may lead anywhere");
+                   ": it is a symbolic link, which holdfast does not follow");
 }
 
 [[noreturn]] void refuse_folder(const fs::path& folder) {
   throw WrongInput("cannot write " + folder.string() +
-                   ": something else is there than a store of holdfast; give another name");
+                   ": the name is taken by something else than a store; give another name");
 }
 
 void require_same_plan(const fs::path& folder, const StoreDescription& before,
@@ -207,7 +207,7 @@ StoreFolder StoreFolder::enter(const fs::path& folder, const StoreDescription& d
 
 StoreFolder StoreFolder::open(const fs::path& folder) {
   std::optional<StoreDescription> there = store_in(folder);
-  if (!there) throw WrongInput(folder.string() + " is no store of cells that holdfast has written");
+  if (!there) throw WrongInput(folder.string() + " is not a store that holdfast has written");
   StoreFolder store(folder, std::move(*there));
   store.read_axes();
   store.require(documents_but_root(store.description_));

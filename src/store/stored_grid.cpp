@@ -32,8 +32,8 @@ StoreDescription store_description(const JobContext& context, const GridLayout& 
                                    std::size_t most) {
   if (has_own_plant(context.case_data))
     throw WrongInput(
-        "--output: a store says what made it, which a plant of your own cannot be said by; take "
-        "the result as arrays, or write .nc or .csv");
+        "--output: a store records its case, which cannot include a plant of your own; take the "
+        "result as arrays, or write .nc or .csv");
   StoreDescription store;
   store.origin = context;
   store.axes = layout.axes;
@@ -49,7 +49,7 @@ StoreDescription store_description(const JobContext& context, const GridLayout& 
 void refuse_chunk(const StoreFolder& store, std::int64_t chunk) {
   throw NoAnswer("the chunk " + store.file_of(chunk).string() + " or one beside it is " +
                  (store.has(chunk) ? "damaged" : "missing") +
-                 ": the command that made the store computes it, with --resume where it has that");
+                 ": repeat the command that made the store, with --resume if it has that option");
 }
 
 namespace {
@@ -117,7 +117,7 @@ void convert_store(const JobContext& context, const std::filesystem::path& folde
   const StoreFolder store = StoreFolder::open(folder);
   std::error_code error;
   if (context.output && std::filesystem::equivalent(folder, *context.output, error))
-    throw WrongInput("convert: " + folder.string() + " would be written over itself");
+    throw WrongInput("convert: " + folder.string() + " would overwrite itself: give another name");
   if (is_store_name(context.output)) return copy_store(store, context);
   const StoreDescription& description = store.description();
   JobContext of_job = description.origin;

@@ -103,7 +103,7 @@ class SweepCells {
   /// False where there is no best gain, with the outcome that says why.
   bool take_best_gain(std::size_t place, Case& the_case, BestGains& gains) {
     if (!has_closed_forms(the_case))
-      throw WrongInput("--best-gain is of the two masses under an ideal drive alone");
+      throw WrongInput("--best-gain works only for two_masses with an ideal drive");
     const IdealLoop<double> loop = ideal_loop_of(the_case);
     validate(loop);
     const MinimumAmplitude& best = gains.of(loop);
@@ -130,7 +130,8 @@ class SweepCells {
       CellResult& result = results_[cells_[k]];
       result.motion = metrics[k];
       result.outcome = outcome_of(metrics[k].end);
-      if (result.outcome == CellOutcome::accumulates) note("its changes of contact accumulate");
+      if (result.outcome == CellOutcome::accumulates)
+        note("too many changes of contact within one sampling period");
     }
   }
 

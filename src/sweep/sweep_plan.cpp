@@ -30,7 +30,7 @@ GridAxis sweep_axis(const std::string& text) {
   const CaseKey* key = find_case_key(name);
   if (key != nullptr && !key->is_number())
     throw WrongInput("--axis " + text + ": " + name +
-                     " is not a number; run a sweep for each with --set");
+                     " is not a number; run one sweep for each of its values with --set");
   const KeyValues axis = parse_key_values("--axis", text);
   if (key == nullptr) {
     throw WrongInput("--axis " + text + ": unknown key " + name + "; did you mean " +
@@ -53,7 +53,7 @@ std::vector<GridAxis> sweep_axes(const std::vector<std::string>& texts) {
     cells *= static_cast<double>(axes.back().count());
   }
   if (cells > most_cells)
-    throw WrongInput("--axis: " + format_rounded(cells) + " cells are more than 2^53");
+    throw WrongInput("--axis: " + format_rounded(cells) + " cells are more than the limit of 2^53");
   return axes;
 }
 
@@ -94,8 +94,7 @@ void require_room_for_best_gain(const SweepOptions& options, const std::vector<G
   if (!(options.duration > 0.0)) throw WrongInput("--best-gain needs a --duration above 0");
   for (const GridAxis& axis : axes) {
     if (axis.column.name == "control.differential_gain")
-      throw WrongInput(
-          "--best-gain takes the place of control.differential_gain, which is an axis");
+      throw WrongInput("--best-gain finds control.differential_gain: remove that --axis");
   }
 }
 

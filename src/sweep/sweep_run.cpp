@@ -104,8 +104,8 @@ class SweepFaults {
   std::string chaos_text(const SweepPlan& plan) const {
     if (all_.chaotic == 0) return "";
     return "of " + std::to_string(plan.cells()) + " cells " + std::to_string(all_.chaotic) +
-           " are chaotic: rounding decides their motions after a while, and their metrics are "
-           "those of one possible motion each";
+           " are chaotic: rounding decides their motions after a while, and each metric is that of "
+           "one possible motion";
   }
 
  private:
@@ -150,7 +150,7 @@ std::string held_force_warning_of(const SweepPlan& plan) {
       const double difference = std::abs(held_share(the_case, period, frequency) - 1.0);
       if (!(difference > largest)) continue;
       largest = difference;
-      warning = held_force_warning(the_case, "ratios are to the true force's");
+      warning = held_force_warning(the_case, "ratios refer to the true force");
     } catch (const Refusal&) {  // not admissible, and told as the outcome of its cell
     } catch (const InvalidParameter&) {
     }
@@ -167,8 +167,8 @@ std::string best_gain_warning(const SweepPlan& plan) {
   });
   if (!plan.options().best_gain || !(varies || (backlash.width > 0.0 && backlash.law != "none")))
     return "";
-  return "--best-gain takes the D of least amplitude of the loop without its play; the metrics are "
-         "those of the motion with it, and another D may leave less";
+  return "--best-gain chooses D for the loop without its play; the metrics are those of the motion "
+         "with play, where another D may be better";
 }
 
 /// The part that K/N stands for.
@@ -183,7 +183,7 @@ StorePart part_of(const SweepPlan& plan, const std::string& text) {
     throw WrongInput("--part " + text + ": expected K/N with 1 <= K <= N, N at most the " +
                      format_number(chunks) + " chunks of the store");
   if (!is_store_name(plan.context().output))
-    throw WrongInput("--part is of a store: give --output NAME.zarr");
+    throw WrongInput("--part needs a store: give --output NAME.zarr");
   return {static_cast<std::int64_t>(number), static_cast<std::int64_t>(of)};
 }
 
@@ -262,7 +262,7 @@ class SweepRun {
     const fs::path folder = store_folder(context(), named_);
     if (!store_in(folder))
       throw WrongInput("no store in " + folder.string() +
-                       "; all processes need a file system that they share");
+                       "; all processes must share one file system");
     store_ = StoreFolder::enter(folder, plan_.store());
   }
 
@@ -306,8 +306,8 @@ class SweepRun {
   void leave() noexcept {
     if (!is_first()) return;
     if (named_)
-      return report_kept_chunks(
-          store(), std::string("the same command") + (work_ ? " with --resume" : "") + " goes on");
+      return report_kept_chunks(store(), std::string("repeat the same command") +
+                                             (work_ ? " with --resume" : "") + " to continue");
     try {
       work_->remove();
     } catch (...) {
@@ -329,11 +329,11 @@ class SweepRun {
 
 void write_sweep(const JobContext& context, const SweepOptions& options) {
   if (options.resume && !has_named_output(context))
-    throw WrongInput("--resume needs the --output of the earlier run, beside which its chunks lie");
+    throw WrongInput("--resume needs the --output of the earlier run, which names its results");
   if (mpi_launch().size > 1 && !has_named_output(context))
     throw WrongInput(
-        "--output: a sweep on several processes needs a file, beside which they share their "
-        "chunks");
+        "a sweep on several processes needs --output FILE: the processes exchange their results in "
+        "a folder beside it");
   SweepRun(context, options).run();
 }
 

@@ -92,7 +92,7 @@ TEST(Answers, AreThoseOfTheJobsThatTheyName) {
   const auto exact = table_of(
       "sweep --axis backlash.width=0.0005:0.0005:1 --metric ratio_to_uncontrolled --switching "
       "exact --duration 20");
-  EXPECT_NEAR(number_behind(answers.text(help, "detail"), "not at samples, leaves "),
+  EXPECT_NEAR(number_behind(answers.text(help, "detail"), "samples too, it leaves "),
               100.0 * exact.number(0, "ratio_to_uncontrolled"), 0.06);
   const double best = -number_behind(answers.text(gain, "answer"), "D = −");
   const auto in_play = table_of("sweep --axis control.differential_gain=" + std::to_string(best) +

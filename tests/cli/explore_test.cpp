@@ -69,7 +69,7 @@ TEST(ExploreJob, RefusesWhatIsNoPageAndCasesOfSeveralFiles) {
   expect_refusal("explore", "--output FILE.html is needed");
   expect_refusal("explore --output page.csv", "let its name end in .html");
   expect_refusal("explore --set excitation.record=force.csv --output page.html",
-                 "without the file of a force");
+                 "cannot include a recorded force");
   expect_refusal(
       "explore --set device.1.kind=dashpot --set device.1.position=0.5 --set device.1.damping=1 "
       "--output page.html",

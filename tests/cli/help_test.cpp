@@ -55,7 +55,7 @@ TEST(Help, AWordThatIsNotExpectedIsGuessed) {
   expect_guess("simulate --switchng exact", "did you mean --switching?");
   expect_guess("margins mine.toml", "--case mine.toml");
   expect_guess("case mine.toml", "--check mine.toml");
-  expect_guess("simulate --set control.sampling_period=10kg", "no unit of it");
+  expect_guess("simulate --set control.sampling_period=10kg", "not a unit of this key");
   expect_guess("lyap", "did you mean lyapunov?");  // by its beginning
   expect_guess("stabilty", "did you mean stability?");
 }
@@ -92,7 +92,7 @@ TEST(Help, OptionsWithoutAJobAreToldToHaveNone) {
   expect_refused("--case mine.toml", {"which job"});
   expect_refused("--quiet", {"which job"});
   expect_refused("--case margins", {"which job"});
-  expect_refused("--duration 1 simulate", {"--duration", "behind"});
+  expect_refused("--duration 1 simulate", {"--duration", "after"});
   expect_refused("--quiet margns", {"margins"});
   expect_refused("-x", {"-x"});
 }

@@ -154,11 +154,11 @@ TEST(Margins, PassOverNoWindow) {
     EXPECT_LE(distance, unstable * (1.0 + 1e-9)) << row;
     EXPECT_NEAR(found.number(row, "distance"), distance, 1e-8 * std::abs(value)) << row;
   }
-  EXPECT_EQ(run_holdfast(margins).errors.find("walked in steps"), std::string::npos);
+  EXPECT_EQ(run_holdfast(margins).errors.find("searched in steps"), std::string::npos);
   const Outcome unsure = run_holdfast(
       "margins --set plant.model=string --set plant.modes=4 "
       "--set control.velocity=difference");
-  expect_holds(unsure.errors, {"walked in steps of 5 %"});
+  expect_holds(unsure.errors, {"searched in steps of 5 %"});
   EXPECT_EQ(unsure.errors.find("--prove"), std::string::npos);
 }
 
@@ -373,7 +373,7 @@ TEST(Wind, GivesFrequencyAndAmplitude) {
 TEST(Jobs, ThatHaveNoNumberSaySo) {
   for (const auto& [job, reason] :
        {std::pair{"sensitivity --set control.measurement_filter=2.269e-86",
-                  "derivative has no number in "},
+                  "derivative is nan in "},
         {"deviation --set initial.v2=3.5e58", "take a larger --offset"},
         {"deviation --offset 1e-30 --set initial.z1=0.001", "take a larger --offset"}}) {
     expect_refused(std::string(job) + " --quiet", {reason}, 1);

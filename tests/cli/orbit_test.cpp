@@ -201,7 +201,7 @@ TEST(OrbitJob, RefusesWhatItCannotFollow) {
   const std::string map = "orbit --map backlash.width=0.0001:0.001 --map ";
   expect_refused("orbit --map backlash.width=0.0001:0.001", {"two keys, not 1"});
   expect_refused(map + "backlash.width=0.0001:0.001", {"both keys"});
-  expect_refused(map + "control.differential_gain=-5:-1", {"lies outside"});
+  expect_refused(map + "control.differential_gain=-5:-1", {"must lie in"});
   expect_refused(map + "control.differential_gain=-13:-13", {"smaller"});
   expect_refused(map + "plant.absorber_mass=-1:1", {"plant.absorber_mass must be"});
   expect_refused("orbit --map control.sampling_period=0.0005:0.002 --map excitation.frequency=5:15",
@@ -213,11 +213,11 @@ TEST(OrbitJob, RefusesWhatItCannotFollow) {
   expect_refused(cells + "backlash.width=0.001:0.002:2", {"both keys"});
   expect_refused(cells + "control.sampling_period=-1:1:2", {"must be greater than 0 s"});
   expect_refused("basins --motions", {"--map"});
-  expect_refused("orbit --follow backlash.width=0.001:0.002", {"lies outside"});
+  expect_refused("orbit --follow backlash.width=0.001:0.002", {"must lie in"});
   expect_refused("orbit --follow control.sampling_period=0.0005:0.002", {"coincide"});
   expect_refused("orbit --follow initial.z1=0:1", {"[plant]"});
   expect_refused("orbit --follow backlash.width=-1:1", {"must be"});
-  expect_refused("orbit --follow backlash.width=0:1 --set backlash.width=0", {"no backlash"});
+  expect_refused("orbit --follow backlash.width=0:1 --set backlash.width=0", {"without backlash"});
   expect_refused("orbit --follow backlash.widht=0:0.002", {"backlash.width"});
 }
 
@@ -228,7 +228,7 @@ TEST(OrbitJob, RefusesWhatItCannotProve) {
                  {"--map"});
   expect_refused("orbit --prove --follow plant.absorber_mass=0.15:0.17", {"linear"});
   expect_refused("orbit --prove --follow backlash.width=0:0.002 --set backlash.width=0",
-                 {"no backlash"});
+                 {"without backlash"});
   expect_refused("orbit --prove --max-period 50", {"coincide only every 100 samples"}, 1);
   // Stick barely begins at a reversal.
   expect_refused(
@@ -313,10 +313,10 @@ TEST(DeviationJob, SaysWhyNeighboursStayApartBesideCertifiedOrbits) {
   const std::string shifted = run_holdfast("deviation --offset 1e-3" + copies).errors;
   const std::string coexisting = copies + " --set control.sampling_period=0.003";
   const std::string apart = run_holdfast("deviation --offset 1e-5" + coexisting).errors;
-  expect_holds(apart, {"orbits coexist", "of " + period_from(coexisting)});
+  expect_holds(apart, {"two different certified orbits", "of " + period_from(coexisting)});
   expect_holds(shifted, {"one certified orbit of " + period_from(copies)});
   const std::string together = run_holdfast("deviation --set backlash.width=0").errors;
-  EXPECT_EQ(together.find("apart"), std::string::npos) << together;
+  EXPECT_EQ(together.find("still differ"), std::string::npos) << together;
 }
 
 TEST(VerdictJob, SaysThatAnOrbitHasCopiesShiftedInTime) {

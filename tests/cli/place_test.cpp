@@ -109,18 +109,18 @@ TEST_F(PlaceJob, WhatIsNotKnownHasNoRowAndIsSaid) {
 
 TEST_F(PlaceJob, SaysWhereABoundEndsIt) {
   expect_said("place --modes 1:5" + case_of(stay_text),
-              {"position ends at the upper bound of what was searched, 30 m"});
+              {"position lies at the upper bound of the search, 30 m"});
   const auto best = answer(stay_text, "--quiet --modes 2:2 --keep position");
   expect_said("place --modes 2:2 --keep position --set device.1.damping=" +
                   program::format_number(value_of(best, "damping")) + case_of(stay_text),
-              {"nothing better was found"});
+              {"nothing better than the case"});
 }
 
 TEST_F(PlaceJob, ANegativeStiffnessLeavesTheConductorAtRest) {
   std::string text = stay_text;
   text.replace(text.find("dashpot"), 7, "stiffness");
   expect_said("place --modes 1:5 --keep position" + case_of(text + "stiffness = -2e5\n"),
-              {"away from its rest"});
+              {"unstable at rest"});
   const auto found = answer(text + "stiffness = -2e5\n", "--quiet --modes 1:5 --keep position");
   EXPECT_LT(value_of(found, "stiffness"), -2e5);
   EXPECT_GT(value_of(found, "stiffness"), -3.5e6 * (1.0 / 6.0 + 1.0 / 294.0));
@@ -155,9 +155,9 @@ TEST_F(PlaceJob, RefusesWhatIsNoQuestion) {
   expect_wrong(passive, "--device absorber", "no absorber");
   expect_wrong(passive, "--frequency 0:60:56", "greater than 0 Hz");
   expect_wrong(passive, "--frequency -5:60:56", "greater than 0 Hz");
-  expect_wrong(passive, "--keep position", "the maker's");
+  expect_wrong(passive, "--keep position", "the maker fixes");
   expect_wrong(passive, "--margin 0.3", "device 1 has none");
-  expect_wrong(passive, "--modes 1:2 --for strain", "--modes goes with --for damping");
+  expect_wrong(passive, "--modes 1:2 --for strain", "--modes works only with --for damping");
   expect_wrong(passive, "--modes 0:2", "FIRST:LAST");
   expect_wrong(passive, "--modes 1.5:2", "FIRST:LAST");
   expect_wrong(stay_text, "", "diameter");

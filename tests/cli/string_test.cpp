@@ -146,9 +146,9 @@ TEST(String, ModalDampingTellsWhichRootGrows) {
     EXPECT_EQ(table.number(row, "damping_ratio_bare"), 0.02);
     EXPECT_GT(table.number(row, "damping_ratio"), 0.019);
   }
-  expect_holds(run_holdfast(string).errors, {"law of light devices"});
+  expect_holds(run_holdfast(string).errors, {"only for light devices"});
   const std::string grows = run_holdfast(string + " --set control.differential_gain=-8").errors;
-  expect_holds(grows, {"a root grows that is none of these modes"});
+  expect_holds(grows, {"a root grows that belongs to none of these modes"});
   const std::string rests = run_holdfast(string + " --set control.differential_gain=-3").errors;
   EXPECT_EQ(rests.find("unstable"), std::string::npos) << rests;
 }
@@ -171,7 +171,7 @@ TEST(String, JobsOfTwoMassesRefuseIt) {
                    {"the paper's model"});
   expect_refused("modal-damping", {"plant.model=cable"});
   expect_refused("simulate --switching exact --kick 0.1:0.001 --quiet --set plant.model=string",
-                 {"--kick", "the paper's model alone"});
+                 {"--kick", "only for the paper's model"});
 }
 
 TEST(String, WrongInputIsNamed) {
@@ -207,7 +207,7 @@ TEST(String, SaysWhatTheModesLeftOutWouldChange) {
   const std::string errors = run_holdfast(ask + settled).errors;
   EXPECT_EQ(errors.find("warning"), std::string::npos) << errors;
   expect_said(ask + settled + " --set conductor.damping_ratio=0.0005", {"did not come back"});
-  expect_said(ask + settled + " --set excitation.frequency=700", {"is faster than they"});
+  expect_said(ask + settled + " --set excitation.frequency=700", {"is faster than these"});
   // Without plant.modes the answer hardly moves with the computer's speed; 20 modes are 14 g.
   const CsvTable slow = table_of(ask + " --quiet --set control.sampling_period=2e-4");
   const CsvTable fast = table_of(ask + " --quiet --set control.sampling_period=2e-5");

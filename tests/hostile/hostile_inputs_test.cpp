@@ -459,7 +459,7 @@ std::string fault_of(const HostileInput& input, const LimitedEnding& ending,
   const ErrorLines lines = error_lines_of(ending.errors, input.words);
   if (!lines.strange.empty()) return "wrote a strange line: " + shown(lines.strange, 200);
   // A sweep that stops says beside the reason where its chunks are.
-  const std::size_t kept = ending.errors.find("--resume goes on") != std::string::npos ? 1 : 0;
+  const std::size_t kept = ending.errors.find("--resume to continue") != std::string::npos ? 1 : 0;
   const std::size_t expected = code == 0 ? 0 : 1;
   if (code != 2 ? lines.others > expected + kept || lines.others < expected : lines.others != 1)
     return "wrote " + std::to_string(lines.others) + " lines of errors";

@@ -13,19 +13,19 @@
 
 namespace holdfast {
 
-/// Tension T = EA (l − l₀)/l₀ (N) of a bar that reaches over `reach` (m), unstretched l₀.
+/// Tension T = EA (l − l₀)/l₀ (N) of a bar of length l = |reach| (m) and unstretched length l₀ (m).
 template <class Scalar>
 Scalar bar_tension(const Vector<Scalar, 2>& reach, double length, double axial_stiffness) {
   return axial_stiffness * (reach.norm() - length) / length;
 }
 
-/// T n (N): how a bar pulls its first node toward the second.
+/// Force T n (N) of a bar on its first node; n = reach/|reach| points to the second node.
 template <class Scalar>
 Vector<Scalar, 2> bar_pull(const Vector<Scalar, 2>& reach, double length, double axial_stiffness) {
   return reach * Scalar(axial_stiffness * (Scalar(1.0 / length) - Scalar(1) / reach.norm()));
 }
 
-/// ∂(T n)/∂reach = (EA/l₀) n nᵀ + (T/l)(I − n nᵀ) (N/m), symmetric.
+/// Stiffness ∂(T n)/∂reach = (EA/l₀) n nᵀ + (T/l)(I − n nᵀ) (N/m) of a bar, symmetric.
 template <class Scalar>
 Matrix<Scalar, 2> bar_stiffness(const Vector<Scalar, 2>& reach, double length,
                                 double axial_stiffness) {
@@ -37,9 +37,9 @@ Matrix<Scalar, 2> bar_stiffness(const Vector<Scalar, 2>& reach, double length,
 
 /// A cable as N elastic bars between N + 1 nodes, the outer two being the supports.
 ///
-/// The bars' unstretched lengths add up to the cable's; a node lies at the absorber's material
-/// point, and on either side of it the bars are equal. Positions are 2 × (N − 1), a column
-/// [x, y]ᵀ (m) per free node, y downward.
+/// The unstretched lengths of the bars add up to that of the cable. One node lies at the absorber's
+/// material point; the bars left of this node have one unstretched length, the bars right of it
+/// another. Positions are 2 × (N − 1), a column [x, y]ᵀ (m) per free node, y downward.
 /// @tparam Real  `double`; a parameter so that the class is compiled only where it is used
 template <class Real>
 class BasicBarChain {
@@ -48,9 +48,9 @@ class BasicBarChain {
   using Nodes = Eigen::Matrix<Real, 2, Eigen::Dynamic>;
 
   /// @param conductor  admissible in the sense of `validate`
-  /// @param position   x_p (m), inside the span: where a node is to lie in the bare cable
+  /// @param position   x_p (m), inside the span: place of the absorber's node in the bare cable
   /// @param elements   N, ≥ 2
-  /// @throws InvalidParameter otherwise
+  /// @throws InvalidParameter outside these ranges
   BasicBarChain(const Conductor<Real>& conductor, Real position, int elements)
       : conductor_(checked(conductor, position, elements)),
         cable_(conductor),
@@ -72,7 +72,7 @@ class BasicBarChain {
   int loaded_node() const { return loaded_node_; }
   /// l₀ (m) of bar e, between the free nodes e − 1 and e.
   Real length(int element) const { return lengths_[static_cast<std::size_t>(element)]; }
-  /// EA (N), of every bar.
+  /// Axial stiffness EA (N), the same for all bars.
   Real axial_stiffness() const { return cable_.axial_stiffness(); }
   /// The cable that the bars stand for.
   const Conductor<Real>& conductor() const { return conductor_; }
@@ -82,7 +82,7 @@ class BasicBarChain {
     return conductor_.mass_per_length * 0.5 * (length(node) + length(node + 1));
   }
 
-  /// The bar's reach: from the node at its left, or the left support, to the one at its right.
+  /// Vector (m) from the left node of bar `element` to its right node; supports count as nodes.
   template <class Positions>
   auto reach(const Positions& nodes, int element) const {
     using Scalar = typename Positions::Scalar;
@@ -92,7 +92,7 @@ class BasicBarChain {
     return Vector<Scalar, 2>(to - from);
   }
 
-  /// Smallest tension (N) of all bars; not positive where the chain is slack.
+  /// Smallest tension (N) of all bars; not positive where a bar is slack.
   Real smallest_tension(const Nodes& nodes) const {
     Real smallest = std::numeric_limits<Real>::infinity();
     for (int e = 0; e < elements(); ++e)
@@ -101,8 +101,8 @@ class BasicBarChain {
     return smallest;
   }
 
-  /// Where the exact statics put the nodes with a load P (N) at the absorber's place: the first
-  /// guess for the chain's own equilibrium.
+  /// Positions (m) of the free nodes on the exact catenary under a load P (N) at the absorber, the
+  /// first guess for the equilibrium of the bars.
   Nodes catenary_positions(Real load) const {
     const LoadedCable<Real> loaded = cable_.under_load(load, place_);
     Nodes nodes(2, free_nodes());
@@ -130,18 +130,18 @@ class BasicBarChain {
   std::vector<Real> lengths_;
 };
 
-/// The chain in `double`.
+/// The bar chain with numbers of type `double`.
 using BarChain = BasicBarChain<double>;
 
 /// Equilibrium of a bar chain.
 struct ChainEquilibrium {
   BarChain::Nodes nodes;       ///< 2 × (N − 1), m
   EquilibriumOutcome outcome;  ///< converged: forces balanced to round-off, every bar in tension
-  double unbalanced;           ///< N, largest component of the force that is left at a node
+  double unbalanced;           ///< N, largest component of the unbalanced force at a node
 };
 
-/// ∂(internal force)/∂(positions) (N/m), 2(N − 1) square, symmetric, block-tridiagonal, with the
-/// dofs x, y of each node in turn; positive definite where all bars are in tension.
+/// Tangent stiffness ∂(internal force)/∂(positions) (N/m), a symmetric block-tridiagonal matrix of
+/// 2(N − 1) rows, x and y of each node in turn; positive definite where all bars are in tension.
 template <class Real>
 Eigen::SparseMatrix<Real> tangent_stiffness(const BasicBarChain<Real>& chain,
                                             const typename BasicBarChain<Real>::Nodes& nodes) {
@@ -166,7 +166,7 @@ Eigen::SparseMatrix<Real> tangent_stiffness(const BasicBarChain<Real>& chain,
   return matrix;
 }
 
-/// The force (N) left at each node by gravity, a load P (N) at the absorber's place and the bars.
+/// Sum (N) of the forces on each free node: weight, pull of the bars, load P (N) at the absorber.
 template <class Real>
 typename BasicBarChain<Real>::Nodes unbalanced_forces(
     const BasicBarChain<Real>& chain, const typename BasicBarChain<Real>::Nodes& nodes,
@@ -186,8 +186,8 @@ typename BasicBarChain<Real>::Nodes unbalanced_forces(
 }
 
 /// Equilibrium of the chain under gravity and a load P (N, downward) at the absorber's place:
-/// Newton's method from the exact catenary, the step halved while it does not lessen the unbalanced
-/// force. @throws InvalidParameter for a load that is not finite
+/// Newton's method from the exact catenary, each step halved until it reduces the unbalanced force.
+/// @throws InvalidParameter for a load that is not finite
 template <class Real>
 ChainEquilibrium chain_equilibrium(const BasicBarChain<Real>& chain, double load) {
   using Nodes = typename BasicBarChain<Real>::Nodes;

@@ -15,38 +15,39 @@ namespace holdfast {
 
 /// Mass that hangs on a cable at the absorber's place.
 struct HungMass {
-  double weight;          ///< kg, ≥ 0: under its weight the cable is at rest
-  double sideways = 0.0;  ///< kg, ≥ 0: what of it has to go along the span with the cable
+  double weight;          ///< kg, ≥ 0: mass whose weight the cable carries at rest
+  double sideways = 0.0;  ///< kg, ≥ 0: part of it that moves along the span with the cable
 };
 
-/// How the mass of a bar lies on its two nodes.
+/// Distribution of a bar's mass on its two nodes. Each entry states the relative error of the wave
+/// speed at the wavenumber k (rad/m) with bars of length l (m).
 enum class BarMass {
-  lumped,    ///< half of it on each, as in `CableElements`: waves run too slowly, by (kl)²/24
-  averaged,  ///< of that and of what moves linearly between them the mean: by (kl)⁴/480
+  lumped,    ///< half on each node, as in `CableElements`; waves are too slow by (kl)²/24
+  averaged,  ///< mean of the lumped and the consistent mass matrix; too slow by (kl)⁴/480
 };
 
-/// A hanging cable as the absorber's place sees it.
+/// The modes of a hanging cable with their shapes at the absorber's place.
 struct CablePlaceModes {
-  EquilibriumOutcome outcome;            ///< of the equilibrium
+  EquilibriumOutcome outcome;            ///< outcome of the search for the equilibrium
   std::vector<PlaceMode<double>> modes;  ///< ascending ω; none without an equilibrium
-  int apart = 0;                         ///< so many are modes, those behind bundles of modes
+  int apart = 0;                         ///< number of single modes, listed first; then bundles
 };
 
 namespace detail {
 
-/// Lanczos' process on K⁻¹M in the inner product of K, from where a unit force brings the cable:
-/// the receptance there is its deflection times the first entry of (I + s²T)⁻¹, T tridiagonal.
-/// Every vector is orthogonalised against all before it, twice where the first time cancels much.
+/// Lanczos' process on K⁻¹M in the inner product of K, begun with the deflection under a unit
+/// force. It gives a tridiagonal matrix T (s²): the receptance is the static one times the (1, 1)
+/// entry of (I + s²T)⁻¹. Each vector is made orthogonal to all earlier ones, if needed twice.
 template <class Real>
 class FlexibilityLanczos {
  public:
   using Column = Vector<Real, Eigen::Dynamic>;
   using Square = Matrix<Real, Eigen::Dynamic>;
 
-  /// @param stiffness  K, positive definite
-  /// @param masses     M
-  /// @param degree     of freedom that the force acts on
-  /// @param steps      the size of T, unless the force reaches fewer motions
+  /// @param stiffness  K (N/m), positive definite
+  /// @param masses     M (kg)
+  /// @param degree     index of the degree of freedom on which the force acts
+  /// @param steps      size of T; T is smaller if the force excites fewer modes
   FlexibilityLanczos(const Eigen::SparseMatrix<Real>& stiffness,
                      const Eigen::SparseMatrix<Real>& masses, Eigen::Index degree,
                      Eigen::Index steps)
@@ -75,9 +76,9 @@ class FlexibilityLanczos {
     } while (count_ < steps && norm > 1e-12 * diagonal_[0]);
   }
 
-  /// m/N, under a unit force.
+  /// Static receptance (m/N): the deflection under a unit force.
   Real deflection() const { return deflection_; }
-  /// Remainder of T: the entry beside its last.
+  /// The off-diagonal entry (s²) that the next step would add to T.
   Real remainder() const { return beside_[count_ - 1]; }
   /// The eigenvalues 1/ω² (s²) and eigenvectors of T.
   Eigen::SelfAdjointEigenSolver<Square> eigen() const {
@@ -92,7 +93,7 @@ class FlexibilityLanczos {
   Real deflection_;
 };
 
-/// M (kg) of the free nodes, with the dofs x, y of each in turn.
+/// Mass matrix M (kg) of the free nodes, with the degrees of freedom x, y of each in turn.
 template <class Real>
 Eigen::SparseMatrix<Real> mass_matrix(const BasicBarChain<Real>& chain, BarMass mass) {
   const Eigen::Index size = 2 * chain.free_nodes();
@@ -113,7 +114,8 @@ Eigen::SparseMatrix<Real> mass_matrix(const BasicBarChain<Real>& chain, BarMass 
   return matrix;
 }
 
-/// Damps each bundle over its width, half of the way to its neighbours on either side.
+/// Sets the damping ratio of each mode that is not `apart`, a bundle, to half its relative width in
+/// frequency. A bundle extends to the geometric means of its frequency and either neighbour's.
 inline void widen_bundles(std::vector<PlaceMode<double>>& modes, const std::vector<bool>& apart) {
   for (std::size_t n = 1; n < modes.size(); ++n) {
     if (apart[n]) continue;
@@ -127,22 +129,22 @@ inline void widen_bundles(std::vector<PlaceMode<double>>& modes, const std::vect
 
 }  // namespace detail
 
-/// The modes of a hanging cable about its equilibrium with the absorber's weight, as the absorber's
-/// node sees them moving up and down, without damping:
+/// The undamped modes of a hanging cable about its equilibrium with the absorber's weight, with
+/// their vertical shapes φ_n at the absorber's node:
 ///
 ///     H(s) = eᵀ (K + s²M)⁻¹ e ≈ Σ φ_n² / (s² + ω_n²),
 ///
-/// K the tangent stiffness of the bars, M their masses. `steps` steps of Lanczos' process
-/// keep the first 2·`steps` moments of H about s = 0 exactly: the slow modes come out as they are,
-/// and the fast ones, however many bars, in bundles that are ever wider, in which no mode is lost.
-/// A mode counts as one where Lanczos leaves less than 10⁻⁷ of 1/ω². A bundle is damped over its
-/// width, so that the waves of its modes go out and do not come back. Modes with a node at the
-/// place do not appear. Work: O(bars · steps²).
+/// K is the tangent stiffness of the bars, M their mass matrix with `hung.sideways`, e the vertical
+/// unit vector of the absorber's node. `steps` steps of Lanczos' process keep the first 2·`steps`
+/// moments of H about s = 0 exactly. Slow modes come out one by one, all others in bundles, wider
+/// and wider with frequency. A mode is single if the residual of the process is below 10⁻⁷ of 1/ω².
+/// The damping of a bundle covers its width, so that its waves leave the place and do not return.
+/// Modes with a node at the place do not appear. Work: O(bars · steps²).
 /// @tparam Real  `double`; a parameter so that it is compiled only where it is used
-/// @param chain  the cable's bars, of which the fastest wave of interest needs six or more
-/// @param hung   what loads the absorber's node
-/// @param steps  1 … 2(N − 1) of N bars
-/// @param mass   how the bars' mass lies on the nodes
+/// @param chain  the cable's bars, six or more to the shortest wavelength of interest
+/// @param hung   mass on the absorber's node
+/// @param steps  number of Lanczos steps, 1 … 2(N − 1) for N bars
+/// @param mass   distribution of the bars' mass on the nodes
 /// @throws InvalidParameter for masses or steps that are not admissible
 template <class Real>
 CablePlaceModes cable_place_modes(const BasicBarChain<Real>& chain, const HungMass& hung, int steps,

@@ -20,15 +20,15 @@ struct ElementsMode {
 
 /// Undamped modes of the bare cable about its equilibrium.
 struct ElementsModes {
-  EquilibriumOutcome outcome;  ///< of the equilibrium
-  /// Ascending frequency; those across the span and those along it, which `along_share` tells
-  /// apart. None without an equilibrium.
+  EquilibriumOutcome outcome;  ///< outcome of the search for the equilibrium
+  /// Modes in ascending order of frequency, both transverse and longitudinal ones, which
+  /// `along_share` tells apart. None without an equilibrium.
   std::vector<ElementsMode> modes;
 };
 
 namespace detail {
 
-/// Positive where a shape is its own mirror image, negative where it is the opposite of it.
+/// Family of a shape: symmetric where the vertical part times its mirror image sums up to > 0.
 inline ModeFamily family_of(const Eigen::VectorXd& shape) {
   const Eigen::Index nodes = shape.size() / 2;
   double overlap = 0.0;
@@ -39,11 +39,11 @@ inline ModeFamily family_of(const Eigen::VectorXd& shape) {
 
 }  // namespace detail
 
-/// The `count` lowest undamped modes of the bare cable in `elements` equal bars:
-/// K φ = ω² M φ with the tangent stiffness K of the equilibrium (dense, so N up to about 1000) and
-/// lumped masses M, with which frequencies come out low.
-/// @throws InvalidParameter for an inadmissible conductor, an odd or small number of elements, or
-/// a count outside 1 … 2(N − 1)
+/// The `count` lowest undamped modes of the bare cable in N = `elements` equal bars:
+/// K φ = ω² M φ with the tangent stiffness K at the equilibrium and lumped masses M, which make the
+/// frequencies too low. K is dense: N up to about 1000 is practical.
+/// @throws InvalidParameter for an inadmissible conductor, an odd N, N < 2, or a count outside
+/// 1 … 2(N − 1)
 template <class Real>
 ElementsModes elements_modes(const Conductor<Real>& conductor, int elements, int count) {
   using Square = Matrix<Real, Eigen::Dynamic>;

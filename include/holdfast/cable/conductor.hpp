@@ -62,7 +62,7 @@ inline void validate(const Conductor<double>& conductor) {
     throw InvalidParameter("damping ratio zeta", conductor.damping_ratio, "", ">= 0 and < 1");
 }
 
-/// Where along the span something acts on the conductor.
+/// Refuses a position (m) along the span (m) that is not inside it.
 /// @throws InvalidParameter unless 0 < position < span
 inline void require_inside_span(double position, double span) {
   if (position > 0 && position < span) return;

@@ -8,26 +8,26 @@
 
 namespace holdfast {
 
-/// How the absorber loads the continuous cable.
+/// Model of the absorber on the continuous cable.
 enum class AbsorberReading {
-  weight,       ///< by its weight alone, without inertia
-  rigid_mass,   ///< as a mass fixed to its node, with inertia along the span too, damped by α
-  spring_mass,  ///< as a mass on a spring and a damper below its node, moving up and down only
+  weight,       ///< a weight without inertia
+  rigid_mass,   ///< a mass fixed to its node, with inertia along the span too, damped by α
+  spring_mass,  ///< a mass on a spring and a damper below its node, both of them vertical
 };
 
 /// The absorber on the continuous cable.
 struct HangingAbsorber {
-  AbsorberReading reading;  ///< what of the numbers below counts
+  AbsorberReading reading;  ///< model, which decides which members below are used
   double mass;              ///< m₂ (kg), ≥ 0; > 0 for the spring–mass
   double stiffness = 0.0;   ///< k₂ (N/m), of the spring–mass only
   double damping = 0.0;     ///< c₂ (N s/m), of the spring–mass only
-  /// M_c (kg), ≥ 0, of the spring–mass only: what moves with the node, its weight counted in m₂'s
+  /// M_c (kg), ≥ 0, of the spring–mass only: inertia fixed to the node, which adds no weight
   double clamp_mass = 0.0;
-  bool sideways = false;  ///< of the spring–mass: whether m₂ goes along the span with the node
+  bool sideways = false;  ///< of the spring–mass: whether m₂ moves along the span with the node
 };
 
-/// @throws InvalidParameter for m₂ below zero; of the spring–mass also for m₂ or k₂ not above zero,
-/// or c₂ or M_c below zero
+/// Refuses an absorber outside the ranges that its members state.
+/// @throws InvalidParameter for m₂ or M_c < 0; for the spring–mass also m₂ or k₂ ≤ 0, or c₂ < 0
 inline void validate(const HangingAbsorber& absorber) {
   require_non_negative("absorber mass m2", absorber.mass, "kg");
   require_non_negative("clamp mass", absorber.clamp_mass, "kg");
@@ -48,7 +48,8 @@ struct RayleighDamping {
   }
 };
 
-/// α = 2 ζ ω₁ω₂/(ω₁ + ω₂), β = 2 ζ/(ω₁ + ω₂): the damping ratio ζ at both frequencies (Hz).
+/// Rayleigh damping with the damping ratio ζ at two frequencies ω/2π (Hz):
+/// α = 2 ζ ω₁ω₂/(ω₁ + ω₂), β = 2 ζ/(ω₁ + ω₂).
 /// @throws InvalidParameter for ζ outside 0 … 1 or a frequency that is not positive
 inline RayleighDamping rayleigh_damping(double damping_ratio, double first_frequency,
                                         double second_frequency) {
@@ -61,29 +62,28 @@ inline RayleighDamping rayleigh_damping(double damping_ratio, double first_frequ
           2.0 * damping_ratio / (first + second)};
 }
 
-/// The continuous cable with its absorber, in finite elements: M v̇ + C v + f(q) = F for a chain of
-/// elastic bars with lumped masses, and C = α M + β K of the equilibrium with the absorber's
-/// weight. A right-hand side and its Jacobian; no solver in here.
+/// The continuous cable with its absorber in finite elements: M v̇ + C v + f(q) = F for a chain of
+/// elastic bars with lumped masses. C = α M + β K, K at the equilibrium with the absorber's weight.
+/// The class has the right-hand side and its Jacobian, but no solver.
 ///
-/// State: [x, y, ẋ, ẏ] (m, m/s) per free node, and behind the loaded node of the spring–mass
-/// reading its two states [a, ȧ], a (m) counted like the node's drop from the equilibrium. The
-/// Jacobian's entries lie within `half_bandwidth()` of the diagonal. Downward forces at the
-/// absorber's place may be added to it by `push()`.
+/// State: [x, y, ẋ, ẏ] (m, m/s) per free node. With a spring–mass, [a, ȧ] follows those of the
+/// loaded node, a (m) the absorber's drop from rest. The Jacobian's entries lie within
+/// `half_bandwidth()` of the diagonal. `push()` adds downward forces at the absorber's place.
 /// @tparam Real  `double`; a parameter so that the class is compiled only where it is used
 template <class Real>
 class BasicCableElements {
  public:
   /// Columns of free nodes' positions (m).
   using Nodes = typename BasicBarChain<Real>::Nodes;
-  /// A state of `states()` numbers.
+  /// A state, a column of `states()` numbers.
   using States = Vector<Real, Eigen::Dynamic>;
 
   /// @param conductor  admissible in the sense of `validate`
   /// @param position   x_p (m) of the absorber, inside the span
   /// @param elements   N, ≥ 2
-  /// @param absorber   on the node at x_p
-  /// @param damping    of the cable; both factors ≥ 0
-  /// @throws InvalidParameter otherwise, or for an absorber outside its ranges
+  /// @param absorber   absorber on the node at x_p
+  /// @param damping    damping of the cable; both factors ≥ 0
+  /// @throws InvalidParameter outside these ranges, or for an absorber outside its own
   BasicCableElements(const Conductor<Real>& conductor, Real position, int elements,
                      const HangingAbsorber& absorber, const RayleighDamping& damping)
       : chain_(conductor, position, elements), absorber_(absorber), damping_(damping) {
@@ -103,18 +103,18 @@ class BasicCableElements {
   bool is_sprung() const { return absorber_.reading == AbsorberReading::spring_mass; }
   /// Number of states.
   int states() const { return 4 * chain_.free_nodes() + (is_sprung() ? 2 : 0); }
-  /// 7; 9 with the two further states of the spring–mass.
+  /// Half-bandwidth of the Jacobian: 7, or 9 with the two further states of the spring–mass.
   int half_bandwidth() const { return is_sprung() ? 9 : 7; }
 
   /// Equilibrium with the absorber's weight.
   const ChainEquilibrium& rest() const { return rest_; }
 
-  /// The state at rest under a further force (N) at the absorber's place, and whether that and the
-  /// equilibrium with the weight alone were found.
+  /// State at rest under a further force at the absorber's place.
   struct Start {
-    States state;                ///< of states() numbers, at rest; of use where it converged
-    EquilibriumOutcome outcome;  ///< converged where both were found
+    States state;                ///< states() numbers, velocities zero; valid where converged
+    EquilibriumOutcome outcome;  ///< converged where this equilibrium and rest() were found
   };
+  /// The state at rest under a further force.
   /// @param force  N, downward positive, beside the weight of the absorber
   Start held_by(Real force) const {
     const ChainEquilibrium held = chain_equilibrium(chain_, resting_load() + force);
@@ -129,7 +129,7 @@ class BasicCableElements {
     return start;
   }
 
-  /// Motion of the absorber's place and of the absorber: [z, ż, a, ȧ] (m, m/s, m, m/s), of the
+  /// Motion [z, ż, a, ȧ] (m, m/s, m, m/s) of the absorber's place and of the absorber; only with a
   /// spring–mass.
   Vector<Real, 4> at_absorber(const Real* state) const {
     const int own = first_state(chain_.loaded_node());
@@ -137,8 +137,8 @@ class BasicCableElements {
             state[own + 5]};
   }
 
-  /// Strikes the absorber's node and the absorber of the spring–mass: adds to their velocities
-  /// (m/s), and to the absorber's displacement (m).
+  /// Adds the arguments to the velocities (m/s) of the absorber's node and of the absorber, and to
+  /// the absorber's displacement (m); only with a spring–mass.
   void strike(Real* state, Real node_velocity, Real displacement, Real velocity) const {
     const int own = first_state(chain_.loaded_node());
     state[own + 3] += node_velocity;
@@ -146,8 +146,8 @@ class BasicCableElements {
     state[own + 5] += velocity;
   }
 
-  /// Adds to a rate what forces (N, downward) do on the absorber's node and, of the spring–mass, on
-  /// the absorber.
+  /// Adds to d(state)/dt the accelerations due to forces (N, downward) on the absorber's node and,
+  /// with a spring–mass, on the absorber.
   void push(Real* rate_of_state, Real on_node, Real on_absorber) const {
     const int own = first_state(chain_.loaded_node());
     rate_of_state[own + 3] += on_node / inertia(chain_.loaded_node())[1];
@@ -160,7 +160,7 @@ class BasicCableElements {
     return state[first_state(chain_.loaded_node()) + 1] - rest_.nodes(1, chain_.loaded_node());
   }
 
-  /// d(state)/dt for any number type, state and rate of size states().
+  /// Computes d(state)/dt for any number type; both arrays have states() numbers.
   template <class Scalar>
   void rate(const Scalar* state, Scalar* rate_of_state) const {
     // Each bar is computed once: it pulls its left node forth and its right node back.
@@ -226,10 +226,10 @@ class BasicCableElements {
     }
   }
 
-  /// The smallest tension (N) of the bars: the cable is one while it is positive.
+  /// The smallest tension (N) of the bars; the model of the cable holds while it is positive.
   Real margin(const Real* state) const { return chain_.smallest_tension(positions(state)); }
 
-  /// Positions of the free nodes.
+  /// Positions (m) of the free nodes.
   Nodes positions(const Real* state) const {
     Nodes nodes(2, chain_.free_nodes());
     for (int node = 0; node < chain_.free_nodes(); ++node)
@@ -241,7 +241,7 @@ class BasicCableElements {
   int first_state(int node) const {
     return 4 * node + (is_sprung() && node > chain_.loaded_node() ? 2 : 0);
   }
-  /// kg, along the span and downward.
+  /// Inertia (kg) of a node along the span and vertically.
   Vector<Real, 2> inertia(int node) const {
     Vector<Real, 2> masses = Vector<Real, 2>::Constant(chain_.mass(node));
     if (node != chain_.loaded_node()) return masses;
@@ -250,7 +250,7 @@ class BasicCableElements {
     if (is_sprung() && absorber_.sideways) masses[0] += absorber_.mass;
     return masses;
   }
-  /// 1/s, α as it slows a node: going up and down, the clamp is not damped by it.
+  /// Damping rates (1/s) of a node by α: along the span; vertically, where α spares the clamp mass.
   Vector<Real, 2> mass_drag(int node) const {
     Vector<Real, 2> drag = Vector<Real, 2>::Constant(damping_.mass_factor);
     if (is_sprung() && node == chain_.loaded_node())
@@ -262,7 +262,7 @@ class BasicCableElements {
   struct NodeMotion {
     Vector<Scalar, 2> place, velocity;
   };
-  /// The supports are nodes −1 and free_nodes().
+  /// Motion of a node; nodes −1 and free_nodes() are the supports.
   template <class Scalar>
   NodeMotion<Scalar> motion_of(const Scalar* state, int node) const {
     const Scalar zero(0);
@@ -273,7 +273,7 @@ class BasicCableElements {
     const Scalar* own = state + first_state(node);
     return {{own[0], own[1]}, {own[2], own[3]}};
   }
-  /// Force (N) of a bar on its left node, elastic and damping.
+  /// Sum (N) of the elastic and the damping force of a bar on its left node.
   template <class Scalar>
   Vector<Scalar, 2> pull_of(int bar, const NodeMotion<Scalar>& left,
                             const NodeMotion<Scalar>& right) const {
@@ -285,7 +285,7 @@ class BasicCableElements {
                             chain_.axial_stiffness()) +
            damping;
   }
-  /// Writes the rates of the mass on its spring; its force (N) on the loaded node.
+  /// Writes ȧ and ä of the mass on its spring; returns the spring's force (N) on the loaded node.
   template <class Scalar>
   Scalar spring_rate(const Scalar* state, Scalar* rate_of_state) const {
     const int own = first_state(chain_.loaded_node());
@@ -296,7 +296,7 @@ class BasicCableElements {
     rate_of_state[own + 5] = -spring / Scalar(absorber_.mass);
     return spring;
   }
-  /// The spring's entries but those that the loaded node has without it.
+  /// Sets the entries of the Jacobian that are zero without the spring.
   template <class Set>
   void spring_jacobian(Set&& set) const {
     const int own = first_state(chain_.loaded_node());
@@ -319,7 +319,7 @@ class BasicCableElements {
   std::vector<Matrix<Real, 2>> bar_damping_;  // β k_e at rest, per bar
 };
 
-/// The elements in `double`.
+/// The cable elements with numbers of type `double`.
 using CableElements = BasicCableElements<double>;
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

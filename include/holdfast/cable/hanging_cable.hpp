@@ -17,8 +17,8 @@ struct CatenaryExtent {
   Matrix<Scalar, 2> derivative;  ///< ∂(horizontal, vertical)/∂(H, V) (m/N), symmetric, positive
 };
 
-/// One segment of an elastic catenary of weight w (N per unstretched metre) and axial stiffness EA:
-/// with the horizontal tension H and the upward force V that its left end exerts, the tension at
+/// The extent of a segment of an elastic catenary of weight w (N per unstretched metre) and axial
+/// stiffness EA. H is its horizontal tension, V the upward force on its left end. The tension at
 /// the unstretched coordinate s has the components (H, V − w s), T = √(H² + (V − w s)²), and
 ///
 ///     x = H l/EA + (H/w) [asinh(V/H) − asinh((V − w l)/H)]
@@ -51,27 +51,27 @@ CatenaryExtent<Scalar> catenary_extent(const Scalar& weight, const Scalar& stiff
   return extent;
 }
 
-/// How an equilibrium was sought.
+/// Outcome of the search for an equilibrium.
 enum class EquilibriumOutcome {
-  converged,      ///< the forces balance, or the supports are met to 2·10⁻¹¹ of the span
-  not_converged,  ///< they do not: the load is beyond what the number type can resolve
+  converged,      ///< bars: the forces balance; catenary: it meets both supports to 2·10⁻¹¹ L
+  not_converged,  ///< none found: slack bars, or a load beyond the number type's resolution
 };
 
 /// Equilibrium of the whole cable under one vertical point load; NaN where it was not found.
 template <class Scalar>
 struct LoadedCable {
-  Scalar tension;              ///< H (N), horizontal, the same all along
-  Scalar vertical_force;       ///< V (N), upward, of the left support
+  Scalar tension;              ///< H (N), horizontal tension, constant along the cable
+  Scalar vertical_force;       ///< V (N), upward force of the left support on the cable
   EquilibriumOutcome outcome;  ///< whether the cable meets both supports
 };
 
 /// The exact statics of an elastic cable: two catenaries that meet under the point load.
 ///
-/// The unstretched length gives the bare cable its sag at mid-span. At a load P (N, downward) the
-/// vertical force drops by P, and (H, V) follow from the right support being at (L, 0): the
-/// gradient of the complementary energy ∫ (T²/2EA + T) ds − H L, strictly convex in (H, V), is zero
-/// in one place for every load, and Newton's method with backtracking finds it from anywhere.
-/// Source: Irvine 1981, Sect. 1.4.
+/// The unstretched length is chosen so that the bare cable has the given sag. Across a load P (N,
+/// downward) the vertical force drops by P. H and V put the right end on the support (L, 0): there
+/// the complementary energy ∫ (T²/2EA + T) ds − H L is stationary. It is strictly convex in (H, V),
+/// so that every load has exactly one solution, which Newton's method with backtracking finds from
+/// any start. Source: Irvine 1981, Sect. 1.4.
 template <class Scalar>
 class HangingCable {
  public:
@@ -85,21 +85,21 @@ class HangingCable {
 
   /// l₀ (m), the length of the cable laid out without tension.
   const Scalar& unstretched_length() const { return length_; }
-  /// H (N) of the bare cable.
+  /// Horizontal tension H (N) of the bare cable.
   const Scalar& bare_tension() const { return bare_tension_; }
-  /// L (m), between the supports, which are level.
+  /// L (m), the distance of the two supports, which are level.
   const Scalar& span() const { return span_; }
-  /// EA (N).
+  /// Axial stiffness EA (N).
   const Scalar& axial_stiffness() const { return stiffness_; }
-  /// w = μ g (N per metre of unstretched length).
+  /// Weight w = μ g (N per metre of unstretched length).
   const Scalar& weight_per_length() const { return weight_; }
 
-  /// The bare cable.
+  /// Equilibrium of the bare cable.
   LoadedCable<Scalar> bare() const {
     return {bare_tension_, weight_ * length_ / Scalar(2), bare_outcome_};
   }
 
-  /// s (m): the material point of the bare cable that hangs at x, 0 ≤ x ≤ L.
+  /// Unstretched coordinate s (m) of the material point that hangs at x (m) in the bare cable.
   Scalar material_coordinate(const Scalar& x) const {
     using std::abs;
     Scalar below(0), above = length_, s = length_ * x / span_;
@@ -148,7 +148,7 @@ class HangingCable {
     return {none, none, EquilibriumOutcome::not_converged};
   }
 
-  /// Extent of the two catenaries from left to right support, and its derivative by (H, V).
+  /// Extent of both catenaries together, and its derivative by (H, V), with the load P (N) at s_p.
   CatenaryExtent<Scalar> whole(const LoadedCable<Scalar>& cable, const Scalar& load,
                                const Scalar& place) const {
     const auto left = extent(cable, place);
@@ -159,12 +159,12 @@ class HangingCable {
             left.derivative + right.derivative};
   }
 
-  /// Where the material point s stands, s not beyond the load: x and drop (m).
+  /// Position of the material point s (m), 0 ≤ s ≤ s_p: x and drop (m) from the left support.
   CatenaryExtent<Scalar> extent(const LoadedCable<Scalar>& cable, const Scalar& s) const {
     return catenary_extent<Scalar>(weight_, stiffness_, cable.tension, cable.vertical_force, s);
   }
 
-  /// The point at any s, with the load P at s_p.
+  /// Position [x, drop] (m) of the material point at any s (m), with a load P (N) at s_p (m).
   Vector<Scalar, 2> point(const LoadedCable<Scalar>& cable, const Scalar& load, const Scalar& place,
                           const Scalar& s) const {
     const auto left = extent(cable, s < place ? s : place);
@@ -176,18 +176,18 @@ class HangingCable {
   }
 
  private:
-  /// How near the supports are met, in spans.
+  /// Largest admissible error at the right support, relative to the span.
   static Scalar largest_miss() { return Scalar(1e5) * std::numeric_limits<Scalar>::epsilon(); }
   static Scalar resolution() { return Scalar(4) * std::numeric_limits<Scalar>::epsilon(); }
 
-  /// dx/ds = H/EA + H/T.
+  /// The derivative dx/ds = H/EA + H/T at the unstretched coordinate s (m).
   Scalar horizontal_stretch(const LoadedCable<Scalar>& cable, const Scalar& s) const {
     using std::hypot;
     const Scalar vertical = cable.vertical_force - weight_ * s;
     return cable.tension / stiffness_ + cable.tension / hypot(cable.tension, vertical);
   }
 
-  /// Half of the bare cable: H and l with x(l) = L/2 and y(l) = f, V = w l, by Newton's method.
+  /// Finds H and l of half the bare cable by Newton's method: x(l) = L/2, y(l) = f, V = w l.
   void settle_length(const Conductor<Scalar>& conductor) {
     const Vector<Scalar, 2> target(span_ / Scalar(2), conductor.sag);
     Scalar tension = conductor.parabolic_tension(), half = conductor.effective_length() / Scalar(2);
@@ -214,7 +214,7 @@ class HangingCable {
     length_ = Scalar(2) * half;
   }
 
-  /// A Newton step cut so that the tension keeps at least a tenth of itself.
+  /// A Newton step, shortened so that the tension remains at least a tenth of its value.
   static Vector<Scalar, 2> step_within(const Vector<Scalar, 2>& newton, const Scalar& tension) {
     const Scalar floor = Scalar(-0.9) * tension;
     if (!(newton[0] < floor)) return newton;
@@ -226,28 +226,28 @@ class HangingCable {
   EquilibriumOutcome bare_outcome_ = EquilibriumOutcome::not_converged;
 };
 
-/// Force and displacement of the cable's point under the load, after the exact statics.
+/// Force and displacement of the loaded point of a cable by the exact statics.
 ///
-/// The interface is that of `IrvinePointLoad`; w counts from the bare cable. NaN where
-/// `HangingCable::under_load` finds no equilibrium.
+/// The interface is that of `IrvinePointLoad`; the displacement w counts from the bare cable.
+/// Results are NaN where `HangingCable::under_load` finds no equilibrium.
 template <class Scalar>
 class CatenaryPointLoad {
  public:
   /// @param conductor  admissible in the sense of `validate`
-  /// @param position   x_p (m), inside the span: the load sits at the material point that hangs
-  ///                   there in the bare cable
+  /// @param position   x_p (m), inside the span: place in the bare cable of the material point that
+  ///                   carries the load
   CatenaryPointLoad(const Conductor<Scalar>& conductor, const Scalar& position)
       : cable_(conductor),
         place_(cable_.material_coordinate(position)),
         bare_drop_(cable_.extent(cable_.bare(), place_).vertical),
         lowest_load_(-conductor.weight() / Scalar(2)) {}
 
-  /// The whole cable, to be asked about any load and place.
+  /// The cable's exact statics for any load and place.
   const HangingCable<Scalar>& cable() const { return cable_; }
-  /// s_p (m).
+  /// Unstretched coordinate s_p (m) of the loaded point.
   const Scalar& material_coordinate() const { return place_; }
 
-  /// H (N) under a load P (N).
+  /// Horizontal tension H (N) under a load P (N).
   Scalar tension(const Scalar& load) const { return cable_.under_load(load, place_).tension; }
 
   /// Displacement (m) of the loaded point under a load P (N).
@@ -255,7 +255,7 @@ class CatenaryPointLoad {
     return cable_.extent(cable_.under_load(load, place_), place_).vertical - bare_drop_;
   }
 
-  /// Displacement (m) of the material point that hangs at x in the bare cable.
+  /// Displacement (m), under a load P (N), of the point that hangs at x (m) in the bare cable.
   Scalar deflection(const Scalar& x, const Scalar& load) const {
     const Scalar s = cable_.material_coordinate(x);
     const auto loaded = cable_.under_load(load, place_);
@@ -264,8 +264,8 @@ class CatenaryPointLoad {
 
   /// dP/dw (N/m) at a load P (N).
   ///
-  /// The supports stay: J d(H, V) = J_right [0, 1]ᵀ dP, with J, J_right of the whole cable and of
-  /// its part beyond the load; the loaded point moves by the left part's derivative.
+  /// The supports are fixed: J d(H, V) = J_right [0, 1]ᵀ dP. J is the derivative of the extent of
+  /// the whole cable, J_right that of its part right of the load. dw follows from the left part.
   Scalar stiffness(const Scalar& load) const {
     const auto loaded = cable_.under_load(load, place_);
     const auto left = cable_.extent(loaded, place_).derivative;
@@ -275,7 +275,7 @@ class CatenaryPointLoad {
     return Scalar(1) / left.row(1).dot(change);
   }
 
-  /// Below −μ g L/2 (N) the load lifts the cable out of the shape that the other models know.
+  /// The load −μ g L/2 (N): at and below it `IrvinePointLoad` does not hold, but this class does.
   Scalar lowest_load() const { return lowest_load_; }
 
  private:

@@ -12,18 +12,18 @@ namespace holdfast {
 /// Symmetry of an in-plane mode about mid-span.
 enum class ModeFamily {
   symmetric,      ///< the cable stretches: the frequency depends on λ²
-  antisymmetric,  ///< it does not, to first order: the frequency is that of the taut string
+  antisymmetric,  ///< to first order no stretch: the frequency is that of the taut string
 };
 
 /// One in-plane mode of a shallow cable.
 struct CableMode {
-  ModeFamily family;               ///< its symmetry, which decides its shape
+  ModeFamily family;               ///< symmetry, which decides the formula of the shape
   double dimensionless_frequency;  ///< ω̄ = ω L/√(H/μ), > 0
   double frequency;                ///< ω/2π (Hz)
 
-  /// Shape at x̂ = x/L, 0 … 1, with largest magnitude near 1:
-  /// sin(ω̄ x̂), or [cos(ω̄/2) − cos(ω̄/2 − ω̄ x̂)]/(1 + |cos(ω̄/2)|), Irvine's symmetric shape freed
-  /// of its pole at cos(ω̄/2) = 0, the taut string.
+  /// Shape at x̂ = x/L, 0 … 1, with largest magnitude near 1: sin(ω̄ x̂) of an antisymmetric mode,
+  /// [cos(ω̄/2) − cos(ω̄/2 − ω̄ x̂)]/(1 + |cos(ω̄/2)|) of a symmetric one. This is Irvine's shape,
+  /// scaled so that it is finite at cos(ω̄/2) = 0 too, the case of the taut string.
   double shape(double place) const {
     if (family == ModeFamily::antisymmetric) return std::sin(dimensionless_frequency * place);
     const double half = dimensionless_frequency / 2, at_support = std::cos(half);
@@ -32,14 +32,13 @@ struct CableMode {
   }
 };
 
-/// ω̄ of the n-th symmetric mode, n ≥ 1: with y = ω̄/2,
+/// The dimensionless frequency ω̄ of the n-th symmetric mode, n ≥ 1: with y = ω̄/2,
 ///
 ///     tan y = y − (4/λ²) y³.
 ///
-/// Multiplied by cos y it has no pole, and opposite signs at y = (n ∓ 1/2) π: one bisection serves
-/// every λ² > 0. Source: H. M. Irvine, T. K. Caughey, The linear theory of free vibrations of a
-/// suspended cable, Proc. R. Soc. A 341 (1974).
-/// @tparam Scalar  a floating-point type
+/// Multiplied by cos y, the equation has no pole, and its residual has opposite signs at
+/// y = (n ∓ 1/2) π, so that bisection solves it for every λ² > 0. Source: H. M. Irvine, T. K.
+/// Caughey, The linear theory of free vibrations of a suspended cable, Proc. R. Soc. A 341 (1974).
 template <class Scalar>
 Scalar symmetric_frequency(int n, const Scalar& irvine_parameter) {
   const auto residual = [irvine_parameter](const Scalar& y) {

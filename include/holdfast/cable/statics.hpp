@@ -20,7 +20,7 @@ namespace holdfast {
 ///     w(x) = μ g L²/(H (1 + ĥ)) [ P̂ x̂_< (1 − x̂_>) − (ĥ/2) x̂ (1 − x̂) ],
 ///
 /// x̂_<, x̂_> the smaller and the larger of x̂, x̂_p. w counts from the bare cable. Valid for small
-/// slopes (f/L up to about 1/8) and P̂ > −1/2, where the cubic turns back.
+/// slopes (f/L up to about 1/8) and P̂ > −1/2, below which ĥ would rise again.
 /// Source: H. M. Irvine, Cable Structures, MIT Press, 1981, Sect. 2.4.
 template <class Scalar>
 class IrvinePointLoad {
@@ -34,10 +34,10 @@ class IrvinePointLoad {
         parameter_(conductor.irvine_parameter()),
         place_(position / conductor.span) {}
 
-  /// ĥ > −1, the one root of the cubic there, for a load P (N), P > −μ g L/2.
+  /// The relative additional tension ĥ = h/H, the only root > −1 of the cubic, at P > −μ g L/2 (N).
   ///
-  /// At ĥ = −1 the cubic is negative, and it is convex where it rises: Newton's method from the
-  /// right of the root falls onto it.
+  /// The cubic is negative at ĥ = −1 and convex where it rises, so that Newton's method started
+  /// right of the root converges monotonically.
   Scalar relative_additional_tension(const Scalar& load) const {
     const Scalar relative = load / weight_;
     const Scalar a = Scalar(2) + parameter_ / Scalar(24), b = Scalar(1) + parameter_ / Scalar(12);
@@ -54,12 +54,12 @@ class IrvinePointLoad {
     return root;
   }
 
-  /// H + h (N).
+  /// Horizontal tension H + h (N) under a load P (N).
   Scalar tension(const Scalar& load) const {
     return tension_ * (Scalar(1) + relative_additional_tension(load));
   }
 
-  /// w(x) of Eq. (1) (m), 0 ≤ x ≤ L, under a load P (N).
+  /// Displacement w(x) (m) of Eq. (1), 0 ≤ x ≤ L, under a load P (N).
   Scalar deflection(const Scalar& x, const Scalar& load) const {
     const Scalar at = x / span_, added = relative_additional_tension(load);
     const Scalar lower = at < place_ ? at : place_, upper = at < place_ ? place_ : at;
@@ -68,10 +68,10 @@ class IrvinePointLoad {
             added / Scalar(2) * at * (Scalar(1) - at));
   }
 
-  /// w(x_p) (m) under a load P (N).
+  /// Displacement w(x_p) (m) of the loaded point under a load P (N).
   Scalar displacement(const Scalar& load) const { return deflection(place_ * span_, load); }
 
-  /// dP/dw at x_p (N/m): the spring that a small further load meets.
+  /// dP/dw at x_p (N/m): the stiffness against a small further load, at a load P (N).
   Scalar stiffness(const Scalar& load) const {
     const Scalar relative = load / weight_, added = relative_additional_tension(load);
     const Scalar form = place_ * (Scalar(1) - place_);
@@ -86,7 +86,7 @@ class IrvinePointLoad {
     return weight_ / (scale() * form * rate);
   }
 
-  /// −μ g L/2 (N): at this load and below Eq. (1) has nothing to say.
+  /// The load −μ g L/2 (N), at and below which Eq. (1) does not hold.
   Scalar lowest_load() const { return -weight_ / Scalar(2); }
 
  private:
@@ -95,14 +95,14 @@ class IrvinePointLoad {
   Scalar tension_, weight_, span_, parameter_, place_;
 };
 
-/// Statics of the place of the absorber, counted as Kollár 2022, Fig. 2 does: force and
-/// displacement from the equilibrium with the absorber's weight, downward positive.
+/// Statics of the absorber's place with force and displacement counted as in Kollár 2022, Fig. 2:
+/// from the equilibrium with the absorber's weight, downward positive.
 ///
 /// @tparam PointLoad  `IrvinePointLoad<double>` (Eq. 1) or `CatenaryPointLoad<double>` (exact)
 template <class PointLoad>
 class StaticsFromRest {
  public:
-  /// @param model         of the place, its displacement counted from the bare cable
+  /// @param model         statics of the place, its displacement counted from the bare cable
   /// @param resting_load  weight of the absorber (N), ≥ 0
   StaticsFromRest(PointLoad model, double resting_load)
       : model_(std::move(model)),
@@ -115,25 +115,25 @@ class StaticsFromRest {
   /// Drop (m) of the place from the bare cable to the equilibrium.
   double resting_displacement() const { return resting_displacement_; }
 
-  /// H + h (N) under a further force (N).
+  /// Horizontal tension H + h (N) under a further force (N).
   double tension(double force) const { return model_.tension(resting_load_ + force); }
 
-  /// w (m) under a further force (N), force > lowest_force().
+  /// Displacement w (m) under a further force (N), force > lowest_force().
   double displacement(double force) const {
     return model_.displacement(resting_load_ + force) - resting_displacement_;
   }
 
-  /// dF/dw (N/m), the tangent at a further force (N).
+  /// Tangent stiffness dF/dw (N/m) at a further force (N).
   double stiffness(double force) const { return model_.stiffness(resting_load_ + force); }
 
-  /// F (N) that displaces the place by w (m): Newton's method on the rising curve w(F), kept in a
-  /// bracket. @throws InvalidParameter when that force would not be above lowest_force()
+  /// The force F (N) that displaces the place by w (m), from Newton's method on the increasing
+  /// w(F) within a bracket. @throws InvalidParameter where F would not be above lowest_force()
   double force(double displacement_sought) const {
     require_finite("displacement", displacement_sought, "m");
     const double floor = lowest_force() * (1.0 - 1e-9);
     if (displacement_sought <= displacement(floor))
       throw InvalidParameter("displacement", displacement_sought, "m",
-                             "one that an upward load below half of the cable's weight reaches");
+                             "reachable with an upward load below half of the cable's weight");
     double below = floor, above = std::abs(floor);
     while (displacement(above) < displacement_sought) above *= 2.0;
     double guess = std::fmin(std::fmax(stiffness(0.0) * displacement_sought, below), above);
@@ -148,8 +148,8 @@ class StaticsFromRest {
     return guess;
   }
 
-  /// The further force (N) at and below which the models lose their meaning: it lifts the place
-  /// by half of the cable's own weight.
+  /// The further force (N) at and below which the models do not hold. This force and the absorber's
+  /// weight together are an upward load of half the cable's weight.
   double lowest_force() const { return model_.lowest_load() - resting_load_; }
 
  private:
@@ -157,7 +157,7 @@ class StaticsFromRest {
   double resting_load_, resting_displacement_;
 };
 
-/// Eq. (1) at the absorber's place.
+/// The statics by Eq. (1) at the absorber's place.
 /// @throws InvalidParameter for an inadmissible conductor, place or mass (kg)
 inline StaticsFromRest<IrvinePointLoad<double>> irvine_statics(const Conductor<double>& conductor,
                                                                double position,
@@ -179,14 +179,14 @@ StaticsFromRest<CatenaryPointLoad<Scalar>> exact_statics(const Conductor<Scalar>
   return {{conductor, position}, absorber_mass * conductor.gravity};
 }
 
-/// How a straight line is laid through the force-displacement relationship of the cable (Eq. 2).
+/// Straight line that replaces the force-displacement relationship F(w) of the cable (Eq. 2).
 enum class StiffnessReading {
   tangent,        ///< slope at the equilibrium with the absorber's weight
   secant,         ///< (F(below) − F(−above)) / (below + above)
   least_squares,  ///< slope of the line nearest to F(w) over −above … below
 };
 
-/// Displacements (m) from the equilibrium with the absorber's weight over which k₁ is read.
+/// Range of displacements (m) from the equilibrium with the absorber's weight that determines k₁.
 struct ReadingRange {
   double below;  ///< downward, ≥ 0
   double above;  ///< upward, ≥ 0
@@ -194,8 +194,8 @@ struct ReadingRange {
 
 namespace detail {
 
-/// Slope of the straight line nearest to F(w) over `middle` ± `half`: ∫ (w − w̄) F dw/∫ (w − w̄)² dw
-/// by 16-point Gauss–Legendre, whose nodes lie in pairs about the middle.
+/// Slope (N/m) of the least-squares line of F(w) over w = `middle` ± `half` (m):
+/// ∫ (w − w̄) F dw/∫ (w − w̄)² dw by 16-point Gauss–Legendre quadrature.
 template <class Statics>
 double least_squares_slope(const Statics& statics, double middle, double half) {
   static constexpr std::array<double, 8> nodes{
@@ -215,11 +215,11 @@ double least_squares_slope(const Statics& statics, double middle, double half) {
 
 }  // namespace detail
 
-/// k₁ = ΔP/Δw (N/m), Eq. (2), read from the statics at the absorber's place.
+/// The conductor's stiffness k₁ = ΔP/Δw (N/m), Eq. (2), from the statics at the absorber's place.
 ///
 /// The least-squares line need not pass through the equilibrium.
-/// @throws InvalidParameter for a negative or empty range and where it reaches beyond what the
-/// statics are valid for; the tangent needs no range
+/// @throws InvalidParameter for a negative or empty range, and for one in which the statics do not
+/// hold; StiffnessReading::tangent ignores the range
 template <class Statics>
 double conductor_stiffness(const Statics& statics, StiffnessReading reading,
                            const ReadingRange& range) {

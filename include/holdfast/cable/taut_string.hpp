@@ -13,8 +13,8 @@
 
 namespace holdfast {
 
-/// A conductor so tight that its sag does not count: the taut string, with the stiffness of a beam
-/// against bending where that matters.
+/// The taut string: a conductor so tight that its sag is negligible, with an optional bending
+/// stiffness.
 template <class Scalar>
 struct TautString {
   Scalar tension;                ///< T (N), > 0
@@ -33,9 +33,9 @@ struct TautString {
     using std::sqrt;
     return sqrt(tension * mass_per_length);
   }
-  /// M_n = μ L/2 (kg), of every mode sin(nπx/L).
+  /// M_n = μ L/2 (kg), the mass of every mode sin(nπx/L).
   Scalar modal_mass() const { return mass_per_length * span / Scalar(2); }
-  /// ω_n = (nπ/L) √(T/μ) √(1 + n²π² EI/(T L²)) (rad/s), n > 0; between whole n what lies between.
+  /// ω_n = (nπ/L) √(T/μ) √(1 + n²π² EI/(T L²)) (rad/s) for n > 0, not necessarily whole.
   Scalar angular_frequency(const Scalar& n) const {
     using std::sqrt;
     const Scalar waves = n * pi<Scalar> / span;
@@ -54,19 +54,19 @@ inline void validate(const TautString<double>& string) {
     throw InvalidParameter("damping ratio zeta", string.damping_ratio, "", ">= 0 and < 1");
 }
 
-/// The string with the tension that the conductor's sag leaves, H = μ g L²/(8 f).
+/// The taut string of a conductor, with the tension H = μ g L²/(8 f) that belongs to its sag f.
 template <class Scalar>
 TautString<Scalar> taut_string(const Conductor<Scalar>& conductor) {
   return {conductor.parabolic_tension(), conductor.mass_per_length, conductor.span,
           conductor.damping_ratio};
 }
 
-/// H(s) = sinh(s a/c) sinh(s (L − a)/c) / (s Z_c sinh(s L/c)) (m/N): the receptance of the string
-/// without damping and bending stiffness at a place a from the left support, all its modes at once
-/// (unchecked). Written in decaying exponentials, so that no s with Re s ≥ 0 overflows.
-/// @param string  whose damping and bending stiffness do not count
+/// The receptance H(s) = sinh(s a/c) sinh(s (L − a)/c) / (s Z_c sinh(s L/c)) (m/N) of the string at
+/// a place a from the left support, with all its modes (unchecked). It is computed from decaying
+/// exponentials, so that no s with Re s ≥ 0 overflows.
+/// @param string  the string; its damping and bending stiffness are ignored
 /// @param place   a (m), inside the span
-/// @param s       1/s, Re s ≥ 0, not on a mode
+/// @param s       complex frequency (1/s), Re s ≥ 0, not the pole of a mode
 template <class Scalar>
 std::complex<Scalar> receptance(const TautString<Scalar>& string, const Scalar& place,
                                 const std::complex<Scalar>& s) {
@@ -77,7 +77,7 @@ std::complex<Scalar> receptance(const TautString<Scalar>& string, const Scalar& 
          (Scalar(2) * s * string.wave_impedance() * left_behind(string.span));
 }
 
-/// The modes sin(nπx/L), n = 1 … count, as a place a (m) from the left support sees them.
+/// The modes sin(nπx/L), n = 1 … count, with their shapes at a place a (m) from the left support.
 /// @throws InvalidParameter for an inadmissible string, a place outside it or a count outside
 ///         1 … 10⁴
 template <class Scalar>
@@ -96,15 +96,15 @@ std::vector<PlaceMode<Scalar>> string_modes(const TautString<Scalar>& string, co
   return modes;
 }
 
-/// A string without ends as a conductor of one mode: 1/H = 2 Z_c s + M s² + k, Z_c = √(T μ), whose
-/// waves do not come back, with what moves there.
+/// An infinitely long string with a clamp, written as one mode: 1/H = 2 Z_c s + M s² + k,
+/// Z_c = √(T μ). Its waves do not return.
 ///
-/// Two parts that no string has keep it within the range of modes and are felt in the thirteenth
-/// digit: a bed k = 10⁻¹³ · 2 Z_c/τ that brings it back after 10¹³ samples, and where nothing is
-/// clamped to it M = 10⁻¹³ · 2 Z_c τ, which is at rest again long before the next sample: the
-/// computer then reads the velocity just before its own force changes.
+/// A mode needs two terms that such a string lacks; both affect only the thirteenth digit. The
+/// stiffness k = 10⁻¹³ · 2 Z_c/τ has a time constant of 10¹³ samples. The mass M is at least
+/// 10⁻¹³ · 2 Z_c τ; with this least mass the velocity settles long before the next sample, so that
+/// the computer reads the velocity just before its own force changes.
 /// @param wave_impedance   Z_c (N s/m), > 0
-/// @param clamp_mass       M (kg), ≥ 0
+/// @param clamp_mass       M (kg) of the clamp, ≥ 0
 /// @param sampling_period  τ (s), > 0
 /// @throws InvalidParameter outside these ranges
 inline PlaceMode<double> infinite_string_mode(double wave_impedance, double clamp_mass,
@@ -118,20 +118,19 @@ inline PlaceMode<double> infinite_string_mode(double wave_impedance, double clam
   return {omega, impedance / (2.0 * mass * omega), 1.0, mass};
 }
 
-/// All modes of the string at once, for what is asked at frequencies below mode `count`: the modes
-/// 1 … count as they are, and those above in bundles of ever more neighbours, h = 1 + (n −
-/// count)/10 rounded down, up to the frequency given.
+/// The modes of the string for use at frequencies below mode `count`: the modes 1 … count one by
+/// one, and the modes above, up to a given frequency, in bundles of ever more neighbours. A bundle
+/// from mode n on has h = 1 + (n − count − 1)/10 modes, rounded down; fewer with bending stiffness.
 ///
-/// A bundle of h modes from n on counts as one of M = μL/(2h) with the mean of their squared
-/// shapes, at ω = √(ω(n − ½) ω(n + h − ½)), where it bends as far under a force as they do
-/// together. It is damped over the width of the bundle, so that the waves of its modes go out and
-/// do not come back; on a string whose damping lets no wave beyond mode `count` return that is what
-/// they do. Cut off at `count`, the string would act at the place as if 1/Σ φ²/M were clamped to
-/// it.
-/// @param string   of which modes are bundled
+/// A bundle of h modes is one mode of mass M = μL/(2h) with the mean of their squared shapes. Its
+/// frequency ω = √(ω(n − ½) ω(n + h − ½)) has the static deflection of its h modes together.
+/// Its damping covers its bandwidth, so that its waves leave the place and do not return, as on a
+/// string that is damped enough above mode `count`. Without the bundles, the string would act on
+/// the place at high frequencies like a mass 1/Σ(φ²/M).
+/// @param string   string whose modes are bundled
 /// @param place    a (m), inside the span
-/// @param count    modes that are kept apart, 1 … 10⁴
-/// @param highest  ω (rad/s) up to which bundles are formed; none where mode `count` reaches it
+/// @param count    number of modes that are not bundled, 1 … 10⁴
+/// @param highest  ω (rad/s) up to which bundles are formed; none where mode count + 1 reaches it
 /// @throws InvalidParameter as `string_modes`, and for a frequency that is not finite
 template <class Scalar>
 std::vector<PlaceMode<Scalar>> bundled_string_modes(const TautString<Scalar>& string,

@@ -18,14 +18,14 @@
 #include "holdfast/math/signal/decay_measures.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
-/// Fits of the plant to records by Ceres Solver. Needs a package besides Eigen.
+/// Fits of the plant to records, which need the package Ceres Solver.
 namespace holdfast::fit {
 
 namespace detail {
 
 using Theta = std::array<double, unknowns>;
 
-/// Where one run of Ceres ended.
+/// The result of one run of Ceres.
 struct DecayRun {
   bool at_minimum;  // inside the admissible range, converged
   Theta theta;
@@ -112,8 +112,8 @@ inline DecayRun run_from(const DecayResiduals& residuals, const DecayFitOptions&
   return run;
 }
 
-/// 1.4826 times the median of |r|: the standard deviation of Gaussian noise, whatever a few
-/// outliers do.
+/// The standard deviation of residuals r with Gaussian noise, estimated by 1.4826 times the median
+/// of |r|, on which a few outliers have little effect.
 inline double median_deviation(const Eigen::VectorXd& residuals) {
   std::vector<double> sizes(residuals.data(), residuals.data() + residuals.size());
   for (double& size : sizes) size = std::abs(size);
@@ -122,10 +122,9 @@ inline double median_deviation(const Eigen::VectorXd& residuals) {
   return 1.4826 * *middle;
 }
 
-/// Variance of θ over (JᵀJ)⁻¹. Of a time history: [Σψ²/(n − p)]/(mean ψ′)² with the bounded
-/// residuals ψ of Huber's loss; without outliers, or a robust loss, the residuals' scatter. Of
-/// measures: their misfit, not less than 1 % of each. Source: P. J. Huber, Robust Statistics, 1981,
-/// Sect. 7.6.
+/// The factor of (JᵀJ)⁻¹ in the covariance of p free θ from n residuals r: Σr²/(n − p), for
+/// measures at least (1 %)²; with Huber's loss [Σψ²/(n − p)]/(mean ψ′)², ψ the bounded residuals.
+/// Source: P. J. Huber, Robust Statistics, 1981, Sect. 7.6.
 inline double variance_factor(const DecayResiduals& residuals, const Linearisation& at) {
   const auto freedom = static_cast<double>(at.residuals.size() - at.jacobian.cols());
   if (is_measured(residuals.target))
@@ -140,7 +139,7 @@ inline double variance_factor(const DecayResiduals& residuals, const Linearisati
   return squares / freedom / (share * share);
 }
 
-/// σ_p = p σ_θ, with the covariance of θ.
+/// The standard errors σ_p = p σ_θ of the free parameters, from the covariance of θ.
 inline std::vector<double> standard_errors(const DecayResiduals& residuals, const Linearisation& at,
                                            const TwoMass<double>& plant,
                                            const DecayFitOptions& fit_options) {
@@ -177,15 +176,15 @@ inline DecayMinimum minimum_of(const DecayResiduals& residuals, const DecayFitOp
   return minimum;
 }
 
-/// Whether the record says anything: the standard error of at least one parameter is below its
-/// value. On a flat end of the range a solver converges wherever it stands.
+/// Whether the record determines the minimum: the standard error of at least one parameter is not
+/// above its value. Otherwise the cost is so flat that the solver stops at an arbitrary point.
 inline bool is_determined(const DecayMinimum& minimum, const DecayFitOptions& fit_options) {
   for (std::size_t k = 0; k < fit_options.free.size(); ++k)
     if (minimum.standard_errors[k] <= parameter_of(minimum.plant, fit_options.free[k])) return true;
   return false;
 }
 
-/// Adds a minimum, or one more start to the minimum that it repeats.
+/// Adds a minimum, or counts one more start of a known one with the same parameters.
 inline void collect(std::vector<DecayMinimum>& minima, const DecayMinimum& found,
                     const DecayFitOptions& fit_options) {
   const auto same = [&](const DecayMinimum& known) {
@@ -210,14 +209,14 @@ inline bool damping_is_free(const DecayFitOptions& fit_options) {
                    PlantParameter::absorber_damping) != fit_options.free.end();
 }
 
-/// The plant that θ = 0 stands for; c₂, if free, is the critical damping 2 √(k₂m₂).
+/// The plant at θ = 0: the given plant, with the critical damping 2 √(k₂m₂) for a free c₂.
 inline TwoMass<double> reference_of(TwoMass<double> plant, const DecayFitOptions& fit_options) {
   if (damping_is_free(fit_options))
     plant.absorber_damping = 2.0 * std::sqrt(plant.absorber_stiffness * plant.absorber_mass);
   return plant;
 }
 
-/// c₂, if free, from 1/32 to 4 times the critical damping by twos.
+/// The starts of a fit: c₂, if free, at 1/32, 1/16, … 4 times the critical damping.
 inline std::vector<Theta> starts_of(const DecayFitOptions& fit_options) {
   if (!damping_is_free(fit_options)) return {Theta{}};
   std::vector<Theta> starts;
@@ -236,14 +235,14 @@ inline void validate(const DecayRecord& record, const TwoMass<double>& plant,
   const auto& z = record.displacements;
   if (t.size() != z.size())
     throw InvalidParameter("number of displacements", static_cast<double>(z.size()), "",
-                           "the number of times");
+                           "equal to the number of instants");
   if (t.size() < unknowns + 2)
     throw InvalidParameter("number of instants", static_cast<double>(t.size()), "", ">= 8");
   for (std::size_t k = 0; k < t.size(); ++k) {
     require_finite("time", t[k], "s");
     require_finite("displacement", z[k], "m");
     if (k > 0 && t[k] <= t[k - 1])
-      throw InvalidParameter("time", t[k], "s", "above the one before");
+      throw InvalidParameter("time", t[k], "s", "later than the one before");
   }
   if (z.front() == 0.0)
     throw InvalidParameter("first displacement", 0.0, "m", "not 0: the decay starts displaced");
@@ -253,17 +252,17 @@ inline void validate(const DecayRecord& record, const TwoMass<double>& plant,
     if (parameter != PlantParameter::absorber_damping)
       require_positive("start of a free parameter", parameter_of(plant, parameter), "");
     if (std::count(fit_options.free.begin(), fit_options.free.end(), parameter) > 1)
-      throw InvalidParameter("number of times that a parameter is free", 2.0, "", "1");
+      throw InvalidParameter("number of times that a free parameter is listed", 2.0, "", "1");
   }
   const std::size_t most = fit_options.target == DecayTarget::first_peak_and_period ? 1 : 2;
   if (is_measured(fit_options.target) && fit_options.free.size() > most)
     throw InvalidParameter("number of free parameters",
                            static_cast<double>(fit_options.free.size()), "",
-                           "fewer than the measures that are to be met");
+                           "fewer than the numbers that the target measures");
 }
 
-/// Runs on from where others ended, now with Huber's loss, whose scale is that of the deepest;
-/// twice, as the first scale is of minima that outliers have moved.
+/// Continues the runs with Huber's loss, whose scale follows from the residuals at the deepest
+/// minimum. This is done twice, since outliers shift the first minima.
 inline void make_robust(DecayResiduals& residuals, const DecayFitOptions& fit_options,
                         std::vector<DecayRun>& runs) {
   const auto deeper = [](const DecayRun& a, const DecayRun& b) { return a.cost < b.cost; };
@@ -280,17 +279,17 @@ inline void make_robust(DecayResiduals& residuals, const DecayFitOptions& fit_op
 }  // namespace detail
 
 /// Fits the plant's decay from rest at z₁ = z₂ = z₀ to a record, from several starts of c₂ (if it
-/// is free): a heavily and a lightly damped absorber often meet the same record, and both minima
+/// is free). A heavily and a lightly damped absorber often fit the same record, so that all minima
 /// are reported.
 ///
-/// The parameters are fitted by their logarithms, within a factor 10⁶ of the given plant's (c₂: of
-/// the critical damping 2 √(k₂m₂), z₀: of the record's), with dual numbers through the closed form.
+/// The unknowns are the logarithms of the parameters, within a factor 10⁶ of the given plant's (c₂:
+/// of the critical damping 2 √(k₂m₂), z₀: of the record's). Derivatives are exact (dual numbers).
 /// @param record       at least 8 instants, ascending, the first one displaced
-/// @param plant        the values of the parameters that are not free, and where the others start
-/// @param fit_options  which parameters are free and what of the record is to be met
+/// @param plant        values of the parameters that are not free, and start values of the others
+/// @param fit_options  free parameters and the quantities that are fitted
 /// @throws InvalidParameter for an inadmissible plant, a record with fewer instants, not
-///         ascending, not finite or not starting displaced; for no free parameter, one named
-///         twice, or more of them than the measures asked for can determine
+///         ascending, not finite or not starting displaced; for no free parameter, one listed
+///         twice, or at least as many as fitted measures
 inline DecayFit fit_decay(const DecayRecord& record, const TwoMass<double>& plant,
                           const DecayFitOptions& fit_options = {}) {
   detail::validate(record, plant, fit_options);

@@ -12,7 +12,7 @@
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
-/// Residuals of a plant against a decay record, as Ceres Solver asks for them.
+/// Residuals of a plant against a decay record in the form that Ceres Solver needs.
 namespace holdfast::fit::detail {
 
 inline double value_of(double number) { return number; }
@@ -42,7 +42,7 @@ TwoMass<double> values_of(const TwoMass<Scalar>& plant) {
           value_of(plant.absorber_stiffness), value_of(plant.absorber_damping)};
 }
 
-/// ± √(2 ρ(r)) of Huber's loss ρ: its square is what a least-squares solver then adds up.
+/// The residual ± √(2 ρ(r)) by which a least-squares solver minimises Huber's loss ρ.
 template <class Scalar>
 Scalar huber_residual(const Scalar& residual, double scale) {
   using std::abs;
@@ -52,7 +52,8 @@ Scalar huber_residual(const Scalar& residual, double scale) {
   return residual < Scalar(0) ? Scalar(-root) : root;
 }
 
-/// Residuals of a record as Ceres asks for them: θ of the five parameters and of z₀.
+/// Residuals of a plant against a record as a functor of θ, the logarithms of the five parameters
+/// and of z₀ relative to `reference` and to the record.
 struct DecayResiduals {
   const DecayRecord& record;
   DecayMeasures measures;
@@ -61,7 +62,7 @@ struct DecayResiduals {
   // Scale of the history's residuals, in |z(0)|; ∞ for plain least squares.
   double huber_scale = std::numeric_limits<double>::infinity();
 
-  /// |z(0)| (m): the fit does not know the unit of length.
+  /// The amplitude |z(0)| (m) to which the residuals of the time history are relative.
   double amplitude() const { return std::abs(record.displacements.front()); }
 
   int count() const {

@@ -13,22 +13,22 @@
 #include "holdfast/ceres/device_placement_options.hpp"
 #include "holdfast/core/errors.hpp"
 
-/// The best place and strength of a device by Ceres Solver. Needs a package besides Eigen.
+/// A search for the best place and strength of a device, which needs the package Ceres Solver.
 namespace holdfast::placement {
 
 namespace detail {
 
-/// A place in the unit cube that the bounds of the values span.
+/// A point of the unit cube: each value scaled to 0 … 1 between its bounds.
 using Place = std::vector<double>;
 
-/// Asks for levels, and remembers the best place of all that were asked.
+/// Evaluates the levels at points of the cube and keeps the best point so far.
 class LevelQuestions {
  public:
   LevelQuestions(const std::vector<MovableValue>& values, const Levels& levels,
                  const PlacementOptions& options)
       : values_(values), levels_(levels), watch_(options.watch) {}
 
-  /// The values at a place, those outside the cube at its edge.
+  /// The values at a point of the cube; coordinates outside 0 … 1 are replaced by 0 or 1.
   std::vector<double> values_at(const Place& place) const {
     std::vector<double> found;
     for (std::size_t k = 0; k < values_.size(); ++k) {
@@ -42,7 +42,7 @@ class LevelQuestions {
     return found;
   }
 
-  /// The levels at a place; empty where it is not admissible.
+  /// The levels at a point; empty where its values are not admissible.
   std::vector<double> at(const Place& place) {
     if (watch_) watch_();
     ++asked_;
@@ -59,15 +59,15 @@ class LevelQuestions {
     return found;
   }
 
-  /// The largest level at a place; infinity where it is not admissible.
+  /// The largest level at a point; infinity where its values are not admissible.
   double worst(const Place& place) {
     const std::vector<double> found = at(place);
     return found.empty() ? std::numeric_limits<double>::infinity()
                          : *std::max_element(found.begin(), found.end());
   }
 
-  const std::vector<MovableValue>& values() const { return values_; }  ///< what is moved
-  const Place& best() const { return best_; }                          ///< empty: none yet
+  const std::vector<MovableValue>& values() const { return values_; }  ///< values that vary
+  const Place& best() const { return best_; }                          ///< best point, or empty
   int asked() const { return asked_; }
 
  private:
@@ -79,8 +79,8 @@ class LevelQuestions {
   int asked_ = 0;
 };
 
-/// The levels as Ceres asks for them: the sum of the squares of (level/scale)^{p/2} is the norm to
-/// its p-th power.
+/// The residuals (level/scale)^{p/2} for Ceres. The sum of their squares is the p-th power of the
+/// p-norm of level/scale.
 struct NormResiduals {
   LevelQuestions& questions;
   double power, scale;          // p, and the largest level where the run begins
@@ -108,8 +108,8 @@ struct NormResiduals {
   }
 };
 
-/// One run of Ceres on the p-norm of the levels, between the bounds. Its unknowns are the shares
-/// of the cube and 1, so that a difference quotient's step is one of the cube.
+/// Minimises the p-norm of the levels within the bounds by one run of Ceres. Its unknowns are the
+/// coordinates plus 1: Ceres' difference quotients have steps relative to the unknowns.
 inline Place run_on_norm(LevelQuestions& questions, const Place& start, double power) {
   const std::vector<double> levels = questions.at(start);
   if (levels.empty()) return start;
@@ -152,8 +152,8 @@ inline double halton(int k, int base) {
   return sum;
 }
 
-/// An orthonormal basis that is another one at every turn: the columns of I − 2 q qᵀ with a
-/// direction q by Halton's sequence.
+/// An orthonormal basis, different for each turn: the columns of I − 2 q qᵀ with a unit vector q
+/// from Halton's sequence.
 inline std::vector<Place> poll_basis(int turn, std::size_t size) {
   constexpr int bases[] = {2, 3, 5, 7, 11, 13};
   Place q(size);
@@ -170,10 +170,10 @@ inline std::vector<Place> poll_basis(int turn, std::size_t size) {
   return basis;
 }
 
-/// Refines a place by its largest level itself, whose derivative jumps where another frequency
-/// becomes the worst, and which ends where the values are no longer admissible: polls along a basis
-/// that turns, halving the step where two of them lead to nothing better (OrthoMADS: Abramson,
-/// Audet, Dennis & Le Digabel, SIAM J. Optim. 20 (2009)).
+/// Minimises the largest level from a point by direct search, since its derivative jumps where
+/// another level becomes the largest. Each turn tries steps along another basis; after two turns
+/// without improvement the step is halved (OrthoMADS: Abramson, Audet, Dennis & Le Digabel, SIAM J.
+/// Optim. 20 (2009)).
 inline void refine(LevelQuestions& questions, Place place, double step, double resolution) {
   constexpr int most_turns = 120, patience = 2;
   int failed = 0;
@@ -202,7 +202,7 @@ inline void refine(LevelQuestions& questions, Place place, double step, double r
   }
 }
 
-/// The places of a grid at which no neighbour along one value is better, the best first.
+/// A grid over the cube and its local minima: points without a better neighbour along any value.
 class GridOfStarts {
  public:
   explicit GridOfStarts(LevelQuestions& questions) : values_(questions.values()) {
@@ -265,7 +265,7 @@ inline void validate(const std::vector<MovableValue>& values, const PlacementOpt
   require_within("resolution of a placement", options.resolution, "", 1e-14, 0.5);
 }
 
-/// Where the values stand now; empty where one of them does nowhere.
+/// The point of the present values; empty where one of them is NaN.
 inline Place present_place(const std::vector<MovableValue>& values) {
   Place place;
   for (const MovableValue& value : values) {
@@ -277,7 +277,7 @@ inline Place present_place(const std::vector<MovableValue>& values) {
   return place;
 }
 
-/// The share of the cube of a grid's step along the value with the most places.
+/// The grid's step along the value with the most places, in the coordinates of the cube.
 inline double grid_step(const std::vector<MovableValue>& values) {
   int most = 2;
   for (const MovableValue& value : values) most = std::max(most, value.places);
@@ -311,18 +311,18 @@ inline Placement answer_of(LevelQuestions& questions) {
 ///
 ///     min over the values of  max_k level_k(values)
 ///
-/// which is smooth but for its kinks, and has many minima where the device's place moves through
-/// the nodes of its waves. The best places of a grid, and where the values stand now, are each run
-/// from by Ceres on norms that approach the maximum, between the bounds and with central
-/// differences, and then refined by the maximum itself. The answer is the best of all values that
-/// were asked, and so never one that is not admissible, nor worse than where they stand now.
+/// The maximum has kinks, and many minima where the device's place passes nodes of the waves. The
+/// search starts from the best points of a grid and from the present values. From each, Ceres
+/// minimises p-norms that approach the maximum, within the bounds and by central differences; then
+/// a direct search minimises the maximum itself. The result is the best of all points
+/// evaluated. If the present values are admissible, the result is no worse than they are.
 ///
 /// This is a search and no proof: a minimum narrower than the grid may be missed.
-/// @param values   1 … 6
-/// @param levels   asked some hundred times; what it throws ends the search
-/// @param options  how
-/// @throws InvalidParameter for values or options outside what their members state, and what
-///         `levels` or the watch throws
+/// @param values   1 … 6 values that vary
+/// @param levels   function evaluated some hundred times; an exception from it ends the search
+/// @param options  options of the search
+/// @throws InvalidParameter for values or options outside the ranges stated at their members, and
+///         the exceptions of `levels` and `options.watch`
 inline Placement best_placement(const std::vector<MovableValue>& values, const Levels& levels,
                                 const PlacementOptions& options = {}) {
   detail::validate(values, options);

@@ -11,44 +11,44 @@
 /// Ceres.
 namespace holdfast::placement {
 
-/// One number of a device that may be moved: its place, a damping, a gain.
+/// One number of a device that the search varies: its place, a damping, a gain.
 struct MovableValue {
-  double lower;  ///< finite, > 0 with `by_ratio`
-  double upper;  ///< finite, above the lower one
-  /// Where it stands now, lower … upper; NaN: nowhere that counts
+  double lower;  ///< lower bound, finite, > 0 with `by_ratio`
+  double upper;  ///< upper bound, finite, > lower
+  /// Present value, lower … upper; NaN: none
   double present = std::numeric_limits<double>::quiet_NaN();
-  bool by_ratio = false;  ///< whether it is searched by its logarithm
-  int places = 9;         ///< of the first grid along it, 2 … 1000, its ends among them
+  bool by_ratio = false;  ///< whether the value varies on a logarithmic scale
+  int places = 9;         ///< points of the grid along this value, with both ends, 2 … 1000
 };
 
-/// Levels to be made small with some values: one (> 0) for each frequency of a band, or each mode,
-/// always as many. None, or one that is not finite: the values are not admissible.
+/// The function from the values to the levels, the largest of which is minimised: one level (> 0)
+/// for each frequency of a band, or each mode, always in the same number. For inadmissible values
+/// it returns no levels, or one that is not finite.
 using Levels = std::function<std::vector<double>(const std::vector<double>&)>;
 
-/// How the search goes.
+/// Options of the search.
 struct PlacementOptions {
-  int runs = 4;  ///< so many of the grid's best places are begun from, ≥ 1
-  /// The exponents p of the norms (Σ level^p)^{1/p} that stand for the largest level, one run of
-  /// Ceres after the other; each ≥ 2
+  int runs = 4;  ///< number of the grid's best points from which the search starts, ≥ 1
+  /// Exponents p ≥ 2 of the norms (Σ level^p)^{1/p}, minimised one after the other
   std::vector<double> norms = {8.0, 32.0, 128.0};
-  double resolution = 1e-6;     ///< of the way from bound to bound, to which the answer is refined
-  std::function<void()> watch;  ///< called at each question; may throw
+  double resolution = 1e-6;     ///< accuracy of the values, relative to the range of their bounds
+  std::function<void()> watch;  ///< called at each evaluation of the levels; may throw
 };
 
-/// Where one value of an answer lies.
+/// The position of one value of the result relative to its bounds.
 enum class PlacementBound {
   none,   ///< between its bounds
-  lower,  ///< at the lower one
-  upper   ///< at the upper one
+  lower,  ///< at its lower bound
+  upper   ///< at its upper bound
 };
 
-/// The values whose largest level is the least that was found.
+/// The best values found, those at which the largest level is least.
 struct Placement {
-  std::vector<double> values;          ///< empty: no values that were asked are admissible
-  double worst;                        ///< the largest level with them
-  std::size_t worst_at;                ///< its number, from 0
-  std::vector<PlacementBound> bounds;  ///< of each value
-  int questions;                       ///< how often the levels were asked
+  std::vector<double> values;          ///< empty if no point evaluated was admissible
+  double worst;                        ///< largest level at these values
+  std::size_t worst_at;                ///< index of the largest level, from 0
+  std::vector<PlacementBound> bounds;  ///< position of each value in its range
+  int questions;                       ///< number of evaluations of the levels
 };
 
 }  // namespace holdfast::placement

@@ -16,32 +16,32 @@
 
 namespace holdfast {
 
-/// The choice of computed exponents.
+/// The exponents that are computed.
 enum class LyapunovScope {
   all,      ///< the whole spectrum
   largest,  ///< only the first one, from one tangent vector
 };
 
-/// The Lyapunov spectrum of the sampled loop with backlash from its contacts, block by block.
+/// The Lyapunov spectrum of the sampled loop with backlash, computed from blocks of its contacts.
 ///
 /// The exponents equal those of `LyapunovSpectrum` with S or S* applied at every sample. But the
-/// tangent vectors are multiplied by the maps of whole blocks and orthogonalised as rarely as
-/// conditioning allows. Over the blocks k of a stretch B = W_k … W₁ Q = Q' R, the number
+/// tangent vectors Q are multiplied by the maps W_k of whole blocks, and orthogonalised only after
+/// a stretch of K blocks: W_K … W₁ Q = Q' R. The number
 ///
-///     a = √(Σ_k ‖W_k … W₁ Q‖²) ‖R⁻¹‖
+///     a = √(Σ_k ‖W_k … W₁ Q‖²) ‖R⁻¹‖,   k = 1 … K
 ///
-/// measures how much R's diagonal amplifies round-off. The length of a stretch is chosen from the
-/// growth in the previous one; one with a > `largest_amplification` is repeated in halves, and a
-/// single block sample by sample. The inner product is that of the balanced coordinates of
-/// `ItineraryBlocks`; its effect is removed when the exponents are read. Columns that a map
-/// annihilates are dropped. Logarithms are taken of products of stretches, once in each batch.
+/// measures how much round-off is amplified in R's diagonal. The length of a stretch is chosen from
+/// the growth in the previous one. A stretch with a > `largest_amplification` is repeated in
+/// halves, a single block sample by sample. Vectors are orthogonalised in balanced coordinates
+/// (`ItineraryBlocks`); spectrum() converts the result to the loop's coordinates. Columns that a
+/// map annihilates are dropped. Logarithms are taken of the product of several stretches at once.
 ///
-/// Work per block of six samples and vector: 25 multiply-adds (20 without processing delay); per
-/// stretch a Gram–Schmidt process on 5 × 4 (5 × 5 before the first map with a null direction).
+/// Work per block of six samples and per tangent vector: 25 multiply-adds (20 without processing
+/// delay); per stretch: orthogonalising a 5 × 4 matrix (5 × 5 before the first null direction).
 template <class Scalar>
 class BlockSpectrum {
  public:
-  /// The largest a of a stretch with more than one sample.
+  /// The largest amplification a allowed in a stretch of more than one sample.
   static constexpr double largest_amplification = 5e6;
   /// The longest stretch, in blocks.
   static constexpr int most_blocks = 64;
@@ -68,7 +68,7 @@ class BlockSpectrum {
   std::size_t complete_batches() const { return sums_.complete_batches(); }
 
  private:
-  /// The basis in the coordinates of the loop, with the logarithms of its stretching.
+  /// The tangent vectors orthonormalised in the loop's own coordinates, with ln |R_ii|.
   struct Orthogonal {
     explicit Orthogonal(const BlockSpectrum& from) : alive(from.alive_) {
       basis = from.blocks_->scale().asDiagonal() * from.basis_;
@@ -108,8 +108,8 @@ class BlockSpectrum {
     }
   }
 
-  /// Advances over a stretch of blocks: in halves where round-off would grow too much, and a single
-  /// block sample by sample.
+  /// Advances the tangent vectors over a stretch of blocks. Where round-off would grow too much,
+  /// the stretch is split into halves or, if it is a single block, into its samples.
   template <int Reach, int Columns>
   void advance(const ItineraryBlock* blocks, int count) {
     using Basis = TangentBasis<Scalar, Columns>;
@@ -158,7 +158,7 @@ class BlockSpectrum {
     }
   }
 
-  /// Marks the columns beyond the rank of a block's maps.
+  /// Marks the columns beyond the rank of a block's maps as null directions.
   void mark_null_columns(ItineraryBlock block, Alive& alive) const {
     for (int i = blocks_->rank(block); i < columns_; ++i)
       alive[static_cast<std::size_t>(i)] = false;
@@ -195,7 +195,7 @@ class BlockSpectrum {
     products_ = Vector<Scalar, 5>::Ones();
   }
 
-  /// Sets the number of blocks between two orthogonalisations, from the previous growth.
+  /// Sets the largest number of blocks in a stretch from the amplification in the last one.
   void learn(double squared_amplification, int count) {
     constexpr double at_start = 16.0;  // ‖I₄‖² ‖I₄‖²
     const double blocks = count;
@@ -204,7 +204,7 @@ class BlockSpectrum {
     allowed_ = std::min(std::max(1.0, std::floor(room / growth)), 2.0 * blocks);
   }
 
-  /// Divides the rest of a batch into equal stretches.
+  /// Plans the next stretch such that the rest of the batch is cut into equal stretches.
   void plan() {
     const auto blocks_left = (sums_.steps_left() - samples_) / ItineraryBlocks::length;
     const double left = std::max(1.0, static_cast<double>(blocks_left));
@@ -215,7 +215,7 @@ class BlockSpectrum {
   std::shared_ptr<const ItineraryBlocks> blocks_;
   TangentBasis<Scalar, 5> basis_ = TangentBasis<Scalar, 5>::Identity();
   Alive alive_;
-  int columns_;  // that are carried
+  int columns_;  // number of tangent vectors still carried
   std::array<ItineraryBlock, most_blocks> pending_{};
   int count_ = 0;  // blocks pending
   int pending_samples_ = 0;

@@ -26,7 +26,7 @@ struct IndicatorOptions {
   std::int64_t transient = 5000;  ///< samples left out at the start, 0 … 10⁷
   std::int64_t samples = 20160;  ///< number of samples examined, 2000 … 100 000; divisible by 2, 3,
                                  ///< 5, 7 so that many periods fit in whole
-  double base_frequency = 1.0;          ///< cycles per sample; lines are tested at its divisions
+  double base_frequency = 1.0;          ///< f, cycles per sample; its subharmonics are sought
   std::int64_t zero_one_stride = 1;     ///< samples per step of the 0–1 test, 1 … samples/500
   bool forcing_incommensurate = false;  ///< see ChaosIndicators::forcing_incommensurate
 };
@@ -42,7 +42,7 @@ inline void validate(const IndicatorOptions& options) {
 
 namespace detail {
 
-/// The largest exponent of a spectrum with a 99 % interval; needs at least 64 steps.
+/// The largest exponent of a spectrum of at least 64 steps, with its 99 % interval.
 template <int Size>
 ExponentEstimate largest_exponent(const LyapunovSpectrum<double, Size>& spectrum) {
   const SettledMeans<Size> found = spectrum.settled();
@@ -51,7 +51,7 @@ ExponentEstimate largest_exponent(const LyapunovSpectrum<double, Size>& spectrum
   return exponent_estimate(value, found.standard_errors[which]);
 }
 
-/// The detector of divergence: a state grows by 10³⁰ over the largest coordinate of the first 100
+/// The detector of divergence: some |x_i| exceeds 10³⁰ times the largest |x_i| of the first 100
 /// samples.
 template <int Size>
 class DivergenceGuard {
@@ -59,7 +59,7 @@ class DivergenceGuard {
   explicit DivergenceGuard(const Vector<double, Size>& initial)
       : largest_(initial.cwiseAbs()), reference_(largest_.maxCoeff()) {}
 
-  /// Whether the state is not finite or beyond the bound.
+  /// Whether the next state is not finite or exceeds the bound; to be called once per sample.
   bool leaves(const Vector<double, Size>& state) {
     if (!state.allFinite()) return true;
     largest_ = largest_.cwiseMax(state.cwiseAbs());
@@ -84,7 +84,7 @@ inline double extent_of(const std::vector<double>& series, std::size_t from, std
   return *high - *low;
 }
 
-/// The extent of the last quarter over that of the first; empty for rest in the first quarter.
+/// The extent max − min of a series' last quarter over that of the first; empty if the first is 0.
 inline std::optional<double> extent_growth(const std::vector<double>& series) {
   const std::size_t size = series.size(), quarter = size / 4;
   const double first = extent_of(series, 0, quarter);
@@ -109,7 +109,7 @@ inline std::vector<double> every(const std::vector<double>& series, std::int64_t
   return thinned;
 }
 
-/// Sets the indicators that use returns of the states.
+/// Sets the indicators `repeat`, `closest_return` and `determinism`.
 /// @param sizes  largest |x_i| since the start, for each coordinate
 template <int Size>
 void weigh_returns(const std::vector<Vector<double, Size>>& states,
@@ -121,8 +121,8 @@ void weigh_returns(const std::vector<Vector<double, Size>>& states,
   indicators.determinism = recurrence_determinism<Size>(last, recurrence_radius);
 }
 
-/// The exponents from the tangent maps of a discrete system, where there are any. Before restart()
-/// the basis only turns into the directions of the exponents; no averages are taken.
+/// The Lyapunov exponents of a discrete system from its tangent maps; none where no map is given.
+/// Before restart() the basis only turns into the directions of the exponents, without averages.
 template <int Size>
 class TangentMaps {
  public:
@@ -151,9 +151,9 @@ class TangentMaps {
   bool counts_ = false;
 };
 
-/// The indicators of chaos_indicators() with any kind of exponents.
-/// @param tangents  push(before) is called after each step with the state before it; restart() is
-///                  called before the first step that counts
+/// Runs a discrete system and computes all indicators of chaos_indicators() but the exponent.
+/// @param tangents  tangent vectors: push(before) is called after each step with the state before
+///                  it, restart() before the first step that is not transient
 template <int Size, class Tangents>
 ChaosIndicators indicators_of_system(
     const Vector<double, Size>& initial, const std::function<void(Vector<double, Size>&)>& advance,
@@ -202,19 +202,19 @@ ChaosIndicators indicators_of_system(
 ///
 /// Each callable may have a state of its own, like the index of a forcing. A step first calls
 /// `advance(state)`, which replaces the state by the next one, then `tangent(before)` and
-/// `contact()`, both for that step. The basis of the exponents turns through the whole transient
-/// before their averages begin.
+/// `contact()`, both for that step. The basis of the exponents is advanced through the whole
+/// transient before the averages of the exponents begin.
 ///
-/// A motion diverges when its state is not finite or has grown by 10³⁰ over the largest coordinate
-/// of its first 100 samples; then nothing else is computed. Otherwise a repetition is sought to
-/// 10⁻⁹ of the extent, three times or more in half of the samples. The closest return and the
-/// recurrence at 0.05 of the extent belong to the last 1000 states. The lines are tested for
-/// divisions of the base frequency up to 128. Bounded work: transient + samples steps, the 0–1
-/// test, one search for repetition (at worst samples²/12 distances), two spectra, and 10⁶
-/// distances.
+/// A motion diverges when its state is not finite or exceeds 10³⁰ times the largest coordinate of
+/// its first 100 samples; then nothing else is computed. Otherwise a lag of up to a sixth of the
+/// samples is sought at which their second half repeats to 10⁻⁹ of the extent. The closest return
+/// and the determinism (radius: 0.05 of the extent) are those of the last 1000 states. The spectrum
+/// is tested for lines on multiples of f/m, f being the base frequency and m ≤ 128. Bounded work:
+/// transient + samples steps, the 0–1 test, one search for repetition (at worst samples²/12
+/// distances), two spectra, and 10⁶ distances.
 /// @param initial     the state at sample 0
 /// @param advance     replaces a state by the next one
-/// @param observable  the number of a state that spectrum and 0–1 test use
+/// @param observable  a number computed from a state, for the spectrum and the 0–1 test
 /// @param options     length and resolution of the examination
 /// @param tangent     ∂(next state)/∂(state); without it there are no exponents
 /// @param contact     true where the drive transmits; empty for a system without contacts

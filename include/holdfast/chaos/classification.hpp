@@ -23,8 +23,8 @@ enum class AttractorType {
   undecided,              ///< indicators are missing or contradict each other
 };
 
-/// The largest Lyapunov exponent and its 99 % interval, value ± half_width. A motion whose exponent
-/// is 0 is taken for chaotic, or for contracting, in one case of two hundred each.
+/// The largest Lyapunov exponent and its 99 % interval, value ± half_width. Where the true
+/// exponent is 0, the interval lies above 0 in one case of 200 and below 0 in another of 200.
 struct ExponentEstimate {
   double value;       ///< −∞ where every direction is a null direction
   double half_width;  ///< ≥ 0
@@ -47,10 +47,10 @@ inline ExponentEstimate exponent_estimate(double value, double standard_error) {
   return {value, quantile * standard_error + rounding};
 }
 
-/// The measures of the lines in the spectrum of an observable.
+/// The measures of the lines in the spectrum of an observable; f is the base frequency.
 struct SpectralIndicators {
   int division;               ///< smallest m such that the multiples of f/m contain the power, or 0
-  double share;               ///< share of the power that these lines must contain
+  double share;               ///< share of the power that the multiples of f/m must contain
   std::size_t lines_holding;  ///< number of lines that contain 99 % of the power
   double continuous;          ///< share of the power between the lines
 };
@@ -73,7 +73,7 @@ struct ChaosIndicators {
                                         ///< forced response repeats
 };
 
-/// The kind of a motion with the numbers that it follows from.
+/// The kind of a motion with its period and the reason.
 struct Classification {
   AttractorType kind = AttractorType::undecided;  ///< kind of the motion
   std::int64_t period = 0;                        ///< samples; 0 unless periodic
@@ -95,20 +95,20 @@ inline std::string attractor_type_text(const Classification& classification) {
 
 /// The least K of the 0–1 test with which a series counts as chaotic.
 inline constexpr double zero_one_high = 0.8;
-/// The largest K of the 0–1 test with which a series counts as regular; in between it is undecided.
+/// The largest K with which a series counts as regular; a K between both limits decides nothing.
 inline constexpr double zero_one_low = 0.2;
 /// The largest share of the power between the lines with which a spectrum counts as pure lines.
 inline constexpr double lines_only_share = 1e-3;
 /// The fewest periods of the forcing from which a forced motion can be classified.
 inline constexpr double fewest_forcing_periods = 20.0;
-/// The factor of steady motion: an extent that changes by more than this factor (or its inverse)
-/// from the first to the last quarter of the series is not steady.
+/// The largest factor by which the extent of a steady motion may grow or shrink from the first to
+/// the last quarter of the series.
 inline constexpr double steady_growth = 2.0;
 /// The initial distance of a neighbour, as a share of the extent.
 inline constexpr double neighbour_start = 1e-9;
-/// The least final distance of a neighbour that has separated from the motion.
+/// The least final distance, as a share of the extent, of a neighbour that has separated.
 inline constexpr double neighbour_parted = 1e-3;
-/// The largest final distance of a neighbour that has stayed; in between nothing is decided.
+/// The largest final distance, as a share of the extent, of a neighbour that has stayed near.
 inline constexpr double neighbour_stays = 1e-7;
 
 namespace detail {
@@ -150,11 +150,11 @@ class Classifier {
     return comes_together() ? contracting() : neutral();
   }
 
-  /// Classifies a motion under a recorded force or with jittering samples. Its spectrum, 0–1 test
-  /// and repetitions reflect the forcing as much as the motion. So nothing is called
-  /// quasi-periodic, and with jitter nothing periodic but rest. Divergence and chaos (an exponent
-  /// above zero) are still recognised. Else a negative exponent decides: neighbours converge under
-  /// the same forcing, and the motion follows it.
+  /// Classifies a motion under a recorded force or with jittering samples. The spectrum, 0–1 test
+  /// and repetitions reflect the forcing as much as the motion. So no motion is called
+  /// quasi-periodic, and with jitter only rest is called periodic. Divergence and chaos (an
+  /// exponent above zero) are still recognised. Otherwise a negative exponent decides: neighbours
+  /// converge under the same forcing, and the motion follows it.
   Classification classify_irregularly_forced(bool samples_jitter) const {
     const Classification regular = classify();
     const bool repeats = regular.kind == AttractorType::periodic;
@@ -169,7 +169,7 @@ class Classifier {
     return undecided("The forcing or the samples do not repeat, and the exponent does not decide");
   }
 
-  /// Whether the missing neighbour distance could decide an undecided case.
+  /// Whether the motion is undecided and the neighbour distance, not computed yet, could decide.
   bool lacks_neighbour() const {
     return !indicators_.neighbour && searched_in_vain() && indicators_.largest_exponent &&
            !comes_together() && classify().kind == AttractorType::undecided;
@@ -180,7 +180,7 @@ class Classifier {
     if (indicators_.largest_exponent && indicators_.largest_exponent->positive())
       return undecided("The motion repeats although its neighbours leave it");
     return {AttractorType::periodic, static_cast<std::int64_t>(indicators_.repeat->lag),
-            "Recurrence, no certificate: the second half of the series " + repeat_text() +
+            "There is no certificate, but the second half of the record " + repeat_text() +
                 ", three times and more, to " + number_text(indicators_.repeat->tolerance) +
                 " of its extent."};
   }
@@ -190,7 +190,7 @@ class Classifier {
     if (!(indicators_.zero_one && *indicators_.zero_one >= zero_one_high))
       return undecided("Neighbours separate, but the 0-1 test does not show chaos");
     if (has_lines_alone() || has_one_base())
-      return undecided("Neighbours separate, but the spectrum is one of lines");
+      return undecided("Neighbours separate, but the spectrum has only lines");
     return chaotic();
   }
 
@@ -202,10 +202,10 @@ class Classifier {
 
   Classification neutral() const {
     if (!(is_regular() || stays_beside_neighbour()) || !searched_in_vain())
-      return undecided("The exponent is not told from zero, and the rest does not decide");
+      return undecided("The exponent cannot be told from zero, and no other measure decides");
     if (!has_lines_alone() || has_one_base())
       return undecided(
-          "The exponent is not told from zero, and the lines show no second frequency");
+          "The exponent cannot be told from zero, and the lines show no second frequency");
     return weighed(AttractorType::quasi_periodic,
                    "The exponent is zero within its error and the spectrum has lines without a "
                    "common base");
@@ -222,7 +222,7 @@ class Classifier {
       return undecided("Neighbours come together, but no repetition was looked for");
     if (has_one_base() || (is_regular() && has_lines_alone()))
       return undecided(
-          "A regular series that does not repeat, slowly settling or of a long period");
+          "The motion is regular but does not repeat: it settles slowly or has a long period");
     return irregular(
         "Neighbours come together, yet the motion does not repeat; its period may be longer, or "
         "the contacts never settle");
@@ -259,8 +259,8 @@ class Classifier {
     if (!indicators_.repeat) return "no repetition was looked for";
     const RepeatSearch& found = *indicators_.repeat;
     if (found.lag > 0) return "repeats after " + std::to_string(found.lag) + " samples";
-    return "no repetition to " + number_text(found.tolerance) + " of the extent within " +
-           std::to_string(found.largest_lag) + " samples";
+    return "no repetition within " + std::to_string(found.largest_lag) + " samples to " +
+           number_text(found.tolerance) + " of the motion's extent";
   }
   std::string lines_text() const {
     if (!indicators_.lines) return "no spectrum was looked at";
@@ -291,7 +291,7 @@ class Classifier {
   }
   bool is_regular() const { return indicators_.zero_one && *indicators_.zero_one <= zero_one_low; }
   bool has_parted() const { return indicators_.neighbour.value_or(0.0) >= neighbour_parted; }
-  /// Whether a neighbour stays near and the 0–1 test does not contradict.
+  /// Whether a neighbour stays near and the 0–1 test does not show chaos.
   bool stays_beside_neighbour() const {
     return indicators_.neighbour.value_or(1.0) <= neighbour_stays &&
            indicators_.zero_one.value_or(0.0) < zero_one_high;
@@ -311,23 +311,23 @@ class Classifier {
 
 /// Classifies a motion by its indicators. The first rule that applies decides:
 ///
-///  1. left all bounds → diverges;
+///  1. the motion left all bounds → diverges;
 ///  2. a certified orbit → periodic; else fewer than `fewest_forcing_periods` → undecided;
-///  3. repeats to a tolerance, three times and more → periodic, resting on recurrence; undecided
-///     where the largest exponent is above zero: then an unstable orbit or round-off repeats;
-///  4. no exponent, or an extent that still changes by `steady_growth` → undecided;
-///  5. exponent above zero by its 99 % interval: chaotic if a neighbour has parted, or if K ≥
-///     `zero_one_high` and the spectrum, if known, is not one of lines alone; else undecided;
-///  6. exponent not told from zero: quasi-periodic if K ≤ `zero_one_low`, or below `zero_one_high`
-///     and a neighbour stays, and a repetition was looked for in vain, and the spectrum has lines
-///     alone with no common base; else undecided;
-///  7. exponent below zero: where forcing and sampling are incommensurate and K ≤ `zero_one_low`
-///     and the spectrum, if known, has lines alone → quasi-periodic. Else, if a repetition was
-///     looked for in vain → irregular, exponent <= 0: a piecewise affine loop can go on switching
-///     without a pattern while its neighbours come together. Undecided where the series has lines
-///     of one base, or K ≤ `zero_one_low` and lines alone: it may still settle, or repeat later.
+///  3. the series repeats to a tolerance, three times or more → periodic, by recurrence; but
+///     undecided where the largest exponent is above zero, as on an unstable orbit or by round-off;
+///  4. no exponent, or an extent that changes by more than a factor `steady_growth` → undecided;
+///  5. exponent above zero by its 99 % interval: chaotic if a neighbour has separated, or if K ≥
+///     `zero_one_high` and the spectrum, if known, does not consist of lines; else undecided;
+///  6. exponent zero within its interval: quasi-periodic if a repetition was sought in vain, the
+///     spectrum consists of lines without a common base, and K ≤ `zero_one_low` or, where a
+///     neighbour stays near, K < `zero_one_high`; else undecided;
+///  7. exponent below zero: quasi-periodic if forcing and sampling are incommensurate, K ≤
+///     `zero_one_low` and the spectrum, if known, consists of lines. Else undecided if no
+///     repetition was sought, if the lines have a common base, or if K ≤ `zero_one_low` and the
+///     spectrum consists of lines: the motion may settle or repeat later. Else irregular, exponent
+///     <= 0: a piecewise affine loop can switch without a pattern while neighbours come together.
 ///
-/// No statistic claims chaos alone. The classification is of the series of the indicators.
+/// No single statistic suffices for `chaotic`. The result holds for the length of the series only.
 inline Classification classify(const ChaosIndicators& indicators) {
   return detail::Classifier(indicators).classify();
 }

@@ -15,30 +15,31 @@
 
 namespace holdfast {
 
-/// A motion with the Lyapunov spectrum along it. It replaces the motion in run_trajectory, so that
-/// a time history may be recorded at the same time.
+/// A motion with the Lyapunov spectrum along it. It may be passed to run_trajectory in place of the
+/// motion, so that a time history is recorded at the same time.
 ///
 /// The tangent is that of VariationalFlow, orthogonalised at every sample. With N the order of the
-/// plant, it has N + 3 exponents, of which one each is −∞
-/// - once the drive has been engaged: from then on its gap is a function of the state;
-/// - unless the controller takes differences of displacements: the last one is not used then;
-/// - without processing delay: u_{j−1} has no effect from t_j on.
-/// After a stick phase, in which Δż = 0 and the drive's position is known, at most N − 1 exponents
-/// are finite, and those of commands (and readings) decided but not yet effective, at the instant
-/// with the fewest: without processing delay one less, with it up to two less. With delay and
-/// difference N + 2 may be finite; one less if this object is made before the very first sample,
-/// when nothing was read. A gap that is never left is neutral: an exponent 0.
+/// plant, there are N + 3 exponents. Each of these causes makes one of them −∞:
+/// - the drive has been engaged: from then on its gap is a function of the state;
+/// - the controller takes no differences of displacements: the last one read has no effect;
+/// - there is no processing delay: u_{j−1} has no effect from t_j on.
+/// In stick Δż = 0 and the drive's position is known. After a stick at most N − 1 exponents are
+/// finite, plus one for each command or reading that is stored during the stick and acts later. The
+/// stick with the fewest of these counts: it costs one exponent without processing delay and up to
+/// two with it. With delay and differences of displacements N + 2 may be finite, one less if this
+/// object is made before the first sample, when nothing has been read. A gap that is never left
+/// adds an exponent 0.
 ///
-/// An exact −∞ is detected by the structural rank (structural_rank.hpp) of the product of all maps,
-/// not by a pivot: the kernels of different maps show only up to rounding, amplified by the maps in
-/// between. Work per sample of the two masses: the tangent's, and some 1500 multiply-adds.
+/// An exact −∞ is detected by the structural rank (structural_rank.hpp) of the product of all maps.
+/// Pivots would not show it: in a product of several maps a zero becomes round-off, which later
+/// maps amplify. Work per sample of two masses: the tangent's and some 1500 multiply-adds.
 template <class Contact>
 class EventLyapunov {
  public:
   /// The number of exponents, N + 3.
   static constexpr int size = VariationalFlow<Contact>::size;
 
-  /// @param motion  advanced from its present state; it must outlive this object
+  /// @param motion  motion to be advanced from its present state; it must outlive this object
   explicit EventLyapunov(EventMotion<Contact>& motion)
       : motion_(&motion),
         tangent_(motion),
@@ -84,7 +85,7 @@ void EventLyapunov<Contact>::advance() {
 ///
 ///     const LyapunovResult result = run_event_lyapunov(motion, {1000000, 1000, 1e-5});
 ///
-/// @param motion  left after the last sample taken
+/// @param motion  the motion; it ends after the last sample used
 /// @param run     length and accuracy of the average
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible

@@ -32,12 +32,12 @@ constexpr ItineraryBlock followed_by(ItineraryBlock block, bool engaged) {
   return static_cast<ItineraryBlock>(2 * block + (engaged ? 1 : 0));
 }
 
-/// The block of a single sample of a block, 0 ≤ sample < samples_of(block).
+/// The block that holds one sample of another block, 0 ≤ sample < samples_of(block).
 constexpr ItineraryBlock sample_of(ItineraryBlock block, int sample) {
   return followed_by(empty_block, ((block >> (samples_of(block) - 1 - sample)) & 1) != 0);
 }
 
-/// The tangent maps of every block: products of two constant 5 × 5 matrices, S where the force is
+/// The tangent maps of every block: products of one 5 × 5 matrix per sample, S where the force is
 /// transmitted and S* in the backlash.
 ///
 /// The products are those of T⁻¹ S T and T⁻¹ S* T, where T is diagonal with powers of two that
@@ -48,8 +48,8 @@ class ItineraryBlocks {
   /// A tangent map with contiguous rows.
   using Map = Eigen::Matrix<double, 5, 5, Eigen::RowMajor>;
 
-  /// @param engaged   S
-  /// @param backlash  S*
+  /// @param engaged   S, the map of [z; u_{j−1}] over a sample while the force is transmitted
+  /// @param backlash  S*, the map in the backlash
   template <class Scalar>
   ItineraryBlocks(const Matrix<Scalar, 5>& engaged, const Matrix<Scalar, 5>& backlash);
 
@@ -59,17 +59,17 @@ class ItineraryBlocks {
   ItineraryBlocks(const SampledLoop<Scalar>& tangent_loop, const PdGains<Scalar>& gains)
       : ItineraryBlocks(tangent_loop.engaged_map(gains), tangent_loop.backlash_map()) {}
 
-  /// The map T⁻¹ M T, where M is the product of the block's maps, the last sample's leftmost.
+  /// The map T⁻¹ M T, where M is the product of the maps of the block's samples, the last leftmost.
   const Map& map(ItineraryBlock block) const { return maps_[block]; }
 
-  /// The smallest rank of a block's maps, each to working precision.
+  /// The smallest rank, to working precision, among the maps of a block's samples.
   int rank(ItineraryBlock block) const { return ranks_[block]; }
   /// The smaller of the ranks of S and S*.
   int smallest_rank() const { return std::min(ranks_[2], ranks_[3]); }
   /// The larger of the ranks of S and S*: at most that many exponents are finite.
   int largest_rank() const { return std::max(ranks_[2], ranks_[3]); }
 
-  /// The number of coordinates that matter: 4 where both maps ignore the last one, else 5.
+  /// The number of coordinates that matter: 4 where both maps ignore the last one, u_{j−1}; else 5.
   int reach() const { return reach_; }
   /// The diagonal of T.
   const Vector<double, 5>& scale() const { return scale_; }

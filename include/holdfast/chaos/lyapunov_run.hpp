@@ -23,35 +23,35 @@ namespace holdfast {
 
 /// The length and accuracy of an averaged Lyapunov spectrum.
 struct LyapunovRun {
-  std::int64_t most_samples;  ///< ≥ 1, after the discarded ones
-  std::int64_t discard = 0;   ///< ≥ 0, left out at the start while motion and basis settle
-  double standard_error = 0;  ///< ≥ 0, sufficient accuracy of λ₁ per sample; 0: use all
+  std::int64_t most_samples;  ///< most samples averaged, after the discarded ones, ≥ 1
+  std::int64_t discard = 0;   ///< samples left out while motion and basis settle, ≥ 0
+  double standard_error = 0;  ///< sufficient standard error of λ₁, ≥ 0; 0: all samples are used
   LyapunovScope scope = LyapunovScope::all;  ///< which exponents are computed
 };
 
-/// Validates a run. @throws InvalidParameter where a field is not admissible
+/// Validates the settings of a run. @throws InvalidParameter where a field is not admissible
 inline void validate(const LyapunovRun& run) {
   require_within("samples of a Lyapunov run", static_cast<double>(run.most_samples), "", 1, 9e15);
   require_within("samples left out", static_cast<double>(run.discard), "", 0, 9e15);
   require_non_negative("standard error asked for", run.standard_error, "");
 }
 
-/// How a Lyapunov run ended.
+/// The outcome of a Lyapunov run.
 enum class LyapunovOutcome {
   accurate,      ///< the standard error asked for was reached
-  sample_limit,  ///< all samples were used before that
-  diverged,      ///< the state left the range of numbers; exponents are those before, NaN if within
-                 ///< the discarded samples
+  sample_limit,  ///< all samples were used before that error was reached
+  diverged,      ///< the state left the range of numbers; exponents are averages up to then, NaN
+                 ///< if this happened within the discarded samples
 };
 
 /// The Lyapunov exponents of a motion, natural logarithm per sample, averaged over the samples
-/// after they have settled (settled_means()).
+/// after the tangent vectors have settled (settled_means()).
 struct LyapunovResult {
   LyapunovOutcome outcome;  ///< reason for the end of the run
-  /// The exponents λ₁ … λ₅ in the order of the QR, −∞ for a null direction; all but the first NaN
-  /// where only that was computed.
+  /// The exponents λ₁ … λ₅ in the order of the QR, −∞ for a null direction. λ₂ … λ₅ are NaN where
+  /// only λ₁ was computed.
   Vector<double, 5> exponents;
-  /// Standard errors, including the bias that the beginning may have left (settled_means()).
+  /// Standard errors, including the bias that the first samples may have left (settled_means()).
   Vector<double, 5> standard_errors;
   std::int64_t samples;       ///< number of samples averaged
   std::int64_t settling = 0;  ///< samples left out in addition to LyapunovRun::discard
@@ -90,8 +90,8 @@ LyapunovResult lyapunov_result(LyapunovOutcome outcome,
 /// Averages the exponents of one motion: discards the first samples, then continues until the mean
 /// is accurate enough, the samples are used up or the motion diverges.
 /// @param pause  called every 2¹² samples
-/// @tparam Lyapunov  sense(), advance() and state() of the motion; restart(), spectrum() and
-///                   complete_batches() of the exponents
+/// @tparam Lyapunov  type with sense(), advance() and state() of the motion, and with restart(),
+///                   spectrum() and complete_batches() of the exponents
 template <class Lyapunov>
 LyapunovResult run_average(Lyapunov& motion, const LyapunovRun& run,
                            const std::function<void()>& pause) {
@@ -127,12 +127,11 @@ LyapunovResult run_average(Lyapunov& motion, const LyapunovRun& run,
 
 }  // namespace detail
 
-/// The observer of a trajectory that accumulates its Lyapunov spectrum: S where the force is
-/// transmitted, S* in the backlash.
+/// An observer of trajectories that accumulates the Lyapunov spectrum. The tangent map of a sample
+/// is S where the force is transmitted, S* in the backlash.
 ///
-/// The consistent tangent comes from the loop of the motion itself. Kollár 2022 gives S and S* with
-/// δ = τ beside a trajectory with δ = 0; with the loop of δ = τ here one obtains the exponents of
-/// Table 2.
+/// S and S* should be those of the motion's own loop. Kollár 2022 combines S and S* for δ = τ with
+/// a trajectory for δ = 0. His Table 2 is reproduced with the blocks of a loop for δ = τ.
 /// @tparam Scalar  number type of the loop, `double`
 template <class Scalar>
 class LyapunovObserver {
@@ -158,8 +157,8 @@ class LyapunovObserver {
     open_ = empty_block;
   }
 
-  /// The spectrum over the samples so far, as by QR at every one of them. Reading it changes
-  /// nothing.
+  /// The spectrum over the samples since the last restart, equal to that by QR at every sample.
+  /// Reading it changes nothing.
   LyapunovSpectrum<Scalar, 5> spectrum() const { return engine_.spectrum(open_); }
   /// The number of complete batches, for the standard errors.
   std::size_t complete_batches() const { return engine_.complete_batches(); }

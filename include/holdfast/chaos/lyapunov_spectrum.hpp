@@ -16,8 +16,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// An orthogonal basis for which no map of a loop has an invariant or a null direction along an
-/// axis: the reflection I − 2 v vᵀ / ‖v‖², v_i = √(i + 1).
+/// An orthogonal basis none of whose vectors is an invariant or null direction of a loop's maps:
+/// the reflection I − 2 v vᵀ / ‖v‖², v_i = √(i + 1).
 /// @param size  size of the maps
 template <class Scalar = double, int Size = 7>
 Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
@@ -33,9 +33,9 @@ Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
 ///
 ///     M_j Q_j = Q_{j+1} R_{j+1},   λ_i = (1/n) Σ_j ln |(R_j)_ii|   (natural logarithm per step)
 ///
-/// A tangent map of rank r < Size has Size − r null directions: those exponents are exactly −∞, not
-/// logarithms of round-off. The rank is determined to working precision: a direction that one step
-/// contracts by more than about 10¹⁵ against the others is a null direction.
+/// A tangent map of rank r < Size has Size − r null directions. As many exponents are exactly −∞,
+/// not logarithms of round-off. The rank is determined to working precision: a direction that one
+/// step contracts by more than about 10¹⁵ relative to others is a null direction.
 /// Source: Kollár 2022, Eq. (16), whose Gram–Schmidt steps are this QR with a worse conditioning;
 /// G. Benettin et al., Meccanica 15 (1980).
 template <class Scalar, int Size>
@@ -49,8 +49,8 @@ class LyapunovSpectrum {
     int finite = Size;               ///< number of exponents that are not −∞
   };
 
-  /// @param initial_basis  Q₀, orthogonal; the exponents belong to the span of its leading columns
-  ///                       under the maps, so that maps with an invariant coordinate axis need
+  /// @param initial_basis  Q₀, orthogonal. Its leading columns must not span a subspace that the
+  ///                       maps leave invariant: maps with an invariant coordinate axis need
   ///                       another basis than the identity
   explicit LyapunovSpectrum(const Matrix<Scalar, Size>& initial_basis =
                                 Matrix<Scalar, Size>::Identity(Size < 0 ? 0 : Size,
@@ -72,17 +72,17 @@ class LyapunovSpectrum {
   void push(const Matrix<Scalar, Size>& tangent) { push(tangent, rank_of(tangent)); }
 
   /// The exponents λ₁ … λ_Size per step, in the order of the QR (descending once converged); −∞
-  /// where exact, NaN before the first step.
+  /// for a null direction, NaN before the first step.
   Vector<Scalar, Size> exponents() const;
 
-  /// The standard errors by batch means; 0 for an exact −∞, NaN with too few steps.
+  /// The standard errors by batch means; 0 for a null direction, NaN with too few steps.
   Vector<Scalar, Size> standard_errors() const {
     return with(state_.sums.standard_errors(), Scalar(0));
   }
 
   /// The exponents over the steps after the directions have settled (settled_means()), with
-  /// standard errors that remain valid where the sums are bounded. −∞ ± 0 for a null
-  /// direction.
+  /// standard errors that remain valid where the sums are bounded. A null direction has the
+  /// exponent −∞ and the standard error 0.
   SettledMeans<Size> settled() const {
     SettledMeans<Size> found = settled_means(state_.sums);
     found.means = with(found.means, -std::numeric_limits<double>::infinity());

@@ -16,7 +16,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// The exponents of a conductor by its modes, in the form that indicators_of_system() requires.
+/// The tangent vectors of a conductor given by its modes, as indicators_of_system() requires them.
 template <class Scalar>
 struct ModalTangents : ModalSpectrum<Scalar> {
   const bool& engaged;
@@ -29,14 +29,14 @@ struct ModalTangents : ModalSpectrum<Scalar> {
 
 }  // namespace detail
 
-/// Classifies the motion of a conductor by its modes, as classify_motion() of an IdealLoop;
-/// undecided where some of its natural motions were not found.
+/// Classifies the motion of a conductor given by its modes, like classify_motion() of an IdealLoop;
+/// the result is undecided where two of the plant's natural motions cannot be told apart.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂]
 /// @param limits         limits of the search for an orbit
 /// Work: that of find_periodic_orbit(), and 0.2 million multiply-adds per natural motion and
 /// thousand samples examined.
-/// @throws InvalidParameter where one of them is not admissible
+/// @throws InvalidParameter where an argument is not admissible
 template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 SampledClassification classify_motion(const Loop& loop, const ModalMotion::Full& initial_state,
                                       const OrbitLimits& limits = {}) {

@@ -17,12 +17,12 @@
 
 namespace holdfast {
 
-/// The five leading Lyapunov exponents of a conductor by its modes along a sequence of contacts, as
-/// LyapunovSpectrum of maps, from five deviations orthonormalised at every sample.
+/// The five leading Lyapunov exponents of a conductor given by its modes, along a sequence of
+/// contacts. They are computed from five deviations that are orthonormalised at every sample.
 ///
-/// Exponents that are exactly −∞ are left out. The exception is a single mode: it has only four
-/// finite ones without processing delay, and also once the drive has been in its backlash. Work per
-/// sample: 130 multiply-adds per natural motion.
+/// All five are finite except for a conductor with a single mode: its fifth exponent is −∞ without
+/// processing delay, and also once the drive has been in its backlash. Work per sample: 130
+/// multiply-adds per natural motion.
 template <class Scalar = double>
 class ModalSpectrum {
  public:
@@ -33,7 +33,7 @@ class ModalSpectrum {
 
   /// @param motions  natural motions of the loop
   /// @param gains    P and D while the drive transmits
-  /// @param late     whether a force acts beyond the next sample, δ > 0
+  /// @param late     whether there is a processing delay, δ > 0
   ModalSpectrum(const NaturalMotions& motions, const PdGains<double>& gains, bool late)
       : deviations_(motions, gains) {
     const Eigen::Index order = deviations_.order();
@@ -41,7 +41,7 @@ class ModalSpectrum {
     deviations_.begin(detail::oblique_basis<Scalar, Eigen::Dynamic>(order).leftCols(finite_));
   }
 
-  /// Adds one sample, at which the drive transmits or not.
+  /// Adds one sample. @param engaged  whether the drive transmits at that sample
   void push(bool engaged) {
     deviations_.advance(engaged);
     Matrix<Scalar, Eigen::Dynamic> basis = deviations_.columns();
@@ -60,7 +60,7 @@ class ModalSpectrum {
     sums_.add(logarithms, 1);
   }
 
-  /// Adds one sample, in the form of an observer of run_trajectory.
+  /// Adds one sample, as run_trajectory calls its observers.
   void operator()(const MotionSample<double>& sample) { push(sample.engaged); }
 
   /// Restarts the averages; only the directions of the deviations are kept.
@@ -83,8 +83,8 @@ class ModalSpectrum {
   BatchSums<Scalar, leading> sums_{1};
 };
 
-/// The five leading Lyapunov exponents of a motion of a conductor by its modes, from its present
-/// state, natural logarithm per sample.
+/// The five leading Lyapunov exponents of a motion of a conductor given by its modes, from its
+/// present state, natural logarithm per sample.
 /// @param motion  a ModalMotion; it ends after the last sample used
 /// @param loop    the loop of the motion
 /// @param run     length and accuracy of the average

@@ -28,15 +28,15 @@
 
 namespace holdfast {
 
-/// The kind of a motion of a loop with backlash, with its certificate or the indicators.
-/// @tparam Search  OrbitResultOf the orbits of the loop
+/// The kind of a motion of a loop with backlash, with its certified orbit or its indicators.
+/// @tparam Search  OrbitResultOf<Orbit>, Orbit being the type of the loop's orbits
 template <class Search>
 struct ClassifiedMotion {
   Classification classification;  ///< kind of the motion and its reason
-  /// The search's result with the orbit, if there is one; `incommensurate` also under a recorded
-  /// force or with jittering samples.
+  /// Result of the search for a periodic orbit, with the orbit if there is one. Its outcome is
+  /// `incommensurate` also under a recorded force or with jittering samples.
   Search search;
-  ChaosIndicators indicators;  ///< for a certified orbit only its period and exponent
+  ChaosIndicators indicators;  ///< indicators; for a certified orbit only period and exponent
 };
 
 /// The classification of a motion of an IdealLoop.
@@ -44,12 +44,12 @@ using SampledClassification = ClassifiedMotion<OrbitResult>;
 /// The classification of a motion of an ImplementedLoop. @tparam States  N, the order of the plant
 template <int States>
 using EventClassificationOf = ClassifiedMotion<OrbitResultOf<EventOrbitOf<States>>>;
-/// The classification of a motion of the two masses.
+/// The classification of a motion of an ImplementedLoop with two masses.
 using EventClassification = EventClassificationOf<4>;
 
 namespace detail {
 
-/// @param shown  text about the orbit's contacts
+/// The reason text of a certified orbit; `shown` states what was verified about its contacts.
 template <class Orbit>
 std::string certificate_text(const Orbit& orbit, const std::string& shown) {
   const auto counted = [](std::int64_t count, const char* what) {
@@ -65,9 +65,9 @@ std::string certificate_text(const Orbit& orbit, const std::string& shown) {
          ", and it closes to " + number_text(orbit.closure_error) + " in m and m/s.";
 }
 
-/// Takes the classification from the search where it certified an orbit or saw the motion
+/// Takes the classification from the search where the search certified an orbit or saw the motion
 /// diverge.
-/// @param shown   text about the orbit's contacts for the certificate
+/// @param shown   statement about the orbit's contacts, for certificate_text()
 /// @return whether the search decided
 template <class Search>
 bool is_decided_by_search(ClassifiedMotion<Search>& found, const std::string& shown) {
@@ -87,7 +87,7 @@ bool is_decided_by_search(ClassifiedMotion<Search>& found, const std::string& sh
   return true;
 }
 
-/// The options for a loop: as many samples as contain enough forcing periods for the 0–1 test.
+/// The options for a loop: some 1000 forcing periods for the 0–1 test, in at most 10⁵ samples.
 /// @param cycles  f τ, periods of the forcing per sample, > 0
 inline IndicatorOptions indicator_options(double cycles) {
   IndicatorOptions options;
@@ -99,8 +99,8 @@ inline IndicatorOptions indicator_options(double cycles) {
   return options;
 }
 
-/// The indicators of a motion that switches at its samples, from states of conductor and absorber.
-/// @param engaged   set to whether the drive transmits, for the tangents
+/// The indicators of a motion that switches at its samples, from its states [z; u_{j−1}].
+/// @param engaged   set in each step to whether the drive transmits; `tangents` uses it
 /// @param tangents  as indicators_of_system() requires them
 template <class Motion, class Tangents>
 ChaosIndicators indicators_of_samples(Motion motion, const IndicatorOptions& options, bool& engaged,
@@ -138,14 +138,14 @@ ChaosIndicators indicators_of_motion(const IdealLoop<Scalar>& loop,
   return indicators_of_samples(motion, options, engaged, tangents);
 }
 
-/// A motion in the form of chaos_indicators(): states [x; u_{j−1}; 0; 0], like those of an
-/// IdealLoop, with room for the tangent of VariationalFlow.
+/// A motion with its tangent in the form that chaos_indicators() requires. Its states are
+/// [x; u_{j−1}; 0; 0], filled up with zeros to the length of the deviations of VariationalFlow.
 template <class Contact>
 class TrajectoryWithTangent {
   static constexpr int size = VariationalFlow<Contact>::size;
 
  public:
-  /// @param gap_counts  whether a deviation of the gap counts as a deviation of the motion
+  /// @param gap_counts  whether a deviation of the gap's place is part of the tangent
   TrajectoryWithTangent(const EventMotion<Contact>& start, bool gap_counts)
       : motion_(start), tangent_(motion_), gap_counts_(gap_counts) {}
 
@@ -209,12 +209,12 @@ std::optional<ChaosIndicators> indicators_of_motion(const EventMotion<Contact>& 
   const ChaosIndicators indicators = motion.indicators(options);
   if (motion.accumulates()) return std::nullopt;
   if (indicators.diverged_at || motion.last_engaged() > options.transient) return indicators;
-  // Where a gap lies that is never left is without effect: no direction of the motion, but a
-  // neutral one of the tangent.
+  // The place of a gap that is never left has no effect on the motion: without this it would add
+  // a neutral direction to the tangent.
   return TrajectoryWithTangent<Contact>(start, false).indicators(options);
 }
 
-/// The harmonic whose periods are counted; null without one.
+/// The first harmonic of positive amplitude, whose periods are counted; null without one.
 inline const Harmonic* first_harmonic(const MultiHarmonicForce& force) {
   const auto first =
       std::find_if(force.harmonics.begin(), force.harmonics.end(),
@@ -222,8 +222,8 @@ inline const Harmonic* first_harmonic(const MultiHarmonicForce& force) {
   return first == force.harmonics.end() ? nullptr : &*first;
 }
 
-/// The natural frequency (Hz) of a plant: for two masses the conductor's own, for other plants that
-/// of the slowest mode; without any, its fastest rate.
+/// The natural frequency (Hz) of a plant: for two masses √(k₁/m₁) / 2π of the conductor alone, else
+/// that of the plant's first natural mode or, without any mode, the norm of its state matrix / 2π.
 inline double own_frequency(const TwoMass<double>& plant) {
   const double own = std::sqrt(plant.conductor_stiffness / plant.conductor_mass);
   return own / (2.0 * pi<double>);
@@ -235,9 +235,9 @@ double own_frequency(const Plant& plant) {
   return balanced_norm(plant.state_matrix()) / (2.0 * pi<double>);
 }
 
-/// The options for a loop, from its first harmonic or else from its own frequency. The examined
-/// time does not exceed the record of a recorded force.
-/// @return nothing where the record ends before enough samples
+/// The options for a loop, from the frequency of its first harmonic or, without one, its natural
+/// frequency. The examination ends before the record of a recorded force does.
+/// @return nothing where the record has fewer than 4200 samples
 template <class Plant>
 std::optional<IndicatorOptions> indicator_options(const ImplementedLoopOf<Plant>& loop) {
   const Harmonic* const harmonic = first_harmonic(loop.digital.force);
@@ -255,16 +255,16 @@ std::optional<IndicatorOptions> indicator_options(const ImplementedLoopOf<Plant>
   return options;
 }
 
-/// The conditions of the examination of a motion by its samples.
+/// The conditions under which the samples of a motion are examined.
 struct Weighing {
   bool is_forced;               ///< forced by a harmonic, whose periods are counted
   bool may_look_longer = true;  ///< may use more samples if the planned ones do not decide
 };
 
-/// Classifies a motion by its samples; where they do not decide, by a neighbour, and where that
-/// does not decide either, by as many samples as allowed.
+/// Classifies a motion by its samples. Where they do not decide, the distance of a neighbour is
+/// added; where that does not decide either, all is repeated with 99 960 samples.
 /// @param start  the motion, before a sample
-/// @param look   ChaosIndicators for IndicatorOptions, nothing where the motion cannot be followed
+/// @param look   IndicatorOptions ↦ ChaosIndicators, nothing where the motion cannot be followed
 /// @return whether the motion could be followed
 template <class Search, class Motion, class Look>
 bool classify(ClassifiedMotion<Search>& found, const Motion& start, IndicatorOptions options,
@@ -289,8 +289,8 @@ bool classify(ClassifiedMotion<Search>& found, const Motion& start, IndicatorOpt
   return classify(found, start, options, criteria, look);
 }
 
-/// The classification of a loop that switches at samples, from the orbit that its motion comes to,
-/// or else from the indicators that `look` computes.
+/// The classification of a motion that switches at samples, from the orbit that it comes to or,
+/// without one, from the indicators that `look` computes.
 /// @tparam Loop  IdealLoop or ModalLoop
 template <class Loop, class Motion, class Look>
 SampledClassification classify_sampled(const Loop& loop, OrbitResult search, const Motion& motion,
@@ -337,18 +337,17 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
 
 }  // namespace detail
 
-/// Classifies a motion: by the periodic orbit that it comes to, or, where none is found, by the
+/// Classifies a motion by the periodic orbit that it comes to or, where none is found, by the
 /// indicators of its samples.
 ///
-///     classify_motion(loop, Vector<double, 4>::Zero()).classification.kind;   //
-///     AttractorType::periodic
+///     classify_motion(loop, Vector<double, 4>::Zero()).classification.kind;  // periodic
 ///
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
 /// @param limits         limits of the search for an orbit
-/// Work: that of find_periodic_orbit() and of chaos_indicators() for up to 10⁵ samples; where these
-/// do not decide, again for 10⁵ samples, three times as many of the motion each time.
-/// @throws InvalidParameter where one of them is not admissible
+/// Work: that of find_periodic_orbit() and of chaos_indicators() for N ≤ 10⁵ samples. Where these
+/// do not decide, 3 N samples more for a neighbour's distance, then all again with N = 10⁵.
+/// @throws InvalidParameter where an argument is not admissible
 template <class Scalar>
 SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
                                       const Vector<double, 4>& initial_state,
@@ -369,21 +368,21 @@ SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
   return classify_motion(loop, state, limits);
 }
 
-/// Classifies a motion of an implemented loop, with the saltation at each change of contact.
+/// Classifies a motion of an implemented loop. The exponents include the saltation at each change
+/// of contact.
 ///
 /// The rules are those of `classify`. Three cases do not occur in an IdealLoop:
-/// - a recorded force or a jittering clock: no orbit is sought, and nothing is called
-/// quasi-periodic or, with such a clock, periodic, except rest. A negative exponent means
+/// - a recorded force or a jittering clock: no orbit is sought, and no motion is called
+/// quasi-periodic; with a jittering clock only rest is called periodic. A negative exponent means
 /// `irregular_contracting`: neighbours converge under the same forcing. Only samples before the end
-/// of the record count; undecided where they are fewer than 4200;
-/// - a quantised measurement has no tangent at its steps: exponents and multipliers are those in
-/// between;
-///  - where changes of contact accumulate the classification is undecided.
+/// of the record count; with fewer than 4200 of them the motion is undecided;
+/// - a quantised measurement: exponents and multipliers take a quantised reading as constant;
+/// - changes of contact that accumulate: the motion is undecided.
 /// @param loop           the loop with its implemented hardware
 /// @param initial_state  x₀, N × 1, finite; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s)
 /// @param limits         limits of the search for an orbit
 /// Work: that of find_event_orbit() and of chaos_indicators() for up to 10⁵ samples.
-/// @throws InvalidParameter where one of them is not admissible
+/// @throws InvalidParameter where an argument is not admissible
 /// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>
 template <class Plant>
 EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<Plant>& loop,
@@ -399,9 +398,9 @@ EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<
     return found;
   detail::weigh_samples(loop, motion, found);
   if (found.search.outcome == OrbitOutcome::neutral)
-    found.classification.rests_on += " 1 is a multiplier: nothing brings back the state number " +
+    found.classification.rests_on += " A multiplier is 1: nothing brings back state number " +
                                      std::to_string(*found.search.neutral_state) +
-                                     " (from 0), so that the motion is one of a family.";
+                                     " (counted from 0), so the motion is one of a family.";
   return found;
 }
 /// Classifies a motion of an implemented loop; the initial state is any Eigen column.

@@ -15,13 +15,13 @@ namespace holdfast {
 ///     d(x, y) = max_i |x_i − y_i| / (max x_i − min x_i)
 ///
 /// so that 0 ≤ d ≤ 1 in any units. A coordinate that is constant to round-off, 10⁻¹³ of its size,
-/// is left out; a coordinate that is mere round-off about zero needs its size as an argument.
+/// is left out; where a coordinate is mere round-off about zero, `sizes` must be given.
 template <int Size>
 class RelativeDistance {
  public:
   /// @param states  the series whose extents are the units
-  /// @param sizes   size of each coordinate where it exceeds that in the series, for example after
-  ///               decay
+  /// @param sizes   largest |x_i| of each coordinate, where it was larger before the series than in
+  ///               it, for example before a decay
   /// @throws InvalidParameter where the series is empty or a state is not finite
   explicit RelativeDistance(const std::vector<Vector<double, Size>>& states,
                             const Vector<double, Size>& sizes = no_sizes()) {
@@ -38,7 +38,7 @@ class RelativeDistance {
     weights_ = (extent.array() > 1e-13 * largest.array()).select(extent.cwiseInverse(), 0.0);
   }
 
-  /// The value for unknown sizes: zeros.
+  /// The constructor's `sizes` where none are known: zeros, or empty for a dynamic Size.
   static Vector<double, Size> no_sizes() { return Vector<double, Size>::Zero(Size < 0 ? 0 : Size); }
 
   /// The distance d of two states, in or outside the series; 0 where no coordinate varies.
@@ -50,7 +50,7 @@ class RelativeDistance {
   Vector<double, Size> weights_;
 };
 
-/// The closest return of a series: the least distance over all pairs of its states, as a share.
+/// The closest return of a series: the least RelativeDistance between any two of its states.
 ///
 /// Work: N²/2 distances, N ≤ 5000.
 /// @param states  x_j at successive samples, whose extents are the units
@@ -67,9 +67,9 @@ double closest_return(const std::vector<Vector<double, Size>>& states) {
   return closest;
 }
 
-/// The result of a search for repetition, with the searched range.
+/// The result of a search for the lag (samples) after which a series repeats.
 struct RepeatSearch {
-  std::size_t lag;          ///< smallest lag that repeats, 0 without one
+  std::size_t lag;          ///< smallest lag after which the series repeats; 0: none was found
   std::size_t largest_lag;  ///< largest lag that was tested
   double tolerance;         ///< tolerance of a repeat, as a share of the extent
 };
@@ -83,8 +83,8 @@ struct RepeatSearch {
 /// once; at worst N²/(4 repeats), N ≤ 10⁶.
 /// @param states     x_0 … x_{N−1} at successive samples
 /// @param tolerance  share of the extent of the second half, 0 ≤ tolerance < 1
-/// @param repeats    ≥ 1
-/// @param sizes      see RelativeDistance: a coordinate below round-off of its size is at rest
+/// @param repeats    number of repetitions that must fit, ≥ 1
+/// @param sizes      size of each coordinate, as in RelativeDistance
 /// @throws InvalidParameter for no or more than 10⁶ states, a state not finite, or arguments out of
 ///         their ranges
 template <int Size>
@@ -106,9 +106,9 @@ RepeatSearch repeats_after(const std::vector<Vector<double, Size>>& states, doub
   return {0, largest, tolerance};
 }
 
-/// The determinism of a series from its recurrence plot (without the diagonal): the share of the
-/// pairs within a radius that are on diagonal lines of two or more, that is, of returns followed by
-/// another return; 0 without returns.
+/// The determinism of a series from its recurrence plot without the main diagonal: among the pairs
+/// of states nearer to each other than a radius, the share that lies on diagonal lines of two or
+/// more pairs; 0 without such pairs.
 ///
 /// It is near 1 for a motion on a closed curve and about 1 − (1 − rate)² for a random series, the
 /// rate being the share of pairs within the radius. Work: N²/2 distances and no storage, N ≤ 5000.

@@ -8,7 +8,7 @@
 
 namespace holdfast {
 
-/// The complexity of an itinerary (engaged, in the backlash).
+/// The complexity of a sequence of contacts (engaged or in the backlash); H_k is block_entropy().
 struct SwitchingComplexity {
   double entropy;        ///< h_k = H_{k+1} − H_k (bits per symbol)
   std::size_t block;     ///< length k of the words
@@ -38,12 +38,12 @@ inline double block_entropy(const std::vector<bool>& sequence, std::size_t block
   return std::fmax(0.0, entropy);
 }
 
-/// The complexity of an itinerary, from its block entropies.
+/// The complexity of a sequence of contacts, from its block entropies.
 ///
 /// The word length k is the largest with 2^{k+1} ≤ n/32, at most 12, so that each possible word is
 /// expected 32 times. A sequence with a period N ≤ k has h_k = 0; with a longer period h_k is above
-/// 0 and falls with k. With rare changes of contact h is small because most samples add no
-/// information; so it is comparable only at the same sampling period.
+/// 0 and falls with k. With rare changes of contact h_k is small because most samples add no
+/// information; so only values for equal sampling periods are comparable.
 /// @param sequence  64 … 10⁶ symbols
 /// @throws InvalidParameter where the number of symbols is out of its range
 /// @tparam Sequence  std::vector<bool>

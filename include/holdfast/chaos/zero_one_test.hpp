@@ -13,8 +13,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// The walk of the 0–1 test: the series moves a point in the plane, and its mean-square
-/// displacement over n = 1, 2, … is measured. One walk serves every c without new memory.
+/// The walk (p(n), q(n)) of the 0–1 test in the plane, with its mean-square displacement over
+/// n = 1, 2, … steps. One object serves every c without new memory.
 class ZeroOneWalk {
  public:
   /// @param centred  the series without its mean
@@ -25,7 +25,7 @@ class ZeroOneWalk {
         vertical_(centred.size() + 1, 0.0),
         displacement_(lags_, 0.0) {}
 
-  /// The correlation K_c of the mean-square displacement with the lag.
+  /// The correlation K_c of the mean-square displacement with the lag, for c = `frequency`.
   double correlation(double frequency) {
     walk(frequency);
     std::fill(displacement_.begin(), displacement_.end(), 0.0);
@@ -76,7 +76,7 @@ class ZeroOneWalk {
   std::vector<double> displacement_;
 };
 
-/// The series minus its mean; empty where it is constant to round-off.
+/// The series minus its mean, divided by its extent; empty where it is constant to round-off.
 inline std::vector<double> without_mean(std::vector<double> series) {
   double mean = 0.0, largest = 0.0;
   const auto [low, high] = std::minmax_element(series.begin(), series.end());
@@ -100,7 +100,7 @@ inline double median_of_sorted(const std::vector<double>& sorted) {
 
 }  // namespace detail
 
-/// The 0–1 test for chaos of a series φ₁ … φ_N: no state space, no embedding.
+/// The 0–1 test for chaos of a series φ₁ … φ_N, which needs neither a state space nor an embedding.
 ///
 ///     p(n) = Σ_{j≤n} φ_j cos jc,   q(n) = Σ_{j≤n} φ_j sin jc
 ///     D(n) = mean_j [(p(j+n) − p(j))² + (q(j+n) − q(j))²] − (mean φ)² (1 − cos nc)/(1 − cos c)
@@ -113,8 +113,8 @@ inline double median_of_sorted(const std::vector<double>& sorted) {
 /// few c that coincide with a frequency of the series K_c is 1 without chaos; the median ignores
 /// them.
 ///
-/// The test yields 0 for any motion sampled much faster than it moves, and is unreliable for fewer
-/// than about 500 samples with several frequencies. A constant series has K = 0.
+/// The test yields 0 for any motion sampled much faster than it moves. It is unreliable for fewer
+/// than about 500 samples of a motion with several frequencies. A constant series has K = 0.
 ///
 /// Work: at most 500 lags from 5000 evenly spaced j for each c, and one cosine and sine per sample.
 /// Source: G. A. Gottwald, I. Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009), 129–145.

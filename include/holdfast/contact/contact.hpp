@@ -16,28 +16,28 @@ namespace holdfast {
 /// The instants at which the drive may enter and leave its backlash.
 enum class Switching : std::uint8_t {
   sampled,  ///< at samples only, by the law's rule for sampled values
-  exact,    ///< exactly; `kollar`, `immediate` and `play` are then the same law
+  exact,    ///< in continuous time; `kollar`, `immediate` and `play` are then one law
 };
 
 /// The contact of a drive with its load as an automaton of three modes. In each mode the plant is
-/// affine (`dynamics`), guards determine its end, and `sample`, `jumped` and `reached` are the
-/// transitions.
+/// affine (`dynamics`), and guards determine when the mode ends. The transitions are `sample`,
+/// `jumped` and `reached`.
 ///
 ///     DriveContact<> contact(plant, {ContactLaw::play, 0.0005}, Switching::exact, state);
 ///
-/// **At samples** any law decides on the contact up to the next sample; where it does not transmit,
-/// the command of that sample has no effect, u_j = 0 from t_j + δ on. A drive with states of its
-/// own follows that command: its transmitted force decays with them. The stops of a dead zone act
-/// from the sample on. Modes: 1, for a dead zone 0 and 2 on its lower and upper stop.
+/// **At samples** the law decides on the contact up to the next sample. Where the law does not
+/// transmit, the command has no effect: u_j = 0 from t_j + δ on, and the force of a drive with
+/// states of its own decays with them. The stops of a dead zone act from the sample on. The mode is
+/// always 1, but for a dead zone it is 0 on the lower and 2 on the upper stop.
 ///
 /// **Exact play** is the play operator of Δz as a Filippov system. With v = Δż = rᵀx and a(s) =
 /// rᵀ(A x + b s + b_u u + c F), the relative acceleration under a transmitted force s, its modes,
 /// numbered as in ContactMode, are
 ///
 /// - engaged: the drive's force s_e is transmitted (u for an ideal drive, f x + g u for one with
-/// states), until v reaches zero from a sign σ. Then the gap is [Δz − r₀, Δz] for σ > 0, [Δz, Δz +
-/// r₀] for σ < 0, and the next mode is stick if σ a(0) > 0 and σ a(s_e) < 0, else gap;
-///  - gap: no force, until Δz leaves the gap; then engaged;
+///   states), until v reaches zero from a sign σ. Then the gap is [Δz − r₀, Δz] for σ > 0, [Δz, Δz
+///   + r₀] for σ < 0. The next mode is stick if σ a(0) > 0 and σ a(s_e) < 0, else gap;
+/// - gap: no force is transmitted, until Δz leaves the gap; then engaged;
 /// - stick: without force the relative motion would continue in the old direction, with s_e it
 /// would reverse. Both sides stay together, v = 0, under the transmitted force s = −rᵀ(A x + b_u u
 /// + c F) / (rᵀb), which is between 0 and s_e. The mode ends in gap when σ a(0) ≤ 0, in engaged
@@ -50,23 +50,23 @@ enum class Switching : std::uint8_t {
 /// **An exact dead zone** |Δz| ≤ r₀/2 transmits nothing inside (mode 1); outside (0 and 2) it
 /// transmits the command, and the stop adds k_c (Δz ∓ r₀/2) + c_c Δż between the masses. No mode
 /// slides. If the plant pushes outwards over the edge and the command inwards, the absorber bounces
-/// on the edge, v reversing with a period of 2 |v| (1/|a(0)| + 1/|a(u)|), and damping reduces |v|
-/// without end. Every bounce is followed, up to SwitchCounts::accumulates. Source: S. W. Shaw, P.
-/// J. Holmes, A periodically forced piecewise linear oscillator, J. Sound Vib. 90 (1983).
+/// on the edge: v reverses with a period of 2 |v| (1/|a(0)| + 1/|a(u)|), and damping reduces |v|
+/// without end. Every bounce is computed until SwitchCounts::accumulates is set. Source: S. W.
+/// Shaw, P. J. Holmes, A periodically forced piecewise linear oscillator, J. Sound Vib. 90 (1983).
 /// @tparam DrivenPlant  TwoMass<double> or a LinearPlant<double, N>
 template <class DrivenPlant = TwoMass<double>>
 class DriveContact {
  public:
   using Plant = DrivenPlant;                           ///< plant with the drive
   using State = StateOf<Plant>;                        ///< x, N × 1
-  using Instant = ContactInstantOf<states_of<Plant>>;  ///< data that a change of contact depends on
+  using Instant = ContactInstantOf<states_of<Plant>>;  ///< state, command and force at an instant
   using ModeGuards = GuardsOf<states_of<Plant>>;       ///< guards that end a mode
 
-  static constexpr int modes = 3;  ///< number of modes, 0, 1, 2
+  static constexpr int modes = 3;  ///< number of modes: 0, 1 and 2
 
   /// @param plant          plant without control and stops
   /// @param backlash       law of backlash with its parameters
-  /// @param switching      between the samples, or at samples only
+  /// @param switching      whether the contact may change between the samples or at them only
   /// @param initial_state  initial state, N × 1: its Δz decides which stop of an exact dead zone is
   ///                       touched; play begins engaged, with σ unknown
   /// @throws InvalidParameter where plant or backlash are not admissible, or the state is of
@@ -104,7 +104,7 @@ class DriveContact {
   }
   /// The plant with the drive.
   const Plant& plant() const { return plant_; }
-  /// The two masses whose energy bounds the motion in one mode, including a stop's spring.
+  /// The plant in one mode, with the spring and the damper of a stop that the mode touches.
   Plant plant(int mode) const {
     return has_stop(mode)
                ? plant_on_stop(plant_, backlash_.contact_stiffness, backlash_.contact_damping)
@@ -122,7 +122,7 @@ class DriveContact {
   bool transmits_command() const {
     return kind_ != Kind::at_samples || word_ == ContactMode::engaged;
   }
-  /// The command u_j (N) that reaches the drive, from a sample's command.
+  /// The command u_j (N) that reaches the drive: the given one, or 0 where it is not transmitted.
   double commanded(double command) const { return transmits_command() ? command : 0.0; }
   /// The force that the drive transmits (N), without a stop's own force.
   double transmitted(const Instant& now) const {
@@ -133,9 +133,9 @@ class DriveContact {
 
   /// Whether the contact may change between samples: with an exact law except play with r₀ = 0.
   bool changes_between_samples() const { return changes_between_samples_; }
-  /// The guards that end the present mode between the samples: Δż while play is engaged; the
-  /// distance (m) from either end of the gap, or on a stop the excess of Δz beyond it; in stick the
-  /// accelerations of both conditions of stick.
+  /// The guards that end the present mode between the samples. While play is engaged: σ Δż. In a
+  /// gap: the distance (m) from either end. On a stop: the distance (m) of Δz beyond its end. In
+  /// stick: the accelerations (m/s²) σ a(0) and −σ a(s_e).
   ModeGuards guards() const {
     if (!changes_between_samples_) return {};
     if (mode_ == gap) return gap_guards();
@@ -143,7 +143,7 @@ class DriveContact {
     return mode_ == 0 ? engaged_guards() : stick_guards();
   }
 
-  /// Applies a sample: a law at samples decides by its Δz and Δż.
+  /// Applies a sample: a law at samples decides from its Δz and Δż; an exact law ignores it.
   void sample(const State& state) {
     if (kind_ != Kind::at_samples) return;
     const bool engaged =
@@ -158,25 +158,25 @@ class DriveContact {
     // Further zeros at a change of contact are those of the force and the command before the jump.
     zeros_ = std::min(zeros_, mode_ == gap ? 2 : 1);
   }
-  /// Applies a displacement of the absorber against the conductor: stick ends, and a passed stop is
-  /// detected at once, since its guard is negative.
+  /// Applies a displacement of the absorber against the conductor: stick ends, and a stop that was
+  /// passed is detected at once, since the guard is negative.
   void displaced() {
     if (word_ == ContactMode::stick) change_to(gap, 0);
     zeros_ = 0;
     displaced_ = true;
   }
-  /// Restores the constraints of the mode exactly: Δż = 0 and the former Δz in stick.
+  /// Restores the constraints of stick exactly: Δż = 0 and the former Δz. No effect in other modes.
   void keep(const State& before, State& after) const {
     if (word_ == ContactMode::stick) readings_.hold_relative_position(before, after);
   }
-  /// Notes that time has passed since the last change.
+  /// Records that time has passed since the last change of contact.
   void flowed() {
     zeros_ = 0;
     displaced_ = false;
   }
-  /// Sets the unknown sign of a guard, ±1: that of the relative velocity.
+  /// Sets the unknown sign σ = ±1 of the relative velocity.
   void learn_sign(int /*guard*/, double sign) { sign_ = sign; }
-  /// Changes the contact after a guard has reached zero; the state is freed from rounding there.
+  /// Changes the contact after a guard has reached zero; at a reversal Δż becomes exactly zero.
   void reached(int guard, Instant& now) {
     if (kind_ == Kind::stops) {
       sign_ = mode_ - gap;
@@ -189,12 +189,12 @@ class DriveContact {
     if (mode_ == stick) change_to(guard == 0 ? gap : 0, guard == 0 ? 3 : 2);
   }
 
-  /// The mode with Δż = 0; −1: none.
+  /// The number of the mode stick, in which Δż = 0; −1 for a law without it.
   int sticking_mode() const { return kind_ == Kind::play ? stick : -1; }
-  /// Whether the gap in a mode is anchored at the last reversal, Δz = g, so that its surface is Δz
-  /// − g = 0; else it is Δż = 0 for a moving gap and a fixed Δz for stops.
+  /// Whether a mode's switching surface depends on play's last reversal g, as Δz = g or Δz = g ∓
+  /// r₀. Other surfaces are Δż = 0 (engaged play) and a fixed Δz (stops).
   bool is_anchored(int mode) const { return kind_ == Kind::play && mode != 0; }
-  /// Whether the drive is in a gap that is anchored at its last reversal.
+  /// Whether the drive is in a gap that begins at play's last reversal.
   bool remembers_gap() const { return kind_ == Kind::play && mode_ == gap; }
   /// The sign σ of exact play; 0 before Δż was nonzero for the first time.
   double sign() const { return sign_; }
@@ -202,7 +202,7 @@ class DriveContact {
   double lower() const { return lower_; }
   /// The upper end of an exact law's gap, Δz (m); undefined for play while engaged.
   double upper() const { return upper_; }
-  /// The Δz (m) of play's last reversal, g, where its gap begins; while engaged that of the
+  /// The Δz = g (m) of play's last reversal, where the gap begins; while engaged, the g of the
   /// previous gap.
   double reversal() const { return sign_ > 0.0 ? upper_ : lower_; }
   /// Puts play into the gap that begins at a given reversal.
@@ -213,7 +213,7 @@ class DriveContact {
     open_gap(at);
     change_to(gap, 0);
   }
-  /// Shifts both ends of the gap by a displacement (m); no effect on another law.
+  /// Shifts both ends of the gap of play by a displacement (m); no effect on other laws.
   void shift_gap(double by) {
     if (kind_ != Kind::play) return;
     lower_ += by;
@@ -235,7 +235,7 @@ class DriveContact {
     return result;
   }
 
-  /// The guards of the gap; zeros belong to the end at which the motion reversed or entered.
+  /// The guards of the gap. The zeros just after a change belong to the end at which the gap began.
   ModeGuards gap_guards() const {
     ModeGuards result;
     result.guard[0] = {-readings_.displacement_row(), 0.0, 0.0, upper_, sign_ > 0.0 ? zeros_ : 0};
@@ -269,14 +269,14 @@ class DriveContact {
                                 : ContactMode::engaged;
   }
 
-  /// Opens a gap whose end is at the present Δz = `here`, on the side of σ.
+  /// Opens the gap that begins at the present Δz = `here` and extends against the sign σ.
   void open_gap(double here) {
     lower_ = sign_ > 0.0 ? here - backlash_.width : here;
     upper_ = sign_ > 0.0 ? here : here + backlash_.width;
   }
 
-  /// Leaves the gap beyond one of its ends. A drive that was displaced there may move away from the
-  /// end: it has carried its far side along and is in the gap again.
+  /// Leaves the gap beyond the end on a side ±1. A drive that was displaced beyond it may move
+  /// back: then a new gap begins where the drive is.
   void leave_gap(double side, const Instant& now) {
     sign_ = side;
     if (side * readings_.relative_velocity(now.state) < 0.0) {

@@ -6,26 +6,26 @@
 
 namespace holdfast {
 
-/// The data that a change of contact depends on.
+/// The state, command and force at an instant, on which a change of contact depends.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct ContactInstantOf {
   Vector<double, States> state;  ///< x, N × 1; for two masses z (m, m/s, m, m/s)
   double command;                ///< u, the command in force (N)
-  double force;                  ///< F (N)
+  double force;                  ///< F, the excitation (N)
 };
 
 /// A guard g = state · x + command u + force F + constant, positive while the contact persists.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct GuardOf {
-  Vector<double, States> state;  ///< N × 1; g in m, m/s or m/s², depending on the mode
-  double command = 0.0;          ///< per newton of u
-  double force = 0.0;            ///< per newton of F
-  double constant = 0.0;         ///< in the unit of g
-  /// How many of g, ġ, g̈, … vanish at this instant because the contact has just changed here.
+  Vector<double, States> state;  ///< coefficients of x, N × 1; g in m, m/s or m/s², by mode
+  double command = 0.0;          ///< coefficient of u, per newton
+  double force = 0.0;            ///< coefficient of F, per newton
+  double constant = 0.0;         ///< constant, in the unit of g
+  /// The number of g, ġ, g̈, … that vanish at this instant because the contact has just changed.
   int zeros = 0;
-  /// Whether the sign of g is still unknown; it is the first one that g takes.
+  /// Whether the sign of g is still unknown; g is then multiplied by the first sign that it takes.
   bool unsigned_yet = false;
 };
 
@@ -34,19 +34,19 @@ struct GuardOf {
 template <int States>
 struct GuardsOf {
   std::array<GuardOf<States>, 2> guard;  ///< the first `count` are valid
-  int count = 0;                         ///< 0: the contact never changes
+  int count = 0;                         ///< number of guards; 0: the contact does not change
 };
 
-/// The instant of a change of contact of the two masses.
+/// The state, command and force at an instant, for the two masses.
 using ContactInstant = ContactInstantOf<4>;
 /// A guard of the two masses.
 using Guard = GuardOf<4>;
 /// The guards of a mode of the two masses.
 using Guards = GuardsOf<4>;
 
-/// The functional Δz = z₂ − z₁ of the state, 4 × 1.
+/// The coefficients of Δz = z₂ − z₁ in the state, 4 × 1.
 inline Vector<double, 4> displacement_row() { return {-1.0, 0.0, 1.0, 0.0}; }
-/// The functional Δż = ż₂ − ż₁ of the state, 4 × 1.
+/// The coefficients of Δż = ż₂ − ż₁ in the state, 4 × 1.
 inline Vector<double, 4> velocity_row() { return {0.0, -1.0, 0.0, 1.0}; }
 
 }  // namespace holdfast

@@ -14,9 +14,9 @@ namespace holdfast {
 /// The laws by which the drive decides at samples whether it transmits the control force.
 ///
 /// In continuous time `kollar`, `immediate` and `play` are the same law, the play operator: the
-/// drive transmits while it moves its far side; when Δż reaches zero at Δz = d it enters the gap [d
-/// − r₀, d] (from Δż > 0) or [d, d + r₀] (from Δż < 0) and transmits again once Δz leaves it. They
-/// differ under sampling:
+/// drive transmits until Δż reaches zero, at Δz = d. Then it enters the gap [d − r₀, d] (from Δż >
+/// 0) or [d, d + r₀] (from Δż < 0), and it transmits again once Δz leaves the gap. The laws differ
+/// under sampling:
 /// - `kollar` detects a reversal by the sign of the sampled Δż and places the end of the gap at the
 /// sample of detection; a sample that leaves the gap transmits;
 /// - `immediate` does the same, but a sample that leaves the gap with a reversal enters the next
@@ -46,7 +46,7 @@ class NoBacklash {
   Mask<Scalar> inside() const { return Scalar(0) > Scalar(0); }
 };
 
-/// A law and its parameters.
+/// A law of backlash and its parameters.
 struct BacklashParameters {
   ContactLaw law = ContactLaw::kollar;  ///< chosen law
   double width = 0.0;                   ///< r₀ (m), ≥ 0; unused by `none`
@@ -63,12 +63,12 @@ inline void validate(const BacklashParameters& backlash) {
   require_non_negative("contact damping cc", backlash.contact_damping, "N s/m");
 }
 
-/// A drive whose law is chosen at run time.
+/// The contact of a drive at samples, by a law that is chosen at run time.
 ///
 ///     SampledContact contact({ContactLaw::play, 0.002});
 ///     const bool engaged = contact.step(relative_displacement, relative_velocity);
 ///
-/// The decisions are those of the class named by `ContactLaw`, sample by sample.
+/// It decides at each sample like the class that `ContactLaw` names for the law.
 class SampledContact {
  public:
   /// @throws InvalidParameter under the conditions of `validate`
@@ -81,7 +81,7 @@ class SampledContact {
                       law_);
   }
 
-  /// Whether nothing is transmitted since the last step.
+  /// Whether no force has been transmitted since the last step.
   bool inside() const {
     return std::visit([](const auto& law) { return law.inside(); }, law_);
   }

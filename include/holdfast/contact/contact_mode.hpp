@@ -15,7 +15,7 @@ enum class ContactMode : std::uint8_t {
 
 /// A change of the drive's contact mode at an instant.
 struct ContactSwitch {
-  double time;       ///< s
+  double time;       ///< instant (s)
   ContactMode mode;  ///< mode that begins
 };
 

@@ -7,7 +7,7 @@ namespace holdfast {
 /// The backlash of the drive as a dead zone in Δz = z₂ − z₁: a gap of width r₀ fixed about Δz = 0,
 /// with a stop at each end. Its decision at a sample depends on that sample only.
 ///
-///     side σ = +1 for Δz > r₀/2, −1 for Δz < −r₀/2, 0 between them (both ends included)
+///     side σ = +1 for Δz > r₀/2, −1 for Δz < −r₀/2, 0 for −r₀/2 ≤ Δz ≤ r₀/2
 ///     the control force is transmitted where σ ≠ 0
 ///     the stop adds f = k_c (Δz − σ r₀/2) + c_c Δż where σ ≠ 0 (`dynamics_on_stop`)
 ///
@@ -52,7 +52,7 @@ class DeadZone {
 
   /// Whether no stop was touched at the last step.
   Mask<Scalar> inside() const { return inside_; }
-  /// The stop σ touched at the last step; 0 before the first one.
+  /// The stop σ touched at the last step: −1, 0 or +1; 0 before the first one.
   const Scalar& touched_side() const { return touched_side_; }
 
  private:

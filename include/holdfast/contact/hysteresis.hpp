@@ -5,7 +5,7 @@
 
 namespace holdfast {
 
-/// The memory of the drive: its gap and the last velocity.
+/// The memory of a backlash: the gap of the drive and the last sampled velocity.
 template <class Scalar>
 struct BacklashMemory {
   Mask<Scalar> inside;       ///< whether the drive is in its gap since the last sample
@@ -24,16 +24,14 @@ enum class EntryTest {
 /// z₁ and Δż = ż₂ − ż₁ only.
 ///
 /// At every sample j, in this order:
-///  1. inside the gap with lower ≤ Δz ≤ upper: stay inside, no force is transmitted;
-///  2. inside the gap with Δz outside it: leave; the force acts again from this sample on, and
-///  entry is not
-///     tested at this same sample;
-///  3. outside, Δż_{j−1} ≠ 0 and Δż changed its sign or became zero since: the drive reverses and
-///  enters the
-///     gap [Δz − r₀, Δz] if Δż_{j−1} > 0, [Δz, Δz + r₀] if Δż_{j−1} < 0.
+///  1. the drive was in the gap and lower ≤ Δz ≤ upper: it stays there, no force is transmitted;
+///  2. it was in the gap and Δz is outside [lower, upper]: it leaves; the force acts again from
+///     now on, and rule 3 is not applied at this sample;
+///  3. it was outside, and Δż changed its sign or became zero since Δż_{j−1} ≠ 0: the drive now
+///     reverses and enters the gap [Δz − r₀, Δz] if Δż_{j−1} > 0, [Δz, Δz + r₀] if Δż_{j−1} < 0.
 ///
-/// r₀ = 0 means a drive without backlash: it never enters. (By the rule itself it would drop the
-/// force for one sample at each reversal, however small r₀ is.)
+/// r₀ = 0 means a drive without backlash: it never enters a gap. (By rule 3 it would drop the force
+/// for one sample at each reversal, however small r₀ is.)
 ///
 /// Source: Kollár 2022, Eqs. (7)–(8), in the reading that reproduces the switching instants of Fig.
 /// 8 (docs/reading-the-paper.md). The same code serves scalars and SIMD packs: about 12 comparisons
@@ -90,9 +88,8 @@ class Backlash {
 ///
 /// Rule 2 is changed: a sample j that leaves the gap is tested by rule 3 at once, so that with
 /// Δż_{j−1} ≠ 0 and Δż_{j−1} Δż_j ≤ 0 the drive passes from its gap directly into the next one
-/// without transmitting. From the same memory the two rules differ at such samples only. The
-/// text of the source permits both readings; the switching instants of its Fig. 8 exclude this
-/// one.
+/// without transmitting. From the same memory the two laws differ at such samples only. The text of
+/// Kollár 2022 permits both readings; the switching instants of its Fig. 8 exclude this law.
 template <class Scalar>
 using ImmediateBacklash = Backlash<Scalar, EntryTest::at_exit>;
 

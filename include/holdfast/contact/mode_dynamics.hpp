@@ -14,7 +14,7 @@ namespace holdfast {
 template <class Plant>
 using DynamicsOf = AffineDynamicsOf<states_of<Plant>>;
 
-/// The equations of motion with an engaged drive: ẋ = (A + b f) x + (b_u + g b) u + c F.
+/// The dynamics ẋ = (A + b f) x + (b_u + g b) u + c F of an engaged drive with the force f x + g u.
 template <class Plant>
 DynamicsOf<Plant> engaged_dynamics(const Plant& plant) {
   const auto matrix = plant.state_matrix();
@@ -35,7 +35,7 @@ DynamicsOf<Plant> released_dynamics(const Plant& plant) {
 ///
 ///     s = −rᵀ(A x + b_u u + c F) / (rᵀb),   ẋ = (I − b rᵀ/(rᵀb)) (A x + b_u u + c F)
 ///
-/// @param plant  a plant with rᵀb ≠ 0 for its relative velocity r
+/// @param plant  plant with rᵀb ≠ 0, r being the row of its relative velocity Δż
 template <int States>
 AffineDynamicsOf<States> locked_dynamics(const LinearPlant<double, States>& plant) {
   const RowVector<double, States>& r = plant.ports().relative_velocity;
@@ -60,8 +60,8 @@ AffineDynamicsOf<4> locked_dynamics(const TwoMass<Scalar>& plant) {
   return moving;
 }
 
-/// The two masses with the absorber on a stop of stiffness k_c and damping c_c: k₂ + k_c, c₂ +
-/// c_c.
+/// The two masses with the absorber on a stop of stiffness k_c (N/m) and damping c_c (N s/m), which
+/// add to k₂ and c₂.
 template <class Scalar>
 TwoMass<Scalar> plant_on_stop(TwoMass<Scalar> plant, double stiffness, double damping) {
   plant.absorber_stiffness += stiffness;
@@ -105,11 +105,11 @@ double engaged_force(const TwoMass<Scalar>&, const ContactInstantOf<4>& now) {
 /// The relative acceleration Δz̈ = state · x + command u + force F (m/s²) in one mode.
 template <int States>
 struct GapAcceleration {
-  Vector<double, States> state;  ///< N × 1
-  double command;                ///< per newton of u
-  double force;                  ///< per newton of F
+  Vector<double, States> state;  ///< coefficients of x, N × 1
+  double command;                ///< coefficient of u, per newton
+  double force;                  ///< coefficient of F, per newton
 
-  /// The value at an instant.
+  /// The relative acceleration (m/s²) at an instant.
   double operator()(const ContactInstantOf<States>& now) const {
     return state.dot(now.state) + command * now.command + force * now.force;
   }

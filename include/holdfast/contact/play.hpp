@@ -4,25 +4,26 @@
 
 namespace holdfast {
 
-/// The backlash of the drive as a play of half-width r₀/2 on sampled Δz = z₂ − z₁: Δz is the
-/// position of the near side, y that of the far side, which the near side carries along.
+/// The backlash of the drive as a play of half-width r₀/2 on the sampled Δz = z₂ − z₁. Δz is the
+/// position of its near side, y that of its far side, which the near side carries along.
 ///
 ///     y_j = max(Δz_j − r₀/2, min(Δz_j + r₀/2, y_{j−1}))
 ///     the force is transmitted from sample j on where y_j ≠ y_{j−1}
 ///
-/// The far side moves exactly where the clamp is active, Δz_j − r₀/2 > y_{j−1} or Δz_j + r₀/2 <
-/// y_{j−1}; both ends of the gap [y − r₀/2, y + r₀/2] belong to it.
+/// The far side moves only where Δz_j − r₀/2 > y_{j−1} or Δz_j + r₀/2 < y_{j−1}; both ends of [y −
+/// r₀/2, y + r₀/2] belong to the gap.
 ///
-/// Before the first sample the far side is at neither end. The force is transmitted until a sample
-/// has Δż ≠ 0; that sample puts the far side behind the motion, y = Δz − r₀/2 for Δż > 0 and y = Δz
-/// + r₀/2 for Δż < 0, and transmits. Further motion in that direction transmits, motion back
-/// crosses the whole gap, as after any other reversal. From rest the first sample transmits, as
-/// with `Backlash`. Δż is not used otherwise.
+/// Before the first sample y is unknown. The force is transmitted until a sample has Δż ≠ 0. That
+/// sample transmits too and puts the far side behind the motion: y = Δz − r₀/2 for Δż > 0, y = Δz +
+/// r₀/2 for Δż < 0. Further motion in that direction transmits; motion back crosses the whole gap,
+/// as after any other reversal. Δż is not used otherwise. From rest the first sample transmits, as
+/// with `Backlash`.
 ///
-/// The gap after a reversal is [Δz_max − r₀, Δz_max] or [Δz_min, Δz_min + r₀] with the extreme
-/// sample. `Backlash` uses the first sample after the change of sign of Δż instead, whether or not
-/// its Δz is extreme. A near side that crosses the whole gap within one sampling period transmits
-/// without a pause. r₀ = 0 means a drive without backlash: it always transmits, at rest too.
+/// The gap after a reversal is [Δz_max − r₀, Δz_max] or [Δz_min, Δz_min + r₀], Δz_max or Δz_min
+/// being the extreme sample. `Backlash` uses the first sample after the change of sign of Δż
+/// instead, whether or not its Δz is extreme. A near side that crosses the whole gap within one
+/// sampling period transmits without a pause. r₀ = 0 means a drive without backlash: it always
+/// transmits, at rest too.
 ///
 /// Source: Krasnosel'skii and Pokrovskii, Systems with Hysteresis, Springer 1989; Visintin,
 /// Differential Models of Hysteresis, Springer 1994; Macki, Nistri and Zecca, Mathematical models
@@ -53,7 +54,7 @@ class PlayBacklash {
     return !inside_;
   }
 
-  /// Whether nothing is transmitted since the last step.
+  /// Whether no force has been transmitted since the last step.
   Mask<Scalar> inside() const { return inside_; }
   /// The lower end of the current gap, y − r₀/2, Δz (m); valid once y is determined.
   Scalar lower() const { return far_side_ - half_width_; }

@@ -66,30 +66,30 @@ Eigen::Index memory_size([[maybe_unused]] const Law& law) {
 
 }  // namespace detail
 
-/// A user-defined controller in place of u = P z₁ + D ż₁: any type that maps a sample to a force;
-/// its state, M numbers, is stored by the motion.
+/// A user-defined controller in place of u = P z₁ + D ż₁: any type that maps a sample to a force.
+/// Its state, M numbers, is stored by the motion.
 ///
 ///     struct MyController {
 ///       static constexpr int states = 1;  // M ≥ 0
-///       /// u_j (N) of sample j; moves x_c,j to x_c,j+1. No other memory: it is const.
+///       /// The command u_j (N) of sample j; replaces x_c,j by x_c,j+1. No other memory: const.
 ///       double command(const ControlSample& sample, Vector<double, 1>& x_c) const;
-///       /// Optional, else by central differences: where the law jumps, its slope beside the jump.
+///       /// Optional; without it: central differences. At a jump of the law: one-sided slope.
 ///       ControllerDerivative<1> derivative(const ControlSample& sample,
 ///                                          const Vector<double, 1>& x_c) const;
 ///     };
 ///
-/// Where M is known at run time only, `states` is Eigen::Dynamic and `order()` gives it. PdGains is
-/// a controller with M = 0, LinearController one with any M, LateController one with dynamic M.
+/// Where M is known at run time only, `states` is Eigen::Dynamic and `order()` returns M. PdGains
+/// is a controller with M = 0, LinearController one with any M, LateController one with dynamic M.
 /// This class erases the type, so that loops under all controllers have one type, compiled once.
 class OwnController {
  public:
-  using Column = Vector<double, Eigen::Dynamic>;      ///< [z₁; ż₁; x_c] or [u; x_c]
-  using Derivative = Matrix<double, Eigen::Dynamic>;  ///< a ControllerDerivative
+  using Column = Vector<double, Eigen::Dynamic>;      ///< column [z₁; ż₁; x_c] or [u; x_c]
+  using Derivative = Matrix<double, Eigen::Dynamic>;  ///< ControllerDerivative of any size
 
   /// Constructs an empty object, which no loop accepts.
   OwnController() = default;
 
-  /// Constructs it from any controller, which is copied.
+  /// Constructs the object from any controller, which is copied.
   template <class Law>
   explicit OwnController(const Law& law) {
     if constexpr (detail::is_controller<Law>()) take(law);
@@ -97,13 +97,13 @@ class OwnController {
 
   /// Whether there is a controller.
   bool exists() const { return value_ != nullptr; }
-  /// The number M of its states.
+  /// The number M of states of the controller.
   Eigen::Index states() const { return at_.size() - 2; }
 
   /// Computes the command of sample j and the next state. @return [u_j; x_c,j+1]
   /// @param sample  measured values
   /// @param state   state x_c,j
-  /// @throws InvalidParameter where the law gives a value that is not a number
+  /// @throws InvalidParameter where the law gives NaN or infinity, unless an input reached 10¹⁰⁰
   template <class State>
   Column command(const ControlSample& sample, const State& state) {
     elapsed_ = sample.elapsed;
@@ -115,8 +115,8 @@ class OwnController {
     return result;
   }
 
-  /// The Jacobian at the last sample, (M + 1) × (M + 2). Differences are central, with steps of
-  /// 2⁻¹⁶ of the largest size of each variable so far: some ten digits for a smooth law.
+  /// The Jacobian at the last sample, (M + 1) × (M + 2). A law without derivative() has central
+  /// differences over 2⁻¹⁶ of each variable's largest size so far: ten digits if the law is smooth.
   template <class Result = Derivative>
   Result derivative() const {
     if (derivative_) return derivative_(at_, elapsed_);
@@ -162,11 +162,11 @@ class OwnController {
 ///     ImplementedLoopOf<ControlledPlant> loop;
 ///     loop.plant = with_controller(kollar2022_plant(), MyController{});
 ///
-/// The states of the controller follow those of the plant, [x; x_c], N + M in all. They are
-/// constant between the samples; shown are their values before the sample. event_motion(),
+/// The states of the controller follow those of the plant, [x; x_c], N + M in all. x_c is constant
+/// between samples; a reported sample has the x_c before its command. event_motion(),
 /// find_event_orbit(), run_event_lyapunov() and classify_motion() accept such a loop like any
-/// other. The gains of its DigitalLoop are 0 and its limits ideal (`validate`); `quantised` and
-/// std::clamp in `command` replace them. Charts and margins refer to P and D and do not accept it.
+/// other. The gains of its DigitalLoop must be 0 and its limits ideal (`validate`); `command` may
+/// use `quantised` and std::clamp instead. Charts and margins need P and D and reject such a loop.
 struct ControlledPlant : LinearPlant<double> {
   OwnController controller;  ///< controller that decides the force
 };
@@ -179,8 +179,8 @@ std::enable_if_t<std::is_same_v<Plant, ControlledPlant>> validate(const Plant& p
   validate<Eigen::Dynamic>(plant);
 }
 
-/// The plant with a controller: the two masses, or a linear plant to which filters and lags were
-/// already added.
+/// Combines a plant with a controller. The plant is the two masses, or a linear plant that already
+/// includes its filters and lags.
 /// @throws InvalidParameter where the masses are not admissible, or the parts of the plant have
 /// different orders
 template <class Plant, class Law>

@@ -10,17 +10,17 @@
 
 namespace holdfast {
 
-/// The source of the controller's velocity of the conductor.
+/// The source of the conductor's velocity in the controller.
 enum class VelocitySensing {
   measured,    ///< a velocity sensor
   difference,  ///< the backward difference of the displacement readings
 };
 
-/// The limits by which a real controller deviates from u = P z₁ + D ż₁; by default none.
+/// The quantisation, velocity sensing and saturation of a real controller; by default ideal.
 struct ControllerLimits {
   double displacement_quantum = 0;  ///< q_z (m), ≥ 0: resolution of the displacement; 0: exact
   double velocity_quantum = 0;  ///< q_v (m/s), ≥ 0: resolution of a measured velocity; 0: exact;
-                                ///< not used for a difference
+                                ///< not used with VelocitySensing::difference
   /// The source of the velocity v̂_j.
   VelocitySensing velocity = VelocitySensing::measured;
   double largest_force = std::numeric_limits<double>::infinity();  ///< u_max (N), > 0
@@ -43,10 +43,10 @@ inline void validate(const ControllerLimits& limits) {
   }
 }
 
-/// The memory of a controller: its past reading.
+/// The memory of a controller: its previous reading.
 struct ControllerMemory {
-  double previous_displacement = 0;  ///< ẑ_{j−1} (m), as read; valid once it has sampled
-  bool has_sampled = false;          ///< whether there was a sample
+  double previous_displacement = 0;  ///< ẑ_{j−1} (m), the reading; valid if has_sampled
+  bool has_sampled = false;          ///< whether there was a previous sample
 };
 
 /// The derivatives of a command u_j.
@@ -99,9 +99,9 @@ class Controller {
     return std::clamp(demand, -limits_.largest_force, limits_.largest_force);
   }
 
-  /// The derivatives of the last command: zero under saturation and for quantised readings. On the
-  /// steps of a quantiser and at the limit of saturation they are one-sided, on the command's side.
-  /// All are zero before the first command and after `restore`.
+  /// The derivatives of the last command: zero under saturation, and zero with respect to quantised
+  /// readings. Where the command is exactly ±u_max they are the slopes without saturation. All are
+  /// zero before the first command and after `restore`.
   const ControllerSlope& slope() const { return slope_; }
 
   /// The memory that the coming commands depend on.

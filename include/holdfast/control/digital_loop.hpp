@@ -21,7 +21,7 @@ struct DigitalLoop {
   Sampling<double> sampling;            ///< τ and δ
   PdGains<double> gains;                ///< P and D
   MultiHarmonicForce force;             ///< F(t), the excitation of the conductor
-  ForceHold hold = ForceHold::sampled;  ///< hold of F over a sample, also of a record
+  ForceHold hold = ForceHold::sampled;  ///< hold of F(t) over a sample, of a record too
   ControllerLimits limits = {};         ///< limits of the sensors and the drive
   Jitter jitter = {};                   ///< jitter of the clock; 2 J + δ ≤ τ
 };
@@ -34,11 +34,11 @@ inline void validate(const DigitalLoop& loop) {
   validate(loop.limits);
 }
 
-/// The ratio f τ = p/q of the first harmonic, where q is the number of samples after which sampling
-/// and all harmonics coincide: q samples are p of its periods; 0/1 without excitation.
-/// @return nothing where they never coincide, or only after more than 10⁶ samples: for
-///         incommensurate frequencies (with a larger q every decimal number is a fraction), a
-///         recorded force, or jittering samples
+/// The ratio f τ = p/q of the first harmonic, not always in lowest terms: after q samples, which
+/// are p periods of the first harmonic, sampling and all harmonics are in phase again. The ratio is
+/// 0/1 without excitation.
+/// @return nothing for a recorded force, for jittering samples, and where q would exceed 10⁶: such
+///         frequencies count as incommensurate, although every decimal number is a fraction
 inline std::optional<Rational> forcing_ratio(const DigitalLoop& loop) {
   constexpr std::int64_t most_samples = 1'000'000;
   if (loop.force.record != nullptr || loop.jitter.half_width > 0.0) return std::nullopt;

@@ -8,7 +8,7 @@
 
 namespace holdfast {
 
-/// The two masses whose parameters are the decimals nearest to the given doubles.
+/// The two masses, each parameter as the interval of all decimals that round to the given double.
 /// @throws InvalidParameter where they are not admissible
 inline TwoMass<Enclosure> enclosed(const TwoMass<double>& plant) {
   validate(plant);
@@ -18,7 +18,7 @@ inline TwoMass<Enclosure> enclosed(const TwoMass<double>& plant) {
           decimal(plant.absorber_stiffness), decimal(plant.absorber_damping)};
 }
 
-/// The enclosures of τ and δ.
+/// The sampling, τ and δ being the intervals of all decimals that round to the given doubles.
 /// @throws InvalidParameter where they are not admissible
 inline Sampling<Enclosure> enclosed(const Sampling<double>& sampling) {
   validate(sampling);

@@ -14,13 +14,13 @@ struct ControlSample {
   double elapsed;       ///< h_j (s), time since the previous sample; τ at the first one
 };
 
-/// The gains of the proportional–differential law u = P z₁ + D ż₁, which is also a controller
+/// The gains of the proportional–differential law u = P z₁ + D ż₁. They are also a controller
 /// without states (control/controlled_plant.hpp).
 /// Source: Kollár 2022, Eq. (5) and Eq. (11), whose row matrix D is [P, D, 0, 0].
 template <class Scalar>
 struct PdGains {
   static_assert(is_real<Scalar>, "a gain is a real number: PdGains<double>");
-  static constexpr int states = 0;  ///< a controller without memory
+  static constexpr int states = 0;  ///< number M of states of the controller
   Scalar proportional = Scalar(0);  ///< P (N/m), finite
   Scalar differential = Scalar(0);  ///< D (N s/m), finite
 

@@ -12,21 +12,21 @@
 
 namespace holdfast {
 
-/// The proportional–differential law of a computer whose force is delayed by whole samples,
+/// The proportional–differential law with a force delayed by M′ whole samples, as a user-defined
+/// controller (`with_controller`):
 ///
-/// u_j = c_{j−M′},   c_j that of `Controller` with its limits; 0 for the first M′ samples
+///     u_j = c_{j−M′},   0 for the first M′ samples;   c_j is the command of `Controller`
 ///
-/// as a user-defined controller (`with_controller`): its states are the M′ delayed commands, the
-/// next one first, and, where the velocity is a difference, the previous displacement reading and
-/// whether there was one.
+/// Its states are the M′ delayed commands, the next one first. Where the velocity is a difference,
+/// two more follow: the last displacement reading and a flag, > 0 once there was a reading.
 struct LateController {
-  static constexpr int states = Eigen::Dynamic;             ///< known at run time only
+  static constexpr int states = Eigen::Dynamic;             ///< number M, known at run time only
   using State = Vector<double, Eigen::Dynamic>;             ///< M × 1
   using Derivative = ControllerDerivative<Eigen::Dynamic>;  ///< (M + 1) × (M + 2)
 
   PdGains<double> gains;         ///< P and D
   ControllerLimits limits = {};  ///< limits of readings and force
-  Eigen::Index samples = 0;      ///< number M′ ≥ 0 of samples
+  Eigen::Index samples = 0;      ///< number M′ ≥ 0 of samples of delay
 
   /// The number M of states.
   Eigen::Index order() const { return samples + (differs() ? 2 : 0); }
@@ -42,7 +42,7 @@ struct LateController {
     return next;
   }
 
-  /// The Jacobian of u_j and the next state by readings and state; quantiser steps have slope 0.
+  /// The Jacobian of [u_j; next state] by readings and state; 0 through a quantiser.
   Derivative derivative(const ControlSample& sample, const State& state) const {
     const ControllerSlope slope = sensed(sample, state).second.slope();
     Derivative result = Derivative::Zero(order() + 1, order() + 2);
@@ -67,7 +67,7 @@ struct LateController {
   }
 };
 
-/// The part of a delay within a sample: τ, and δ minus the (k − 1) τ of the controller.
+/// The sampling with period τ and the remaining delay δ − (k − 1) τ, k = held_commands().
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @throws InvalidParameter where the sampling is not admissible
 inline Sampling<double> within_sample(const Sampling<double>& sampling) {
@@ -76,8 +76,8 @@ inline Sampling<double> within_sample(const Sampling<double>& sampling) {
   return {sampling.period, std::clamp(late, 0.0, sampling.period)};
 }
 
-/// The law of a loop whose delay may exceed a sample: whole samples are delayed by the controller,
-/// the rest `within_sample`.
+/// The controller of a loop whose delay may exceed a sample. It delays by k − 1 whole samples, k =
+/// held_commands(); within_sample() has the remaining delay.
 /// @param gains     P and D
 /// @param limits    limits of readings and force
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0

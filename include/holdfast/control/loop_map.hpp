@@ -21,8 +21,8 @@ namespace holdfast {
 ///     y_{j+1} = (S₀ + s K) y_j + c_y F_j,   K = P h_z + D h_v
 ///
 /// where S₀ contains A_d, Γ₁ and Γ₀ for δ′ and the shift of the commands, s is the input column of
-/// u_j, and h_z, h_v are the measurement rows. For k = 1 it is S of `SampledLoop`. All |λ(S₀ + s
-/// K)| < 1 ⇔ asymptotically stable.
+/// u_j, and h_z, h_v are the measurement rows. For k = 1, S₀ + s K is S of `SampledLoop`. The loop
+/// is asymptotically stable if and only if all |λ(S₀ + s K)| < 1.
 template <class Scalar>
 struct LoopMap {
   Sampling<Scalar> sampling;                  ///< τ and δ; δ may exceed τ

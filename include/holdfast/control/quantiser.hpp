@@ -12,9 +12,9 @@ namespace holdfast {
 ///
 ///     ẑ = q · round(z / q),   |ẑ − z| ≤ q / 2 up to round-off;   q = 0: ẑ = z
 ///
-/// A value halfway between two multiples is rounded to the even one, the default rounding of
-/// programs. The function is odd and idempotent. Where q is no longer wide compared with the
-/// spacing of the numbers around z (|z / q| ≥ 2⁵¹ in double precision), ẑ = z.
+/// A value halfway between two multiples is rounded to the even one, the default rounding mode. The
+/// function is odd and idempotent. Where q is not large against the spacing of floating-point
+/// numbers at z (|z / q| ≥ 2⁵¹ in double precision), ẑ = z.
 ///
 /// Where z spreads over more than a quantum, ẑ − z acts like noise uniform over ±q / 2: mean 0,
 /// variance q² / 12. In a loop that is unstable without control the rounding causes small

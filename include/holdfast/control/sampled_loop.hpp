@@ -25,7 +25,7 @@ inline void validate(const Sampling<double>& sampling) {
   require_within("processing delay", sampling.processing_delay, "s", 0.0, sampling.period);
 }
 
-/// The plant with a computer that samples every τ and applies its force δ later, held for τ.
+/// The plant with a computer that samples every τ and applies each force δ later, held for τ.
 ///
 /// The force is u_{j−1} in [t_j, t_j + δ) and u_j in [t_j + δ, t_{j+1}), so that exactly
 ///
@@ -47,8 +47,8 @@ struct SampledLoop {
   Vector<Scalar, States> present_force;    ///< Γ₀, N × 1: response per newton of u_j
   Vector<Scalar, States> held_excitation;  ///< c_d, N × 1: response per newton of F held over τ
 
-  /// The map S of Eq. (14) for any δ, 5 × 5: [A_d + Γ₀ K, Γ₁; K, 0], force transmitted; for the two
-  /// masses with K = [P, D, 0, 0]. For another plant see LoopMap::closed_map().
+  /// The map S of Eq. (14) for any δ with the force transmitted, 5 × 5: [A_d + Γ₀ K, Γ₁; K, 0], K =
+  /// [P, D, 0, 0]. It is for the two masses only; for another plant see LoopMap::closed_map().
   Matrix<Scalar, 5> engaged_map(const PdGains<Scalar>& gains) const {
     static_assert(States == 4, "the feedback row of another plant comes from its ports");
     Matrix<Scalar, 5> map = backlash_map();
@@ -57,7 +57,7 @@ struct SampledLoop {
     return map;
   }
 
-  /// The map S* of Eq. (14) for any δ, (N + 1) × (N + 1): [A_d, Γ₁; 0, 0], drive in its backlash.
+  /// The map S* of Eq. (14) for any δ in the backlash, (N + 1) × (N + 1): [A_d, Γ₁; 0, 0].
   Matrix<Scalar, larger_size(States, 1)> backlash_map() const {
     const Eigen::Index n = transition.rows();
     Matrix<Scalar, larger_size(States, 1)> map =

@@ -16,7 +16,7 @@ struct Jitter {
   std::uint64_t seed = 1;  ///< seed of the random sequence
 };
 
-/// Rejects a jitter by which a sample could precede the force of the previous sample.
+/// Rejects a jitter with which a sample could precede the force of the previous sample.
 /// @throws InvalidParameter unless the sampling is admissible, J is finite and ≥ 0, J < τ / 2 and
 /// 2 J + δ ≤ τ, the last up to the round-off of decimal numbers
 inline void validate(const Sampling<double>& sampling, const Jitter& jitter) {
@@ -58,9 +58,9 @@ constexpr std::uint64_t split_mix_64(std::uint64_t seed, std::uint64_t index) {
 ///     t_j = j τ + e_j,   e_0 = 0,   e_j uniform over (−J, J) and independent, j = 1, 2, …
 ///
 /// The deviations do not accumulate: the clock follows its grid. e_j depends on the seed and on j
-/// only, so that samples may be computed in any order. All is integer arithmetic and correctly
-/// rounded multiply-adds: a run is the same on every machine. J = 0 gives t_j = j τ and the period
-/// τ, both to the last bit.
+/// only, so that samples may be computed in any order. Only integer arithmetic and correctly
+/// rounded multiply-adds are used: a run is the same on every machine. J = 0 gives t_j = j τ and
+/// the period τ, both to the last bit.
 class SamplingClock {
  public:
   /// @param period  τ (s), > 0
@@ -79,8 +79,8 @@ class SamplingClock {
     return std::fma(jitter_.half_width, share(index), on_grid);
   }
 
-  /// The period t_{j+1} − t_j = τ + e_{j+1} − e_j (s), j ≥ 0, rounded once; a difference of two
-  /// late instants would lose digits.
+  /// The period t_{j+1} − t_j = τ + e_{j+1} − e_j (s), j ≥ 0, rounded once; the difference of two
+  /// large instants would lose digits.
   double period_of(std::int64_t index) const {
     if (jitter_.half_width == 0) return period_;
     return std::fma(jitter_.half_width, share(index + 1) - share(index), period_);

@@ -14,9 +14,9 @@ namespace holdfast {
 struct Axis {
   double min = 0.0;        ///< the first value
   double max = 0.0;        ///< the last value, ≥ min
-  std::int64_t count = 1;  ///< ≥ 1; with count = 1 the only value is `min`
+  std::int64_t count = 1;  ///< number of values, ≥ 1; if it is 1, the only value is `min`
 
-  /// Value number `index`, 0 ≤ index < count.
+  /// The value number `index`, 0 ≤ index < count.
   double at(std::int64_t index) const {
     const std::int64_t last = count - 1;
     if (index <= 0 || last <= 0) return min;
@@ -27,19 +27,19 @@ struct Axis {
     return std::clamp(weighed / static_cast<double>(last), min, max);
   }
 
-  /// Index of the first value above `bound`, 0 … count; the values are compared as `at` gives them.
+  /// The index of the first value at(index) > `bound`; `count` if there is none.
   std::int64_t first_above(double bound) const {
     return first_beyond(bound, [bound](double value) { return value > bound; });
   }
 
-  /// Index of the first value not below `bound`, 0 … count.
+  /// The index of the first value ≥ `bound`; `count` if there is none.
   std::int64_t first_not_below(double bound) const {
     return first_beyond(bound, [bound](double value) { return value >= bound; });
   }
 
  private:
-  /// Where the steps say that the bound lies, corrected by the values where it is that close to
-  /// one.
+  /// The index of the first value with `beyond`, from the position of the bound on the axis. Where
+  /// the bound is within rounding of a value, the values next to it are tested.
   template <class Beyond>
   std::int64_t first_beyond(double bound, Beyond beyond) const {
     if (!(bound >= min)) return 0;
@@ -56,11 +56,11 @@ struct Axis {
   }
 };
 
-/// Refuses an axis that is no axis.
+/// Validates an axis.
 /// @param axis  the axis
-/// @param name  what its values are
-/// @param unit  theirs
-/// @throws InvalidParameter unless its ends are finite and ascend and there is one value at least
+/// @param name  name of the quantity along the axis
+/// @param unit  unit of its values
+/// @throws InvalidParameter unless both ends are finite, min ≤ max and 1 ≤ count ≤ 10¹⁵
 inline void validate(const Axis& axis, std::string_view name, std::string_view unit) {
   require_finite(name, axis.min, unit);
   require_within(name, axis.max, unit, axis.min, std::numeric_limits<double>::max());

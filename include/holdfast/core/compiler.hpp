@@ -1,8 +1,8 @@
 #pragma once
 
-// Requirements on the compiler and its options; every header reads this one.
+// Requirements on the compiler and its options; every header includes this one.
 
-// NaN and infinity are refused by comparisons, proofs and exponentials rest on sums in their order.
+// Comparisons refuse NaN and infinity; proofs and exponentials depend on the order of sums.
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error \

@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// A caller's mistake: a parameter outside its admissible range.
+/// The exception for a caller's parameter outside its admissible range.
 ///
 /// Numerical outcomes (not converged, unstable, no solution) are never reported by this exception;
 /// they are fields of the result.
@@ -22,7 +22,7 @@ class InvalidParameter : public std::invalid_argument {
   /// @param name        the parameter's name, a word of the field ("sampling period")
   /// @param value       the refused value
   /// @param unit        its SI unit, empty for pure numbers
-  /// @param admissible  what would have been accepted ("> 0")
+  /// @param admissible  admissible values, to be read after "must be" ("> 0")
   InvalidParameter(std::string name, double value, std::string unit, std::string admissible)
       : std::invalid_argument(sentence(name, value, unit, admissible)),
         name_(std::move(name)),
@@ -30,7 +30,7 @@ class InvalidParameter : public std::invalid_argument {
         unit_(std::move(unit)),
         admissible_(std::move(admissible)) {}
 
-  /// Which parameter was refused, in words of the field.
+  /// The name of the refused parameter, in words of the field.
   const std::string& name() const noexcept { return name_; }
   /// The refused value, in `unit()`; may be NaN or infinite.
   double value() const noexcept { return value_; }
@@ -61,21 +61,21 @@ inline void require_finite(std::string_view name, double value, std::string_view
     throw InvalidParameter(std::string(name), value, std::string(unit), "finite");
 }
 
-/// @throws InvalidParameter unless 0 < value < ∞.
+/// Refuses NaN, infinity and values ≤ 0. @throws InvalidParameter unless 0 < value < ∞.
 inline void require_positive(std::string_view name, double value, std::string_view unit) {
   if (!(std::isfinite(value) && value > 0))
     throw InvalidParameter(std::string(name), value, std::string(unit), "finite and > 0");
 }
 
-/// @throws InvalidParameter unless 0 ≤ value < ∞.
+/// Refuses NaN, infinity and values < 0. @throws InvalidParameter unless 0 ≤ value < ∞.
 inline void require_non_negative(std::string_view name, double value, std::string_view unit) {
   if (!(std::isfinite(value) && value >= 0)) {
     throw InvalidParameter(std::string(name), value, std::string(unit), "finite and >= 0");
   }
 }
 
-/// @throws InvalidParameter unless lower ≤ value ≤ upper; where upper is the largest number, it
-/// says that the value must be finite, where both are equal, what it must be.
+/// Refuses values outside a range. @throws InvalidParameter unless lower ≤ value ≤ upper; the
+/// message says "finite and >= lower" where upper is the largest double.
 inline void require_within(std::string_view name, double value, std::string_view unit, double lower,
                            double upper) {
   if (value >= lower && value <= upper) return;
@@ -90,7 +90,7 @@ inline void require_within(std::string_view name, double value, std::string_view
   throw InvalidParameter(std::string(name), value, std::string(unit), range.str());
 }
 
-/// Refuses a vector, or a side of a matrix, of another length.
+/// Refuses the size of a vector, or of a side of a matrix, that differs from the wanted one.
 /// @throws InvalidParameter unless size = wanted.
 inline void require_size(std::string_view name, std::ptrdiff_t size, std::ptrdiff_t wanted) {
   const auto entries = static_cast<double>(wanted);

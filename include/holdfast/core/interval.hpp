@@ -9,15 +9,15 @@ namespace holdfast {
 /// An open interval (lower, upper) of the real line; an end may be infinite.
 template <class Scalar>
 struct Interval {
-  /// Not in the interval itself; −∞: unbounded below.
+  /// The lower end, not in the interval; −∞: unbounded below.
   Scalar lower = -std::numeric_limits<Scalar>::infinity();
-  /// Not in the interval itself; ∞: unbounded above.
+  /// The upper end, not in the interval; ∞: unbounded above.
   Scalar upper = std::numeric_limits<Scalar>::infinity();
 
-  /// lower < value < upper; false for NaN.
+  /// Whether lower < value < upper; false for NaN.
   bool contains(const Scalar& value) const { return lower < value && value < upper; }
 
-  /// A point inside: the middle, or one unit (or one magnitude) beyond the finite end.
+  /// A point inside: the middle; 0 for the whole line; 1 + |a| away from a single finite end a.
   Scalar representative() const {
     constexpr Scalar unbounded = std::numeric_limits<Scalar>::infinity();
     if (lower == -unbounded && upper == unbounded) return Scalar(0);

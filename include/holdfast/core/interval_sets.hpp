@@ -10,15 +10,15 @@
 
 namespace holdfast {
 
-/// True where one of the open intervals contains the value.
+/// Whether one of the open intervals contains the value.
 template <class Scalar>
 bool contains_any(const std::vector<Interval<Scalar>>& intervals, const Scalar& value) {
   return std::any_of(intervals.begin(), intervals.end(),
                      [&](const Interval<Scalar>& interval) { return interval.contains(value); });
 }
 
-/// Intersection of two unions of open intervals; each union ascending and disjoint, as is the
-/// result.
+/// The intersection of two unions of open intervals. The intervals of each union, and those of the
+/// result, are ascending and disjoint.
 template <class Scalar>
 std::vector<Interval<Scalar>> intersection(const std::vector<Interval<Scalar>>& first,
                                            const std::vector<Interval<Scalar>>& second) {
@@ -32,10 +32,10 @@ std::vector<Interval<Scalar>> intersection(const std::vector<Interval<Scalar>>& 
   return result;
 }
 
-/// Where c₀ + c₁ x + c₂ x² < 0: nothing, one interval, two, or the whole line; ascending.
+/// The set of all x with c₀ + c₁ x + c₂ x² < 0, as up to two open intervals, ascending.
 ///
-/// The roots are formed as q/c₂ and c₀/q with q = −(c₁ ± √(c₁² − 4 c₀ c₂))/2 of the sign that does
-/// not cancel, so that c₂ may be small or zero. An even root does not divide an interval.
+/// The roots are q/c₂ and c₀/q with q = −(c₁ ± √(c₁² − 4 c₀ c₂))/2, the sign being the one without
+/// cancellation, so that c₂ may be small or zero. A double root does not divide an interval.
 /// @param quadratic  c₀, c₁, c₂, finite
 template <class Scalar>
 std::vector<Interval<Scalar>> where_negative(const Vector<Scalar, 3>& quadratic) {

@@ -9,22 +9,22 @@
 namespace holdfast {
 
 /// The lanes of a number type: a scalar has one, a SIMD pack several. A pack type specialises this
-/// beside `MaskOf`, so that a kernel can read and write as many neighbours as there are lanes and
-/// hand a lane that needs more care to scalar code.
+/// class and `MaskOf`. A kernel can then read and write `count` neighbouring numbers at a time and
+/// pass a single lane to scalar code.
 template <class Scalar>
 struct Lanes {
-  using Value = Scalar;                    ///< what one lane holds
-  static constexpr std::size_t count = 1;  ///< how many lanes there are
+  using Value = Scalar;                    ///< type of the number in one lane
+  static constexpr std::size_t count = 1;  ///< number of lanes
 
-  /// Reads `count` neighbours, the first one into lane 0.
+  /// Reads `count` neighbouring numbers, the first one into lane 0.
   static Scalar load(const Value* values) { return *values; }
-  /// Writes all lanes to `count` neighbours, lane 0 first.
+  /// Writes all lanes to `count` neighbouring numbers, lane 0 first.
   static void store(const Scalar& pack, Value* values) { *values = pack; }
 
-  /// One byte a lane: 1 where the mask is set, else 0.
+  /// Writes one byte for each lane: 1 where the mask is set, else 0.
   static void store_flags(bool mask, std::uint8_t* flags) { *flags = mask ? 1 : 0; }
 
-  /// Flags of two neighbouring masks.
+  /// Writes the flags of two masks: `count` bytes for `first`, then `count` bytes for `second`.
   static void store_flags(bool first, bool second, std::uint8_t* flags) {
     store_flags(first, flags);
     store_flags(second, flags + count);
@@ -41,7 +41,7 @@ auto lane_of(const Scalar& pack, std::size_t lane) {
   return values[lane];
 }
 
-/// The numbers or matrices of all lanes side by side.
+/// The pack, or matrix of packs, that has the given number or matrix in each lane.
 /// @param of_lane  (lane) → number or matrix of fixed size
 template <class Scalar, class OfLane>
 auto from_lanes(const OfLane& of_lane) {

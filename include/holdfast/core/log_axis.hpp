@@ -8,13 +8,13 @@
 
 namespace holdfast {
 
-/// Values of equal ratio from `min` to `max`, both included exactly.
+/// Logarithmically spaced values from `min` to `max`, both included exactly.
 struct LogAxis {
-  double min = 1.0;        ///< > 0
-  double max = 1.0;        ///< ≥ min
-  std::int64_t count = 1;  ///< ≥ 1; with count = 1 the only value is `min`
+  double min = 1.0;        ///< the first value, > 0
+  double max = 1.0;        ///< the last value, ≥ min
+  std::int64_t count = 1;  ///< number of values, ≥ 1; if it is 1, the only value is `min`
 
-  /// min (max/min)^{index/(count − 1)}, 0 ≤ index < count.
+  /// The value number `index`, min (max/min)^{index/(count − 1)}, 0 ≤ index < count.
   double at(std::int64_t index) const {
     const std::int64_t last = count - 1;
     if (index <= 0 || last <= 0) return min;

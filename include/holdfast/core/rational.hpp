@@ -11,20 +11,19 @@ namespace holdfast {
 
 /// A fraction in lowest terms.
 struct Rational {
-  std::int64_t numerator = 0;    ///< p, of the sign of the fraction
+  std::int64_t numerator = 0;    ///< p, with the sign of the fraction
   std::int64_t denominator = 1;  ///< q, ≥ 1
 };
 
-/// The fraction p/q in lowest terms that the decimal digits of `value` stand for, by continued
-/// fractions.
+/// The fraction p/q in lowest terms that a rounded number stands for, by continued fractions.
 ///
-/// A product such as f τ = 10 Hz · 0.011 s carries rounding; the first convergent within 10⁻¹³ of
-/// itself is taken as what was meant (11/100).
+/// A product such as f τ = 10 Hz · 0.011 s is rounded. The result is the first convergent with a
+/// relative difference of at most 10⁻¹³, here 11/100.
 ///
-/// @param value                finite, |value| < 2⁵³
-/// @param largest_denominator  ≥ 1
-/// @return nothing when no fraction with q ≤ largest_denominator is that close: the two frequencies
-///         are then treated as incommensurate
+/// @param value                number to be written as a fraction, |value| ≤ 9·10¹⁵
+/// @param largest_denominator  largest admissible q, ≥ 1
+/// @return nothing where no such convergent has q ≤ largest_denominator: two frequencies with this
+///         ratio then count as incommensurate
 /// @throws InvalidParameter when `value` is not finite or too large
 inline std::optional<Rational> reconstruct_rational(double value,
                                                     std::int64_t largest_denominator) {

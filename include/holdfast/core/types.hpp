@@ -7,8 +7,8 @@
 
 namespace holdfast {
 
-/// Whether a number type stands for real numbers, as those of floating point, duals and packs do,
-/// and not for whole ones, in which 1/m is 0.
+/// Whether a number type represents real numbers: true for floating-point types, duals and packs,
+/// false for integers, in which 1/m is 0.
 template <class Scalar>
 inline constexpr bool is_real = !std::is_integral_v<Scalar>;
 
@@ -24,7 +24,7 @@ using RowVector = Eigen::Matrix<Scalar, 1, Size>;
 template <class Scalar, int Rows, int Columns = Rows>
 using Matrix = Eigen::Matrix<Scalar, Rows, Columns>;
 
-/// A size of a matrix that is `more` larger than another; dynamic where one of them is.
+/// The matrix size `size` + `more`; Eigen::Dynamic where one of the two is Eigen::Dynamic.
 constexpr int larger_size(int size, int more) {
   return size == Eigen::Dynamic || more == Eigen::Dynamic ? Eigen::Dynamic : size + more;
 }
@@ -33,8 +33,8 @@ constexpr int larger_size(int size, int more) {
 template <class Scalar>
 inline constexpr Scalar pi = Scalar(3.14159265358979323846264338328L);
 
-/// π as a number of any type that is made from a `double`, duals and packs among them; of a
-/// floating-point type to its own precision.
+/// π in any number type: to full precision for a floating-point type, to the precision of `double`
+/// for a type constructed from a `double`, such as duals and packs.
 template <class Scalar>
 Scalar pi_of() {
   if constexpr (std::is_floating_point_v<Scalar>) {

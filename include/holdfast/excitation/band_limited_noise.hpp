@@ -17,8 +17,8 @@ struct NoiseBand {
   double rms;              ///< σ, root of the mean square (N), ≥ 0
   double lowest;           ///< f_a (Hz), ≥ 0
   double highest;          ///< f_b (Hz), > f_a
-  int lines = 1000;        ///< n, harmonics that make it up, ≥ 1
-  std::uint64_t seed = 1;  ///< of the phases
+  int lines = 1000;        ///< n, number of harmonics in the band, ≥ 1
+  std::uint64_t seed = 1;  ///< seed of the random phases
 };
 
 /// @throws InvalidParameter unless σ ≥ 0, 0 ≤ f_a < f_b and n ≥ 1, all finite
@@ -32,21 +32,21 @@ inline void validate(const NoiseBand& band) {
   if (band.lines < 1) throw InvalidParameter("noise lines", band.lines, "", ">= 1");
 }
 
-/// Band-limited noise as a sum of equally strong harmonics of random phase, in the middle of n
-/// equal parts of the band:
+/// Band-limited noise as a sum of n harmonics of equal amplitude and random phase. Their
+/// frequencies are the midpoints of n equal parts of the band:
 ///
 ///     F(t) = Σ_{i=0}^{n−1} σ √(2/n) cos(2π f_i t + φ_i),
 ///     f_i = f_a + (i + ½) Δ,   Δ = (f_b − f_a)/n,   φ_i independent, uniform in [0, 2π)
 ///
-/// Its one-sided power density, in the mean over each of the n parts, is σ²/(f_b − f_a); outside of
-/// the band it is zero. Over the phases F(t) has mean 0 and variance σ² at every t and tends to a
-/// Gaussian as n grows. Every single F has the mean square σ² over a long time, and |F| ≤ √(2n) σ.
+/// The one-sided power density of F, in the mean over each of the n parts, is σ²/(f_b − f_a);
+/// outside the band it is zero. Over all phases F(t) has mean 0 and variance σ² at every t; it
+/// tends to a Gaussian as n grows. Each F has the mean square σ² over a long time; |F| ≤ √(2n) σ.
 ///
 /// Repetition: in T = n/(f_b − f_a) seconds all harmonics turn by the same angle 2π (f_a T + ½)
 /// beyond whole cycles, so that the envelope of F repeats every T. F(t + T) = F(t) where f_a T + ½
-/// is whole, F(t + T) = −F(t) where f_a T is. For n ≥ 2 the least period of F is q T where
-/// f_a T + ½ = p/q in lowest terms; where f_a T is irrational there is none. A motion no longer
-/// than T meets no repetition: take n ≥ (f_b − f_a) times its duration.
+/// is an integer, F(t + T) = −F(t) where f_a T is an integer. For n ≥ 2 the least period of F is
+/// q T where f_a T + ½ = p/q in lowest terms; where f_a T is irrational F has no period. F does not
+/// repeat within a motion no longer than T: take n ≥ (f_b − f_a) times the motion's duration.
 ///
 /// φ_i is 2π times the upper 53 bits of output i of `std::mt19937_64`, read as a binary fraction:
 /// the same for the same seed with every standard library.
@@ -54,7 +54,7 @@ inline void validate(const NoiseBand& band) {
 /// Source: Shinozuka and Deodatis 1991, Applied Mechanics Reviews 44, simulation of stochastic
 /// processes by spectral representation.
 /// @return n harmonics, the lowest frequency first
-/// @throws InvalidParameter as `validate`
+/// @throws InvalidParameter where the band is not admissible
 inline std::vector<Harmonic> band_limited_noise(const NoiseBand& band) {
   validate(band);
   const double amplitude = std::sqrt(2.0 / band.lines) * band.rms;

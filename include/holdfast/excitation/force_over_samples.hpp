@@ -16,25 +16,25 @@
 
 namespace holdfast {
 
-/// Bounds of |F|, |Ḟ|, |F̈| (N, N/s, N/s²) over all times.
+/// The bounds of |F|, |Ḟ|, |F̈| (N, N/s, N/s²) over all times.
 struct ForceBounds {
-  double value,     ///< of |F| (N)
-      rate,         ///< of |Ḟ| (N/s)
-      second_rate;  ///< of |F̈| (N/s²)
+  double value,     ///< bound of |F| (N)
+      rate,         ///< bound of |Ḟ| (N/s)
+      second_rate;  ///< bound of |F̈| (N/s²)
 };
 
-/// An instant of every sampling period.
+/// An instant at a fixed time after every sample.
 struct PeriodInstant {
-  double after;  ///< s from the sample
-  /// cos and sin of ω_l after + φ_l, by which each harmonic has turned there.
+  double after;  ///< time after the sample (s)
+  /// The cosine and sine of the angle ω_l after + φ_l of each harmonic.
   std::vector<ExcitationSample<double>> turned;
 };
 
-/// The excitation as one sampling period after the other sees it, held at the sample or exactly.
+/// The excitation over the sampling periods, held at its value at each sample or followed exactly.
 class ForceOverSamples {
  public:
   /// @param force            F(t), admissible
-  /// @param hold             held at its value at the sample, record included, or followed exactly
+  /// @param hold             whether all of F, record included, is held from sample to sample
   /// @param sampling_period  τ (s), > 0
   ForceOverSamples(const MultiHarmonicForce& force, ForceHold hold, double sampling_period)
       : force_(force), hold_(hold) {
@@ -45,7 +45,7 @@ class ForceOverSamples {
     phases_.resize(turning_.size());
   }
 
-  /// Sample j at `time` (s); to be called for one sample after the other.
+  /// Starts sample j = `index` at `time` (s); to be called at every sample.
   void begin_sample(std::int64_t index, double time) {
     time_ = time;
     if (hold_ == ForceHold::sampled) {
@@ -60,13 +60,12 @@ class ForceOverSamples {
     last_ = index;
   }
 
-  /// F (N) some time (s) after the sample, before the next one.
+  /// The force F (N) at the time `after` (s) since the sample, before the next sample.
   double at(double after) const {
     return hold_ == ForceHold::sampled ? held_ : force_.at(time_ + after);
   }
 
-  /// Instant `after` (s) past every sample, as `at` needs it: a cosine and a sine for each
-  /// harmonic.
+  /// The instant at the time `after` (s) since every sample, prepared for at(const PeriodInstant&).
   PeriodInstant instant(double after) const {
     PeriodInstant instant{after, {}};
     for (const Harmonic& line : force_.harmonics) {
@@ -76,7 +75,7 @@ class ForceOverSamples {
     return instant;
   }
 
-  /// F (N) there, by two multiply-adds for each harmonic; of a clock that does not jitter.
+  /// The force F (N) at a prepared instant, by two multiply-adds per harmonic; not for jitter.
   double at(const PeriodInstant& instant) const {
     if (hold_ == ForceHold::sampled) return held_;
     if (force_.record) return force_.at(time_ + instant.after);
@@ -87,16 +86,16 @@ class ForceOverSamples {
     return sum;
   }
 
-  /// F held over the period (N); 0 where it is not held.
+  /// The force held over the period (N); 0 where it is not held.
   double held() const { return hold_ == ForceHold::sampled ? held_ : 0.0; }
 
-  /// F_l cos ω_l t_j and F_l sin ω_l t_j of every harmonic; none where the force is held.
+  /// The phasors F_l cos ω_l t_j, F_l sin ω_l t_j of all harmonics; none where the force is held.
   const std::vector<ExcitationSample<double>>& phases() const { return phases_; }
 
-  /// Whether `held()` and `phases()` are the whole force.
+  /// Whether `held()` and `phases()` describe the whole force: no record is followed exactly.
   bool is_regular() const { return hold_ == ForceHold::sampled || !force_.record; }
 
-  /// Coefficients F_k of F(t_j + after + x length) = Σ F_k x^k.
+  /// Computes the coefficients F_k (N) of F(t_j + after + x length) = Σ F_k x^k; times in s.
   void expand(double after, double length, Series& coefficients) const {
     if (hold_ == ForceHold::exact) return force_.expand(time_ + after, length, coefficients);
     coefficients.setZero();
@@ -111,12 +110,12 @@ class ForceOverSamples {
     return length > after ? length : std::nextafter(after, std::numeric_limits<double>::infinity());
   }
 
-  /// Largest ω of the harmonics (rad/s), 0 where the force is held.
+  /// The largest ω of the harmonics (rad/s); 0 where the force is held.
   double highest_angular_frequency() const {
     return hold_ == ForceHold::exact ? force_.highest_angular_frequency() : 0.0;
   }
 
-  /// Bounds of the force where it is regular.
+  /// The bounds of the force; the bounds of its derivatives are valid only if is_regular().
   ForceBounds bounds() const {
     ForceBounds bounds{0.0, 0.0, 0.0};
     const double rate = hold_ == ForceHold::exact ? 1.0 : 0.0;

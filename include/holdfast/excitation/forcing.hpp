@@ -16,12 +16,12 @@
 
 namespace holdfast {
 
-/// Additions of the excitation to the state over each sampling period, one period after the other:
+/// The contributions of a harmonic excitation to the state, one sampling period after the other:
 ///
 ///     F_m (g_c cos ω t_j + g_s sin ω t_j),   j = 0, 1, 2, …
 ///
-/// Work: 4 + 2 N multiply-adds a period, and a cosine and sine in every `PhasorTable::block` of
-/// them.
+/// Work: 4 + 2 N multiply-adds per period; a cosine and a sine once in `PhasorTable::block`
+/// periods.
 /// @tparam States  N, the order of the plant
 template <class Scalar, int States = 4>
 class HarmonicForcing {
@@ -33,7 +33,7 @@ class HarmonicForcing {
                   const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
       : table_(input, excitation, sampling_period) {}
 
-  /// The addition (N × 1) of the present sampling period; goes on to the next one.
+  /// The contribution (N × 1) over the present period. Then advances to the next period.
   Vector<Scalar, States> next() {
     const std::size_t k = static_cast<std::size_t>(index_) % PhasorTable<Scalar, States>::block;
     if (k == 0) table_.turn_to(index_);
@@ -46,15 +46,15 @@ class HarmonicForcing {
   std::int64_t index_ = 0;
 };
 
-/// Harmonic forcing from a table that outlives it and is turned by the motion's driver, so that no
-/// sample asks whether it is to be turned.
+/// The harmonic forcing read from a PhasorTable, which several motions may share and which must
+/// outlive it. The caller prepares the table, so that `next` need not check whether it is ready.
 template <class Scalar>
 class PhasorForcing {
  public:
-  /// @param table  to be turned to each multiple of its `block` before that sample is advanced
+  /// @param table  table, on which the caller calls turn_to() at each multiple of `block`
   explicit PhasorForcing(const PhasorTable<Scalar>& table) : table_(&table) {}
 
-  /// The addition (4 × 1) of the present sampling period; goes on to the next one.
+  /// The contribution (4 × 1) over the present period. Then advances to the next period.
   Vector<Scalar, 4> next() { return table_->addition(index_++ % PhasorTable<Scalar>::block); }
 
  private:
@@ -62,38 +62,37 @@ class PhasorForcing {
   std::size_t index_ = 0;
 };
 
-/// Harmonic forcing where sampling and excitation coincide every q samples, f τ = p/q: a table of q
-/// additions, repeated for ever. Copies share the table.
+/// The harmonic forcing with f τ = p/q, which repeats every q samples: a table of q contributions.
+/// Copies share the table.
 /// @tparam States  N, the order of the plant
 template <class Value, int States = 4>
 class PeriodicForcing {
  public:
   /// @param input      g_c and g_s, N × 1 per newton
   /// @param amplitude  F_m (N)
-  /// @param ratio      f τ = p/q in lowest terms, q ≥ 1; it replaces the product of the two, whose
-  ///                   rounding would let them drift apart
+  /// @param ratio      f τ = p/q in lowest terms, q ≥ 1; exact, so that the phase does not drift
   /// @throws InvalidParameter unless 1 ≤ q ≤ 10⁹
   PeriodicForcing(const HarmonicInput<Value, States>& input, const Value& amplitude,
                   const Rational& ratio)
       : PeriodicForcing(table_of(input, amplitude, ratio)) {}
 
-  /// @param additions  one for each of the q sampling periods of a common period, not empty
+  /// @param additions  contributions, one for each of the q sampling periods, not empty
   explicit PeriodicForcing(std::vector<Vector<Value, States>> additions)
       : additions_(
             std::make_shared<const std::vector<Vector<Value, States>>>(std::move(additions))) {}
 
-  /// The addition (N × 1) of the present sampling period; goes on to the next one.
+  /// The contribution (N × 1) over the present period. Then advances to the next period.
   const Vector<Value, States>& next() {
     const Vector<Value, States>& addition = (*additions_)[phase_];
     if (++phase_ == additions_->size()) phase_ = 0;
     return addition;
   }
 
-  /// q.
+  /// The number q of sampling periods after which the forcing repeats.
   std::size_t samples() const { return additions_->size(); }
-  /// Sampling periods since the last stroboscopic instant, 0 … q − 1.
+  /// The number of sampling periods since sampling and forcing were in phase, 0 … q − 1.
   std::size_t phase() const { return phase_; }
-  /// The q additions (N × 1), that of phase 0 first.
+  /// The q contributions (N × 1), in the order of the phases 0 … q − 1.
   const std::vector<Vector<Value, States>>& additions() const { return *additions_; }
 
  private:

@@ -7,24 +7,24 @@
 
 namespace holdfast {
 
-/// F cos(2π f t + φ), one harmonic of an excitation.
+/// One harmonic of an excitation, F cos(2π f t + φ).
 struct Harmonic {
   double amplitude;    ///< F (N), ≥ 0
   double frequency;    ///< f (Hz), > 0
   double phase = 0.0;  ///< φ (rad)
 
-  /// ω = 2π f (rad/s).
+  /// The angular frequency ω = 2π f (rad/s).
   double angular_frequency() const { return 2.0 * pi<double> * frequency; }
 
-  /// 2π f t + φ (rad) without the whole cycles of f t, accurate to a few round-offs of 2π + |φ|
-  /// however late the time t (s) is.
+  /// The angle 2π f t + φ (rad) without the whole cycles of f t. It is accurate to a few round-offs
+  /// of 2π + |φ| for any time t (s).
   double angle(double time) const {
     const double cycles = frequency * time;
     const double rounded_off = std::fma(frequency, time, -cycles);
     return 2.0 * pi<double> * ((cycles - std::floor(cycles)) + rounded_off) + phase;
   }
 
-  /// F cos(2π f t + φ) in N.
+  /// The force F cos(2π f t + φ) (N) at a time t (s).
   double at(double time) const { return amplitude * std::cos(angle(time)); }
 };
 

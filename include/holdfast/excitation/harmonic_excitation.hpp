@@ -5,21 +5,21 @@
 
 namespace holdfast {
 
-/// F(t) = F_m cos(2π f t), the excitation of the conductor. Source: Kollár 2022, Eq. (4).
+/// The excitation F(t) = F_m cos(2π f t) of the conductor. Source: Kollár 2022, Eq. (4).
 template <class Scalar>
 struct HarmonicExcitation {
   Scalar amplitude;  ///< F_m (N), ≥ 0
   Scalar frequency;  ///< f (Hz), > 0
 
-  /// ω = 2π f (rad/s).
+  /// The angular frequency ω = 2π f (rad/s).
   Scalar angular_frequency() const { return Scalar(2) * pi<Scalar> * frequency; }
 };
 
 /// The excitation's cosine and sine at one sample, times its amplitude (N).
 template <class Scalar>
 struct ExcitationSample {
-  Scalar cosine;  ///< F_m cos ω t_j (N); the bare cosine where no amplitude is meant
-  Scalar sine;    ///< F_m sin ω t_j (N); the bare sine likewise
+  Scalar cosine;  ///< F_m cos ω t_j (N); the cosine alone in a unit phasor
+  Scalar sine;    ///< F_m sin ω t_j (N); the sine alone in a unit phasor
 };
 
 /// @throws InvalidParameter unless F_m ≥ 0 and f > 0, both finite

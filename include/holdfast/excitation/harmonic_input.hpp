@@ -9,36 +9,35 @@
 
 namespace holdfast {
 
-/// How the harmonic force is taken over a sample.
+/// The course of a force over a sampling period.
 enum class ForceHold {
-  sampled,  ///< held at its sampled value, the paper's choice
-  exact,    ///< integrated exactly
+  sampled,  ///< held at its value at the sample, as in Kollár 2022
+  exact,    ///< F(t) itself, integrated exactly
 };
 
-/// How a harmonic force F(t) = F_m cos(ω t) enters one sampling period of a plant of order N.
+/// The response of a plant of order N to a force F(t) = F_m cos(ω t) over one sampling period,
 ///
 ///     z_{j+1} = … + F_m (cosine · cos(ω t_j) + sine · sin(ω t_j))
 ///
-/// Both holds of the force share this form, so one stepper serves both.
+/// Both kinds of ForceHold have this form, so that one stepper serves both.
 template <class Scalar, int States = 4>
 struct HarmonicInput {
-  Vector<Scalar, States> cosine;  ///< N × 1, per newton
-  Vector<Scalar, States> sine;    ///< N × 1, per newton
+  Vector<Scalar, States> cosine;  ///< g_c, N × 1 per newton of F_m cos(ω t_j)
+  Vector<Scalar, States> sine;    ///< g_s, N × 1 per newton of F_m sin(ω t_j)
 };
 
-/// The exact integral of the harmonic force over the sample, ∫₀^τ e^{A(τ−s)} c cos(ω(t_j + s)) ds.
+/// The response to the exact force in one sampling period, ∫₀^τ e^{A(τ−s)} c cos(ω(t_j + s)) ds.
 ///
-/// The force is written as the output of an oscillator, so that one matrix exponential holds it
-/// all:
+/// The force is the output of an oscillator, so that one matrix exponential contains the integral:
 ///
 ///     d/dt [z; cos ωt; sin ωt] = [A c 0; 0 0 −ω; 0 ω 0] [z; cos ωt; sin ωt]
 ///
-/// Differs from the held force by O(τ) in phase and O(τ²) in amplitude as τ → 0.
-/// @param a                  A, N × N (1/s)
-/// @param c                  N × 1, per newton of F
+/// The result differs from that of the held force by O(τ) in phase and O(τ²) in amplitude as τ → 0.
+/// @param a                  state matrix A, N × N (1/s)
+/// @param c                  input column c, N × 1 per newton of F
 /// @param period             τ (s), ≥ 0
 /// @param angular_frequency  ω = 2π f (rad/s), finite
-/// @throws InvalidParameter for another τ or ω, or where the sizes disagree
+/// @throws InvalidParameter where τ or ω is not admissible, or the sizes disagree
 template <class Scalar, int States>
 HarmonicInput<Scalar, States> exact_harmonic(const Matrix<Scalar, States>& a,
                                              const Vector<Scalar, States>& c, const Scalar& period,

@@ -38,8 +38,8 @@ template <class Coefficients>
 void divide_by_factorials(Eigen::MatrixBase<Coefficients>& coefficients) {
   double inverse_factorial = 1.0;
   for (Eigen::Index k = 2; k < coefficients.size(); ++k) {
-    // The reciprocals wait for nothing, where a division of the running value would wait for the
-    // last one.
+    // The reciprocals of k do not depend on each other. Divisions of the running value would each
+    // wait for the one before.
     inverse_factorial *= 1.0 / static_cast<double>(k);
     coefficients[k] *= inverse_factorial;
   }
@@ -47,13 +47,13 @@ void divide_by_factorials(Eigen::MatrixBase<Coefficients>& coefficients) {
 
 }  // namespace detail
 
-/// F(t) = Σ_i F_i cos(2π f_i t + φ_i) + F_r(t): any number of harmonics, band-limited noise among
-/// them, and at most one recorded force.
+/// The force F(t) = Σ_i F_i cos(2π f_i t + φ_i) + F_r(t): any number of harmonics, such as those of
+/// band-limited noise, and at most one recorded force.
 struct MultiHarmonicForce {
-  std::vector<Harmonic> harmonics;              ///< F_i, f_i, φ_i; may be empty
-  std::shared_ptr<const RecordedForce> record;  ///< F_r; null: none
+  std::vector<Harmonic> harmonics;              ///< harmonics F_i, f_i, φ_i; may be empty
+  std::shared_ptr<const RecordedForce> record;  ///< recorded force F_r; null: none
 
-  /// F(t) in N, continuous from the right.
+  /// The force F (N) at a time (s), continuous from the right.
   double at(double time) const {
     double force = record ? record->at(time) : 0.0;
     for (const Harmonic& harmonic : harmonics) force += harmonic.at(time);
@@ -74,16 +74,16 @@ struct MultiHarmonicForce {
     return highest;
   }
 
-  /// Taylor coefficients f_k, k = 0 … size − 1, of the force just after an instant:
+  /// Computes the Taylor coefficients f_k, k = 0 … size − 1, of the force just after an instant:
   ///
   ///     F(time + x length) = Σ_k f_k xᵏ      for 0 ≤ x length < next_break(time) − time
   ///     f_k = lengthᵏ/k! Σ_i ω_iᵏ F_i cos(ω_i time + φ_i + k π/2), + the record's line for k ≤ 1
   ///
-  /// For 0 ≤ x ≤ 1 the terms left out are at most Σ_i F_i (ω_i length)ˢⁱᶻᵉ/size! in sum.
+  /// For 0 ≤ x ≤ 1 the sum of the omitted terms is at most Σ_i F_i (ω_i length)ˢⁱᶻᵉ/size!.
   /// Work: a cosine, a sine and 3 size multiply-adds for each harmonic, 3 size more, and for the
   /// record a binary search.
-  /// @param time          s
-  /// @param length        s; of the order of 1/ω_i or less for the series to be of use
+  /// @param time          instant (s)
+  /// @param length        length (s); the series converges fast for lengths up to about 1/ω_i
   /// @param coefficients  f (N), a vector of fixed or dynamic size; all entries are written
   template <class Coefficients>
   void expand(double time, double length, Eigen::MatrixBase<Coefficients>& coefficients) const {
@@ -100,13 +100,13 @@ struct MultiHarmonicForce {
   }
 };
 
-/// A harmonic excitation as a force of one harmonic of phase 0 and no record.
+/// The MultiHarmonicForce with one harmonic, of phase 0, and no record.
 inline MultiHarmonicForce multi_harmonic_force(const HarmonicExcitation<double>& excitation) {
   return {{Harmonic{excitation.amplitude, excitation.frequency}}, nullptr};
 }
 
-/// @throws InvalidParameter unless every harmonic is admissible; a record was checked when it was
-///         made
+/// @throws InvalidParameter unless every harmonic is admissible; the record was checked by its
+///         constructor
 inline void validate(const MultiHarmonicForce& force) {
   for (const Harmonic& harmonic : force.harmonics) validate(harmonic);
 }

@@ -16,7 +16,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// unit_phasor() of a type no wider than `double`.
+/// Computes unit_phasor() for a type no wider than `double`.
 template <class Scalar>
 ExcitationSample<Scalar> unit_phasor_series(const Scalar& x) {
   using std::floor;
@@ -42,12 +42,12 @@ ExcitationSample<Scalar> unit_phasor_series(const Scalar& x) {
 
 }  // namespace detail
 
-/// cos 2πx and sin 2πx, to about 2·10⁻¹⁶, for scalars and packs; for a type wider than `double` to
-/// its own precision, by its cos and sin.
+/// Computes cos 2πx and sin 2πx for scalars and packs, to about 2·10⁻¹⁶. For types wider than
+/// `double` their own cos and sin are called, with full precision.
 ///
-/// Quarters of a turn bring x to |x| ≤ 1/8, which rounds nothing; there Taylor's series to the
-/// sixteenth power leaves less than 5·10⁻¹⁷. Work: 22 multiply-adds, 10 comparisons and selects.
-/// @param x  cycles, at least 0 and at most 1
+/// Subtracting quarter turns, without rounding, leaves |x| ≤ 1/8. There Taylor's series to the
+/// sixteenth power errs by less than 5·10⁻¹⁷. Work: 22 multiply-adds, 10 comparisons and selects.
+/// @param x  number of cycles, 0 … 1
 template <class Scalar>
 ExcitationSample<Scalar> unit_phasor(const Scalar& x) {
   using Value = typename Lanes<Scalar>::Value;
@@ -61,17 +61,17 @@ ExcitationSample<Scalar> unit_phasor(const Scalar& x) {
   }
 }
 
-/// F_m cos ω t_j and F_m sin ω t_j of a harmonic, or of as many as a pack has lanes, for
-/// j = 0, 1, 2, …
+/// The phasor F_m cos ω t_j, F_m sin ω t_j of a harmonic at the samples j = 0, 1, 2, …; in a pack,
+/// one harmonic in each lane.
 ///
-/// The cosine and sine are computed once in `block` periods; between them they are turned by fixed
-/// angles, e^{iω(J+k)τ} = e^{iωJτ} e^{iωkτ}, so that the rounding does not grow with j.
+/// A cosine and a sine are computed at samples J, multiples of `block`. For the samples J + k they
+/// are turned by fixed angles, e^{iω(J+k)τ} = e^{iωJτ} e^{iωkτ}: rounding does not grow with j.
 template <class Scalar>
 class RotatingPhasor {
  public:
-  static constexpr std::size_t block = 16;  ///< periods for which one turn_to() is enough
+  static constexpr std::size_t block = 16;  ///< number of periods for one turn_to()
 
-  /// Call `turn_to` before the first `at`.
+  /// Constructs the phasor; `turn_to` is to be called before the first `at`.
   /// @param excitation       F_m and f
   /// @param sampling_period  τ (s), > 0
   RotatingPhasor(const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
@@ -79,13 +79,13 @@ class RotatingPhasor {
     for (std::size_t k = 0; k < block; ++k) turns_[k] = turn_at(static_cast<std::int64_t>(k));
   }
 
-  /// Prepares the periods from `index` on; call at every multiple of `block` before its period.
+  /// Prepares the `block` periods from `index` on; to be called at every multiple of `block`.
   void turn_to(std::int64_t index) {
     const ExcitationSample<Scalar> turn = turn_at(index);
     base_ = {amplitude_ * turn.cosine, amplitude_ * turn.sine};
   }
 
-  /// Phasor of the period `k` (< block) after the last prepared one: 4 multiply-adds.
+  /// The phasor `k` (< block) periods after the `index` of the last turn_to(): 4 multiply-adds.
   ExcitationSample<Scalar> at(std::size_t k) const {
     const ExcitationSample<Scalar>& turn = turns_[k];
     return {turn.cosine * base_.cosine - turn.sine * base_.sine,
@@ -93,7 +93,7 @@ class RotatingPhasor {
   }
 
  private:
-  /// Whole cycles are removed first, so that `index` may be large.
+  /// The unit phasor of a period. Whole cycles are removed first, so that `index` may be large.
   ExcitationSample<Scalar> turn_at(std::int64_t index) const {
     using std::floor;
     const Scalar turned = Scalar(static_cast<double>(index)) * cycles_;
@@ -106,7 +106,7 @@ class RotatingPhasor {
   ExcitationSample<Scalar> base_{Scalar(0), Scalar(0)};
 };
 
-/// The harmonic forcing of a motion, or of as many as a pack has lanes, each with its own input,
+/// The harmonic forcing of a motion. In a pack every lane is another motion, with its own input,
 /// amplitude, frequency and sampling period:
 ///
 ///     F_m (g_c cos ω t_j + g_s sin ω t_j),   j = 0, 1, 2, …
@@ -114,10 +114,10 @@ class RotatingPhasor {
 template <class Scalar, int States = 4>
 class PhasorTable {
  public:
-  /// Periods for which one turn_to() is enough.
+  /// The number of periods for which one turn_to() is enough.
   static constexpr std::size_t block = RotatingPhasor<Scalar>::block;
 
-  /// Call `turn_to` before the first `addition`.
+  /// Constructs the table; `turn_to` is to be called before the first `addition`.
   /// @param input            g_c and g_s, N × 1 per newton
   /// @param excitation       F_m and f
   /// @param sampling_period  τ (s), > 0
@@ -125,11 +125,11 @@ class PhasorTable {
               const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
       : input_(input), phase_(excitation, sampling_period) {}
 
-  /// Prepares the periods from `index` on; call at every multiple of `block` before its period.
+  /// Prepares the `block` periods from `index` on; to be called at every multiple of `block`.
   void turn_to(std::int64_t index) { phase_.turn_to(index); }
 
-  /// The addition (N × 1) of the period `k` (< block) after the last prepared one: 4 + 2 N
-  /// multiply-adds.
+  /// The contribution (N × 1) to the state over the period that is `k` (< block) after the
+  /// `index` of the last turn_to(): 4 + 2 N multiply-adds.
   Vector<Scalar, States> addition(std::size_t k) const {
     const ExcitationSample<Scalar> now = phase_.at(k);
     return input_.cosine * now.cosine + input_.sine * now.sine;

@@ -11,33 +11,33 @@
 
 namespace holdfast {
 
-/// Interpolations of a recorded force between its rows.
+/// The kinds of interpolation of a recorded force between its rows.
 enum class RecordInterpolation : std::uint8_t {
   linear,  ///< the straight line between the two rows
   held     ///< the force of the earlier row
 };
 
-/// value + slope (t − time), the polynomial that a force follows from an instant `time` on.
+/// The line value + slope (t − time) that a force follows from an instant `time` on.
 struct LinearPiece {
-  double value;  ///< N
-  double slope;  ///< N/s
+  double value;  ///< force at `time` (N)
+  double slope;  ///< slope (N/s)
 };
 
-/// A force given by rows (t_k, F_k), k = 0 … n − 1, and zero outside of them:
+/// A force given by rows (t_k, F_k), k = 0 … n − 1, and zero before and after these times:
 ///
 ///     linear:  F(t) = F_k + (F_{k+1} − F_k) (t − t_k)/(t_{k+1} − t_k)
 ///     held:    F(t) = F_k                                for t_k ≤ t < t_{k+1}, k ≤ n − 2
 ///
-/// F is continuous from the right: from t_{n−1} on it is zero. F_{n−1} is therefore the limit of
-/// the last line, or, held, never in force: the last row then says how long the row before it
-/// holds.
+/// F is continuous from the right: from t_{n−1} on it is zero. With `linear`, F_{n−1} is thus only
+/// the limit that F approaches for t → t_{n−1}. With `held`, F_{n−1} is not used: the last row
+/// marks the end of the row before it.
 ///
-/// Work of a question: a binary search over the rows.
+/// Work of each evaluation: a binary search over the rows.
 class RecordedForce {
  public:
   /// @param times          t_k (s), two or more, strictly increasing
   /// @param forces         F_k (N), one for each time
-  /// @param interpolation  what the force is between the rows
+  /// @param interpolation  interpolation between the rows
   /// @throws InvalidParameter for fewer than two rows, unequal numbers of times and forces, values
   ///         that are not finite, times that do not increase, rows too far apart for their
   ///         difference to be finite
@@ -53,21 +53,21 @@ class RecordedForce {
     }
   }
 
-  /// t_0 (s).
+  /// The first time t_0 (s).
   double first_time() const { return times_.front(); }
-  /// t_{n−1} (s).
+  /// The last time t_{n−1} (s).
   double last_time() const { return times_.back(); }
-  /// Interpolation between the rows.
+  /// The interpolation between the rows.
   RecordInterpolation interpolation() const { return interpolation_; }
-  /// t_k (s), strictly increasing.
+  /// The times t_k (s), strictly increasing.
   const std::vector<double>& times() const { return times_; }
-  /// F_k (N), as many as there are times.
+  /// The forces F_k (N), as many as there are times.
   const std::vector<double>& forces() const { return forces_; }
 
-  /// F(t) in N.
+  /// The force F (N) at a time (s).
   double at(double time) const { return piece(time).value; }
 
-  /// The polynomial in force just after `time` (s), in powers of t − `time`; it holds up to
+  /// The line that the force follows from `time` (s) on, in powers of t − `time`; it is valid up to
   /// `next_break(time)`.
   LinearPiece piece(double time) const {
     const std::size_t after = first_row_after(time);
@@ -78,8 +78,8 @@ class RecordedForce {
     return {forces_[row] + slope * (time - times_[row]), slope};
   }
 
-  /// The first instant after `time` at which another polynomial begins: the time of the next row,
-  /// also where that row happens to lie on the line before it; +∞ from the last row on.
+  /// The first instant (s) after `time` at which another line begins: the time of the next row,
+  /// even if the row lies on the line before it; +∞ from the last row on.
   double next_break(double time) const {
     const std::size_t after = first_row_after(time);
     return after == times_.size() ? std::numeric_limits<double>::infinity() : times_[after];
@@ -102,7 +102,7 @@ class RecordedForce {
     }
     if (forces_.size() != times_.size()) {
       throw InvalidParameter("number of recorded forces", static_cast<double>(forces_.size()), "",
-                             "the number of times");
+                             "equal to the number of instants");
     }
   }
 

@@ -19,20 +19,20 @@ namespace holdfast {
 ///     motion.advance(trace);
 ///     trace.state(0.5 * tau);
 ///
-/// The motion must outlive the trace and not be moved. Work: one Taylor series (motion/
-/// affine_expansion.hpp) for each part of constant contact and for every 1/‖A‖ of its length.
+/// The motion must outlive the trace and not be moved. Work: one Taylor series
+/// (motion/taylor_step.hpp) for each Part.
 template <class Contact>
 class DenseOutput {
  public:
   /// The state x of the motion, N × 1.
   using State = typename EventMotion<Contact>::State;
 
-  /// A stretch without change of contact or command, short enough for one series.
+  /// A part of a sampling period under one contact mode and command, with one Taylor series.
   struct Part {
-    double begin,                                    ///< s after the sample
-        length;                                      ///< s, ≥ 0
-    ContactMode mode;                                ///< mode of the stretch
-    typename EventMotion<Contact>::Expansion state;  ///< its Taylor series
+    double begin,                                    ///< beginning (s after the sample)
+        length;                                      ///< length (s), ≥ 0
+    ContactMode mode;                                ///< contact mode
+    typename EventMotion<Contact>::Expansion state;  ///< Taylor series of the state
   };
 
   /// Constructs a trace that refers to a motion.
@@ -46,21 +46,21 @@ class DenseOutput {
     command_ = motion_->previous_command();
   }
 
-  /// The state (N × 1) some time (s) after the sample, up to the next sample.
+  /// The state (N × 1) at the time `after` (s) since the sample, up to the next sample.
   State state(double after) const {
     const Part& part = part_at(after);
     return part.state.state(
         part.length > 0.0 ? std::clamp((after - part.begin) / part.length, 0.0, 1.0) : 0.0);
   }
 
-  /// The mode at that time; at a change of contact the later one.
+  /// The contact mode `after` (s) the sample; at the instant of a change, the new mode.
   ContactMode mode(double after) const { return part_at(after).mode; }
 
   /// The parts of the sampling period, in order and without gaps.
   const std::vector<Part>& parts() const { return parts_; }
 
-  /// Called by EventMotion::advance: a part of the period of length `length` (s) from `begin` (s
-  /// after the sample) on was passed in the given mode.
+  /// Called by EventMotion::advance after it has passed a part of the period in the given mode,
+  /// from `begin` (s after the sample) on and `length` (s) long.
   void flowed(int mode, double begin, double length) {
     const double rate = motion_->rate(mode);
     double reached = begin;
@@ -78,7 +78,7 @@ class DenseOutput {
       reached = part == end - reached ? end : reached + part;
     } while (reached < end);
   }
-  /// Called by EventMotion::advance at t_j + δ: from there on u_j is in force.
+  /// Called by EventMotion::advance at t_j + δ, from which on the command u_j is in force.
   void commanded() { command_ = motion_->command(); }
   /// Called by EventMotion::advance at a change of contact; the next part shows the new mode.
   template <class Instant>

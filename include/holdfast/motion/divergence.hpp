@@ -29,9 +29,9 @@ double static_deflection(const Plant& plant, double force) {
 
 }  // namespace detail
 
-/// The size (m, m/s) beyond which a motion of a loop counts as diverging: 10¹² times all that
-/// determines its scale, the static deflection under the force and its speed, r₀ and the initial
-/// state.
+/// The size (m, m/s) beyond which a motion of a loop counts as diverging: 10¹² times the sum of
+/// y, ω y, r₀ and the largest |entry| of the initial state. Here y (m) is the static deflection
+/// under the largest force and ω (rad/s) the highest angular frequency of the force.
 /// @param loop   an admissible loop
 /// @param state  the initial state, N × 1, finite
 template <class Plant>
@@ -47,7 +47,7 @@ double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plan
   return 1e12 * std::max(scale, 1e-100);
 }
 
-/// The bound of divergence of a conductor by its modes, from all its static deflections.
+/// The divergence bound of a conductor given by its modes; y is the deflection at the absorber.
 /// @param loop   an admissible loop
 /// @param state  the initial state of `modal_plant`
 inline double divergence_bound(const ModalLoop& loop, const NaturalMotions::Full& state) {

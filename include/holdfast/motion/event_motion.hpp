@@ -28,11 +28,11 @@
 
 namespace holdfast {
 
-/// A sample of a motion, with the mode of its contact from there on.
+/// A sample of a motion, with the contact mode that begins there.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct EventSampleOf : MotionSample<double, States> {
-  ContactMode mode;  ///< from t_j on; `engaged` means mode == ContactMode::engaged
+  ContactMode mode;  ///< contact mode from t_j on; `engaged` is true only for ContactMode::engaged
 };
 
 /// A sample of the two masses' motion.
@@ -40,34 +40,34 @@ using EventSample = EventSampleOf<4>;
 
 /// The counts of contact changes in a motion.
 struct SwitchCounts {
-  std::array<std::int64_t, 3> entered{};  ///< how many times each ContactMode began
-  std::int64_t grazing = 0;  ///< changes of contact within rounding: a guard touches zero
-  bool accumulates = false;  ///< more than `most_switches` changes in one sampling period: the
-                             ///< later ones, up to its end, were not followed, and the motion is
-                             ///< invalid from there on
+  std::array<std::int64_t, 3> entered{};  ///< number of times that each mode began
+  std::int64_t grazing = 0;  ///< number of changes at which a guard touches zero, within rounding
+  bool accumulates = false;  ///< whether a sampling period had more than `most_switches` changes:
+                             ///< later changes in that period were not followed, and the motion is
+                             ///< invalid from then on
 };
 
-/// The observer of EventMotion::advance that ignores everything between the samples.
+/// The observer of EventMotion::advance that ignores what happens between the samples.
 struct IgnoreFlow {
   /// Called for each part of the sampling period: number of the mode, begin (s after the sample)
   /// and length (s).
   void flowed(int, double, double) const {}
   /// Called at t_j + δ, where u_j replaces u_{j−1}.
   void commanded() const {}
-  /// Called at a change of contact: modes before and after, the guard that reached zero (−1: a jump
-  /// of the command or the force), the instant.
+  /// Called at a change of contact: mode before, mode after, number of the guard that reached zero
+  /// (−1: a jump of the command or the force), instant.
   template <class Instant>
   void switched(int, int, int, const Instant&) const {}
 };
 
 /// The motion of the sampled loop whose contact may change between the samples.
 ///
-/// The digital side is that of SampledMotion: `sense()` takes a sample and decides the command u_j,
-/// `advance()` moves to the next sample, under u_{j−1} until t_j + δ and then under u_j. In between
-/// the state follows the mode of the contact: over a whole part of the period by constant exact
-/// matrices if a bound excludes that a guard reaches zero, else by its Taylor series, in which the
-/// first root of every guard is found (math/roots/first_root.hpp). So no change of contact is
-/// passed over.
+/// As in SampledMotion, `sense()` takes a sample and decides the command u_j. `advance()` moves to
+/// the next sample, under u_{j−1} until t_j + δ and then under u_j. If a bound proves that no guard
+/// reaches zero in one of these two parts of the period, constant exact matrices move the state
+/// over the whole part. Otherwise the state follows its Taylor series, in which the first
+/// root of every guard is found (math/roots/first_root.hpp). So no change of contact is passed
+/// over.
 ///
 /// Work per sample without a change of contact: about 80 multiply-adds and a square root; per
 /// change some 2000 multiply-adds more. No memory is allocated.
@@ -81,16 +81,15 @@ class EventMotion {
   static constexpr int states = states_of<Plant>;
   using State = StateOf<Plant>;               ///< x, N × 1
   using Sample = EventSampleOf<states>;       ///< result of `sense`
-  using Instant = ContactInstantOf<states>;   ///< data that a change of contact depends on
+  using Instant = ContactInstantOf<states>;   ///< state, command and force at an instant
   using Dynamics = AffineDynamicsOf<states>;  ///< equations of motion in one mode
   using Expansion = TaylorStep<states>;       ///< Taylor series of the motion
 
-  /// Most changes of contact in one sampling period; beyond them SwitchCounts::accumulates is set.
+  /// The largest number of changes of contact in one sampling period that are followed.
   static constexpr int most_switches = 1000;
 
-  /// @throws InvalidParameter where the loop is not admissible, makes more than
-  /// `ModeMotion::most_turns_per_sample` turns in a sampling period, or the state is not finite or
-  /// of another size
+  /// @throws InvalidParameter where the loop is not admissible, ‖A‖ τ or ω τ exceeds
+  /// `ModeMotion::most_turns_per_sample`, or the state is not finite or of another size
   EventMotion(const DigitalLoop& loop, const Contact& contact, const State& initial_state)
       : loop_(loop),
         readings_(contact.readings()),
@@ -109,7 +108,7 @@ class EventMotion {
       instants_.push_back(force_.instant(after));
   }
 
-  /// Takes sample j: the command, and the contact if it depends on it; to be called once.
+  /// Takes sample j: computes u_j and, with switching at samples, the contact; once per sample.
   Sample sense() {
     const double elapsed = index_ > 0 ? clock_.period_of(index_ - 1) : loop_.sampling.period;
     force_.begin_sample(index_, time());
@@ -134,9 +133,9 @@ class EventMotion {
 
   /// Advances to the next sample and reports to an observer (motion/variational_flow.hpp):
   ///
-  ///     flowed(mode, begin, length)             a part of the period, s from the sample, in a mode
+  ///     flowed(mode, begin, length)             a part of the period in one mode, s after t_j
   ///     commanded()                             at t_j + δ: u_j takes the place of u_{j−1}
-  ///     switched(from, to, guard, instant)      at the end of the last part, the state before
+  ///     switched(from, to, guard, instant)      a change of contact, with the state before it
   template <class Observer>
   void advance(Observer&& observer) {
     const double period = clock_.period_of(index_), delay = loop_.sampling.processing_delay;
@@ -158,7 +157,7 @@ class EventMotion {
 
   /// The number j of the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
-  /// The instant t_j (s) of that sample.
+  /// The instant t_j (s) of sample j = index().
   double time() const { return clock_.time(index_); }
   /// The state x_j, N × 1; for two masses z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
   const State& state() const { return state_; }
@@ -172,15 +171,15 @@ class EventMotion {
   const PortReadings<Plant>& readings() const { return readings_; }
   /// The controller with its memory of past samples.
   const auto& controller() const { return controller_; }
-  /// The digital side and the excitation, as given.
+  /// The digital side and the excitation, as passed to the constructor.
   const DigitalLoop& loop() const { return loop_; }
   /// The counts of contact changes since the motion began or since `restart_counts()`.
   const SwitchCounts& counts() const { return counts_; }
-  /// The excitation; from `sense()` on at the present sample.
+  /// The excitation, which `sense()` sets to the present sample.
   const ForceOverSamples& force() const { return force_; }
   /// The length h_j = t_{j+1} − t_j (s) of the present sampling period.
   double period() const { return clock_.period_of(index_); }
-  /// The reciprocal of the largest length (s) over which a series of `most_terms` terms is exact.
+  /// The rate (1/s) of a mode: Taylor series are exact to rounding over lengths up to 1/rate.
   double rate(int mode) const { return modes_[at(mode)].rate(); }
   /// The equations of motion in one of the modes of the contact.
   const Dynamics& dynamics(int mode) const { return modes_[at(mode)].dynamics(); }
@@ -209,7 +208,7 @@ class EventMotion {
 
   static constexpr std::size_t at(int mode) { return static_cast<std::size_t>(mode); }
 
-  /// The command of a sample; the states of a controller in the plant are advanced too.
+  /// The command at a sample. If the plant contains the controller, advances its states too.
   double read(const ControlSample& sample) {
     if constexpr (detail::HasController<Plant>::value) {
       auto own = state_.tail(controller_.states());
@@ -221,13 +220,13 @@ class EventMotion {
     }
   }
 
-  /// The force F at one of the ends of the two parts of the period.
+  /// The force F (N) at the sample (0), at t_j + δ (1) or at the next sample (2).
   double force_at(std::size_t end) const {
     const PeriodInstant& instant = instants_[end];
     return loop_.jitter.half_width > 0.0 ? force_.at(instant.after) : force_.at(instant);
   }
 
-  /// The command in force at the sample itself.
+  /// The command (N) in force just after the sample: u_{j−1}, or u_j for δ = 0.
   double first_command() const {
     return loop_.sampling.processing_delay > 0.0 ? previous_command_ : command_;
   }
@@ -263,7 +262,7 @@ class EventMotion {
     while (reached < part.end) reached = flow_to_event(part, reached, observer);
   }
 
-  /// Passes a whole part of the period if it is certain that the contact does not change in it.
+  /// Passes a whole part of the period and returns true if its contact certainly does not change.
   bool flow_without_event(double command, double length, std::size_t part) {
     if (!force_.is_regular() || loop_.jitter.half_width > 0.0) return false;
     const int mode = contact_.mode();
@@ -296,7 +295,8 @@ class EventMotion {
     return guard.zeros == 0 && !guard.unsigned_yet;
   }
 
-  /// Advances to the next change of contact or the end of the part. @return the instant reached
+  /// Advances to the next change of contact, but no farther than 1/rate, the force's next break or
+  /// the end of the part. @return the instant reached (s after the sample)
   template <class Observer>
   double flow_to_event(const Part& part, double begin, Observer& observer) {
     const int mode = contact_.mode();
@@ -345,7 +345,7 @@ class EventMotion {
   Contact contact_;
   State state_;
   std::vector<ModeMotion<Plant>> modes_;
-  std::vector<PeriodInstant> instants_;  // at which they begin and end
+  std::vector<PeriodInstant> instants_;  // t_j, t_j + δ and t_j + τ
   double previous_command_ = 0.0, command_ = 0.0;
   std::int64_t index_ = 0;
   int switches_ = 0;

@@ -20,8 +20,8 @@
 
 namespace holdfast {
 
-/// The sampled loop with its excitation and its backlash: everything that a motion depends on
-/// except its initial state.
+/// The loop of Kollár 2022 with its excitation and its backlash: everything that a motion depends
+/// on except its initial state.
 /// @tparam Plant  TwoMass<Scalar> or a LinearPlant<Scalar, N>
 template <class Scalar, class Plant = TwoMass<Scalar>>
 struct IdealLoop {
@@ -66,8 +66,8 @@ DigitalLoop digital_loop(const IdealLoop<double, Plant>& loop) {
   return {loop.sampling, loop.gains, multi_harmonic_force(loop.excitation), loop.hold};
 }
 
-/// The ratio f τ = p/q in lowest terms: sampling and excitation coincide every q samples, p periods
-/// of the excitation (control/digital_loop.hpp).
+/// The ratio f τ = p/q in lowest terms: q samples take as long as p periods of the excitation. The
+/// function for DigitalLoop (control/digital_loop.hpp) says where there is none.
 template <class Plant>
 std::optional<Rational> forcing_ratio(const IdealLoop<double, Plant>& loop) {
   return forcing_ratio(digital_loop(loop));
@@ -85,7 +85,7 @@ using HarmonicallyForcedMotion =
 
 namespace detail {
 
-/// The motion of a loop under a Forcing, constructed from its harmonic input and `more`.
+/// The motion of a loop under Forcing(input, more...), where `input` is g_c and g_s of the loop.
 template <class Forcing, class Scalar, class Plant, class... More>
 SampledMotion<Scalar, Backlash<Scalar>, Forcing, Plant> forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const StateOf<Plant>& initial_state,
@@ -106,7 +106,7 @@ SampledMotion<Scalar, Backlash<Scalar>, Forcing, Plant> forced_motion(
 }  // namespace detail
 
 /// The motion from an initial state under an exactly periodic forcing.
-/// @param loop           loop whose f is not used: `ratio` determines the phases of the forcing
+/// @param loop           loop; the phases of the forcing come from `ratio`, not from f and τ
 /// @param ratio          value of forcing_ratio()
 /// @param initial_state  x₀, N × 1; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 /// @throws InvalidParameter where the loop or the state is not admissible
@@ -125,7 +125,7 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
   return periodically_forced_motion(loop, ratio, detail::state_of(loop.plant, initial_state));
 }
 
-/// The motion from an initial state, for any ratio of the frequencies.
+/// The motion from an initial state under a harmonic forcing, for any value of f τ.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  state x₀, N × 1
 /// @throws InvalidParameter where the loop or the state is not admissible

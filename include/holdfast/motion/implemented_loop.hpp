@@ -16,8 +16,8 @@
 
 namespace holdfast {
 
-/// A loop with the effects of its implementation: any law of backlash, switching at samples or
-/// exactly, any excitation, and the limits of its sensors, drive and clock.
+/// A loop with the effects of its implementation: any law of backlash, contact changes at samples
+/// or at exact instants, any excitation, and the limits of sensors, drive and clock.
 /// @tparam Plant  TwoMass<double>, a LinearPlant<double, N> or a ControlledPlant
 template <class Plant>
 struct ImplementedLoopOf {
@@ -34,8 +34,8 @@ struct ImplementedLoopOf {
 /// The implemented loop of the two masses.
 using ImplementedLoop = ImplementedLoopOf<TwoMass<double>>;
 
-/// Validates a loop. @throws InvalidParameter where any part is not admissible, or where there are
-/// gains or limits beside a controller in the plant
+/// Validates a loop. @throws InvalidParameter where any part is not admissible, or where a
+/// plant that contains its controller comes with gains or limits too
 template <class Plant>
 void validate(const ImplementedLoopOf<Plant>& loop) {
   validate(loop.plant);
@@ -48,11 +48,11 @@ void validate(const ImplementedLoopOf<Plant>& loop) {
                    0.0);
     if (!is_ideal(loop.digital.limits))
       throw InvalidParameter("limits beside a controller of one's own", 1.0, "",
-                             "those of an ideal controller");
+                             "left out: no quanta, no largest force");
   }
 }
 
-/// The loop of the paper's model as an implemented loop.
+/// The implemented loop that is equal to an IdealLoop, the model of Kollár 2022.
 template <class Plant>
 ImplementedLoopOf<Plant> implemented_loop(const IdealLoop<double, Plant>& loop) {
   return {loop.plant,
@@ -61,9 +61,9 @@ ImplementedLoopOf<Plant> implemented_loop(const IdealLoop<double, Plant>& loop) 
           Switching::sampled};
 }
 
-/// The loop in the paper's model, if it is one: switching at samples, the paper's backlash or none,
-/// one harmonic that begins at phase 0, an ideal computer and clock. Its motion is then a
-/// SampledMotion; its orbits and exponents belong to a piecewise affine map.
+/// The loop as an IdealLoop, the model of Kollár 2022, where it is one: switching at samples, the
+/// paper's backlash or none, one harmonic that begins at phase 0, an ideal computer and clock. The
+/// motion of such a loop is a SampledMotion, a piecewise affine map from sample to sample.
 /// @return nothing for any other loop
 template <class Plant>
 std::optional<IdealLoop<double, Plant>> ideal_loop(const ImplementedLoopOf<Plant>& loop) {

@@ -21,8 +21,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// The norm of a plant's own states without those of its controller, which come last, are constant
-/// between the samples, and enter no guard.
+/// The norm of a plant's states without the states of its controller. The controller's states come
+/// last, are constant between the samples and enter no guard.
 /// @tparam any  Eigen::Dynamic
 template <int any>
 class NormBesideController {
@@ -50,22 +50,22 @@ using NormOf = std::conditional_t<
 
 }  // namespace detail
 
-/// The motion of a plant in one mode of its contact over the two parts of every sampling period: 0
-/// before t_j + δ, 1 after it.
+/// The motion of a plant in one mode of its contact over the two parts of every sampling period:
+/// part 0 before t_j + δ, part 1 after it.
 template <class Plant>
 class ModeMotion {
  public:
   static constexpr int states = states_of<Plant>;  ///< N, the order of the plant
-  /// The norm that bounds the motion: energy, or that of Lyapunov's equation.
+  /// The norm that bounds the motion: from the energy, or from a Lyapunov equation.
   using Norm = detail::NormOf<Plant>;
-  using Bound = NoEventBoundOf<Norm, states>;  ///< bound that excludes a guard's zero
+  using Bound = NoEventBoundOf<Norm, states>;  ///< bound that can exclude zeros of a guard
 
-  /// The largest admissible ‖A‖ τ and ω τ: one Taylor series is made for each unit of them, where
-  /// the contact may change.
+  /// The largest admissible ‖A‖ τ and ω τ. In a sampling period in which the contact may change,
+  /// about that many Taylor series are computed.
   static constexpr double most_turns_per_sample = 1e6;
 
-  /// @throws InvalidParameter where the mode or the force makes more than `most_turns_per_sample`
-  /// turns in a sampling period
+  /// @throws InvalidParameter where ‖A‖ τ of the mode or ω τ of the force exceeds
+  /// `most_turns_per_sample`
   ModeMotion(const AffineDynamicsOf<states>& dynamics, const DigitalLoop& loop,
              const ForceOverSamples& force)
       : dynamics_(dynamics),
@@ -78,13 +78,13 @@ class ModeMotion {
 
   /// The matrices A, b, c and the drift.
   const AffineDynamicsOf<states>& dynamics() const { return dynamics_; }
-  /// The reciprocal of the largest length (s) over which a series of `most_terms` terms is exact.
+  /// The rate (1/s) of the mode, max(‖A‖, ω): Taylor series are exact over lengths up to 1/rate.
   double rate() const { return rate_; }
-  /// The exact step over a whole part of the period.
+  /// The exact step over part 0 or part 1 of the period.
   const SubintervalStep<states>& step(std::size_t part) const { return steps_[part]; }
 
   /// The bound for the guards of the mode, constructed at the first call.
-  /// @param law    law of contact with the plant whose energy bounds the motion
+  /// @param law    contact whose plant(mode) has the energy that bounds the motion
   /// @param mode   number of the mode
   /// @param guard  one of the mode's guards
   /// @param force  the excitation

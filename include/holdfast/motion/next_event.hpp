@@ -16,11 +16,11 @@
 
 namespace holdfast {
 
-/// A stretch of a motion in one mode of its contact, short enough for one Taylor series.
+/// A stretch of a motion in one contact mode, short enough for one Taylor series.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct ModeStretch {
-  Vector<double, States> state;  ///< x at its beginning, N × 1
+  Vector<double, States> state;  ///< x at the beginning, N × 1
   double command;                ///< u in force (N)
   Series force;                  ///< F_k (N) of F(t + y h) = Σ F_k y^k; any number of terms
   double length;                 ///< h (s), ≥ 0
@@ -31,16 +31,16 @@ struct ModeStretch {
 template <int States>
 struct NextEvent {
   int guard = -1;                             ///< number of the guard; −1: none reaches zero
-  FirstRoot root{RootOutcome::none, 1.0, 0};  ///< place of the zero, in lengths of the stretch
-  std::array<double, 2> signs{};  ///< ±1, first sign of a guard whose sign was unknown, else 0
+  FirstRoot root{RootOutcome::none, 1.0, 0};  ///< zero, at 0 … 1 of the stretch
+  std::array<double, 2> signs{};  ///< first sign (±1) of each guard if it was unknown, else 0
   Vector<double, States> state =
-      {};  ///< x there, N × 1; at the end of the stretch where there is no zero
+      {};  ///< x at the zero, N × 1; without a zero, at the end of the stretch
 };
 
 namespace detail {
 
-/// Sets leading coefficients that are mere rounding to zero: just after a change of contact a guard
-/// may still be within its rounding.
+/// Sets leading coefficients of a guard's series to zero where they are mere rounding errors, as
+/// they may be just after a change of contact.
 template <int States>
 void clear_rounding(const GuardOf<States>& guard, const ModeStretch<States>& stretch,
                     const TaylorStep<States>& motion, Series& series) {
@@ -67,8 +67,8 @@ Series guard_series(const GuardOf<States>& guard, const ModeStretch<States>& str
   return series;
 }
 
-/// The first nonzero sign of a series; 0 where it stays zero. The zero initial value of a force is
-/// exact to rounding only: coefficients that small beside the rest are set to zero.
+/// The sign of the first nonzero coefficient of a series; 0 where all are zero. Leading
+/// coefficients within rounding of zero, below 10⁻¹² of the sum of all, are set to zero.
 inline double first_sign(Series& series) {
   double size = 0.0;
   for (const double term : series) size += std::abs(term);
@@ -82,9 +82,8 @@ inline double first_sign(Series& series) {
 
 }  // namespace detail
 
-/// The first root of any guard of a mode over a stretch, or its end, by Taylor series: no root is
-/// passed over (math/roots/first_root.hpp). The function is independent of the law of contact and
-/// of the observer.
+/// The first root of any guard of a mode over a stretch, by Taylor series; without one, the end of
+/// the stretch. No root is passed over (math/roots/first_root.hpp).
 /// Work: N² + 2 N multiply-adds for each term of the series, 2 N for each guard and term, and the
 /// search for the root.
 /// @param dynamics  equations of motion in the mode

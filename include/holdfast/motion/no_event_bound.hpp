@@ -10,26 +10,24 @@
 
 namespace holdfast {
 
-/// A bound that excludes a zero of a guard within a length h, from the guard's values at both ends.
+/// A bound that can prove that a guard g has no zero within a time h, from g at both ends.
 ///
-/// Between them g is above the chord minus M h²/8, M ≥ |g̈|. From ż = A z + w, w = drift + b u + c
-/// F,
+/// Between the ends g is above the chord minus M h²/8, M ≥ |g̈|. From ż = A z + w, w = drift + b u +
+/// c F,
 ///
 ///     g̈ = ℓᵀA² z + ℓᵀA w + ℓᵀ ẇ + m F̈     for g = ℓᵀz + m F + const,
 ///
 /// and ‖z‖ in the norm of the energy (plant/energy.hpp), or another norm that A does not increase
 /// (plant/decaying_norm.hpp), grows by at most ‖w‖ h. The bound is valid for every guard of a mode
-/// with the same |ℓ| and |m|. With an infinite norm it excludes nothing: the depth is infinite or
-/// not a number.
+/// with the same |ℓ| and |m|. Where the norm is infinite, the bound is infinite or NaN and proves
+/// nothing.
 /// @tparam Norm    EnergyNorm of the two masses, DecayingNorm of a plant of any order
 /// @tparam States  N, the order of the plant
 template <class Norm, int States>
 class NoEventBoundOf {
  public:
   /// @param dynamics  matrices A, b, c and the drift of a mode
-  /// @param bounded   data of the norm: the two masses whose energy
-  ///                 bounds the motion in that mode, or the matrix
-  ///                 A
+  /// @param bounded   data of the norm: A, or the two masses whose energy bounds the motion
   /// @param guard     one guard of the mode, which gives ℓ and m
   /// @param force     bounds of the excitation
   template <class Bounded>
@@ -47,20 +45,20 @@ class NoEventBoundOf {
                 std::abs(guard.force) * force.second_rate;
   }
 
-  /// The parts of `drop_below_chord` over one length: by_norm ‖z‖ + by_command |u| + constant.
+  /// The terms of drop_below_chord() over one length: by_norm ‖z‖ + by_command |u| + constant.
   struct Drop {
-    double by_norm;     ///< per unit of the initial state's norm
-    double by_command;  ///< per newton of |u|
-    double constant;    ///< in the unit of the guard
+    double by_norm;     ///< factor of the norm of the initial state
+    double by_command;  ///< factor of |u|, per newton
+    double constant;    ///< constant, in the unit of the guard
   };
-  /// The parts for a length (s), ≥ 0.
+  /// The terms of drop_below_chord() for a length (s), ≥ 0.
   Drop drop_over(double length) const {
     const double share = length * length / 8.0, by_size = share * by_state_;
     return {by_size, by_size * length * command_growth_ + share * by_command_,
             by_size * length * other_growth_ + share * by_force_};
   }
 
-  /// The largest depth of a guard below the chord of its end values.
+  /// The largest possible depth of g below its chord: from state `begin`, command (N), length (s).
   double drop_below_chord(const Vector<double, States>& begin, double command,
                           double length) const {
     const Drop drop = drop_over(length);

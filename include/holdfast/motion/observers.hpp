@@ -88,11 +88,11 @@ class FirstPeaks {
 /// Records the samples at which the drive has entered or left its backlash.
 class SwitchLog {
  public:
-  /// A change of contact: at sample `index` the drive is in the backlash (entered) or engaged.
+  /// A change of contact: the first sample at which the drive is in the backlash, or engaged again.
   struct Switch {
-    std::int64_t index;  ///< j
-    double time;         ///< t_j (s)
-    bool entered;        ///< true: into the backlash; false: out of it
+    std::int64_t index;  ///< number j of the sample
+    double time;         ///< instant t_j (s)
+    bool entered;        ///< true: in the backlash; false: engaged again
   };
 
   /// @param from  instant (s); earlier changes are ignored

@@ -19,15 +19,15 @@ struct SurfaceCrossing {
   Vector<double, Size> reset_rate = Vector<double, Size>::Zero(Size < 0 ? 0 : Size);  ///< ∂R/∂t
 };
 
-/// The saltation matrix: it maps a small deviation of the state just before a change of the vector
-/// field to that just after it, at the same instant.
+/// The saltation matrix. It maps a small deviation of the state just before a change of the vector
+/// field to the deviation just after the change, at the same instant.
 ///
 ///     S = ∂R/∂x + (f⁺ − ∂R/∂x f⁻ − ∂R/∂t) ∂h/∂x / (∂h/∂x f⁻ + ∂h/∂t)
 ///
-/// A neighbour reaches the surface earlier or later by δt = −∂h/∂x δx / ḣ, ḣ = ∂h/∂x f⁻ + ∂h/∂t,
-/// and moves with the other field for that time. Where the field does not jump, f⁺ = ∂R/∂x f⁻ +
-/// ∂R/∂t, S is ∂R/∂x. Where f⁺ slides along the surface, ∂h/∂x f⁺ = 0 without a reset, S loses a
-/// direction: ∂h/∂x S = 0.
+/// A neighbour reaches the surface later by δt = −∂h/∂x δx / ḣ, ḣ = ∂h/∂x f⁻ + ∂h/∂t, or earlier
+/// if δt < 0. For that time it moves with the other field. Where the field does not jump, f⁺ =
+/// ∂R/∂x f⁻ + ∂R/∂t, S is ∂R/∂x. Where f⁺ slides along the surface, ∂h/∂x f⁺ = 0 without a reset, S
+/// loses a direction: ∂h/∂x S = 0.
 ///
 /// For a tangential crossing, ḣ = 0, there is no derivative and the entries are not finite. Work:
 /// Size² multiply-adds twice and one division.

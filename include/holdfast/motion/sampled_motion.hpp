@@ -22,21 +22,21 @@ namespace holdfast {
 /// @tparam States  N, the order of the plant
 template <class Scalar, int States = 4>
 struct MotionSample {
-  std::int64_t index;            ///< j
-  Scalar time;                   ///< t_j = j τ (s)
+  std::int64_t index;            ///< number j of the sample
+  Scalar time;                   ///< instant t_j = j τ (s)
   Vector<Scalar, States> state;  ///< x_j, N × 1; of the two masses z_j = [z₁, ż₁, z₂, ż₂]
   Scalar control_force;  ///< u_j (N), applied from t_j + δ to t_{j+1} + δ; 0 in the backlash
   Mask<Scalar> engaged;  ///< true where the drive transmits, false in the backlash
 };
 
-/// The memory of a motion: everything that its coming samples depend on beside the forcing.
+/// The memory of a motion: everything that its coming samples depend on, except the forcing.
 /// @tparam LawMemory  memory of the backlash
 /// @tparam States     N, the order of the plant
 template <class Scalar, class LawMemory, int States = 4>
 struct MotionMemory {
   Vector<Scalar, States> state;  ///< x_j, N × 1; for two masses z_j = [z₁, ż₁, z₂, ż₂]
   Scalar previous_force;         ///< u_{j−1} (N), which acts until t_j + δ
-  LawMemory backlash;            ///< memory before sample j
+  LawMemory backlash;            ///< memory of the backlash before sample j
 };
 
 /// The motion of the sampled loop with backlash, one sample at a time.
@@ -53,7 +53,7 @@ struct MotionMemory {
 ///                  transmitted
 /// @tparam Forcing  the excitation: `next()` returns its contribution to the state over the present
 ///                  sampling period, as scalars where it is the same in every lane of a pack
-/// @tparam Plant    plant whose ports are read; those of the two masses are entries of the state
+/// @tparam Plant    plant whose ports are read; the readings of two masses are entries of the state
 template <class Scalar, class Law = Backlash<Scalar>, class Forcing = HarmonicForcing<Scalar>,
           class Plant = TwoMass<Scalar>>
 class SampledMotion {
@@ -73,7 +73,7 @@ class SampledMotion {
       : SampledMotion(loop, gains, Forcing(input, excitation, loop.sampling.period), law,
                       initial_state, readings) {}
 
-  /// The motion under any forcing, from its present phase on; u_{−1} = 0.
+  /// The motion under any forcing, from the forcing's present phase on; u_{−1} = 0.
   /// @throws InvalidParameter where the state has another size than the loop's
   SampledMotion(const Loop& loop, const PdGains<Scalar>& gains, const Forcing& forcing,
                 const Law& law, const State& initial_state, const Readings& readings = Readings())
@@ -87,7 +87,7 @@ class SampledMotion {
     require_size("size of the initial state", state_.size(), loop_.transition.rows());
   }
 
-  /// Takes sample j: decides whether the force is transmitted, and its value; to be called once for
+  /// Takes sample j: decides whether the drive transmits, and computes u_j; to be called once for
   /// each sample.
   MotionSample<Scalar, states> sense() {
     const Mask<Scalar> engaged =
@@ -112,7 +112,7 @@ class SampledMotion {
 
   /// The number j of the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
-  /// The instant t_j (s) of that sample.
+  /// The instant t_j (s) of sample j = index().
   Scalar time() const { return Scalar(static_cast<double>(index_)) * loop_.sampling.period; }
   /// The state x_j, N × 1; for two masses z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
   const State& state() const { return state_; }
@@ -126,7 +126,7 @@ class SampledMotion {
   const Law& law() const { return law_; }
   /// The excitation, at the phase for the next `advance()`.
   const Forcing& forcing() const { return forcing_; }
-  /// The memory of the motion at t_j; to be asked for before `sense()`.
+  /// The memory of the motion at t_j; to be read before `sense()`.
   auto memory() const {
     return MotionMemory<Scalar, std::decay_t<decltype(law_.memory())>, states>{
         state_, previous_force_, law_.memory()};
@@ -181,8 +181,8 @@ class SampledMotion {
   std::int64_t index_ = 0;
 };
 
-/// A motion of the two masses in every lane of a pack, under a common forcing, which continues at
-/// its present phase.
+/// A pack of motions of the two masses, one in each lane, under a common forcing. The forcing
+/// continues at its present phase.
 /// @param motion          motion that every lane copies, except for the state
 /// @param initial_states  z₀ of every lane, [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 template <class Pack, class Forcing>

@@ -19,15 +19,15 @@ namespace holdfast {
 /// @tparam States  N, the order of the plant
 template <int States>
 struct SubintervalStep {
-  Matrix<double, States> transition;  ///< N × N
-  Vector<double, States> command;     ///< N × 1 per newton of u
-  Vector<double, States> drift;       ///< N × 1
-  Vector<double, States> held;        ///< N × 1 per newton of a force that is constant
-  std::vector<HarmonicInput<double, States>> lines;  ///< one for each harmonic
+  Matrix<double, States> transition;  ///< e^{A length}, N × N
+  Vector<double, States> command;     ///< response per newton of u, N × 1
+  Vector<double, States> drift;       ///< contribution of the drift, N × 1
+  Vector<double, States> held;        ///< response per newton of a held force, N × 1
+  std::vector<HarmonicInput<double, States>> lines;  ///< g_c and g_s of each harmonic
 
   /// @param dynamics   equations of motion in the mode
   /// @param harmonics  harmonics of the excitation, in the order of the phases passed to `state`
-  /// @param begin      begin of the part, s from the sample
+  /// @param begin      beginning of the part (s after the sample)
   /// @param length     length (s), ≥ 0
   SubintervalStep(const AffineDynamicsOf<States>& dynamics, const std::vector<Harmonic>& harmonics,
                   double begin, double length);
@@ -36,8 +36,8 @@ struct SubintervalStep {
   /// @param before      state at the beginning, N × 1
   /// @param commanded   command u in force (N)
   /// @param held_force  held force F_j (N); used only where there are no phases
-  /// @param phases      phases of the harmonics at the sample, times their amplitudes; empty: the
-  ///                force is held
+  /// @param phases      F_l cos and F_l sin (N) of the harmonics' phases at the sample; empty: the
+  ///                    force is held
   Vector<double, States> state(const Vector<double, States>& before, double commanded,
                                double held_force,
                                const std::vector<ExcitationSample<double>>& phases) const {

@@ -22,9 +22,8 @@ inline int terms_for(double x) {
 ///
 ///     z_{k+1} = h (A z_k + w_k) / (k + 1),   w_0 = drift + b u + c F_0,  w_k = c F_k
 ///
-/// where F(t + x h) = Σ F_k x^k. With ‖A‖ h ≤ 1 and terms_for(‖A‖ h) terms
-/// the truncation error is below round-off. Work per term: N² + 2 N
-/// multiply-adds.
+/// where F(t + x h) = Σ F_k x^k. With ‖A‖ h ≤ 1 and terms_for(‖A‖ h) terms the truncation error is
+/// below round-off. Work per term: N² + 2 N multiply-adds.
 /// @tparam States  N, the order of the plant
 template <int States>
 class TaylorStep {
@@ -51,7 +50,7 @@ class TaylorStep {
     }
   }
 
-  /// The state z(t + x h).
+  /// The state z(t + x h), N × 1, 0 ≤ x ≤ 1.
   Vector<double, States> state(double x) const {
     Vector<double, States> value = coefficients_.col(coefficients_.cols() - 1);
     for (Eigen::Index k = coefficients_.cols() - 2; k >= 0; --k)

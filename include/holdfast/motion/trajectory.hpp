@@ -41,21 +41,21 @@ struct IsMotion<Motion, std::void_t<decltype(std::declval<Motion&>().sense().sta
 ///     displace_conductor(d)    adds d (m) to the conductor's z, before `sense()`
 ///     index(), time()          j and t_j (s) of the sample that `sense()` will take or has taken
 ///     state()                  x_j, N × 1
-///     readings()               how states of the plant are read (plant/port_readings.hpp)
+///     readings()               the readings of the states of its plant (plant/port_readings.hpp)
 template <class Motion>
 inline constexpr bool is_motion_v = detail::IsMotion<Motion>::value;
 
 /// A sudden displacement of the conductor (Kollár 2022, Fig. 7).
 struct Kick {
-  double time;          ///< s; it acts at the first sample at or after it, up to round-off
-  double displacement;  ///< m, added to z₁
+  double time;          ///< instant (s); the kick acts at the first sample that is not before it
+  double displacement;  ///< displacement (m), added to z₁
 };
 
 /// The outcome of a trajectory.
 enum class TrajectoryOutcome {
   completed,  ///< all samples were taken
-  diverged,   ///< the state left the range of the number type; observers received all samples
-              ///< before
+  diverged,   ///< the state left the range of the number type; observers received all earlier
+              ///< samples
 };
 
 /// The number of samples at t = 0, τ, 2τ, … up to the last one not after `duration`. If the
@@ -69,13 +69,13 @@ inline std::int64_t samples_within(double duration, double sampling_period) {
   return static_cast<std::int64_t>(std::floor(periods * (1.0 + instant_round_off))) + 1;
 }
 
-/// Runs `samples` samples of a motion and passes each one to every observer, `observer(const
-/// MotionSample&)`.
+/// Runs `samples` (≥ 0) samples of a motion, with the kick if one is given, and passes each sample
+/// to every observer, `observer(const MotionSample&)`.
 ///
-/// The observers decide what is stored; nothing is allocated here. The motion ends at the sample
-/// after the last one passed, so that a further call continues from there.
-/// @tparam Motion  type for which is_motion_v is true, or with its `sense`, `advance`,
-///                 `displace_conductor` and `time`
+/// The observers decide what is stored; nothing is allocated here. Afterwards the motion is at the
+/// sample after the last one passed, from which a further call continues.
+/// @tparam Motion  type for which is_motion_v is true, or any type with `sense`, `advance`,
+///                 `displace_conductor` and `time` as described there
 template <class Motion, class... Observers>
 TrajectoryOutcome run_trajectory(Motion& motion, std::int64_t samples,
                                  const std::optional<Kick>& kick, Observers&&... observers) {

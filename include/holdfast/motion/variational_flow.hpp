@@ -20,12 +20,11 @@ namespace holdfast {
 ///
 ///     X_j = [x; u_{j−1}; g; z₁ as read at sample j − 1],   δX_{j+1} = map · δX_j
 ///
-/// a vector of N + 3 numbers, x being the state of the plant, for two masses [z₁, ż₁, z₂, ż₂], and
-/// z₁ the displacement read by the computer. g is the Δz at the last reversal of the drive: the
-/// ends of its gap are g and g ∓ r₀. Without change of contact δz follows e^{A t} and the held
-/// commands; commands change at fixed times, which adds nothing. At a change of contact on a
-/// surface h the deviation of [z; g] is multiplied by the saltation matrix (saltation.hpp). The
-/// guards are
+/// X_j has N + 3 numbers. x is the state of the plant, for two masses [z₁, ż₁, z₂, ż₂]; z₁ is the
+/// displacement read by the computer. g is the Δz at the last reversal of the drive: the ends of
+/// its gap are g and g ∓ r₀. Without change of contact δx follows e^{A t} and the held commands;
+/// commands jump at fixed times and need no saltation. At a change of contact on a surface h the
+/// deviation of [x; g] is multiplied by the saltation matrix (saltation.hpp). The surfaces are
 ///
 ///     engaged → gap, stick:   h = Δż,        g ← Δz,   f⁺ − f⁻ = −b u, b (s − u)
 ///     gap → engaged:          h = Δz − g,    g ← 0,    f⁺ − f⁻ = b u
@@ -33,8 +32,8 @@ namespace holdfast {
 ///
 /// Nothing is added at the end of stick: on a surface the transmitted force is continuous, and a
 /// command jumps at a fixed time. In stick δΔż = 0 and δg = δΔz are exact; where the drive sticks
-/// at sample j, the columns are valid for such deviations only. Unused rows are zero: that of g
-/// while engaged, and that of the z₁ read unless the velocity is the difference of unrounded
+/// at sample j, the columns are valid for such deviations only. Unused rows are zero: the row of
+/// g while engaged, and the row of the z₁ read unless the velocity is the difference of unrounded
 /// displacements.
 ///
 ///     VariationalFlow<DriveContact<>> tangent(motion);
@@ -44,7 +43,7 @@ namespace holdfast {
 ///     tangent.map();
 ///
 /// A tangential crossing has no derivative; then the entries are not finite.
-/// Work per sample of the two masses: 140 multiply-adds for each of its two parts; per change of
+/// Work per sample of the two masses: 140 multiply-adds for each part of the period; per change of
 /// contact 1500 more, most of them for a matrix exponential. Nothing is allocated for a fixed
 /// order.
 /// @tparam Contact  contact of the motion
@@ -53,12 +52,12 @@ class VariationalFlow {
  public:
   /// The order N of the plant.
   static constexpr int states = EventMotion<Contact>::states;
-  /// The number of deviations, N + 3.
+  /// The number of entries of X, N + 3.
   static constexpr int size = larger_size(states, 3);
-  /// The map of deviations of X, (N + 3) × (N + 3).
+  /// The matrix that maps deviations of X, (N + 3) × (N + 3).
   using Map = Matrix<double, size>;
 
-  /// Constructs the tangent at the present sample of a motion.
+  /// Constructs the derivative at the present sample of a motion.
   explicit VariationalFlow(const EventMotion<Contact>& motion)
       : readings_(motion.readings()),
         map_(Map::Identity(motion.state().size() + 3, motion.state().size() + 3)),
@@ -142,8 +141,8 @@ class VariationalFlow {
   Eigen::Index read_row() const { return order() + 2; }
   /// The rows of δx.
   auto states_of_map() { return map_.template topRows<states>(order()); }
-  /// The difference, in periods, below which two lengths of parts are equal: sums of several steps
-  /// of the motion are rounded.
+  /// The difference, as a share of the period, up to which two lengths count as equal. Lengths that
+  /// are sums of several steps are rounded.
   static constexpr double same_length = 1e-13;
 
   static constexpr std::size_t at(int mode) { return static_cast<std::size_t>(mode); }
@@ -157,13 +156,13 @@ class VariationalFlow {
                : always;
   }
 
-  /// Whether g is independent of z, so that its deviation must be stored.
+  /// Whether g is independent of x, so that its deviation must be stored.
   bool carries_anchor(int mode) const { return anchored(mode) && mode != sticking_; }
 
   bool anchored(int mode) const { return anchored_[at(mode)]; }
 
-  /// The gradient of the guard by z: of Δz − g where the mode is anchored, of Δz for stops, of Δż
-  /// while a drive with a moving gap is engaged.
+  /// The gradient ∂h/∂x of a mode's surface: h is Δz − g where the mode is anchored, Δz ∓ r₀/2 for
+  /// stops, and Δż while a drive with a moving gap is engaged.
   State gradient(int from) const {
     return sticking_ < 0 || anchored(from) ? readings_.displacement_row()
                                            : readings_.velocity_row();
@@ -201,7 +200,7 @@ class VariationalFlow {
     }
   }
 
-  /// Updates the command's row from z and from the previous reading, then that reading.
+  /// Updates the rank: the command's row from x and the previous reading, then that reading.
   void note_sample(const Reading& reading) {
     if (reading.state) rank_.begin(Carried::pending);
     if (reading.previous) rank_.become(Carried::reading, Carried::pending);
@@ -211,7 +210,7 @@ class VariationalFlow {
 
   Step exponential(int mode, double length) const;
 
-  /// Propagates δz over the time since the last change.
+  /// Propagates δx over the time since the last change.
   void close_flow() {
     if (open_length_ == 0.0) return;
     for (std::size_t part = 0; part < 2; ++part) {
@@ -270,13 +269,13 @@ class VariationalFlow {
     return longer;
   }
 
-  /// Changes from one gap into another that begins at Δz: the rates agree.
+  /// Moves g to the present Δz where one gap follows another: ẋ is the same in both.
   void anchor_anew() {
     map_.row(anchor_row()) = readings_.relative_displacements(states_of_map());
     rank_.end(Carried::anchor);
   }
 
-  /// The rate ż in a mode.
+  /// The rate ẋ in a mode.
   State rate(int mode, const Instant& instant) const {
     const Dynamics& dynamics = dynamics_[at(mode)];
     return dynamics.state * instant.state + dynamics.drift + dynamics.command * instant.command +
@@ -290,10 +289,10 @@ class VariationalFlow {
   std::array<bool, Contact::modes> anchored_;  // whether the gap lies where the drive reversed
   std::array<Dynamics, Contact::modes> dynamics_;
   std::array<double, 2> lengths_;  // of the parts of the period before and after t_j + δ
-  std::array<std::array<Step, Contact::modes>, 2> steps_;  // over them
+  std::array<std::array<Step, Contact::modes>, 2> steps_;  // over these parts
   double period_ = 0.0;
   int open_mode_ = 0;
-  double open_begin_ = 0.0, open_length_ = 0.0;  // what has flowed, but is not in the map yet
+  double open_begin_ = 0.0, open_length_ = 0.0;  // stretch not yet in the map
   StructuralRank rank_;                          // of the product of the maps
 };
 

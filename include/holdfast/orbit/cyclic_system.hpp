@@ -10,12 +10,12 @@
 
 namespace holdfast {
 
-/// Products of the maps of successive samples, in blocks so short that no product loses its digits.
-/// @tparam Map  N × N
+/// The products of the maps of successive samples, in blocks so short that no product loses digits.
+/// @tparam Map  type of a map, N × N
 template <class Map>
 class BlockProducts {
  public:
-  /// @param most  most samples in a block, ≥ 1; a block ends once it has grown a thousandfold
+  /// @param most  most samples in a block, ≥ 1; a product with an entry ≥ 1000 ends its block, too
   explicit BlockProducts(std::size_t most) : most_(most), length_(most) {}
 
   /// Adds the map of the next sample.
@@ -41,25 +41,25 @@ class BlockProducts {
 /// is the product of the maps that linearise the motion block by block. For an affine motion the
 /// first step is already exact but for rounding.
 ///
-/// The maps x_{k+1} = M_k x_k are one block-bidiagonal system. Its inner unknowns are eliminated
-/// one after the other by orthogonal factorisations,
+/// The equations x_{k+1} = M_k x_k are one block-bidiagonal system. Its inner unknowns x_k are
+/// eliminated one after the other by orthogonal factorisations of their coefficients,
 ///
 ///     Qᵀ [B; −M_k] = [R; 0],
 ///
-/// whose lower rows do not contain them, so that M, whose entries may span hundreds of decades, is
-/// never formed: first · x₀ + last · x_K = 0 is left. Source: S. J. Wright, Stable parallel
+/// whose lower rows no longer contain x_k. At the end first · x₀ + last · x_K = 0 is left. M, whose
+/// entries may span hundreds of decades, is never formed. Source: S. J. Wright, Stable parallel
 /// algorithms for two-point boundary value problems, SIAM J. Sci. Stat. Comput. 13 (1992).
 ///
 ///     const CyclicSystem<double> system(maps);
 ///     if (!system.is_singular()) x += system.correction(open);
-/// @tparam Size  N of x; 5 of z̃ = [z; u_{j−1}]
+/// @tparam Size  size N of x; 5 for z̃ = [z; u_{j−1}]
 template <class Scalar, int Size = 5>
 class CyclicSystem {
  public:
   /// @param maps  N × N, at least one. Work per map: about 16 N³ multiply-adds.
   explicit CyclicSystem(const std::vector<Matrix<Scalar, Size>>& maps);
 
-  /// Whether 1 is a multiplier of the sequence to working precision: no solution, or a continuum.
+  /// Whether 1 is a multiplier to working precision: no periodic motion, or a continuum of them.
   bool is_singular() const {
     const Scalar smallest_pivot = closed_.matrixLU().diagonal().cwiseAbs().minCoeff();
     const Scalar rounding = Scalar(64) * std::numeric_limits<Scalar>::epsilon();

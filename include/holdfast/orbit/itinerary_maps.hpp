@@ -16,14 +16,14 @@
 
 namespace holdfast {
 
-/// Contacts of successive samples: 1 where the drive transmits, 0 in its backlash.
+/// The contacts of successive samples: 1 where the drive transmits, 0 in its backlash.
 using Itinerary = std::vector<std::uint8_t>;
 
 /// The affine maps that move z̃ = [z; u_{j−1}] over one sampling period,
 ///
 ///     z̃_{j+1} = S z̃_j + [a_j; 0] while the drive transmits, S* z̃_j + [a_j; 0] in the backlash,
 ///
-/// where the excitation's a_j repeat every q samples. Source: Kollár 2022, Eq. (14).
+/// where the a_j of the excitation repeat every q samples. Source: Kollár 2022, Eq. (14).
 template <class Scalar>
 class ItineraryMaps {
  public:
@@ -36,20 +36,20 @@ class ItineraryMaps {
   ItineraryMaps(const IdealLoop<Scalar>& loop, const Rational& ratio)
       : ItineraryMaps(sampled_loop(loop.plant, loop.sampling), loop, ratio) {}
 
-  /// The map S of an engaged drive (1), S* of one in the backlash (0), 5 × 5.
+  /// The map S while the drive is engaged, S* while it is in the backlash; 5 × 5.
   const Matrix<Scalar, 5>& map(bool engaged) const { return maps_[engaged ? 1 : 0]; }
 
   /// The units of z̃, by plant_scaling() of the loop.
   const Vector<Scalar, 5>& units() const { return units_; }
 
-  /// The map S or S* for z̃ in these units.
+  /// The map S or S* for z̃ in units().
   Matrix<Scalar, 5> map_in_units(bool engaged) const {
     return units_.cwiseInverse().asDiagonal() * map(engaged) * units_.asDiagonal();
   }
 
   /// The largest number of samples whose maps may be multiplied without losing digits of the most
-  /// contracted directions. One sample stretches directions outside its null space unequally, at
-  /// most by the largest ratio of pivots of the plant's part of either map.
+  /// contracted directions. The ratio in which one map stretches two directions outside its null
+  /// space is estimated by the largest ratio of pivots in the plant's 4 × 4 part of S or S*.
   std::size_t samples_of_block() const;
 
   /// The number of samples q after which the forcing repeats.
@@ -65,9 +65,9 @@ class ItineraryMaps {
     return next;
   }
 
-  /// Computes all states of an itinerary from its first one; gives the state after its last sample.
+  /// Computes all states of an itinerary from its first one; returns the state after its last one.
   /// @param first      z̃₀
-  /// @param itinerary  its first sample at phase 0 of the forcing
+  /// @param itinerary  contacts, the first sample at phase 0 of the forcing
   /// @param states     filled with z̃_j, one for each sample
   State follow(const State& first, const Itinerary& itinerary, std::vector<State>& states) const {
     states.front() = first;

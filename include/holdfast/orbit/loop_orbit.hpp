@@ -16,17 +16,18 @@
 namespace holdfast {
 
 /// The limit of border_share() (PeriodicOrbit, EventOrbit) below which an orbit is near a switching
-/// surface: a change of the loop in its fourth digit may end it.
+/// surface: changing a parameter in its fourth digit may end the orbit.
 inline constexpr double near_border = 1e-4;
 
-/// Common part of the periodic orbits of the sampled loop, wherever their contact switches.
-/// @tparam Size  of a state: 4 for z_j, 5 for z̃_j = [z_j; u_{j−1}]
+/// The common part of PeriodicOrbit (switching at samples) and EventOrbitOf (between them).
+/// @tparam Size  size of a state: 5 for z̃_j = [z_j; u_{j−1}], N for x_j of a plant, 4 for z_j
 template <int Size>
 struct LoopOrbit {
   Rational ratio;                            ///< f τ = p/q
   double sampling_period;                    ///< τ (s)
-  std::vector<Vector<double, Size>> states;  ///< N of them, the first one at phase 0 of the force
-  /// Multipliers of one period, largest first: five, with many modes ten; −∞ for a null direction.
+  std::vector<Vector<double, Size>> states;  ///< one per sample, the first at phase 0 of the force
+  /// Multipliers of one period, largest first; log_modulus is −∞ for a null direction. Of a
+  /// conductor given by many modes only the ten largest.
   std::vector<Multiplier> multipliers;
   double closure_error;  ///< ‖z_N − z₀‖, SI numbers of m and m/s
 
@@ -46,7 +47,7 @@ struct LoopOrbit {
     const double rounding = 64.0 * std::numeric_limits<double>::epsilon();
     return multipliers.front().log_modulus < -rounding * static_cast<double>(states.size());
   }
-  /// Largest |z₁| (m) of the samples.
+  /// The largest |z₁| (m) at the samples.
   double amplitude() const {
     double largest = 0.0;
     for (const auto& state : states) largest = std::max(largest, std::abs(state[0]));
@@ -54,25 +55,25 @@ struct LoopOrbit {
   }
 };
 
-/// How the search for the periodic orbit of a motion ended, or what a single solution is.
+/// The outcome of a search for the periodic orbit of a motion, or of a single solution for one.
 enum class OrbitOutcome {
   certified,       ///< the motion was seen to tend to the orbit; for a single solution: it switches
                    ///< as assumed
   approaching,     ///< an attracting orbit was found, but the motion was not seen to come to it
-  on_surface,      ///< its contacts repeat, but the orbit touches a switching surface: the result
+  on_surface,      ///< the contacts repeat, but the orbit touches a switching surface: the result
                    ///< depends on rounding, and no certificate can be given
   incommensurate,  ///< f τ is no fraction p/q with q ≤ 10⁶: the forcing's phase is a state that
                    ///< does not repeat
   diverges,        ///< the motion grows without bound
   none_found,      ///< no orbit in the given number of samples, or q is beyond the largest period;
-                   ///< of one solution: 1 is a multiplier, so that there is none, or many
+                   ///< for a single solution: 1 is a multiplier, so that there is none, or many
   not_reproduced,  ///< the contacts repeat, but the periodic solution switches otherwise
   neutral,         ///< 1 is a multiplier: the motion is on one orbit of a whole family, or drifts
                    ///< along the family like an integrator without restoring term. Give the named
                    ///< state a leak, leave it out, or prescribe its initial value
 };
 
-/// Result of a search for a periodic orbit, or of solving for one.
+/// The result of a search for a periodic orbit, or of solving for one.
 /// @tparam Orbit  PeriodicOrbit or EventOrbitOf<N>
 template <class Orbit>
 struct OrbitResultOf {
@@ -134,7 +135,7 @@ inline bool touches_surface(const StateScale& extent, double error, double displ
   return displacement <= rounding(extent.displacement) || velocity <= rounding(extent.velocity);
 }
 
-/// The outcome of a single solution.
+/// The outcome of a single solution for an orbit.
 inline OrbitOutcome outcome_of(bool touches, bool switches_alike) {
   if (touches) return OrbitOutcome::on_surface;
   return switches_alike ? OrbitOutcome::certified : OrbitOutcome::not_reproduced;

@@ -13,32 +13,32 @@
 
 namespace holdfast {
 
-/// Causes that end a periodic motion at the border of its region of parameters.
+/// The causes that end a periodic motion at the border of its region of parameters.
 enum class BorderKind {
   fold,              ///< a multiplier reaches 1
   flip,              ///< a multiplier reaches −1
   neimark_sacker,    ///< a pair of multipliers reaches the unit circle
   border_collision,  ///< switching at samples: a sample reaches a switching surface
   grazing,           ///< switching exactly: Δz or Δż only touches where the drive would switch
-  sliding,           ///< switching exactly: it changes whether a reversal begins with stick
+  sliding,           ///< switching exactly: a reversal begins, or ceases, to lead to stick
   switch_at_sample,  ///< switching exactly: a switch reaches a sample, where the force or the
                      ///< command jumps
-  jump,              ///< no such motion was found beyond, although no margin vanished
+  jump,              ///< the motion is lost beyond a point where no margin vanishes
   window,            ///< the end of the given window
 };
 
 /// A piece of the border of a motion's region, with the largest multiplier at a point of it.
 struct MotionBorder {
-  BorderKind kind = BorderKind::window;  ///< what ends the motion there
+  BorderKind kind = BorderKind::window;  ///< cause that ends the motion there
   /// Surface of a collision or grazing: `reversal` or an end of the gap; for exact switching both
   /// ends of a gap count as one.
   SwitchingSurface surface = SwitchingSurface::reversal;
-  std::int64_t sample = -1;  ///< sample of a collision; of a symmetric motion counted in the first
-                             ///< half of the period; else −1
-  /// Sector of the angle θ of a pair between strong resonances: 0 below π/2, 1, 2 above 2π/3; for
-  /// the window: its side.
+  std::int64_t sample = -1;  ///< sample of a collision (of a symmetric motion in the first half of
+                             ///< its period); −1 for other kinds
+  /// For `neimark_sacker` the sector of the pair's angle θ: 0 below π/2, 1 up to 2π/3, 2 above. For
+  /// `window` its side: 0 least x, 1 largest x, 2 least y, 3 largest y.
   int part = 0;
-  Multiplier multiplier{};  ///< not compared
+  Multiplier multiplier{};  ///< largest multiplier; == ignores it
 };
 
 /// Whether two values belong to the same piece of the border.
@@ -46,21 +46,21 @@ inline bool operator==(const MotionBorder& a, const MotionBorder& b) {
   return a.kind == b.kind && a.surface == b.surface && a.sample == b.sample && a.part == b.part;
 }
 
-/// A point of the border.
+/// A point of the border of a motion's region.
 struct MotionBorderPoint {
   double x;             ///< the first parameter
-  double y;             ///< the second one
-  MotionBorder border;  ///< what ends the motion there
+  double y;             ///< the second parameter
+  MotionBorder border;  ///< cause that ends the motion there
 };
 
-/// The region of two parameters, around a motion's own point, in which that periodic motion exists
-/// and attracts; given by its border.
+/// The region of two parameters in which a periodic motion exists and attracts, around the point
+/// where the motion is given; described by the border of the region.
 struct MotionRegion {
   /// Points of the border, counter-clockwise. Where the kind of border changes, two points lie side
   /// by side: a point of codimension two.
   std::vector<MotionBorderPoint> border;
   bool closed = false;  ///< whether the border is complete; else it was lost at the last point
-  int solutions = 0;    ///< number of solutions for the motion
+  int solutions = 0;    ///< number of times that the motion was solved for
 };
 
 /// The rectangle of two parameters that is searched.
@@ -106,22 +106,22 @@ inline MotionBorder circle_border(const Multiplier& multiplier) {
   return border;
 }
 
-/// The distance of a point, in shares, from the border of the window.
+/// The nearest side of the window and the distance of a point from it, as a share of the window.
 inline RegionLook<MotionBorder> look_at_window(const PlanePoint& shares) {
   const double sides[] = {shares.x, 1.0 - shares.x, shares.y, 1.0 - shares.y};
   const auto least = std::min_element(std::begin(sides), std::end(sides));
   return {*least, {BorderKind::window, {}, -1, static_cast<int>(least - std::begin(sides)), {}}};
 }
 
-/// @throws InvalidParameter where a window is not finite or does not contain the point
+/// Validates a window. @throws InvalidParameter where it is not finite or lacks the point `at`
 inline void validate(const ParameterWindow& window, const PlanePoint& at) {
   require_finite("window", window.x_from + window.x_to + window.y_from + window.y_to, "");
   require_within("first parameter", at.x, "", window.x_from, window.x_to);
   require_within("second parameter", at.y, "", window.y_from, window.y_to);
 }
 
-/// The region of a motion within a window.
-/// @param look  (x, y) ↦ RegionLook<MotionBorder>
+/// The region of a motion within a window, found by following its border.
+/// @param look  (x, y) ↦ RegionLook<MotionBorder>: the nearest border and the margin from it
 template <class Look>
 MotionRegion motion_region_by(const Look& look, const ParameterWindow& window,
                               const PlanePoint& start, const BorderSteps& steps) {

@@ -11,8 +11,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// Whether a motion is its own mirror image half a period later, so that it meets a surface and its
-/// mirror image at once.
+/// Whether a motion is its own mirror image half a period later, so that it reaches a surface and
+/// the mirrored surface at the same parameters.
 inline bool mirrors_itself(const PeriodicOrbit& orbit) {
   const std::size_t samples = orbit.states.size(), half = samples / 2;
   if (samples % 2 != 0) return false;
@@ -47,21 +47,21 @@ inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t h
 }  // namespace detail
 
 /// The region of two parameters in which a periodic motion that switches at samples exists and
-/// attracts, given by its border: its itinerary has a solution, every sample stays on its side of
-/// the switching surfaces and every multiplier lies inside the unit circle.
+/// attracts, given by its border. Inside, the motion's itinerary has a solution, every sample stays
+/// on its side of the switching surfaces and every multiplier lies inside the unit circle.
 ///
-/// For maps that are affine between switches a fold ends the motion differently: as a multiplier
-/// tends to 1 the solution grows beyond bounds and meets a switching surface before, except where a
+/// The maps are affine between switches. As a multiplier tends to 1 the solution therefore grows
+/// beyond bounds and meets a switching surface first. So a border has the kind `fold` only where a
 /// symmetry breaks.
 ///
 ///     const auto family = [&](double width, double gain) { … return other; };
 ///     const MotionRegion region = motion_region(family, orbit, window, {0.002, -13.0});
 ///
 /// @param family  (x, y) ↦ IdealLoop<double>, with the same f τ everywhere
-/// @param orbit   certified
-/// @param window  around `at`
-/// @param at      (x, y) of the orbit
-/// @param steps   as shares of the window
+/// @param orbit   certified orbit of family(at)
+/// @param window  range of the parameters that is searched, around `at`
+/// @param at      parameters (x, y) of the orbit
+/// @param steps   steps along the border, as shares of the window
 /// @throws InvalidParameter where f τ changes, the backlash vanishes or appears, or the window is
 /// not finite, is empty or does not contain the point
 template <class Family>
@@ -74,7 +74,7 @@ MotionRegion motion_region(const Family& family, const PeriodicOrbit& orbit,
   const bool stays = orbit.engaged_fraction() == 0.0;
   const auto look = [&](double x, double y) {
     auto seen = detail::look_of(continuation.at(x, y), half);
-    // In which sample such a motion reaches farthest does not matter.
+    // The sample at which a motion inside its gap reaches farthest does not matter.
     if (stays && seen.label.kind == BorderKind::border_collision) seen.label.sample = -1;
     return seen;
   };

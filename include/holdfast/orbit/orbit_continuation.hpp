@@ -15,28 +15,28 @@
 
 namespace holdfast {
 
-/// Why an orbit cannot be followed any further along a parameter.
+/// The causes that end the continuation of an orbit along a parameter.
 enum class BranchEndOutcome {
   border_collision,  ///< a sample reaches a switching surface: its decision would change
   unit_circle,       ///< a multiplier reaches modulus 1
   range_end,         ///< neither: the orbit exists and attracts up to the end of the range
 };
 
-/// Where and why an orbit ends.
+/// The end of an orbit along a parameter: its cause and place.
 struct BranchEnd {
-  BranchEndOutcome outcome = BranchEndOutcome::range_end;  ///< why it is not followed any further
+  BranchEndOutcome outcome = BranchEndOutcome::range_end;  ///< cause of the end
   double parameter = 0.0;                                  ///< value of the parameter at the end
   Border border;            ///< surface and sample of a border collision
   Multiplier multiplier{};  ///< largest multiplier at the end; for `unit_circle`, angle 0: fold, π:
                             ///< flip, else a pair
-  int solutions = 0;  ///< number of solutions for the itinerary
+  int solutions = 0;  ///< number of times that the itinerary was solved
 };
 
 namespace detail {
 
-/// An orbit's itinerary solved at one value of a parameter: the margins of all causes that may
-/// end the orbit, as shares of its size, each positive while the orbit lasts; −1 without
-/// solution.
+/// The solution of an orbit's itinerary at one value of a parameter, with the margins from all
+/// causes that may end the orbit: the distances from switching surfaces, as shares of the orbit's
+/// size, and −ln |λ|. Each is positive while the orbit lasts; −1 without solution.
 struct BranchPoint {
   Borders borders;
   Multiplier multiplier{};
@@ -87,8 +87,8 @@ class OrbitContinuation {
   int solutions() const { return solutions_; }
 
  private:
-  /// The borders of an orbit that stays in the gap, measured in the gap that leaves it most
-  /// clearance: it exists in every gap that contains it.
+  /// The borders of an orbit that stays in its gap, measured in the gap with the most clearance:
+  /// such an orbit exists in every gap that contains it.
   static Borders borders_in_best_gap(const std::vector<Vector<double, 5>>& states, double width) {
     const auto less = [](const auto& a, const auto& b) {
       return relative_displacement(a) < relative_displacement(b);
@@ -104,11 +104,11 @@ class OrbitContinuation {
     const double kept =
         static_cast<double>(orbit_.ratio.numerator) / static_cast<double>(orbit_.ratio.denominator);
     if (loop.excitation.amplitude > 0.0 && !(std::abs(given - kept) <= 1e-9 * kept))
-      throw InvalidParameter("f tau along the path", given, "", "that of the orbit");
+      throw InvalidParameter("f tau along the path", given, "", "equal to f tau of the orbit");
     if (has_backlash_ != (loop.backlash_width > 0.0))
       throw InvalidParameter("backlash width along the path", loop.backlash_width, "m",
-                             has_backlash_ ? "> 0: without backlash the rule is another one"
-                                           : "0, as it is at the orbit");
+                             has_backlash_ ? "> 0, like the orbit's backlash width"
+                                           : "0, like the orbit's backlash width");
   }
 
   const Family& family_;
@@ -121,22 +121,21 @@ class OrbitContinuation {
 
 }  // namespace detail
 
-/// The continuation of an orbit by its itinerary along one parameter, up to its end.
+/// Continues an orbit by its itinerary along one parameter, up to the orbit's end.
 ///
-/// At each value the itinerary is solved again; the orbit lasts while every sample stays on its
-/// side of the switching surface and every multiplier stays inside the unit circle. The first step
-/// in which it ends is narrowed to the rounding of the parameter. An end and a return within one
-/// step remain unnoticed.
+/// At each value the itinerary is solved again. The orbit lasts while every sample stays on its
+/// side of the switching surface and every multiplier inside the unit circle. The first step in
+/// which it ends is narrowed down to rounding. An end and return within one step is missed.
 ///
 ///     const auto family = [&](double gain) { auto other = loop; other.gains.differential = gain;
 ///                                          return other; };
 ///     const BranchEnd end = continue_orbit(family, orbit, loop.gains.differential, -30.0);
 ///
-/// @param family  parameter ↦ IdealLoop<double>, with the same f τ everywhere; path(from) is the
+/// @param family  parameter ↦ IdealLoop<double>, with the same f τ everywhere; family(from) is the
 ///                loop of the orbit
-/// @param orbit   certified
-/// @param from,to  finite; `to` may lie on either side
-/// @param steps   ≥ 1
+/// @param orbit   certified orbit
+/// @param from,to  first and last value of the parameter, finite; `to` may lie on either side
+/// @param steps   number of steps, 1 … 10⁶
 /// @throws InvalidParameter where the range is not finite, f τ changes, or the backlash vanishes or
 /// appears along the path, which changes the law of contact
 template <class Family>

@@ -22,9 +22,9 @@ namespace detail {
 /// for its exact orbit. The motion has come to an orbit once it lies within the orbit's region of
 /// attraction.
 /// @tparam Loop        IdealLoop or ModalLoop
-/// @tparam MotionOf    the motion of that loop
-/// @tparam Attraction  its Maps, `maps()`; `samples_per_solved()`; `surround(orbit)` computes the
-///                     region of attraction, `holds(motion)` tests whether a motion lies in it
+/// @tparam MotionOf    motion of that loop
+/// @tparam Attraction  type with maps() of the loop; samples_per_solved(); surround(orbit), which
+///                     computes the region of attraction; holds(motion): the motion lies in it
 template <class Loop, class MotionOf, class Attraction>
 class SampledSearchModel {
  public:
@@ -64,7 +64,7 @@ class SampledSearchModel {
     return std::equal(end - period, end, end - 2 * period);
   }
 
-  /// The orbit with the repeated contacts; none where it touches a surface and is not followed.
+  /// The orbit with the repeated contacts; none if it touches a surface and follows() is false.
   Result solve(Seen& seen, std::int64_t period, const Memory& reference) {
     Result found =
         solved({seen.itinerary.end() - period, seen.itinerary.end()}, reference.backlash);
@@ -100,8 +100,8 @@ class SampledSearchModel {
   }
 
  private:
-  /// Whether the motion is on the orbit except for a decaying part, has the orbit's contacts for
-  /// one more period and ends nearer to it.
+  /// Whether the motion, within a millionth of the orbit, has the orbit's contacts for one more
+  /// period and ends it no farther from the orbit. The samples taken are added to `seen`.
   bool follows(const PeriodicOrbit& orbit, Seen& seen) {
     const State first = orbit.states.front().template head<4>();
     const double before = seen.extent.share_of(state() - first);
@@ -128,7 +128,7 @@ class SampledSearchModel {
 template <class Scalar>
 class SampledAttraction {
  public:
-  /// The cost of solving one sample, in samples of motion: between ten and fifty.
+  /// The cost of solving for one sample of an orbit, in samples of followed motion: 10 … 50.
   static std::int64_t samples_per_solved() { return 16; }
 
   SampledAttraction(const IdealLoop<Scalar>& loop, const Rational& ratio)
@@ -149,7 +149,7 @@ class SampledAttraction {
   std::vector<AttractionBall> balls_;  // of the proposed orbit
 };
 
-/// The orbit of a motion that is at a stroboscopic instant.
+/// The periodic orbit that a motion comes to; the motion begins at a stroboscopic instant.
 template <class Loop, class Motion, class Attraction>
 OrbitResult orbit_by_returns(const Loop& loop, const Rational& ratio, const OrbitLimits& limits,
                              const Motion& motion, const Attraction& attraction) {
@@ -160,7 +160,7 @@ OrbitResult orbit_by_returns(const Loop& loop, const Rational& ratio, const Orbi
   return found;
 }
 
-/// The orbit of a motion of an IdealLoop that is at a stroboscopic instant.
+/// The periodic orbit that a motion of an IdealLoop comes to, from a stroboscopic instant on.
 template <class Scalar>
 OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio,
                             const OrbitLimits& limits,
@@ -177,13 +177,13 @@ OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio
 ///
 /// `certified` means: the motion lies within the orbit's region of attraction and tends to it.
 ///
-/// Bounded work: at most `most_samples` samples of the motion (one period more where the orbit
-/// touches a surface) and as many samples of solutions. Memory: one byte for each of them, and 90
-/// bytes per sample of the orbit.
+/// Bounded work: at most `limits.most_samples` samples of the motion (one period more where the
+/// orbit touches a switching surface) and about as much again for solving. Memory: one byte per
+/// sample of the motion, and 90 bytes per sample of the orbit.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
-/// @param limits         how long and how far to look
-/// @throws InvalidParameter where one of them or the limits are not admissible
+/// @param limits         limits of the search: largest period and length of the motion
+/// @throws InvalidParameter where an argument is not admissible
 template <class Scalar>
 OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
                                 const Vector<double, 4>& initial_state,

@@ -25,9 +25,9 @@ namespace holdfast {
 struct PeriodicOrbit : LoopOrbit<5> {
   Itinerary itinerary;            ///< contacts of one period, N samples
   BacklashMemory<double> memory;  ///< memory of the drive before the first sample
-  Borders borders;                ///< the nearest switching surfaces
+  Borders borders;                ///< the nearest switching surface of each kind
 
-  /// Share of the samples at which the drive transmits.
+  /// The share of the samples at which the drive transmits.
   double engaged_fraction() const {
     const auto engaged = std::count(itinerary.begin(), itinerary.end(), std::uint8_t{1});
     return static_cast<double>(engaged) / static_cast<double>(itinerary.size());
@@ -42,7 +42,7 @@ struct PeriodicOrbit : LoopOrbit<5> {
   }
 };
 
-/// Result of a search for a periodic orbit of an IdealLoop.
+/// The result of a search for a periodic orbit of a loop that switches at its samples.
 using OrbitResult = OrbitResultOf<PeriodicOrbit>;
 
 /// The states of a motion that repeats a given itinerary for ever.
@@ -56,16 +56,16 @@ struct PeriodicSolution {
   std::vector<Seen> states;    ///< z̃_j = [z_j; u_{j−1}], one for each sample
   /// ‖z_N − z₀‖ (SI numbers of m and m/s) after one period from z₀.
   typename Seen::Scalar closure_error;
-  /// Error of z₀ implied by it, (I − M)⁻¹ (z̃_N − z̃₀), as a share of the states' extent.
+  /// Error of z̃₀ that the closure error implies, (I − M)⁻¹ (z̃_N − z̃₀), as a share of the extent.
   double state_error;
 };
 
-/// Solves z̃_N = z̃₀ for an itinerary, (I − M) z̃₀ = g. The closure error of a motion from rest
-/// serves as the right side; three such steps give the last digits.
+/// Solves z̃_N = z̃₀ for an itinerary: (I − M) z̃₀ = g, where g is the closure error of the motion
+/// from rest. The step is made three times, each with the remaining closure error.
 /// @param maps       maps of the loop
 /// @param itinerary  N samples, N a multiple of the forcing's q, the first one at phase 0
-/// @param blocks     maps_of_blocks() of the sequence
-/// @return nothing where 1 is a multiplier of the sequence to working precision, so that there is
+/// @param blocks     maps_of_blocks() of the itinerary
+/// @return nothing where 1 is a multiplier of the itinerary to working precision, so that there is
 ///         no periodic solution or a continuum of them; nothing without blocks
 template <class Maps>
 std::optional<PeriodicSolution<Maps>> periodic_solution(
@@ -100,7 +100,7 @@ std::vector<Multiplier> multipliers_of(const ItineraryMaps<Scalar>&, const Itine
 /// @param ratio      value of forcing_ratio(loop)
 /// @param maps       maps of the same loop and ratio
 /// @param itinerary  N samples, N ≥ 1 a multiple of q, the first one at phase 0 of the forcing
-/// @param law        the backlash before the first sample, as the motion that led here left it
+/// @param law        the backlash before the first sample, as the motion up to then has left it
 /// @return `certified` where the solution has this itinerary, attracting or not
 /// Work: about 500 multiply-adds a sample of the two masses; memory about 70 bytes a sample.
 /// @tparam Loop  IdealLoop or ModalLoop, with its Maps
@@ -123,7 +123,7 @@ OrbitResult orbit_of_itinerary(const Loop& loop, const Rational& ratio, const Ma
   return {detail::outcome_of(touches, has_itinerary(pattern, itinerary)), std::move(orbit)};
 }
 
-/// The certificate of a periodic orbit, checked in another number type.
+/// The comparison of a periodic orbit with its solution in another number type.
 struct OrbitVerification {
   bool same_itinerary = false;  ///< the orbit solved in that type reproduces the itinerary
   double displacement_difference = std::numeric_limits<double>::infinity();  ///< largest (m)
@@ -137,8 +137,8 @@ struct OrbitVerification {
 ///     verify_orbit<long double>(loop, orbit).same_itinerary
 ///
 /// @param loop   the loop that the orbit was found for
-/// @param orbit  certified
-/// @return infinite differences where the itinerary's system is singular in that type
+/// @param orbit  certified orbit of that loop
+/// @return infinite differences where the itinerary's equations are singular in that type
 template <class Precise>
 OrbitVerification verify_orbit(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
   const ItineraryMaps<Precise> maps(converted<Precise>(loop), orbit.ratio);

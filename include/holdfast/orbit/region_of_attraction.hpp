@@ -23,7 +23,7 @@ namespace holdfast {
 ///
 ///     ‖e‖² = e_z₁² + (e_ż₁/ω)² + e_z₂² + (e_ż₂/ω)² + (e_u/k₁)² + e_gap²   (m²),
 ///
-/// with ω of the excitation (of the conductor without one) and e_gap the deviation of the gap that
+/// with ω of the excitation (without excitation √(k₁/m₁)) and e_gap the deviation of the gap that
 /// the drive is in. Contact and the sign of Δż of the last sample must agree with the orbit. An
 /// orbit that stays in the gap for ever does so in every gap that contains it: then the radius is
 /// per metre of clearance between the orbit and the gap's ends.
@@ -49,7 +49,7 @@ Vector<Scalar, 6> deviation_weights(const IdealLoop<Scalar>& loop) {
 }
 
 /// The radius of the neighbourhood (m) for a given memory of the drive; not positive where an orbit
-/// that stays inside does not fit into its gap.
+/// that stays inside its gap does not fit into the gap of that drive.
 template <class Neighbourhood>
 double attraction_radius(const Neighbourhood& point, const BacklashMemory<double>& drive) {
   if (!point.stays_inside) return point.radius;
@@ -59,7 +59,7 @@ double attraction_radius(const Neighbourhood& point, const BacklashMemory<double
 /// Whether a motion at a stroboscopic instant (sampling and forcing in phase) lies in a point's
 /// neighbourhood.
 /// @param point    the neighbourhood, at the same phase of the forcing
-/// @param motion   its memory(), before the sample
+/// @param motion   memory() of the motion, before the sample
 /// @param weights  deviation_weights()
 template <class Memory>
 bool attracts(const AttractionBall& point, const Memory& motion, const Vector<double, 6>& weights) {
@@ -75,14 +75,14 @@ bool attracts(const AttractionBall& point, const Memory& motion, const Vector<do
 
 namespace detail {
 
-/// Bounds of a deviation over some samples: the largest first deviation that changes no decision in
-/// them, and its largest growth until their end.
+/// Bounds of a deviation over some samples: the largest initial deviation that changes no decision,
+/// and the largest growth of a deviation up to the end of the samples.
 struct DeviationSegment {
   double radius = std::numeric_limits<double>::infinity();  // m
   double growth = 1.0;                                      // Frobenius norm
 };
 
-/// Deviations of a motion of an IdealLoop, one in each column: z̃ in metres, by its two maps.
+/// Deviations of z̃ (m) of an IdealLoop, one in each column, advanced by the maps S and S*.
 template <class Scalar>
 class SampledDeviations {
  public:
@@ -154,7 +154,7 @@ class DeviationFlow {
   }
 
   /// Propagates some deviations over the next `samples` samples.
-  /// @param segment  takes the largest norm for which no combination of them changes a decision
+  /// @param segment  its radius is lowered to the least norm at which a decision may change
   Columns follow(const Columns& deviations, std::int64_t samples, DeviationSegment& segment) {
     deviations_.begin(deviations.topRows(deviations.rows() - 1));
     gap_ = deviations.row(deviations.rows() - 1);
@@ -205,8 +205,8 @@ class DeviationFlow {
 };
 
 /// The radii at the starts of the segments of one period; a deviation within a segment's radius
-/// stays within the next one's. Empty where there are surfaces and the segments together do not
-/// contract.
+/// stays within the next one's. Empty where a decision limits a radius and the segments together do
+/// not contract.
 inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>& segments) {
   constexpr double everywhere = std::numeric_limits<double>::infinity();
   double logarithm = 0.0, smallest = everywhere;
@@ -242,7 +242,7 @@ std::vector<DeviationSegment> deviation_segments(DeviationFlow<Deviations> flow,
   return segments;
 }
 
-/// Sets how far an orbit goes, and whether it stays inside its gap.
+/// Sets the range of Δz of an orbit, and whether the orbit stays inside its gap.
 template <class Neighbourhood>
 void set_extent(Neighbourhood& of, const PeriodicOrbit& orbit) {
   of.stays_inside = orbit.memory.inside && orbit.engaged_fraction() == 0.0;
@@ -279,16 +279,16 @@ std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
 /// The neighbourhoods of an orbit at its stroboscopic instants (sampling and forcing in phase) from
 /// which every motion tends to the orbit.
 ///
-/// The period is cut into segments of one common period, or of twice as many until the segments
+/// The period is cut into segments of one common period; their length is doubled until the segments
 /// together contract. Along each, a deviation changes no decision while |h Φ e| is below the
 /// distance from the surface, h being the surface's normal and Φ the flow of deviations; at the end
-/// it has grown by at most ‖Φ‖. Both bounds together are an induction over all time.
-/// @param loop   the loop that the orbit is of
+/// e has grown by at most the factor ‖Φ‖. By induction both bounds hold for all time.
+/// @param loop   the loop that has the orbit
 /// @param orbit  attracting and certified
 /// @return neighbourhoods in the order of the orbit; empty where no segments of up to 64 periods,
 ///         or 10⁶ samples, contract
 /// Work: about 300 multiply-adds per sample for every length of segment tried below a period, and
-/// for the shortest longer one that contracts.
+/// for the first longer segment that contracts.
 template <class Scalar>
 std::vector<AttractionBall> attraction_balls(const IdealLoop<Scalar>& loop,
                                              const PeriodicOrbit& orbit) {

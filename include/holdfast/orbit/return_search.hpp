@@ -31,7 +31,7 @@ inline void validate(const OrbitLimits& limits) {
 namespace detail {
 
 /// The part of a motion that a search has followed so far.
-/// @tparam Symbol  of the itinerary, one a sample
+/// @tparam Symbol  symbol of the itinerary, one for each sample
 template <class Symbol, class Plant>
 struct SeenMotion {
   std::vector<Symbol> itinerary;
@@ -41,8 +41,8 @@ struct SeenMotion {
   /// The number of samples so far.
   std::int64_t taken() const { return static_cast<std::int64_t>(itinerary.size()); }
 
-  /// Whether a motion that was within a millionth of its extent from a state has ended no farther
-  /// from that state, but for rounding.
+  /// Whether a motion began within a millionth of its extent from a state and ended no farther from
+  /// that state, but for rounding.
   /// @param before,after  distances at beginning and end, as shares of the extent
   bool came_nearer(const StateOf<Plant>& state, double before, double after) const {
     return before <= 1e-6 && after <= std::max(before, 1e-12 * extent.share_of(state));
@@ -53,19 +53,19 @@ struct SeenMotion {
 ///
 /// At every stroboscopic instant (sampling and forcing in phase) the state is compared with a
 /// reference that moves on at powers of two (R. P. Brent, An improved Monte Carlo factorization
-/// algorithm, BIT 20, 1980). A near return proposes a period, which is solved for its orbit. The
-/// search ends when the motion is seen to come to that orbit. Proposals after the first cost at
-/// most about as much as the motion.
+/// algorithm, BIT 20, 1980). A near return proposes a period, and the orbit of that period is
+/// solved for. The search ends when the motion is seen to come to that orbit. All proposals but the
+/// first together cost at most about as much as the motion.
 /// @tparam Model  a motion (Plant, readings(), state(), memory(), is_followed(), has_contact_of(),
-///                take_sample()) with what is particular to it:
+///                take_sample()) with the members that differ between kinds of motion:
 ///
-///     Result, samples_per_solved()      an OrbitResultOf; samples taken before one is solved for
-///     may_repeat(seen, period)          a near return is worth solving for
-///     solve(seen, period, reference)    the orbit that it may have come to; where it took samples
-///                                       to see that, they are added to `seen`
-///     is_same(known, other, seen)       of two orbits
-///     approach(found, seen)             the motion is watched from now on for coming to this one,
-///     has_come(found, seen)             and asked for that at every stroboscopic instant
+///     Result, samples_per_solved()      an OrbitResultOf; cost of solving, in samples of motion
+///     may_repeat(seen, period)          whether a near return is worth solving for
+///     solve(seen, period, reference)    the orbit that the motion may have come to; samples taken
+///                                       on the way are added to `seen`
+///     is_same(known, other, seen)       whether two orbits are the same
+///     approach(found, seen)             called when an orbit is proposed
+///     has_come(found, seen)             whether the motion has come to the proposed orbit
 template <class Model>
 class ReturnSearch {
  public:
@@ -125,7 +125,7 @@ class ReturnSearch {
 
   bool has_come() { return proposed_.orbit && model_.has_come(proposed_, seen_); }
 
-  /// Searches for a near return. @return whether it was found to be that of the motion's orbit
+  /// Solves for the orbit of a near return. @return whether the motion has come to that orbit
   bool look_for_return() {
     const std::int64_t period = seen_.taken() - seen_.reference;
     if (period > limits_.largest_period || !near_reference() || !model_.may_repeat(seen_, period))
@@ -169,7 +169,7 @@ class ReturnSearch {
   State largest_, largest_ever_;  // |x_i| since the reference, and of all
   std::int64_t solved_samples_ = 0;
   int candidates_ = 0;
-  Result proposed_;  // certified but for the motion's coming to it
+  Result proposed_;  // an orbit to which the motion has not been seen to come yet
   Result failed_;    // not reproduced, or one of a family that the motion drifts along
 };
 

@@ -18,7 +18,7 @@ struct StateScale {
   double displacement = 0.0;  ///< largest |z₁|, |z₂| (m)
   double velocity = 0.0;      ///< largest |ż₁|, |ż₂| (m/s)
 
-  /// An extent without any state yet.
+  /// Constructs the extent of no state: zeros.
   StateScale() = default;
 
   /// The extent of states that begin with [z₁, ż₁, z₂, ż₂].
@@ -27,7 +27,7 @@ struct StateScale {
     for (const auto& state : states) include(state);
   }
 
-  /// Extends it by one more state, which begins with [z₁, ż₁, z₂, ż₂].
+  /// Extends the extent by one more state, which begins with [z₁, ż₁, z₂, ż₂].
   template <class Scalar, int Size>
   void include(const Vector<Scalar, Size>& state) {
     using std::abs;
@@ -35,13 +35,13 @@ struct StateScale {
     velocity = std::max({velocity, double(abs(state[1])), double(abs(state[3]))});
   }
 
-  /// A length (m) as a share of the largest displacement; where that is 0: infinite, or 0 for 0.
+  /// A length (m) as a share of the largest displacement; if that is 0, infinite unless length = 0.
   double share_of_displacement(double length) const { return share(length, displacement); }
-  /// A velocity (m/s) as a share of the largest velocity; where that is 0: infinite, or 0 for 0.
+  /// A speed (m/s) as a share of the largest velocity; if that is 0, infinite unless speed = 0.
   double share_of_velocity(double speed) const { return share(speed, velocity); }
 
-  /// The size of a state, most often the difference of two, as a share of the extent: the larger
-  /// one of its displacements' and its velocities' shares.
+  /// The size of a state, or of the difference of two, as a share of the extent: the larger one of
+  /// the shares of its displacements and of its velocities.
   template <class Scalar, int Size>
   double share_of(const Vector<Scalar, Size>& state) const {
     StateScale size;
@@ -53,20 +53,20 @@ struct StateScale {
   static double share(double part, double whole) { return part == 0.0 ? 0.0 : part / whole; }
 };
 
-/// The extent of a motion of a plant of order N: max |x_i| of each coordinate, since their units
-/// are arbitrary; for two masses, of their displacements and of their velocities.
+/// The extent of a motion of a plant of order N: max |x_i| of each coordinate, as their units may
+/// differ. For two masses both displacements share one maximum, and both velocities another.
 template <class Plant>
 class StateScaleOf {
  public:
   using State = StateOf<Plant>;  ///< x, N × 1
 
-  /// The extent of some states, perhaps none yet.
+  /// Constructs the extent of given states; there may be none yet.
   explicit StateScaleOf(const PortReadings<Plant>& readings, const std::vector<State>& states = {})
       : readings_(readings) {
     for (const State& state : states) include(state);
   }
 
-  /// Extends it by one more state.
+  /// Extends the extent by one more state.
   void include(const State& state) {
     sides_.include(readings_.both_sides(state));
     if constexpr (of_two_masses) {
@@ -80,8 +80,8 @@ class StateScaleOf {
   /// The extent of both sides of the gap: |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s).
   const StateScale& sides() const { return sides_; }
 
-  /// The size of a state, most often the difference of two, as a share: max_i |x_i| / largest()_i;
-  /// infinite where a coordinate was 0 so far and is not now. Needs at least one state.
+  /// The size of a state, or of the difference of two, as a share: max_i |x_i| / largest()_i. It is
+  /// infinite where x_i is not 0 but largest()_i is. Needs at least one state.
   double share_of(const State& state) const {
     double share = 0.0;
     for (Eigen::Index i = 0; i < state.size(); ++i)
@@ -92,8 +92,8 @@ class StateScaleOf {
   /// The largest |x_i| of each coordinate, N × 1.
   const State& largest() const { return largest_; }
 
-  /// Raises each coordinate's extent, for plants other than two masses, to at least a share of that
-  /// in another motion, so that a coordinate decayed to rounding is measured by its former size.
+  /// Raises the extent of each coordinate to at least `share` times that in another motion, so
+  /// that a coordinate decayed to rounding keeps a former size. For two masses nothing changes.
   void widen(double share, const StateScaleOf& other) {
     if constexpr (!of_two_masses) largest_ = largest_.cwiseMax(share * other.largest_);
   }
@@ -108,7 +108,7 @@ class StateScaleOf {
 
 namespace detail {
 
-/// The largest power of two that is not larger than a size; 1 where that is not finite and > 0.
+/// The largest power of two that is not larger than a size; 1 where the size is not finite and > 0.
 template <class Scalar>
 Scalar power_of_two_below(const Scalar& size) {
   using std::ilogb;
@@ -119,9 +119,9 @@ Scalar power_of_two_below(const Scalar& size) {
 
 }  // namespace detail
 
-/// The natural units of z̃ = [z; u_{j−1}] for a plant: 1 m, ω · 1 m and k · 1 m, where a
-/// displacement z₁ of 1 m causes the restoring acceleration ω² and force k. Solutions in them do
-/// not depend on the units of mass and time; being powers of two, they cause no rounding.
+/// The natural units of z̃ = [z; u_{j−1}] for a plant: 1 m, ω · 1 m and k · 1 m, rounded down to
+/// powers of two, which cause no rounding. ω² and k are the restoring acceleration and force per
+/// displacement z₁. Solutions in these units do not depend on the units of mass and time.
 /// @param state_matrix      A, 4 × 4
 /// @param excitation_input  c, 4 × 1
 /// @return units of [z₁, ż₁, z₂, ż₂, u]; 1 where the plant does not determine them

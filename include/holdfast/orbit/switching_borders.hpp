@@ -16,23 +16,23 @@ namespace holdfast {
 /// The surfaces on which the drive changes its contact.
 enum class SwitchingSurface {
   reversal,   ///< Δż = 0 while the drive transmits: it enters its backlash
-  gap_lower,  ///< Δz at the lower end of the gap: it leaves
-  gap_upper,  ///< Δz at the upper end of the gap: it leaves
+  gap_lower,  ///< Δz at the lower end of the gap: the drive leaves it
+  gap_upper,  ///< Δz at the upper end of the gap: the drive leaves it
 };
 
 /// The least distance of a motion from a switching surface.
 struct Border {
   double distance = std::numeric_limits<double>::infinity();  ///< m, or m/s for `reversal`
-  SwitchingSurface surface = SwitchingSurface::reversal;  ///< meaningless where `sample` is −1
+  SwitchingSurface surface = SwitchingSurface::reversal;  ///< without meaning where `sample` is −1
   std::int64_t sample = -1;  ///< counted from the orbit's first sample; −1: none
 };
 
 /// The decision of one sample about the contact, with its reasons.
 struct ContactDecision {
-  bool was_inside;  ///< in the backlash before the sample
-  bool engaged;     ///< engaged after the sample
-  /// The sign of Δż where it decides, at this sample or at the next one (that of 0 is 1); 0 inside
-  /// the gap and without backlash.
+  bool was_inside;  ///< the drive is in the backlash before the sample
+  bool engaged;     ///< the drive is engaged after the sample
+  /// The sign of Δż (1 for Δż = 0) where it decides about the contact at this sample or the next
+  /// one; 0 where the drive stays inside its gap, and without backlash.
   std::int8_t velocity_sign;
   /// Exit from the gap: −1 by its lower end, 1 by its upper end, 0 none.
   std::int8_t exit_side;
@@ -68,8 +68,8 @@ ContactDecision decide(Backlash<Scalar>& law, const Vector<Scalar, 5>& state) {
   return decision;
 }
 
-/// Visits every surface that a sample's decision depends on, visit(sample, surface, distance); the
-/// distance is that of Borders.
+/// Calls visit(sample, surface, distance) for every surface that a sample's decision depends on;
+/// the distance is that of borders_of().
 template <class Scalar, class Visit>
 void for_each_border(const SwitchingPattern& pattern, const std::vector<Vector<Scalar, 5>>& states,
                      double width, const Visit& visit) {
@@ -102,7 +102,7 @@ void for_each_border(const SwitchingPattern& pattern, const std::vector<Vector<S
 /// Applies the backlash to an orbit until the drive is in the orbit's own gap, and records the
 /// decisions of a period that ends as it begins; at most four periods are tried.
 /// @param states  states z̃_j of one period
-/// @param law     the backlash before the first sample, as the motion that led here left it
+/// @param law     the backlash before the first sample, as the motion up to then has left it
 template <class Scalar>
 SwitchingPattern switching_pattern(const std::vector<Vector<Scalar, 5>>& states,
                                    Backlash<Scalar> law) {
@@ -122,7 +122,7 @@ SwitchingPattern switching_pattern(const std::vector<Vector<Scalar, 5>>& states,
   return pattern;
 }
 
-/// Whether the backlash decides on exactly these contacts, period after period.
+/// Whether a pattern repeats and has exactly the contacts of an itinerary.
 inline bool has_itinerary(const SwitchingPattern& pattern, const Itinerary& itinerary) {
   return pattern.repeats &&
          std::equal(pattern.decisions.begin(), pattern.decisions.end(), itinerary.begin(),
@@ -137,11 +137,11 @@ struct Borders {
   Border velocity;      ///< a reversal (m/s)
 };
 
-/// The distances of an orbit's states from a decision other than the pattern's; negative where a
-/// state decides otherwise.
+/// The least distances of an orbit's states from the switching surfaces beyond which a sample would
+/// decide otherwise than in a pattern; negative where a sample does decide otherwise.
 ///
-/// Inside the gap it is the distance of Δz from the nearer end; where the drive leaves the gap, the
-/// excess of Δz beyond the end; elsewhere |Δż|.
+/// Where the drive stays inside the gap, the distance is that of Δz from the nearer end; where it
+/// leaves the gap, the excess of Δz beyond that end and |Δż|; elsewhere |Δż|.
 /// @param pattern  pattern of the orbit, or of another one for comparison
 /// @param states   z̃_j, one for each decision, of a motion that repeats them for ever
 /// @param width    r₀ (m)

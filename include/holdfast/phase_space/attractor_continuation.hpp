@@ -14,8 +14,8 @@
 namespace holdfast {
 
 /// The distance of two orbits of neighbouring loops: the Hausdorff distance of their states at the
-/// stroboscopic instants (sampling and forcing in phase), as a share of the extent of the larger
-/// one. Shifted copies of one orbit are at distance 0.
+/// stroboscopic instants (sampling and forcing in phase), as a share of the extent of both orbits
+/// together. Shifted copies of one orbit are at distance 0.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 double orbit_distance(const Orbit& one, const Orbit& other) {
@@ -39,11 +39,11 @@ double orbit_distance(const Orbit& one, const Orbit& other) {
   return std::max(farthest(one, other), farthest(other, one));
 }
 
-/// Numbers the attractors of successive loops so that each one is recognised in the next loop.
+/// The numbering of the attractors of successive loops: matching attractors have the same number.
 ///
-/// The closest pair of an attractor and one of the previous loop is matched first, then the closest
-/// of the remaining ones, up to a largest distance. An unmatched attractor gets a new number; the
-/// number of a vanished attractor is not used again.
+/// A match pairs an attractor with one of the previous loop. The closest pair is matched first,
+/// then the closest of the remaining pairs, up to a largest distance. An unmatched attractor gets a
+/// new number; the number of a vanished attractor is not used again.
 /// Source: G. Datseris, K. Luiz Rossi, A. Wagemakers, Framework for global stability analysis of
 /// dynamical systems, Chaos 33 (2023).
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
@@ -53,7 +53,7 @@ class AttractorMatching {
   /// @param largest_distance  largest orbit_distance() of a match, > 0
   explicit AttractorMatching(double largest_distance) : largest_distance_(largest_distance) {}
 
-  /// Matches the attractors of the next loop and gives their numbers, from 0 on.
+  /// Matches the attractors of the next loop with the last ones. @return their numbers, ≥ 0
   std::vector<int> match(std::vector<Orbit> orbits) {
     struct Pair {
       double distance;
@@ -80,9 +80,9 @@ class AttractorMatching {
     return numbers;
   }
 
-  /// The orbits of the latest loop.
+  /// The orbits of the last matched loop.
   const std::vector<Orbit>& orbits() const { return known_; }
-  /// How many numbers are in use.
+  /// The count of all numbers given so far.
   int count() const { return count_; }
 
  private:
@@ -95,17 +95,17 @@ class AttractorMatching {
 /// An attractor of one loop, with its number along the parameter.
 template <class Orbit>
 struct FollowedAttractor {
-  int number;             ///< from 0 on; that of the matched attractor of the previous loop
-  Orbit orbit;            ///< certified
-  std::size_t states;     ///< number of initial states that come to it; 0 where only a seed does
+  int number;             ///< number ≥ 0, the same as in the previous loop if matched
+  Orbit orbit;            ///< certified orbit
+  std::size_t states;     ///< number of initial states that come to it; 0 if only a seed does
   double fraction;        ///< share of the initial states that come to it
-  double standard_error;  ///< of the share, by share_error()
+  double standard_error;  ///< standard error of the share, by share_error()
 };
 
-/// The attractors of one of the loops.
+/// The attractors of one loop, and the counts of the initial states without one.
 template <class Orbit>
 struct FollowedBasins {
-  std::vector<FollowedAttractor<Orbit>> attractors;  ///< in the order of their numbers
+  std::vector<FollowedAttractor<Orbit>> attractors;  ///< attractors, in the order of their numbers
   std::size_t diverging = 0;                         ///< count of initial states that diverge
   std::size_t unknown = 0;                           ///< count of initial states without an orbit
 };

@@ -14,8 +14,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// Whether `orbit` equals `other`, its states multiplied by `sign`, started at one of the
-/// stroboscopic instants from the sample `shift` on.
+/// Whether `orbit` equals `other` with its states multiplied by `sign` and started at a later
+/// sample: at `shift` or a whole number of common periods (q samples) after it.
 template <class Orbit>
 bool is_same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, double sign) {
   const std::size_t samples = orbit.states.size();
@@ -37,7 +37,7 @@ bool is_same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, d
 }  // namespace detail
 
 /// Whether two orbits of one loop are the same motion started at different stroboscopic instants.
-/// The gaps in which the drive stays for ever may differ.
+/// Only states are compared: where the drive never leaves its gap, the gaps may differ.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 bool is_phase_shifted_copy(const Orbit& orbit, const Orbit& other) {
@@ -58,8 +58,8 @@ bool is_mirror_image(const Orbit& orbit, const Orbit& other) {
 
 namespace detail {
 
-/// The neighbourhoods of a loop's orbits: Orbit, Point, points_of(orbit), reach(point) in z₁ (m)
-/// and holds(point, motion).
+/// The neighbourhoods of a loop's orbits, with the members Orbit, Point, points_of(orbit),
+/// reach(point) in z₁ (m) and holds(point, motion).
 /// @tparam Loop  IdealLoop<double>; ImplementedLoopOf<Plant> in event_basins.hpp
 template <class Loop>
 struct Neighbourhoods;
@@ -87,15 +87,15 @@ struct Neighbourhoods<IdealLoop<Scalar>> {
 }  // namespace detail
 
 /// The set of different orbits of one loop with neighbourhoods of their points at the stroboscopic
-/// instants. For an IdealLoop a motion in such a neighbourhood tends to the orbit (AttractionBall);
-/// for an ImplementedLoop it is within a millionth of the orbit's extent.
+/// instants. In a neighbourhood a motion of an IdealLoop surely tends to the orbit
+/// (AttractionBall); one of an ImplementedLoop is only within a millionth of the orbit's extent.
 /// @tparam Loop  IdealLoop<double>, ModalLoop or ImplementedLoopOf<Plant>
 template <class Loop>
 class AttractorSet {
   using Neighbourhoods = detail::Neighbourhoods<Loop>;
 
  public:
-  /// The type PeriodicOrbit or EventOrbit.
+  /// The type of the orbits, PeriodicOrbit or EventOrbit.
   using Orbit = typename Neighbourhoods::Orbit;
 
   /// A point of an orbit with its neighbourhood.
@@ -122,7 +122,7 @@ class AttractorSet {
     return number;
   }
 
-  /// The point whose neighbourhood contains a motion; null without one. To be asked for at a
+  /// The point whose neighbourhood contains a motion; null without one. To be called at a
   /// stroboscopic instant (sampling and forcing in phase), before the sample.
   /// @param motion  a motion's memory(), or the point() of a RepeatingMotion
   template <class Memory>

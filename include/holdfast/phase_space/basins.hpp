@@ -28,10 +28,10 @@ struct BasinLabel {
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 struct AttractorOf {
-  Orbit orbit;            ///< certified; among its shifted copies the one that was found first
+  Orbit orbit;            ///< certified orbit; among its shifted copies the first one found
   std::size_t states;     ///< number of initial states that come to it
   double fraction;        ///< share of the initial states that come to it
-  double standard_error;  ///< share_error(), where the states are a random sample
+  double standard_error;  ///< share_error() of the fraction, if the states are a random sample
   std::optional<int> mirror_image;  ///< number of the earlier attractor that it mirrors
 };
 
@@ -79,11 +79,11 @@ BasinsOf<Orbit> numbered_basins(std::vector<BasinLabel> labels, const std::vecto
 /// The result of a search for the periodic orbit of one motion.
 template <class Orbit>
 struct FoundOrbit {
-  BasinLabel label;            ///< its attractor is the number of an already known orbit
+  BasinLabel label;            ///< label; its attractor is the number of an already known orbit
   std::optional<Orbit> orbit;  ///< a certified orbit that was not known yet
 };
 
-/// The motion's orbit as found by a search of its own.
+/// The FoundOrbit of a motion from the result of its own search.
 /// @tparam Result  an OrbitResultOf, or derived from one
 template <class Result>
 auto own_orbit(Result found) {
@@ -94,11 +94,10 @@ auto own_orbit(Result found) {
 
 /// The search for the labels of many initial states of one loop, in rounds. In a round some
 /// remaining states are searched for their own orbits, one by one; then all remaining motions may
-/// be followed together towards the orbits known so far. Each round takes twice as many. The result
-/// does not depend on the order in which the parts of a round are executed.
+/// be followed together towards the orbits known so far. Each round searches twice as many as the
+/// last one. The result does not depend on the order of execution within a round.
 /// @tparam Model  has search(motion, set), a FoundOrbit, and advance(motions, set, for_tiles),
-/// which
-///                marks those that are attracted or diverge
+///                which marks attracted and diverging motions
 /// @tparam Tiles  for_tiles(count, tile, job): job(first, number) for tiles of 0 … count − 1
 template <class Model, class Tiles>
 class BasinSearch {
@@ -159,7 +158,7 @@ class BasinSearch {
   std::vector<BasinLabel> labels_;
 };
 
-/// The basins of a loop, computed on the model {loop, ratio, limits, …} of its motions.
+/// The basins of a loop, computed by a Model{loop, ratio, limits, …} of its motions.
 template <class Model, class Tiles, class... More>
 auto basins_by(const typename Model::Loop& loop,
                const std::vector<Vector<double, 4>>& initial_states, const OrbitLimits& limits,
@@ -218,10 +217,10 @@ struct BatchedMotions<IdealLoop<Scalar>, Propagator> {
 
 }  // namespace detail
 
-/// The basins as find_basins() computes them, with another way of following the motions.
+/// Computes find_basins() with another way of following the motions.
 /// @param propagate       propagate(motion) gives an object like MotionBatch, which is copied; for
 ///                   an ImplementedLoop propagate(loop, scheduler) follows the motions
-/// @param loop            with its excitation and backlash; an ImplementedLoop has_event_pack()
+/// @param loop            loop; if an ImplementedLoop, one that has_event_pack()
 /// @param initial_states  each (m, m/s, m, m/s), finite; may be none
 /// @param limits          limits of each search for the orbit of a single motion
 /// @param for_tiles       see find_basins()
@@ -238,11 +237,11 @@ auto find_basins_by(const Propagator& propagate, const Loop& loop,
 ///
 /// Attractors are distinguished by their orbits; copies of an orbit shifted by common periods of
 /// sampling and forcing are the same attractor. An initial state is assigned to an attractor only
-/// once its motion is in a neighbourhood from which it surely tends to it.
+/// once its motion is in a neighbourhood from which it surely tends to the orbit.
 /// @param loop            the loop with its excitation and backlash
 /// @param initial_states  each (m, m/s, m, m/s), finite; may be none
-/// @param limits          limits of each search for the orbit of a single motion; motions are
-///                followed in between too, so that more of them may be assigned
+/// @param limits          limits of each search for the orbit of a single motion; the motions are
+///                        followed between the searches too, so that more are assigned
 /// @tparam Scalar         number type of the parallel motions: `double`, or a SIMD pack
 /// @param for_tiles       for_tiles(count, tile, job) calls job(first, number) for tiles that cover
 ///                   0 … count − 1, on any number of threads; the result does not depend on their

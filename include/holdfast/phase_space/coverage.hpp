@@ -10,13 +10,12 @@
 
 namespace holdfast {
 
-/// A rectangle of the phase plane (z, ż) of the conductor at the absorber; of the two masses
-/// (z₁, ż₁).
+/// A rectangle of the phase plane (z, ż) of the conductor at the absorber; for two masses (z₁, ż₁).
 struct PhaseWindow {
-  double displacement_min,  ///< least z (m), inside the window
-      displacement_max;     ///< largest z (m), outside it, > displacement_min
-  double velocity_min,      ///< least ż (m/s), inside the window
-      velocity_max;         ///< largest ż (m/s), outside it, > velocity_min
+  double displacement_min,  ///< lower end of z (m), inside the window
+      displacement_max;     ///< upper end of z (m), outside, > displacement_min
+  double velocity_min,      ///< lower end of ż (m/s), inside the window
+      velocity_max;         ///< upper end of ż (m/s), outside, > velocity_min
 };
 
 /// Validates a window. @throws InvalidParameter unless both sides are positive and finite
@@ -34,7 +33,7 @@ inline void validate(const PhaseWindow& window) {
 template <class Plant>
 class CoverageOf {
  public:
-  /// @param window          window whose sides are longer than zero
+  /// @param window          window with sides > 0
   /// @param cells_per_side  1 … 10 000; the window has the square of this number of cells
   /// @param readings        readings of the plant's state
   /// @throws InvalidParameter where the window is empty or the number of cells is out of range
@@ -60,9 +59,9 @@ class CoverageOf {
                    static_cast<std::size_t>(y * side)] = true;
   }
 
-  /// Number of cells of the window, visited or not.
+  /// The number of cells of the window, visited or not.
   std::size_t cells() const { return visited_cells_.size(); }
-  /// Number of cells that contain at least one sample.
+  /// The number of cells that contain at least one sample.
   std::size_t visited() const {
     return static_cast<std::size_t>(std::count(visited_cells_.begin(), visited_cells_.end(), true));
   }

@@ -10,7 +10,7 @@ namespace holdfast {
 
 /// The difference of two motions at one sample.
 struct Deviation {
-  double time;          ///< s
+  double time;          ///< instant (s)
   double displacement;  ///< z of the second motion's conductor minus that of the first (m)
   double state;         ///< Euclidean norm of the difference of the states, N × 1, SI numbers
   double rounding;      ///< bound of rounding in `state`: 2⁻⁵² times the larger state's norm
@@ -21,10 +21,10 @@ struct Deviation {
 
 /// Runs two motions of the same loop side by side and reports their difference at each sample.
 ///
-/// Exponential separation of neighbours is a mark of chaos; Kollár 2022, Fig. 11 starts with z₁₀,b
-/// − z₁₀,a = 10⁻⁵ m.
+/// Exponential separation of neighbouring motions is a mark of chaos. The motions of Kollár 2022,
+/// Fig. 11, start with z₁₀,b − z₁₀,a = 10⁻⁵ m.
 /// @tparam Motion   SampledMotion or EventMotion, of a plant of any order
-/// @param first     reference motion before a sample, like `second`; both end before the next one
+/// @param first     reference motion, at the same sample as `second`, before `sense()`
 /// @param second    the motion whose difference from the first is reported
 /// @param samples   number of samples; fewer where a state leaves the range of numbers
 /// @param observer  called with a `Deviation` at each sample

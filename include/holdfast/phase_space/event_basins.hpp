@@ -30,7 +30,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// Neighbourhoods of an orbit as wide as a millionth of its extent (`StateScaleOf`).
+/// The neighbourhoods of an orbit's points: a millionth of its extent (`StateScaleOf`) wide.
 template <class Plant>
 struct Neighbourhoods<ImplementedLoopOf<Plant>> {
   using Orbit = EventOrbitOf<states_of<Plant>>;
@@ -129,8 +129,8 @@ class ApproachOf {
     keeps_ = true;
   }
 
-  /// Whether the motion, after one of two orbit periods, has the orbit's modes and, after the
-  /// second, came nearer over both, in the last as fast as the largest multiplier requires.
+  /// Whether the motion had the contact modes of the orbit in the period just passed and, after two
+  /// periods, came nearer in both, in the second as fast as the largest multiplier requires.
   bool keeps_course(const StateOf<Plant>& state) {
     if (!keeps_) return false;
     distances_[++periods_] = entry_->point.distance(state);
@@ -171,8 +171,8 @@ int approached_orbit(const EventMotion<Contact>& start, const Rational& ratio,
   return approach.found();
 }
 
-/// The number of samples in which most motions that come to one of the orbits are near it: as many
-/// as shrink a deviation by 10⁸, and a few periods more.
+/// The number of samples after which most motions that come to one of the orbits are near it: as
+/// many as reduce a deviation by a factor of 10⁸, and eight periods more.
 template <class Orbit>
 std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limits) {
   double samples = 0.0;
@@ -186,8 +186,8 @@ std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limit
   return static_cast<std::int64_t>(std::min(samples, static_cast<double>(most)));
 }
 
-/// The lanes' motions of two masses, followed towards the orbits of a set: gives each lane its next
-/// motion and notes the orbit that a motion comes to.
+/// The scheduler of motions of two masses that are followed towards the orbits of a set. It gives
+/// each lane its next motion and notes the orbit that a motion comes to.
 /// @tparam Plant  TwoMass<double>
 template <class Plant = TwoMass<double>>
 class EventScheduler final : public LaneScheduler {
@@ -229,7 +229,7 @@ class EventScheduler final : public LaneScheduler {
   std::array<std::optional<Place>, 8> places_;
 };
 
-/// The motions of an ImplementedLoopOf any plant: each is tested for the orbits found in earlier
+/// The motions of a loop ImplementedLoopOf<Plant>. Each is tested for the orbits found in earlier
 /// rounds and searched for its own orbit where it comes to none of them.
 /// @tparam Begin  map [z₁, ż₁, z₂, ż₂] ↦ x
 template <class LoopModel, class Begin>
@@ -295,15 +295,15 @@ struct BatchedMotions<ImplementedLoopOf<Plant>, Propagator> {
 
 /// The basins of an implemented loop, as find_basins() of an IdealLoop.
 ///
-/// A motion is assigned to an attractor where its own search certifies that orbit. It is assigned
-/// too where it comes within a millionth of the extent of an already certified orbit, has its modes
-/// for two periods and comes nearer over both, in the second by 0.9 of the decay (in logarithms)
-/// given by the largest multiplier.
+/// A motion is assigned to an attractor where its own search certifies that orbit. It is also
+/// assigned where it comes within a millionth of the extent of an already certified orbit, has the
+/// contact modes of that orbit for two periods, and comes nearer in both. The second period must
+/// multiply the distance by at most μ^0.9, μ being the modulus of the largest multiplier.
 /// @param loop            the loop with its implemented hardware
 /// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none
 /// @param limits          limits of each search for the orbit of a single motion
 /// @param for_tiles       see find_basins() of an IdealLoop
-/// @param begin           map from such a state to the plant's state x, N × 1
+/// @param begin           map from such an initial state to the state x of the plant, N × 1
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Plant, class Tiles, class Begin>
 BasinsOf<EventOrbitOf<states_of<Plant>>> find_basins(

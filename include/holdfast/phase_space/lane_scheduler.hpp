@@ -20,10 +20,11 @@ class LaneScheduler {
   LaneScheduler& operator=(const LaneScheduler&) = delete;
   virtual ~LaneScheduler() = default;
 
-  /// Assigns a lane its next motion from `start` [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s). @return false
-  /// where no motion is left
+  /// Assigns a lane its next motion and sets its `start` [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s).
+  /// @return false where no motion is left
   virtual bool next(std::size_t lane, Vector<double, 4>& start) = 0;
-  /// Examines a lane's state at a stroboscopic instant. @return whether the motion continues
+  /// Examines a lane's state at a stroboscopic instant; `is_followed`: the changes of contact do
+  /// not accumulate. @return whether the motion continues
   virtual bool goes_on(std::size_t lane, const Vector<double, 4>& state, bool is_followed) = 0;
   /// Records the contact mode of a lane's motion at a sample.
   virtual void took(std::size_t lane, ContactMode mode) = 0;
@@ -32,10 +33,10 @@ class LaneScheduler {
 };
 
 /// Follows motions of one loop with exact switching side by side. A lane starts its next motion at
-/// the stroboscopic instant at which the previous one ended. Samples are counted from each of those
-/// instants, so that rounding of late instants cannot shift sampling against forcing.
-/// @param loop        loop that has_event_pack(), whose sampling and forcing coincide every
-///              scheduler.period() samples
+/// the stroboscopic instant at which the previous one ended. Samples are counted from each such
+/// instant: rounding of large times cannot shift sampling against forcing.
+/// @param loop       loop that has_event_pack(), with sampling and forcing in phase every
+///                   scheduler.period() samples
 /// @param scheduler  assigns the motions to the lanes
 /// @throws InvalidParameter where the loop is not admissible
 template <class Scalar>

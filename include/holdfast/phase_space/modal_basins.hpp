@@ -21,8 +21,8 @@
 namespace holdfast {
 namespace detail {
 
-/// The regions of attraction of the orbits of a conductor by its modes, each around the first state
-/// of its orbit.
+/// The regions of attraction of the orbits of a conductor given by its modes, each around the first
+/// state of its orbit.
 template <class Loop>
 struct ModalNeighbourhoods {
   using Orbit = PeriodicOrbit;
@@ -52,7 +52,7 @@ struct ModalNeighbourhoods {
     if (!region) return {};
     return {{orbit.states.front().template head<4>(), *region}};
   }
-  /// Infinite: a region is no ball in z₁, so that every region must be tested.
+  /// The reach in z₁, here infinite: a region is no ball, so that every region must be tested.
   double reach(const Point&) const { return std::numeric_limits<double>::infinity(); }
   bool holds(const Point& point, const Seen& seen) const {
     return attracts(point.region, seen.motion, maps->units());
@@ -64,8 +64,8 @@ struct Neighbourhoods<ModalLoop> : ModalNeighbourhoods<ModalLoop> {
   using ModalNeighbourhoods<ModalLoop>::ModalNeighbourhoods;
 };
 
-/// Motions of a conductor by its modes: each is tested for the regions found in earlier rounds and
-/// searched for its own orbit where it enters none of them.
+/// The motions of a conductor given by its modes. Each is tested for the regions found in earlier
+/// rounds and searched for its own orbit where it enters none of them.
 template <class LoopModel>
 struct ModalMotions {
   using Loop = LoopModel;
@@ -92,7 +92,7 @@ struct ModalMotions {
   void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
 
  private:
-  /// The orbit of `known` whose region the motion enters; −1: none within the expected time.
+  /// The number of the known orbit whose region the motion enters in patience() samples; −1: none.
   int attracted(ModalMotion motion, const AttractorSet<Loop>& known) const {
     const std::int64_t most = patience(known.orbits(), limits);
     for (std::int64_t j = 0; j < most; ++j) {
@@ -112,10 +112,10 @@ struct ModalMotions {
 
 }  // namespace detail
 
-/// The basins of a conductor by its modes, as find_basins(): a motion is assigned to an attractor
-/// where its own search certifies that orbit, or once it is in the region of attraction of an
-/// already certified one.
-/// @param loop            with its excitation and backlash
+/// The basins of a conductor given by its modes, like find_basins() of an IdealLoop. A motion is
+/// assigned to an attractor where its own search certifies that orbit, or once it is in the region
+/// of attraction of an already certified orbit.
+/// @param loop            loop with its excitation and backlash
 /// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite: the conductor bent by a
 ///                        force at the absorber, with the velocities that a blow there causes
 /// @param limits          limits of each search for the orbit of a single motion

@@ -16,11 +16,11 @@
 
 namespace holdfast {
 
-/// The memory of a motion of the sampled loop with backlash: state and drive.
+/// The memory of a motion of the sampled loop with backlash: state, last force and gap.
 template <class Scalar>
 using ForcedMotionMemory = MotionMemory<Scalar, BacklashMemory<Scalar>>;
 
-/// The memory of a motion that begins with its drive at rest.
+/// The memory of a motion before its first sample: u_{−1} = 0, the drive outside its gap.
 inline ForcedMotionMemory<double> memory_of_start(const Vector<double, 4>& initial_state) {
   return {initial_state, 0.0, {false, 0.0, 0.0, 0.0}};
 }
@@ -29,14 +29,14 @@ inline ForcedMotionMemory<double> memory_of_start(const Vector<double, 4>& initi
 struct ActiveTrajectory {
   std::size_t number;                 ///< number given by the caller
   ForcedMotionMemory<double> memory;  ///< at a stroboscopic instant (sampling and forcing in phase)
-  int orbit = -1;                     ///< number of the attracting orbit of a set; −1 before
-  bool diverged = false;  ///< an entry of its state has reached 10¹⁰⁰ or is not a number
+  int orbit = -1;         ///< number of the orbit of a set that attracts it; −1: none yet
+  bool diverged = false;  ///< whether its state has reached 10¹⁰⁰ or is not a number
 };
 
 namespace detail {
 
-/// The memories of all lanes side by side. @param of_lane  (lane) → const
-/// ForcedMotionMemory<double>&
+/// The memories of all lanes side by side.
+/// @param of_lane  (lane) → const ForcedMotionMemory<double>&
 template <class Scalar, class OfLane>
 ForcedMotionMemory<Scalar> packed_memory(const OfLane& of_lane) {
   const auto number = [&](const auto& part) {
@@ -66,8 +66,8 @@ ForcedMotionMemory<double> memory_of_lane(const ForcedMotionMemory<Scalar>& memo
 
 }  // namespace detail
 
-/// The batch of motions of one loop, followed until each is attracted by an orbit of a set,
-/// diverges, or has passed a given number of samples. As many are followed at a time as `Scalar`
+/// The batch of motions of one loop. Each is followed until an orbit of a set attracts it, it
+/// diverges, or it has passed a given number of samples. As many are followed at a time as `Scalar`
 /// has lanes; a lane starts the next motion as soon as its own has ended.
 template <class Scalar>
 class MotionBatch {
@@ -76,8 +76,9 @@ class MotionBatch {
   explicit MotionBatch(const PeriodicallyForcedMotion<double>& motion)
       : motion_(in_every_lane(motion, Vector<Scalar, 4>::Constant(Scalar(0)).eval())) {}
 
-  /// @param motions        attracted and diverged ones are marked; the others are advanced by at
-  ///                 least `samples` samples, a whole number of common periods
+  /// Follows motions, as many at a time as there are lanes.
+  /// @param motions        motions to be followed; attracted and diverged ones are marked, all
+  ///                       others advance by at least `samples`, in whole common periods
   /// @param count          number of motions, ≥ 0
   /// @param samples        number of samples, ≥ 1
   /// @param attractor_set  orbits of the same loop: an AttractorSet, or any type with

@@ -26,26 +26,26 @@ namespace holdfast {
 enum class MotionOrigin {
   start,      ///< the initial state
   state,      ///< another given state
-  continued,  ///< a neighbour's motion, continued by the order of its switches
-  neighbour,  ///< the state of a neighbour's motion that has no continuation here
+  continued,  ///< a neighbour's motion, continued by the order of its switchings
+  neighbour,  ///< the state of a neighbour's motion that cannot be continued
 };
 
 /// A periodic motion of a cell, certified and attracting.
 struct MappedMotion {
   std::int64_t period_samples;   ///< number N of samples in a period
-  double period;                 ///< N τ (s)
-  std::int64_t forcing_periods;  ///< periods of the forcing in one of the motion
+  double period;                 ///< period N τ (s)
+  std::int64_t forcing_periods;  ///< number of forcing periods in that period
   double amplitude;              ///< largest |z₁| (m) at a sample
   double largest_multiplier;     ///< largest modulus of the multipliers
-  double border_share;           ///< PeriodicOrbit::border_share(), EventOrbit::border_share()
+  double border_share;           ///< border_share() of the PeriodicOrbit or EventOrbit
   MotionOrigin origin;           ///< start of the search that found it
 };
 
 /// One cell of a map and the motions found there.
 struct MapCell {
-  /// Outcome of the motion from the initial state: `certified`, or why it has no orbit.
+  /// The outcome of the motion from the initial state: `certified`, or the reason for no orbit.
   OrbitOutcome outcome = OrbitOutcome::none_found;
-  std::vector<MappedMotion> motions;  ///< distinct; that from the initial state is the first
+  std::vector<MappedMotion> motions;  ///< distinct; the one from the initial state is first
 
   /// The motion from the initial state; null where it comes to no periodic motion.
   const MappedMotion* from_start() const {
@@ -75,7 +75,7 @@ MappedMotion mapped(const Orbit& orbit, MotionOrigin origin) {
           origin};
 }
 
-/// The map model of IdealLoops: the data kept of a motion and its continuation in another cell.
+/// The search for motions of IdealLoops in a map, and their continuation in another cell.
 template <class Scalar>
 struct SampledMapModel {
   using Loop = IdealLoop<Scalar>;
@@ -121,7 +121,7 @@ struct SampledMapModel {
   }
 
  private:
-  /// The memory with a gap as wide as the loop's, centred as before as far as Δz stays inside.
+  /// The memory with a gap of the loop's width; the gap's middle moves only as far as Δz requires.
   static ForcedMotionMemory<Scalar> resized(ForcedMotionMemory<Scalar> memory, const Loop& loop) {
     auto& gap = memory.backlash;
     const Scalar half = loop.backlash_width / 2.0, here = relative_displacement(memory.state);
@@ -132,7 +132,7 @@ struct SampledMapModel {
   }
 };
 
-/// Map model of loops whose contact switches between the samples.
+/// The search for motions of ImplementedLoops in a map, and their continuation.
 template <class Plant>
 struct EventMapModel {
   using Loop = ImplementedLoopOf<Plant>;
@@ -202,7 +202,7 @@ class MotionMapSearch {
     });
   }
 
-  /// Passes the finds of a round to the neighbours. @return whether there are any
+  /// Makes the motions found in a round known to the neighbours. @return whether there are any
   bool take_over() {
     bool any = false;
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
@@ -280,7 +280,7 @@ class MotionMapSearch {
 
 /// The options of the search of a map.
 struct MotionMapOptions {
-  /// The limits of each search; motions with longer periods are not found.
+  /// The limits of each search; motions with periods beyond `largest_period` are not found.
   OrbitLimits limits{10000, 0, {}};
   int most_rounds = 1000;  ///< rounds after the first one; 0: only the initial states are used
   std::vector<Vector<double, 4>> more_starts =
@@ -290,10 +290,10 @@ struct MotionMapOptions {
 /// The map of periodic motions of many loops on a grid in a plane of two parameters.
 ///
 /// Each cell is searched from the initial state and the other given states, then from the motions
-/// of its neighbours: by their itinerary where it is that of a motion here too, else from their
-/// state. This ends when no cell finds another motion. A cell may still lack a motion that no
-/// neighbour has and no given state comes to. The result does not depend on the order in which the
-/// cells are computed.
+/// of its neighbours. A neighbour's motion is continued by its itinerary; where that gives no
+/// attracting motion, the search starts from the neighbour's state. The search ends when no cell
+/// finds another motion. A cell may still lack a motion that no neighbour has and to which no given
+/// state comes. The result does not depend on the order in which the cells are computed.
 /// @param loop_at    (cell) ↦ std::optional<IdealLoop<double>>, or of an ImplementedLoop; empty
 ///                 where the parameters are not admissible; called from many threads
 /// @param shape      number of rows and columns

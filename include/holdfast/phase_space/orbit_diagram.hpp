@@ -30,8 +30,8 @@ namespace holdfast {
 
 /// The options of an orbit diagram for each value of its parameter.
 struct DiagramOptions {
-  double transient = 30.0;  ///< s, ≥ 0: time left out at each value
-  int strobes = 50;         ///< 1 … 10⁶: number of forcing periods plotted at each value
+  double transient = 30.0;  ///< time left out at each value (s), ≥ 0
+  int strobes = 50;         ///< number of forcing periods plotted at each value, 1 … 10⁶
   std::function<void()> watch = {};  ///< called from time to time; may throw to end the diagram
 };
 
@@ -44,15 +44,15 @@ inline void validate(const DiagramOptions& options) {
 /// One point of an orbit diagram.
 struct StrobePoint {
   std::size_t index;  ///< index of the parameter's value
-  bool upward;        ///< on the way up through the values; else on the way back
-  /// State [z, ż, z₂, ż₂] (m, m/s, m, m/s) of conductor and absorber, on both sides of the gap,
+  bool upward;        ///< true on the way up through the values, false on the way back
+  /// The state [z, ż, z₂, ż₂] (m, m/s, m, m/s) of conductor and absorber, on both sides of the gap,
   /// after a whole number of forcing periods.
   Vector<double, 4> state;
 };
 
 namespace detail {
 
-/// The type of the state of the loops along the parameter.
+/// The type of the state with which a motion of a loop begins.
 template <class Loop>
 struct StateOfLoop {
   using Type = StateOf<std::decay_t<decltype(std::declval<const Loop&>().plant)>>;
@@ -70,11 +70,11 @@ template <class Plant>
 bool may_begin_with(const ImplementedLoopOf<Plant>& loop, const StateOf<Plant>& state) {
   return loop.plant.state_matrix().rows() == state.size();
 }
-/// Always true for a conductor: a change of the number of modes preserves the slow ones.
+/// Always true for a conductor given by its modes: if their number changes, the slow modes remain.
 inline bool may_begin_with(const ModalLoop&, const ModalMotion::Full&) { return true; }
 
-/// Reports both sides of the gap once every forcing period after the transient and leaves the last
-/// state in `state`. @return false where it leaves the range of numbers
+/// Reports the state of both sides of the gap once every forcing period after the transient.
+/// @return false where the motion exceeds divergence_bound()
 /// @param state  the initial state, replaced by the last one
 /// @throws InvalidParameter where the force has no harmonic component
 template <class Plant, class Observer>
@@ -133,7 +133,7 @@ inline Eigen::VectorXcd amplitudes_after(const NaturalMotions& motions, const Mo
   return amplitudes;
 }
 
-/// Reports the stroboscopic states of a conductor by its modes.
+/// Reports the stroboscopic states of a conductor given by its modes.
 /// @throws InvalidParameter where some of its natural motions were not found
 template <class Observer>
 bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMotion::Full& state,
@@ -145,7 +145,7 @@ bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMot
   begin << state.head(kept), ModalMotion::Full::Zero(modes - kept), state.tail(2);
   std::optional<ModalMotion> motion = modal_motion(loop, begin);
   if (!motion)
-    throw InvalidParameter("natural motions that coincide", 0.0, "", "none: change the plant");
+    throw InvalidParameter("distance between natural motions", 0.0, "", "> 0: change the plant");
   const NaturalMotions motions(loop, plant_poles(loop.modes, loop.absorber));
   const double period = loop.sampling.period, forcing_period = 1.0 / loop.excitation.frequency;
   const double bound = divergence_bound(loop, begin);
@@ -182,10 +182,10 @@ bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMot
 /// With further harmonics or a recorded force each motion restarts them at t = 0; then only a
 /// common period preserves their phases from one motion to the next.
 ///
-/// At each value the drive begins outside its backlash (a dead zone where the state is) and the
-/// computer without memory of the past. A diverging motion is not plotted further, and the next one
-/// begins at the initial state. This happens too where the loop's order changes, for instance by
-/// more delayed commands.
+/// At each value the drive begins outside its backlash (with a dead zone: where the state is), and
+/// the computer begins without memory of the past. A diverging motion is not plotted further. The
+/// next motion then begins at the initial state. So does a motion whose loop has another order than
+/// the previous loop, for instance by more delayed commands.
 /// @param family         parameter ↦ ImplementedLoopOf<Plant>, or ModalLoop
 /// @param values         values of the parameter, in their order
 /// @param initial_state  a state, or a map parameter ↦ state

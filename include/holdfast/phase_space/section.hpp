@@ -25,7 +25,7 @@ namespace holdfast {
 /// @tparam States  N, the order of the plant
 template <int States>
 struct SectionPointOf {
-  double time;                   ///< s
+  double time;                   ///< instant (s)
   Vector<double, States> state;  ///< x, N × 1, with Δż = 0; of the two masses (m, m/s, m, m/s)
   bool rising;                   ///< whether Δż changes from negative to positive
   bool engaged;                  ///< whether the drive transmits from this instant on
@@ -36,13 +36,13 @@ using SectionPoint = SectionPointOf<4>;
 
 namespace detail {
 
-/// Sign and zeros of Δż that follow from the contact, for the rest of a sampling period.
+/// The sign and the zeros of Δż that follow from the contact over a stretch of the motion.
 struct KnownVelocity {
-  int zeros = 0;      ///< how many of Δż, Δz̈, … vanish at its beginning
+  int zeros = 0;      ///< number of Δż, Δz̈, … that vanish at its beginning
   double sign = 0.0;  ///< constant sign of Δż in it, ±1; 0: not determined
 };
 
-/// @param guards    guards of the present mode
+/// The sign and the zeros of Δż that the contact determines. @param guards  guards of the mode
 /// @param readings  readings of the plant
 template <int States, class Readings>
 KnownVelocity known_velocity(const GuardsOf<States>& guards, const Readings& readings) {
@@ -70,8 +70,7 @@ inline double leading_sign(const Series& p) {
   return 0.0;
 }
 
-/// The observer of EventMotion::advance that follows the sign of Δż along a motion and reports its
-/// changes.
+/// The observer of EventMotion::advance that reports the changes of sign of Δż along a motion.
 template <class Contact, class Observer>
 class TurnFinder {
   using Motion = EventMotion<Contact>;
@@ -86,7 +85,7 @@ class TurnFinder {
     sign_ = velocity > 0.0 ? 1.0 : velocity < 0.0 ? -1.0 : 0.0;
   }
 
-  /// To be called after `sense()` and before `advance()`.
+  /// Starts a sampling period; to be called after `sense()` and before `advance()`.
   void begin() {
     time_ = motion_->time();
     trace_.begin();
@@ -118,19 +117,19 @@ class TurnFinder {
     search(part, known.zeros);
   }
 
-  /// Handles a stretch in which both sides of the drive stay together: it is one turning point.
+  /// Handles a stretch in which both sides of the drive stay together, as one turning point.
   void rest(const Part& part) {
     if (sign_ != 0.0) show(part, 0.0, sign_ < 0.0);
     sign_ = 0.0;
   }
 
-  /// Sets the sign of Δż from x on; where the sign was the other one before, Δz turns at x.
+  /// Sets the sign of Δż from x on; reports a turning point of Δz at x if the sign was opposite.
   void take_sign(const Part& part, double x, double sign) {
     if (sign_ * sign < 0.0) show(part, x, sign > 0.0);
     sign_ = sign;
   }
 
-  /// @param zeros  how many of Δż and its derivatives vanish at the beginning of the part
+  /// Finds the turning points in a part. @param zeros  number of Δż, Δz̈, … that vanish at its start
   void search(const Part& part, int zeros) {
     const auto& states = part.state.coefficients();
     const double size = velocity_size(states);
@@ -191,14 +190,14 @@ class TurnFinder {
 ///     run_section(motion, samples, [](const SectionPoint& at) { … });
 ///
 /// Stick, Δż = 0 for some time, is one point at its beginning, whether Δz then reverses or
-/// continues (the next point then has the same `rising`); `rising` means that Δż came to zero from
-/// below. A point is `engaged` where the drive transmits the whole command from there on: never
-/// with exact switching and a gap. Where Δż only touches zero, up to rounding, there is no point. A
-/// motion that begins with Δż = 0 does not begin with a point.
+/// continues (the next point then has the same `rising`). `rising` means that Δż came to zero from
+/// below. A point is `engaged` where the drive transmits the whole command from there on; with
+/// exact switching and r₀ > 0 no point is `engaged`. Where Δż only touches zero, up to rounding,
+/// there is no point. A motion that begins with Δż = 0 does not begin with a point.
 /// @param motion    motion before the first sample; a further call continues from there
 /// @param samples   number of sampling periods
-/// @param observer  called with each point, a `SectionPointOf` the plant's order, in order of time
-/// Work: beside that of the motion, a Taylor series (motion/taylor_step.hpp) and a root for every
+/// @param observer  called with each point, a SectionPointOf<N>, in order of time
+/// Work beyond that of the motion: a Taylor series (motion/taylor_step.hpp) and a root for every
 /// part of constant contact.
 template <class Contact, class Observer>
 TrajectoryOutcome run_section(EventMotion<Contact>& motion, std::int64_t samples,

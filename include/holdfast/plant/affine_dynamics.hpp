@@ -20,8 +20,8 @@ struct AffineDynamicsOf {
 /// The affine dynamics of the two masses.
 using AffineDynamics = AffineDynamicsOf<4>;
 
-/// The norm ‖A‖ in balanced coordinates (1/s, largest row sum): it describes the growth of the
-/// powers of A h in any units of the state.
+/// The norm ‖A‖ in balanced coordinates (1/s, largest row sum). It describes the growth of the
+/// powers of A h, whatever the units of the state.
 template <class Scalar, int States>
 Scalar balanced_norm(const Matrix<Scalar, States>& a) {
   return BalancedMatrix<Scalar, States>(a).balanced.cwiseAbs().rowwise().sum().maxCoeff();

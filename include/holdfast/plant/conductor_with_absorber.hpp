@@ -10,17 +10,17 @@
 
 namespace holdfast {
 
-/// A conductor by its modes with the absorber, their common natural motions, and the lags of the
-/// loop's hardware.
+/// A conductor, given by its modes, with the absorber, the poles of both together, and the lags of
+/// the loop's hardware.
 struct ConductorWithAbsorber {
   std::vector<PlaceMode<double>> modes;  ///< modes at the absorber's place
   Absorber<double> absorber;             ///< with its clamp
   std::vector<PlantPole> poles;          ///< all `plant_poles` of both, or none
   LoopHardware hardware = {};            ///< measurement filter and drive
-  bool has_devices = false;              ///< on the span, which the poles know and the modes do not
+  bool has_devices = false;              ///< whether the poles include devices on the span
 };
 
-/// Whether a state of it has closed forms: no, its loop is given by its poles.
+/// Whether the loop of a conductor with absorber has closed forms: no, it is given by its poles.
 template <>
 inline constexpr bool has_closed_forms<ConductorWithAbsorber> = false;
 
@@ -34,13 +34,13 @@ inline std::complex<double> place_receptance(const ConductorWithAbsorber& conduc
   return to_drive / detail::transmitted_share(conductor.absorber, s);
 }
 
-/// The conductor with absorber as a plant of order 2N + 2, and the states of the hardware.
+/// The conductor with absorber and hardware as a plant of order 2N + 2 plus the hardware's states.
 /// @param conductor  conductor; its poles are not used
-/// @throws InvalidParameter where modes, absorber or hardware are not admissible, and with devices
+/// @throws InvalidParameter where modes, absorber or hardware are inadmissible, or with devices
 template <class Scalar = double>
 LinearPlant<Scalar> linear_plant(const ConductorWithAbsorber& conductor) {
   if (conductor.has_devices)
-    throw InvalidParameter("has_devices", 1.0, "", "0, since a plant is made of the bare modes");
+    throw InvalidParameter("has_devices", 1.0, "", "0: matrices cannot include devices");
   return with_hardware(modal_plant<Scalar>(conductor.modes, conductor.absorber),
                        conductor.hardware);
 }

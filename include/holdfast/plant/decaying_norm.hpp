@@ -14,11 +14,11 @@ namespace holdfast {
 ///     AᵀW + W A = −I     in balanced coordinates
 ///
 /// so that ‖x(t)‖ ≤ ‖x(0)‖ + ∫ ‖b u + c F‖ ds, as for EnergyNorm, for a stable plant of any order.
-/// If A is not stable there is no such norm; all lengths are then infinite.
+/// If A is not stable there is no such norm; all values of it are then infinite.
 ///
-/// W is the sum Σ MᵏᵀQ Mᵏ for the Cayley transform M = (p + A)(p − A)⁻¹, Q = 2 p (p − A)⁻ᵀ (p −
-/// A)⁻¹, computed by doubling, and checked: it has a Cholesky factor, and the residual of the
-/// equation is below half of I, so that rounding does not invalidate the bound. Work: some 15
+/// W is the sum Σ MᵏᵀQ Mᵏ, computed by doubling, for the Cayley transform M = (p + A)(p − A)⁻¹ and
+/// Q = 2 p (p − A)⁻ᵀ (p − A)⁻¹ with a p > 0. Checks: W has a Cholesky factor, and the residual of
+/// the equation is below half of I, so that rounding does not invalidate the bound. Work: some 15
 /// products N × N. Source: R. A. Smith, Matrix equation XA + BX = C, SIAM J. Appl. Math. 16 (1968).
 /// @tparam States  N; Eigen::Dynamic where it is known at run time only
 template <int States>

@@ -26,15 +26,15 @@ struct EnclosedPole {
 
 namespace detail {
 
-/// The transfer function from the command to the reading of z for a conductor with its absorber and
-/// hardware, as a quotient of polynomials whose coefficients are never formed:
+/// The transfer function n(s)/p(s) from the command to the reading of z for a conductor with its
+/// absorber and hardware. The coefficients of the polynomials are never formed:
 ///
 ///     D = Π d_n,  S = Σ φ_n²/M_n Π_{j≠n} d_j,  d_n = s² + 2ζ_n ω_n s + ω_n²,
-///     Q = m₂s² + c₂s + k₂ p = (Q D + (M_c s² Q + m₂ s² (k₂ + c₂ s)) S) h(s),
+///     Q = m₂s² + c₂s + k₂,  p = (Q D + (M_c s² Q + m₂ s² (k₂ + c₂ s)) S) h(s),
 ///     n = m₂ s² S h(0)
 ///
-/// where h contains the poles of filter and drive. The modes' numbers are exactly the given
-/// doubles, all others the decimals nearest to the given doubles.
+/// where h is the product of the denominators of filter and drive. The modes' parameters are
+/// exactly the given doubles, all others decimal numbers that round to the given doubles.
 class EnclosedTransfer {
  public:
   /// The values of p and n divided by a common product.
@@ -50,7 +50,7 @@ class EnclosedTransfer {
            square(shape) / Enclosure(mode.mass)});
     }
   }
-  /// The transfer function of two masses, all of whose numbers are decimals.
+  /// The transfer function of two masses, for all decimals that round to the given parameters.
   EnclosedTransfer(const TwoMass<double>& masses, const LoopHardware& hardware)
       : EnclosedTransfer(Absorber<double>{masses.absorber_mass, masses.absorber_stiffness,
                                           masses.absorber_damping},
@@ -65,7 +65,7 @@ class EnclosedTransfer {
   /// The leading coefficient of p.
   Enclosure leading() const { return mass_ * (1.0 + clamp_mass_ * mobility_); }
 
-  /// The values at s, both divided by Π (s − z_j) over all z_j but one.
+  /// The values of p and n at s, both divided by Π (s − z_j).
   /// @param others  points z_j, fewer than the degree
   Value at(const ComplexEnclosure& s, const std::vector<ComplexEnclosure>& others) const {
     ComplexEnclosure product(1.0), sum;
@@ -101,7 +101,7 @@ class EnclosedTransfer {
   struct Mode {
     Enclosure damping, stiffness, mobility;  // 2ζω, ω², φ²/M
   };
-  /// A lag a s² + b s + c with a = 1, or a = 0 and b = 1.
+  /// The denominator a s² + b s + c of a lag, with a = 1, or a = 0 and b = 1.
   struct Lag {
     Enclosure inertia, damping, stiffness;
   };
@@ -172,7 +172,7 @@ struct PairedPoles {
   }
 };
 
-/// All points but one.
+/// The list of all points except that of index `but`.
 inline std::vector<ComplexEnclosure> others_of(const std::vector<ComplexEnclosure>& all,
                                                std::size_t but) {
   std::vector<ComplexEnclosure> others = all;
@@ -233,18 +233,18 @@ inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer
 
 }  // namespace detail
 
-/// The poles and residues of the transfer function from the command to the reading of a conductor
-/// with its absorber and hardware, all proved. About approximations z_k there are discs of radius
+/// Proved enclosures of all poles and residues of the transfer function n(s)/p(s) from the command
+/// to the reading of a conductor with its absorber and hardware. Discs about approximate poles z_k,
 ///
-///     m |p(z_k) / (p_m Π_{j≠k} (z_k − z_j))|
+///     of radius m |p(z_k) / (p_m Π_{j≠k} (z_k − z_j))|,
 ///
-/// m the degree of the polynomial p whose roots they are and p_m its leading coefficient. The discs
-/// hold all roots, and where no two touch one each; one about a real z_k holds a real root. The
-/// residue is n(s)/p′(s), p′ = p_m Π_{j≠k} (s_k − s_j). Work: 10 m² complex operations.
+/// m the degree of p and p_m its leading coefficient, together contain all roots of p. Where no two
+/// discs touch, each contains one root, and for a real z_k this root is real. The residue is
+/// n(s)/p′(s), p′ = p_m Π_{j≠k} (s_k − s_j). Work: 10 m² complex operations.
 ///
-/// It refers to the plant whose modes have exactly the given doubles, and whose absorber and
-/// hardware have the nearest decimals. Source: B. T. Smith, Error bounds for zeros of a polynomial
-/// based upon Gerschgorin's theorems, J. ACM 17 (1970), pp. 661–674.
+/// The modes' parameters are exactly the given doubles, those of absorber and hardware any decimal
+/// numbers that round to them. Source: B. T. Smith, Error bounds for zeros of a polynomial based
+/// upon Gerschgorin's theorems, J. ACM 17 (1970), pp. 661–674.
 /// @param conductor  conductor with its approximate poles
 /// @return nothing where not all poles are known, or two are too close to be separated
 /// @throws InvalidParameter where conductor, absorber or hardware are not admissible
@@ -254,7 +254,7 @@ inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& con
                                 with_hardware(conductor.poles, conductor.hardware));
 }
 
-/// The enclosed poles of two masses with hardware, all of whose numbers are decimals.
+/// The enclosed poles of two masses with hardware, for all decimals that round to the parameters.
 /// @throws InvalidParameter where masses or hardware are not admissible
 inline std::vector<EnclosedPole> enclosed_poles(const TwoMass<double>& masses,
                                                 const LoopHardware& hardware = {}) {

@@ -27,8 +27,8 @@ Vector<Scalar, 4> free_decay_at(const TwoMass<Scalar>& plant, const Scalar& disp
          Vector<Scalar, 4>(displacement, Scalar(0), displacement, Scalar(0));
 }
 
-/// The displacement z₁ (m) of that motion at the given instants (s), ascending from its start. The
-/// transition e^{Ah} is computed again only where the interval h changes.
+/// The displacements z₁ (m) of a free decay at ascending instants (s); it starts at the first one.
+/// The transition e^{Ah} is computed again only where the interval h changes.
 /// @throws InvalidParameter where the plant is not admissible or the times are not finite and
 /// ascending
 template <class Scalar>
@@ -57,17 +57,17 @@ std::vector<Scalar> free_decay(const TwoMass<Scalar>& plant, const Scalar& displ
   return displacements;
 }
 
-/// First opposite peak over the initial displacement, period (s) and logarithmic decrement.
+/// The measures of a free decay with displacements relative to the initial one.
 template <class Scalar>
 struct RelativeDecay {
-  Scalar first_peak;             ///< < 0
+  Scalar first_peak;             ///< first opposite peak, < 0
   Scalar first_peak_time;        ///< s
   Scalar period;                 ///< s
   Scalar logarithmic_decrement;  ///< per cycle, from the first four peaks
 };
 
-/// The crossings and peaks of the plant's decay from 1 m, sampled 400 times per period of both
-/// masses on the conductor's spring, over four such periods.
+/// The crossings and peaks of the plant's free decay from 1 m over four periods, with 400 samples
+/// per period. The period is that of both masses rigidly joined on the conductor's spring.
 /// @throws InvalidParameter where the plant is not admissible
 template <class Scalar>
 DecayEvents free_decay_events(const TwoMass<Scalar>& plant) {

@@ -18,7 +18,7 @@ namespace holdfast {
 /// u is the computer's command, s the force (N) on conductor and absorber. An ideal drive has s = u
 /// (f = 0, g = 1, b_u = 0); a drive with a lag has states of its own, on which the command acts by
 /// b_u and from which f gives the force. The measured quantities and the relative motion at the gap
-/// are ports of the plant: no coordinate has a fixed place.
+/// are rows, the plant's ports, so that x may be in any coordinates.
 /// @tparam States  N; Eigen::Dynamic where it is known at run time only
 template <class Number, int States = Eigen::Dynamic>
 struct LinearPlant {
@@ -66,7 +66,7 @@ struct LinearPlant {
           fits(force_input, command_input, excitation, drive_force))
         return;
       throw InvalidParameter("order of the plant", static_cast<double>(n), "",
-                             "the same of all its matrices and ports, at least 1");
+                             "the same for all its matrices and ports, and at least 1");
     }
   }
 };
@@ -80,7 +80,7 @@ LinearPlant<Scalar, 4> linear_plant(const TwoMass<Scalar>& plant) {
           plant.excitation_input(), RowVector<Scalar, 4>::Zero(), Scalar(1),
           two_mass_ports<Scalar>()};
 }
-/// The linear plant itself.
+/// Returns the linear plant itself.
 template <class Scalar, int States>
 const LinearPlant<Scalar, States>& linear_plant(const LinearPlant<Scalar, States>& plant) {
   return plant;
@@ -90,13 +90,13 @@ namespace detail {
 
 template <class Plant, class = void>
 struct IsDriven : std::false_type {};
-/// Whether a plant defines the input of its drive's force and the relative motion at the gap.
+/// Whether `linear_plant` accepts a plant, so that its drive's input and its gap are known.
 template <class Plant>
 struct IsDriven<Plant, std::void_t<decltype(linear_plant(std::declval<const Plant&>()))>>
     : std::true_type {};
 
-/// The plant with `more` further states behind its own, which nothing acts on yet.
-/// @tparam More  the same number, or Eigen::Dynamic
+/// The plant with `more` further states after its own, all with zero rows and columns.
+/// @tparam More  the value of `more`, or Eigen::Dynamic
 template <int More, class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, More)> enlarged(const LinearPlant<Scalar, States>& plant,
                                                         Eigen::Index more = More) {
@@ -196,8 +196,8 @@ LinearPlant<Scalar, larger_size(States, 2)> with_drive_lag(const LinearPlant<Sca
 
 /// Rejects a plant for which no loop can be closed.
 /// @throws InvalidParameter unless all is finite, the sizes agree, the drive's force depends on
-/// either the command or the state, and it accelerates its own gap directly (rᵀb ≠ 0 for the row r
-/// of the relative velocity)
+/// either the command or the state, and this force directly accelerates the relative motion at the
+/// gap (r b ≠ 0 for the row r of the relative velocity)
 template <int States>
 void validate(const LinearPlant<double, States>& plant) {
   const Ports<double, States>& ports = plant.ports();
@@ -211,11 +211,11 @@ void validate(const LinearPlant<double, States>& plant) {
   require_finite("sum of the entries of the plant", sum, "");
   if (plant.control_input().isZero(0.0) && plant.drive_force.isZero(0.0))
     throw InvalidParameter("direct transmission g", plant.direct_transmission, "",
-                           "unlike zero where the command moves nothing else");
+                           "nonzero if both the control input and the drive's force are zero");
   const double answer = plant.ports().relative_velocity.dot(plant.force_input);
   if (!(std::abs(answer) > 0.0))
     throw InvalidParameter("relative acceleration per newton of the drive", answer, "1/kg",
-                           "unlike zero");
+                           "nonzero");
 }
 
 /// Converts a plant to another number type, for instance `long double`.

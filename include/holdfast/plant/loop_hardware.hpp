@@ -19,8 +19,8 @@ namespace holdfast {
 ///
 ///     F(s) = ω_f/(s + ω_f),   D(s) = ω_d/(s + ω_d)  or  ω_d²/(s² + 2 ζ_d ω_d s + ω_d²)
 ///
-/// where the computer reads ẑ = F z and its rate, or uses (ẑ_j − ẑ_{j−1})/τ instead; the force on
-/// conductor and absorber is D u.
+/// The computer reads ẑ = F z and its rate; without a velocity sensor the rate is replaced by
+/// (ẑ_j − ẑ_{j−1})/τ. The force on conductor and absorber is D u.
 struct LoopHardware {
   static constexpr double ideal = std::numeric_limits<double>::infinity();  ///< value for no lag
 
@@ -41,8 +41,8 @@ inline void validate(const LoopHardware& hardware) {
   require("drive damping", hardware.drive_damping, "");
 }
 
-/// The plant with such a filter and drive, as with `with_drive_lag` and
-/// `with_measurement_filter`.
+/// The plant with the given filter and drive, which `with_measurement_filter` and `with_drive_lag`
+/// add to it.
 /// @param plant     plant with an ideal drive
 /// @param hardware  hardware, which adds up to three states
 /// @throws InvalidParameter where the hardware is not admissible
@@ -62,7 +62,7 @@ LinearPlant<Scalar> with_hardware(LinearPlant<Scalar> plant, const LoopHardware&
 
 namespace detail {
 
-/// The poles p of D(s) and of F(s); each factor is −p/(s − p), for a pair the product of both.
+/// The poles p of D(s) and of F(s), each of which is the product of −p/(s − p) over its poles.
 struct HardwarePoles {
   std::vector<std::complex<double>> drive, filter;
 
@@ -93,8 +93,8 @@ struct HardwarePoles {
   }
 
  private:
-  /// Separates equal poles, which have no partial fractions. Two are moved by ±ε relative, which
-  /// changes the response by ε² relative and costs a factor 1/ε in accuracy; three likewise.
+  /// Separates equal poles, which have no partial fractions, by ±ε relative: ε = 10⁻⁵ for two, 10⁻³
+  /// for three. This changes the response by ε² relative and costs a factor 1/ε in accuracy.
   void part_equals() {
     std::vector<std::complex<double>*> all;
     all.reserve(drive.size() + filter.size());
@@ -118,7 +118,7 @@ struct HardwarePoles {
   }
 };
 
-/// The partial fractions of G(s) Π (−p)/(s − p), from those of G and all p.
+/// The partial fractions of G(s) Π (−p)/(s − p), from those of G and the poles p of the lags.
 inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles,
                                      const std::vector<std::complex<double>>& lags) {
   for (const std::complex<double>& p : lags) {
@@ -135,10 +135,10 @@ inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles,
 
 }  // namespace detail
 
-/// The poles of the plant with such hardware, from the command to the reading: those of the plant,
-/// then those of drive and filter.
+/// The poles, with residues from the command to the reading, of a plant with hardware: those of the
+/// plant, then those of drive and filter.
 /// @param poles     all `plant_poles`
-/// @param hardware  its lags; equal poles of it are separated by 10⁻⁵ relative (three by 10⁻³),
+/// @param hardware  hardware; equal poles of it are separated by 10⁻⁵ relative (three by 10⁻³),
 ///                  which changes the response by 10⁻¹⁰ (10⁻⁶)
 /// @return nothing where the plant has no poles, or shares one with the hardware
 /// @throws InvalidParameter where the hardware is not admissible

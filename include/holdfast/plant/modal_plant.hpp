@@ -97,13 +97,13 @@ struct PlaceResponse {
   std::complex<Scalar> to_drive;  ///< G_z = z/s (m/N), with the drive's reaction on the absorber
 };
 
-/// The conductor with its absorber by the receptance of the bare one, without sampling (unchecked):
+/// The responses of a conductor with its absorber, from the bare one's receptance H (unchecked):
 ///
 ///     1/H′ = 1/H + M_c s²,  K_p = m₂ s² (k₂ + c₂ s)/(m₂ s² + c₂ s + k₂),  T_a = m₂ s²/(…)
 ///     z/F = H′/(1 + H′ K_p),   G_z = T_a z/F
 ///
-/// It gives a plant's transfer functions without any matrix; H may include all modes at
-/// once.
+/// These are the plant's transfer functions, without sampling. No matrix is needed, so that H may
+/// include any number of modes.
 /// @param bare      receptance H (m/N) at s
 /// @param absorber  absorber with its clamp
 /// @param s         complex frequency (1/s)
@@ -118,8 +118,8 @@ PlaceResponse<Scalar> place_response(const std::complex<Scalar>& bare,
 
 namespace detail {
 
-/// The participation of the modes, N × 1, scaled to 1 at the place itself.
-/// @param share  share of a mode
+/// Modal coordinates, N × 1, scaled so that the displacement at the place is 1.
+/// @param share  function from a mode to its coordinate before scaling
 template <class Scalar, class Share>
 Vector<Scalar, Eigen::Dynamic> scaled_at_place(const std::vector<PlaceMode<Scalar>>& modes,
                                                const Share& share) {
@@ -180,7 +180,7 @@ struct ModesAtPlace {
   Vector<Scalar, Eigen::Dynamic> receptive;     // φ/M on the velocities
   Scalar mobility{0};                           // Σ φ²/M, 1/kg
 
-  /// @param order  2N plus the number of states behind them, which are left at zero
+  /// @param order  2N plus the number of further states, whose entries are zero
   ModesAtPlace(const std::vector<PlaceMode<Scalar>>& modes, Eigen::Index order)
       : released(Matrix<Scalar, Eigen::Dynamic>::Zero(order, order)),
         z(RowVector<Scalar, Eigen::Dynamic>::Zero(order)),

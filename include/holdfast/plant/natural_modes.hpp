@@ -12,9 +12,9 @@
 
 namespace holdfast {
 
-/// An oscillating mode: its eigenvalue s with positive imaginary part (rad/s).
+/// An oscillating mode, given by its eigenvalue s with positive imaginary part.
 struct NaturalMode {
-  std::complex<double> eigenvalue;  ///< s = −ζω ± iω√(1 − ζ²), rad/s
+  std::complex<double> eigenvalue;  ///< s = −ζω + iω√(1 − ζ²), 1/s
 
   /// The natural frequency |s|/2π (Hz); for small damping also that of the free vibration.
   double frequency() const { return std::abs(eigenvalue) / (2.0 * pi<double>); }

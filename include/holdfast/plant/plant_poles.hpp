@@ -13,11 +13,11 @@
 
 namespace holdfast {
 
-/// A pole s of a plant with its residue in the transfer function from the drive to the conductor:
-/// G_z = Σ r/(s − s_k), G_v = Σ s_k r/(s − s_k).
+/// A pole s_k of a plant with its residue r_k in the transfer functions from the drive's force to
+/// the conductor's displacement and velocity, G_z = Σ r_k/(s − s_k), G_v = Σ s_k r_k/(s − s_k).
 struct PlantPole {
-  std::complex<double> s;        ///< 1/s
-  std::complex<double> residue;  ///< r, m/(N s)
+  std::complex<double> s;        ///< s_k, 1/s
+  std::complex<double> residue;  ///< r_k, m/(N s)
 };
 
 namespace detail {
@@ -34,7 +34,7 @@ inline std::complex<double> receptance_slope(const std::vector<PlaceMode<double>
   return sum;
 }
 
-/// The derivative dK/ds of `passive_stiffness`, N = m₂ s² (k₂ + c₂ s), Q = m₂ s² + c₂ s + k₂.
+/// The derivative dK/ds of `passive_stiffness`, K = M_c s² + m₂ s² (k₂ + c₂ s)/(m₂ s² + c₂ s + k₂).
 inline std::complex<double> passive_slope(const Absorber<double>& absorber,
                                           const std::complex<double>& s) {
   const double m = absorber.mass, k = absorber.stiffness, c = absorber.damping;
@@ -58,13 +58,13 @@ class PoleFinder {
     BarePair other() const { return {partner, s}; }
   };
 
-  /// A mode that the absorber hardly changes, for example with a node there: the data of its own
-  /// contribution and of the others'.
+  /// The data of a weakly coupled mode, one that the absorber hardly changes, for example since it
+  /// has a node there. Near its eigenvalue s_n the receptance is H = ρ/(s − s_n) + b.
   struct Weak {
     std::size_t mode;   ///< n
     Complex apart;      ///< s_n minus the mode's other eigenvalue
-    Complex residue;    ///< ρ of H = ρ/(s − s_n) + b
-    Complex stiffness;  ///< K
+    Complex residue;    ///< ρ
+    Complex stiffness;  ///< K, the passive stiffness at s_n
     Complex divisor;    ///< 1 + bK
   };
 
@@ -86,7 +86,7 @@ class PoleFinder {
     return found;
   }
 
-  /// The weakly coupled mode of the k-th of `plant_poles`, if it has one.
+  /// The mode from which the k-th of `plant_poles` is continued, if it is weakly coupled.
   std::optional<Weak> weak_of_pole(std::size_t k) const {
     if (k < modes_.size()) return weak(k, bare(modes_[k]));
     const std::size_t n = k - modes_.size();
@@ -94,15 +94,15 @@ class PoleFinder {
     return weak(n, bare(modes_[n]).other());
   }
 
-  /// Whether the k-th of `plant_poles` is of a weak mode, be it the conjugate of the one known so.
+  /// Whether the k-th of `plant_poles` or its conjugate is continued from a weakly coupled mode.
   bool stays(std::size_t k) const {
     const std::size_t n = k < modes_.size() ? k : k - modes_.size();
     if (n >= modes_.size()) return false;
     return weak_of_pole(modes_[n].damping_ratio < 1.0 ? n : k).has_value();
   }
 
-  /// The pole that one eigenvalue of the n-th mode changes into; for a weakly coupled mode by its
-  /// own residue, s = s_n − ρK/(1 + bK).
+  /// The pole that is continued from one eigenvalue s_n of the n-th mode; for a weakly coupled mode
+  /// to first order, s = s_n − ρK/(1 + bK).
   /// @param begin  one of the two eigenvalues of `bare`
   PlantPole of_mode(std::size_t n, const BarePair& begin) const {
     const Complex s = begin.s;
@@ -146,7 +146,7 @@ class PoleFinder {
     return sum;
   }
 
-  /// The pole continued from s, a pole of the conductor alone or of the absorber on a fixed one.
+  /// The pole continued from a pole of the bare conductor or of the absorber on a fixed conductor.
   PlantPole from(const Complex& begin) const {
     const Complex s = root_from_pole(
         [&](const Complex& at) {
@@ -175,8 +175,8 @@ inline bool are_all_poles(const std::vector<PlantPole>& poles, double accelerati
   return std::abs(sum) < 1e-7 * size && std::abs(moment - acceleration) < 1e-8 * moment_size;
 }
 
-/// Separates poles that coincide or were not found: each one that is not distinct from an earlier
-/// one restarts near its beginning. Then all are improved together, each by Newton's step for the
+/// Separates poles that coincide or were not found: each that is not distinct from an earlier one
+/// restarts near its start. Then all are improved together, each by Newton's step for the
 /// polynomial divided by the other roots (Ehrlich 1967, Aberth 1973). Poles of weakly coupled modes
 /// are not changed.
 /// @param begins  start of each pole
@@ -217,13 +217,13 @@ inline void separate(std::vector<PlantPole>& poles, const std::vector<std::compl
 
 }  // namespace detail
 
-/// All 2N + 2 poles of a conductor by its modes with the absorber, each continued from its value
-/// for the uncoupled system (`root_from_pole`): first that of each mode with Im s > 0, or the
-/// slower one of an overdamped mode, in order, then the other ones and the absorber's two. Where
-/// two continuations end at one pole, all are improved together, and their assignment is arbitrary.
-/// N² operations, where the eigenvalues of `modal_plant` take N³; completeness is tested by two
-/// sums over the poles.
-/// @return nothing where not all were found, as with a critical damper or coinciding poles
+/// All 2N + 2 poles of a conductor, given by its modes, with the absorber. Each is continued from
+/// its value without coupling (`root_from_pole`). First comes for each mode the pole with Im s > 0,
+/// or the slower one of an overdamped mode; then the modes' other poles and the absorber's two.
+/// Where two continuations end at one pole, all are improved together, and which pole belongs to
+/// which mode is arbitrary. Two sums over the poles test that all were found. Work: N² operations;
+/// the eigenvalues of `modal_plant` take N³.
+/// @return nothing where not all were found, for example with critical damping or equal poles
 /// @throws InvalidParameter where modes or absorber are not admissible
 inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& modes,
                                           const Absorber<double>& absorber) {

@@ -6,8 +6,8 @@
 
 namespace holdfast {
 
-/// The readings of the states of a plant of order N through its ports, and changes of them.
-/// @tparam Plant  plant with `ports()`; the two masses have their own readings
+/// The quantities that the ports of a plant of order N read from its state, and changes of them.
+/// @tparam Plant  plant with `ports()`; a specialisation serves the two masses
 template <class Plant>
 class PortReadings {
  public:
@@ -48,7 +48,7 @@ class PortReadings {
   void stop_relative_motion(State& x) const {
     x -= ports_.velocity_lift * ports_.relative_velocity.dot(x);
   }
-  /// Sets Δż to zero and Δz to its value before.
+  /// Sets Δż to zero, and Δz to that of the state `before`.
   void hold_relative_position(const State& before, State& x) const {
     x += ports_.displacement_lift * (relative_displacement(before) - relative_displacement(x));
     stop_relative_motion(x);
@@ -124,7 +124,7 @@ class PortReadings<TwoMass<Number>> {
   void displace_conductor(State& x, const Scalar& by) const { x[0] += by; }
   /// Sets Δż to zero: ż₂ = ż₁.
   void stop_relative_motion(State& x) const { x[3] = x[1]; }
-  /// Sets ż₂ = ż₁, and z₂ − z₁ to its value before.
+  /// Sets ż₂ = ż₁, and z₂ − z₁ to that of the state `before`.
   void hold_relative_position(const State& before, State& x) const {
     x[2] = x[0] + relative_displacement(before);
     x[3] = x[1];

@@ -44,8 +44,8 @@ using ScalarOf = typename detail::StateMatrixOf<Plant>::Scalar;
 template <class Plant>
 inline constexpr int states_of = detail::StateMatrixOf<Plant>::RowsAtCompileTime;
 
-/// Whether a plant has four states and no ports of its own: then they are the two masses', whose
-/// sampled loop has closed forms (order 4 + 1). Any other loop is computed from its map.
+/// Whether a plant is the two masses, that is, has four states and no ports of its own. Their
+/// sampled loop has closed forms (order 4 + 1); any other loop is computed from its map.
 template <class Plant>
 inline constexpr bool has_closed_forms = states_of<Plant> == 4 && !detail::HasPorts<Plant>::value;
 
@@ -59,8 +59,8 @@ template <class Scalar, int States>
 struct Ports {
   RowVector<Scalar, States> displacement;           ///< z (m) of the conductor at the absorber
   RowVector<Scalar, States> velocity;               ///< ż (m/s)
-  RowVector<Scalar, States> measured_displacement;  ///< row multiplied by P (m): z, or filtered
-  RowVector<Scalar, States> measured_velocity;      ///< row multiplied by D (m/s): ż, or filtered
+  RowVector<Scalar, States> measured_displacement;  ///< reading (m) that P multiplies
+  RowVector<Scalar, States> measured_velocity;      ///< reading (m/s) that D multiplies
   RowVector<Scalar, States> relative_displacement;  ///< Δz (m), absorber against conductor
   RowVector<Scalar, States> relative_velocity;      ///< Δż (m/s)
   Vector<Scalar, States> displacement_lift;  ///< e_z, N × 1: changes Δz by 1 m without changing Δż
@@ -106,7 +106,7 @@ Ports<ScalarOf<Plant>, states_of<Plant>> ports_of(const Plant& plant) {
     const auto order = plant.excitation_input().size();
     if (!plant.ports().are_of(order))
       throw InvalidParameter("order of a plant's ports", static_cast<double>(order), "",
-                             "that of each of them");
+                             "the same for each port");
     return plant.ports();
   } else if constexpr (states_of<Plant> == 4) {
     return two_mass_ports<ScalarOf<Plant>>();

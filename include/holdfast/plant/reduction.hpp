@@ -11,7 +11,7 @@
 
 namespace holdfast {
 
-/// The prescribed natural frequencies of a two-mass plant, with its given parameters.
+/// The natural frequencies and the two parameters that a two-mass plant is to have.
 template <class Scalar>
 struct FrequencyReduction {
   Scalar conductor_stiffness;  ///< k₁ (N/m), > 0
@@ -20,7 +20,7 @@ struct FrequencyReduction {
   Scalar second_frequency;     ///< ω₂/2π (Hz), > ω₁/2π
 };
 
-/// One solution of the reduction.
+/// One plant that has the given natural frequencies, with its condition numbers.
 struct ReducedMasses {
   double absorber_stiffness;  ///< k₂ (N/m)
   double conductor_mass;      ///< m₁ (kg)
@@ -28,7 +28,7 @@ struct ReducedMasses {
   /// errors of the inputs are amplified.
   double stiffness_condition;
   double mass_condition;     ///< condition number of m₁, Σ |∂ ln m₁/∂ ln p|
-  double damping_condition;  ///< condition number of c₁ by Eq. (3), besides the 1 of ζ
+  double damping_condition;  ///< condition number of c₁ by Eq. (3), without that of ζ, which is 1
 
   /// Whether 1 % error of the inputs may cause 100 % error of k₂ or m₁, as near the double
   /// solution, where the condition numbers are unbounded. False without solution.
@@ -45,7 +45,7 @@ enum class ReductionOutcome {
   no_solution,      ///< no real plant has these frequencies
 };
 
-/// The solutions m₁ and k₂ of the reduction to two natural frequencies.
+/// The solutions of the reduction to two natural frequencies.
 struct ReductionResult {
   ReductionOutcome outcome;  ///< number of solutions in `solutions`
   /// The discriminant ((1/ω₁ − 1/ω₂)² k₁/m₂) − 1: 0 for a double root; negative without solution.
@@ -70,14 +70,14 @@ Scalar reduction_discriminant(const FrequencyReduction<Scalar>& asked) {
   return largest_absorber_mass(asked) / asked.absorber_mass - Scalar(1);
 }
 
-/// The stiffness k₂, a root of the condition that the undamped plant has the frequencies ω₁ and ω₂:
+/// The stiffness k₂ (N/m), smaller or larger, with which the undamped plant has ω₁ and ω₂:
 ///
 ///     k₂²/m₂ + k₂ (m₂ ω₁²ω₂²/k₁ − ω₁² − ω₂²) + m₂ ω₁²ω₂² = 0,
 ///
-/// written with Ω = ω₁ ω₂ and q = (ω₁² + ω₂² − m₂ Ω²/k₁)/(2 Ω) ≥ 1 as k₂ = m₂ Ω (q ∓ √(q² − 1)),
-/// whose two signs are each other's inverses. q² − 1 is formed as (q − 1)(q + 1) from
-/// q − 1 = ((ω₂ − ω₁)² − m₂ Ω²/k₁)/(2 Ω) = m₂ Ω/(2 k₁) times the discriminant, so that it has the
-/// discriminant's sign to the last bit.
+/// written with Ω = ω₁ ω₂ and q = (ω₁² + ω₂² − m₂ Ω²/k₁)/(2 Ω) ≥ 1 as k₂ = m₂ Ω (q ∓ √(q² − 1)).
+/// The product of both factors (q ∓ …) is 1. q² − 1 is computed as (q − 1)(q + 1) from
+/// q − 1 = ((ω₂ − ω₁)² − m₂ Ω²/k₁)/(2 Ω) = m₂ Ω/(2 k₁) times the discriminant, so that its sign is
+/// exactly that of the discriminant.
 template <class Scalar>
 Scalar absorber_stiffness_root(const FrequencyReduction<Scalar>& asked, bool larger) {
   using std::sqrt;

@@ -10,14 +10,14 @@
 
 namespace holdfast::simd {
 
-/// find_basins() on SIMD packs and threads.
+/// Computes find_basins() on SIMD packs and several threads.
 ///
 ///     const BasinMap map = simd::find_basins(loop, states);
 ///     for (const auto& attractor : map.attractors) use(attractor.orbit.period());
 ///
 /// @param loop            the loop with its excitation and backlash
-/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none
-/// @param limits          of each search for one motion's own orbit
+/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be empty
+/// @param limits          limits of each search for the orbit of a single motion
 /// @param threads         ≥ 1, or 0 for all cores; the result does not depend on it
 /// @throws InvalidParameter where loop, states or limits are not admissible
 inline BasinMap find_basins(const IdealLoop<double>& loop,

@@ -12,7 +12,7 @@ namespace holdfast::simd {
 
 namespace detail {
 
-/// Rows that a thread does at a time.
+/// The number of chart rows that a thread computes at a time.
 inline constexpr std::int64_t rows_of_tile = 32;
 
 /// Fills the cells of a chart.
@@ -32,7 +32,7 @@ inline std::size_t cells_of(const LoopChart& chart) {
 
 }  // namespace detail
 
-/// Stable (1) or not (0) for every cell of a chart, slow axis first.
+/// Computes for every cell of a chart whether the loop is stable (1) or not (0).
 ///
 ///     const LoopChart chart{{kollar2022_plant(), {0.01, 0.01}, {}},
 ///                           {LoopParameter::proportional_gain, {-1000, 200, 1000}},
@@ -40,8 +40,8 @@ inline std::size_t cells_of(const LoopChart& chart) {
 ///     const std::vector<std::uint8_t> stable = simd::stability_chart(chart);
 ///
 /// @param chart    the loop and the two parameters that vary
-/// @param stable   as many entries as the chart has cells; memory that nobody has touched yet is
-///                 best, since each thread then brings in its own part
+/// @param stable   one entry for each cell, row by row, the fast axis along a row; memory not yet
+///                 written is fastest: its pages then lie close to the thread that fills them
 /// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
 /// @throws InvalidParameter where the chart is not admissible
 inline void stability_chart(const LoopChart& chart, std::uint8_t* stable, int threads = 0) {
@@ -55,9 +55,9 @@ inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int thr
   return stable;
 }
 
-/// The spectral radius ρ = max |λ| for every cell of a chart, slow axis first; error below 1e−10.
+/// Computes the spectral radius ρ = max |λ| for every cell of a chart, with an error below 1e−10.
 /// @param chart    the loop and the two parameters that vary
-/// @param radius   as many entries as the chart has cells
+/// @param radius   one entry for each cell, row by row, the fast axis along a row
 /// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
 /// @throws InvalidParameter where the chart is not admissible
 inline void radius_chart(const LoopChart& chart, double* radius, int threads = 0) {

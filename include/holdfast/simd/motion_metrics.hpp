@@ -7,12 +7,12 @@
 
 namespace holdfast::simd {
 
-/// motion_metrics() on SIMD packs, by the calling thread.
+/// Computes motion_metrics() on SIMD packs in the calling thread; `duration` in s, ≥ 0.
 ///
 ///     simd::motion_metrics(motions.data(), motions.size(), 20.0, metrics.data());
 ///
-/// Disjoint parts of the motions may be computed by several threads at a time; the results do not
-/// depend on the parts.
+/// Several threads may compute disjoint parts of the motions at the same time; the results do not
+/// depend on the division into parts.
 /// @throws InvalidParameter where a motion or the duration is not admissible
 inline void motion_metrics(const SweepMotion* motions, std::size_t count, double duration,
                            MotionMetrics* results) {

@@ -14,17 +14,17 @@
 
 namespace holdfast::simd {
 
-/// Does the rows of a chart in tiles on several threads; in a browser, whose modules have one
-/// thread each, one after the other.
+/// Computes the rows of a chart in tiles on several threads; in a browser, where a module has a
+/// single thread, one tile after the other.
 ///
-/// Tiles begin at multiples of `tile` for any number of threads, and each is computed by a
-/// copy of `kernel`, so that results do not depend on that number. Exceptions of a tile come out
-/// here.
+/// Tiles begin at multiples of `tile`, and each is computed by its own copy of `kernel`, so that
+/// the results do not depend on the number of threads. An exception thrown in a tile is rethrown
+/// to the caller.
 /// @param rows     number of rows, ≥ 0
 /// @param tile     rows of a tile, ≥ 1
 /// @param threads  ≥ 1, or 0 for as many as the machine has cores
-/// @param kernel   copied for each tile
-/// @param compute  (Kernel&, first row, number of rows)
+/// @param kernel   object that computes rows, copied for each tile
+/// @param compute  called for each tile as compute(kernel, first row, number of rows)
 template <class Kernel, class Compute>
 void parallel_rows(std::int64_t rows, std::int64_t tile, int threads, const Kernel& kernel,
                    const Compute& compute) {

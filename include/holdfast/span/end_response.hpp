@@ -16,8 +16,8 @@ namespace holdfast {
 /// are relative to a free span that vibrates with 1 m at its antinodes.
 struct EndResponse {
   std::complex<double> reflection;  ///< r of the displacement, at the outermost device
-  /// The impedance Z of the end at the outermost device's place (N s/m), Z_c (1 − r)/(1 + r);
-  /// without device that of the support, which is infinite.
+  /// The impedance Z = Z_c (1 − r)/(1 + r) (N s/m) of the end at the outermost device's place;
+  /// infinite without a device, as at the support.
   std::complex<double> impedance;
   double support_angle;         ///< slope of the conductor at the support (rad/m)
   std::vector<double> motions;  ///< motions of the devices, outward from the support (m/m)
@@ -26,8 +26,8 @@ struct EndResponse {
   /// The absorbed fraction 1 − |r|² of the incident power.
   double absorbed_fraction() const { return 1.0 - std::norm(reflection); }
 
-  /// The inverse standing-wave ratio S = (1 − |r|)/(1 + |r|): node over antinode. Negative where
-  /// the devices supply power.
+  /// The inverse standing-wave ratio S = (1 − |r|)/(1 + |r|), the amplitude at a node over that at
+  /// an antinode. Negative where the devices supply power.
   double inverse_standing_wave_ratio() const {
     return (1.0 - std::abs(reflection)) / (1.0 + std::abs(reflection));
   }
@@ -45,9 +45,9 @@ struct SpanEnd {
   std::vector<const SpanDevice*> devices;  ///< devices at these distances
 };
 
-/// The devices nearer to the left support, and those nearer to the right one; they must outlive the
-/// result.
-/// @param devices  sorted by `in_order`
+/// The two ends of a span: [0] has the devices nearer to the left support, [1] those nearer to the
+/// right one.
+/// @param devices  sorted by `in_order`; they must outlive the result
 /// @param span     L (m)
 inline std::array<SpanEnd, 2> span_ends(const std::vector<SpanDevice>& devices, double span) {
   std::array<SpanEnd, 2> ends;
@@ -64,13 +64,13 @@ inline std::array<SpanEnd, 2> span_ends(const std::vector<SpanDevice>& devices, 
   return ends;
 }
 
-/// The waves e^{iωt} at an end of a taut string, from its fixed support outward: between devices
-/// the string satisfies y″ = −k² y with k = ω/c; at a device the slope jumps by Z iω y/T. Beyond
-/// the last one incident and reflected wave are separated,
+/// The response of an end of a taut string to waves e^{iωt}, integrated from the fixed support
+/// outward. Between devices y″ = −k² y with k = ω/c; at a device the slope jumps by Z iω y/T.
+/// Beyond the last one the incident wave and the reflected one are separated,
 ///
 ///     r = (1 − ζ_t)/(1 + ζ_t),  ζ_t = Z/Z_c − i cot ka   for one device at a
 ///
-/// The string itself is undamped here: over the few metres of an end it absorbs nothing.
+/// The string is undamped: over the few metres of an end it absorbs nearly nothing.
 /// @param string             tension and mass; damping and bending stiffness are not used
 /// @param end                end with its devices (unchecked)
 /// @param angular_frequency  ω (rad/s), > 0

@@ -10,35 +10,35 @@
 
 namespace holdfast {
 
-/// The impedance at a distance from a support with which no wave of one frequency is reflected, Z*
-/// = Z_c (1 + i cot ka), k = ω/c (N s/m).
+/// The impedance Z* = Z_c (1 + i cot ka) (N s/m), k = ω/c, with which a device at a distance from a
+/// support reflects no wave of one frequency.
 /// @param string             tension and mass
 /// @param distance           a (m) from the support, > 0; sin ka ≠ 0
 /// @param angular_frequency  ω (rad/s), > 0
-/// @throws InvalidParameter where the place is a node of that frequency, or the samples do not
-/// resolve it
+/// @throws InvalidParameter where the place is a node of that frequency
 inline std::complex<double> matched_impedance(const TautString<double>& string, double distance,
                                               double angular_frequency) {
   const double phase = angular_frequency * distance / string.wave_speed();
   if (!(std::abs(std::sin(phase)) > 1e-9))
     throw InvalidParameter("distance from the support", distance, "m",
-                           "no whole number of half-waves: a node moves nothing");
+                           "not a whole number of half-waves: at a node nothing moves");
   return string.wave_impedance() * std::complex<double>(1.0, 1.0 / std::tan(phase));
 }
 
-/// The gains with which the absorber under its computer absorbs a wave of one frequency completely:
+/// The gains P and D with which a controlled absorber completely absorbs a wave of one frequency:
 ///
 ///     Z_eff = (Z* − (M_c s² + K_p)/s)/T_a,   s = iω
-///     −(D d + P/s) Λ = Z_eff,   Λ = F D e^{−s(δ + τ/2)} sinc(ωτ/2)
+///     −(D d + P/s) Λ = Z_eff,   Λ = F(s) D(s) e^{−s(δ + τ/2)} sinc(ωτ/2)
 ///
-/// where d is 1, or (1 − e^{−sτ})/(sτ) for a velocity by difference: two real equations.
-///
-/// The stability of the loop with these gains must be examined separately.
+/// where d is 1, or (1 − e^{−sτ})/(sτ) for a velocity by difference: two real equations for P, D.
+/// F(s), D(s) are the lags of `LoopHardware`; K_p, T_a are those of `place_response`. Whether the
+/// loop is stable with these gains must be examined separately.
 /// @param string             tension and mass
 /// @param distance           a (m) from the support, > 0; sin ka ≠ 0
 /// @param device             absorber with its computer; its gains are not used
-/// @param angular_frequency  ω (rad/s), > 0, no multiple of 2π/τ, with a difference of π/τ
-/// @throws InvalidParameter where the place is a node of that frequency
+/// @param angular_frequency  ω (rad/s), > 0, no multiple of 2π/τ; with a velocity by difference, no
+///                           multiple of π/τ
+/// @throws InvalidParameter where the place is a node of that frequency or ω an excluded multiple
 inline PdGains<double> perfect_absorption(const TautString<double>& string, double distance,
                                           const ActiveAbsorber& device, double angular_frequency) {
   const std::complex<double> s(0.0, angular_frequency);
@@ -52,7 +52,7 @@ inline PdGains<double> perfect_absorption(const TautString<double>& string, doub
   const double area = (std::conj(by_p) * by_d).imag();
   if (!(std::abs(area) > 1e-9 * std::abs(by_p) * std::abs(by_d)))
     throw InvalidParameter("angular frequency", angular_frequency, "rad/s",
-                           "such that readings and hold show it: no multiple of pi/tau");
+                           "no multiple of pi/tau, where samples do not show the vibration");
   return {(std::conj(wanted) * by_d).imag() / area, (std::conj(by_p) * wanted).imag() / area};
 }
 

@@ -24,9 +24,9 @@ namespace holdfast {
 ///
 ///     H_il(s) = Σ_k φ_ik φ_lk/(s − s_k)  (m/N, force at l, displacement at i)
 ///
-/// A device with K at place j changes it to H_il − H_ij K H_jl/(1 + K H_jj): its poles are the
-/// roots of 1 + K H_jj, each continued from a pole of conductor or device alone (`root_from_pole`);
-/// the residues remain of rank one. N² operations per device.
+/// A device of dynamic stiffness K at place j changes H_il to H_il − H_ij K H_jl/(1 + K H_jj). The
+/// new poles are the roots of 1 + K H_jj, each continued from a pole of conductor or device alone
+/// (`root_from_pole`). The residues remain of rank one. Work: N² operations per device.
 class SpanPoles {
  public:
   using Complex = std::complex<double>;  ///< type of s and of receptances
@@ -66,8 +66,8 @@ class SpanPoles {
     }());
   }
 
-  /// Attaches an absorber and gives the poles from its drive to its place in the form of
-  /// `plant_poles`: both of each pair; nothing where not all were found.
+  /// Attaches an absorber and returns all poles, with residues from its drive to its place, as
+  /// `plant_poles` does: both poles of each pair; no pole where not all were found.
   /// @throws InvalidParameter where the absorber is not admissible
   std::vector<PlantPole> attach(const Absorber<double>& absorber, std::size_t place) {
     validate({{1.0, 0.0, 1.0, 1.0}}, absorber);
@@ -85,7 +85,7 @@ class SpanPoles {
     return found;
   }
 
-  /// The s with Im s > 0 of each pair, in the order of the modes, then of the attached devices.
+  /// The poles (1/s), of a pair the one with Im s > 0: of the modes, then of the devices in turn.
   std::vector<Complex> roots() const {
     std::vector<Complex> found;
     for (const Pole& pole : poles_) found.push_back(pole.s);
@@ -136,7 +136,7 @@ class SpanPoles {
         mobility_[i][l] += mode.shapes[i] * mode.shapes[l] / mode.mass;
   }
 
-  /// The mobility at very high frequency, once a mass is clamped to a place.
+  /// Updates the mobility at very high frequency for a mass (kg) clamped to a place.
   void load(std::size_t place, double mass) {
     const std::vector<double> row = mobility_[place];
     const double share = mass / (1.0 + mass * row[place]);
@@ -144,11 +144,11 @@ class SpanPoles {
       for (std::size_t l = 0; l < row.size(); ++l) mobility_[i][l] -= share * row[i] * row[l];
   }
 
-  /// A pole with a new device, and its start without it.
+  /// A pole s with a new device, and the pole `begin` without it from which s is continued.
   struct Followed {
     Complex begin, s;
     bool is_pair;
-    std::optional<Pole> weak;  // of one that hardly moves
+    std::optional<Pole> weak;  // if it hardly moves
   };
 
   template <class Stiffness>
@@ -172,12 +172,12 @@ class SpanPoles {
     poles_ = std::move(poles);
   }
 
-  /// The shift of a pole by its own residue, with all others constant.
+  /// The shift of a pole by a device, with the terms of all other poles in H taken as constant.
   struct PoleShift {
-    Complex change;                              // s_k less where it comes
-    bool is_weak;                                // so little that this is all
+    Complex change;                              // old s_k minus new s_k
+    bool is_weak;                                // whether first order suffices
     Complex stiffness_here, denominator, shape;  // K, 1 + bK, φ at the place
-    std::vector<Complex> others;                 // of H from the place to each, without the pole
+    std::vector<Complex> others;                 // H_ij to each place i without this pole
   };
 
   template <class Stiffness>
@@ -198,7 +198,7 @@ class SpanPoles {
     return {change, is_weak, stiffness_here, denominator, shape, std::move(others)};
   }
 
-  /// The pole with a device that hardly moves it.
+  /// The pole, to first order, with a device that hardly moves it.
   static Pole weakly(const Pole& pole, const PoleShift& shift) {
     Pole result{pole.s - shift.change, pole.is_pair, pole.shapes};
     for (std::size_t i = 0; i < result.shapes.size(); ++i)
@@ -206,8 +206,8 @@ class SpanPoles {
     return result;
   }
 
-  /// Where a pole comes that moves little beside its distance from all others, by Newton from where
-  /// its residue alone brings it; nothing where that is not sure.
+  /// The new value (1/s) of a pole that moves little compared with its distance from all others, by
+  /// Newton's method from pole.s − shift.change; nothing where this is not certain.
   template <class Stiffness>
   std::optional<Complex> next_to(const Pole& pole, const PoleShift& shift,
                                  const Stiffness& stiffness, std::size_t place) const {
@@ -223,7 +223,7 @@ class SpanPoles {
     return s;
   }
 
-  /// Adds the pole continued from s; of a pair that meets on the real axis `separate` finds one.
+  /// Adds the pole continued from `begin`. Where a pair becomes real, `separate` finds the second.
   template <class Stiffness>
   void follow(std::vector<Followed>& found, const Stiffness& stiffness, const Complex& begin,
               bool is_pair, std::size_t place) const {
@@ -236,10 +236,10 @@ class SpanPoles {
     if (is_pair && !stays) found.push_back({std::conj(begin), std::nan(""), false, std::nullopt});
   }
 
-  /// The root that represents its pair.
+  /// The one of s and its conjugate with Im s ≥ 0, which represents the pair.
   static Complex upper(const Complex& s) { return s.imag() < 0.0 ? std::conj(s) : s; }
 
-  /// The sum Σ 1/(s − s_k) over poles, pairs counted twice.
+  /// The sum Σ 1/(s − s_k) over all known s_k but number `but`, and over the conjugates of pairs.
   template <class Motions>
   static Complex pull(const Motions& motions, const Complex& s, std::size_t but) {
     Complex sum(0.0);

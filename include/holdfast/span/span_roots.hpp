@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// The deflection at the right support of a string that starts at the left one with slope 1, for
+/// The deflection at the right support of a string that leaves the left support with slope 1, for
 /// waves e^{st}: zero where s is an eigenvalue of the span with its devices.
 ///
 /// The string's damping is a complex stiffness, T e^{2iφ} with sin φ = ζ, so that each mode alone
@@ -37,7 +37,7 @@ class SpanWaves {
     return Complex(0.0, n * pi<double> * string_.wave_speed() / string_.span) * turn_;
   }
 
-  /// The ratio of y(L) at s to its value without devices.
+  /// The ratio of the deflection at the right support for waves e^{st} to that without devices.
   Complex held(const Complex& s) const {
     const Complex rate = s / (string_.wave_speed() * turn_);
     const Complex tension = string_.tension * turn_ * turn_;
@@ -53,7 +53,7 @@ class SpanWaves {
   }
 
  private:
-  /// Propagates y and its slope along the string.
+  /// Propagates y and its slope over `way` (m) along the string.
   static void run(double way, const Complex& rate, Complex& y, Complex& slope) {
     const Complex sine = std::sinh(rate * way), cosine = std::cosh(rate * way);
     const Complex moved = y * cosine + slope * sine / rate;
@@ -80,7 +80,7 @@ struct SpanRoot {
   double frequency() const { return std::abs(root) / (2.0 * pi<double>); }  ///< |s|/2π (Hz)
 };
 
-/// The damping of mode n of a taut string by the laws for light or near devices, without its root.
+/// The damping of mode n of a taut string by the laws for light and near devices; `root` is NaN.
 /// @param string   its bending stiffness is not used; its damping is that of mode n
 /// @param devices  inside the span (unchecked)
 /// @param n        number of half-waves, ≥ 1
@@ -117,16 +117,16 @@ inline SpanRoot span_root(const TautString<double>& string, const std::vector<Sp
   return found;
 }
 
-/// The eigenvalues of a taut string with devices, for many modes: roots of
+/// The eigenvalues of a taut string with devices for the modes 1 … count: roots of
 ///
 ///     sinh γL + Σ_j (Z_j/Z_c) sinh γa_j sinh γ(L − a_j) + …,   γ = s/c
 ///
 /// for example, with one dashpot to the ground, sin βL + i (c/Z_c) sin βa sin β(L − a) = 0, s = iβc
 /// (Krenk, J. Eng. Mech. 126 (2000)). Each is continued from a mode of the bare string.
 ///
-/// The continuation is no proof: where two roots meet on their way, their assignment is arbitrary.
-/// For an ActiveAbsorber only the part of its force at the frequency of the motion is included; for
-/// a measured device the impedance at |s|.
+/// The continuation proves nothing: if two roots meet during it, their modes may be exchanged.
+/// For an ActiveAbsorber only the part of its force at the frequency of the motion is included. A
+/// measured device acts with its impedance at ω = |s|.
 /// @param string   taut string; its bending stiffness is not used
 /// @param devices  in any order
 /// @param count    modes 1 … count

@@ -15,7 +15,7 @@ namespace holdfast::cvode {
 
 namespace detail {
 
-/// A system states its Jacobian if it has half_bandwidth() and jacobian(state, set).
+/// Whether a system has a banded Jacobian: half_bandwidth() and jacobian(state, set).
 template <class System, class = void>
 struct HasBandedJacobian : std::false_type {};
 template <class System>
@@ -23,14 +23,14 @@ struct HasBandedJacobian<System,
                          std::void_t<decltype(std::declval<const System&>().half_bandwidth())>>
     : std::true_type {};
 
-/// A system says how far it is from the end of its model if it has margin(state).
+/// Whether a system has margin(state), which is positive where its model holds.
 template <class System, class = void>
 struct HasMargin : std::false_type {};
 template <class System>
 struct HasMargin<System, std::void_t<decltype(std::declval<const System&>().margin(
                              std::declval<const double*>()))>> : std::true_type {};
 
-/// A system changes with time if its rate takes it: rate(t, y, rate).
+/// Whether the rate of a system depends on time: rate(t, y, rate).
 template <class System, class = void>
 struct TakesTime : std::false_type {};
 template <class System>
@@ -40,28 +40,28 @@ struct TakesTime<System, std::void_t<decltype(std::declval<const System&>().rate
 
 }  // namespace detail
 
-/// One integration of a system ẏ = rate(y) from a given state.
+/// The integration of a system ẏ = rate(y) or ẏ = rate(t, y) from a given state.
 ///
-/// @tparam System  has `int states()`, `void rate(const double* y, double* rate)`, or with the time
-/// (s) before these `rate(t, y, rate)`; with also
-/// `int half_bandwidth()` and `jacobian(y, set)`, set(row, column, value), it is taken to be stiff:
-/// BDF and Newton's method with a banded matrix; without, Adams' method and a fixed point. With
-/// `double margin(const double* y)` the integration ends where that falls to zero.
+/// @tparam System  has `int states()` and `void rate(const double* y, double* rate)`, or
+/// `rate(t, y, rate)` with t in s. If it also has `int half_bandwidth()` and `jacobian(y, set)`,
+/// which calls set(row, column, value), it is integrated as stiff by BDF and Newton's method with a
+/// banded matrix; otherwise by Adams' method with fixed-point iteration. If System also has
+/// `double margin(const double* y)`, the integration ends where the margin falls to zero.
 ///
-/// The system must outlive the integrator. Not to be copied or moved: CVODE holds its address.
+/// An integrator cannot be copied or moved, since CVODE holds its address.
 template <class System>
 class Integrator : public detail::Session {
  public:
-  /// @param system         must outlive this
+  /// @param system         system, which must outlive this object
   /// @param initial_state  states() numbers, in SI units, at t = 0
   /// @param tolerances     local error per step, and the limit of steps
-  /// @throws InvalidParameter for another number of them, or tolerances that are not positive
+  /// @throws InvalidParameter for another number of states, or tolerances that are not positive
   Integrator(const System& system, const Eigen::VectorXd& initial_state,
              const Tolerances& tolerances)
       : Session(tolerances), system_(system) {
     if (initial_state.size() != system.states())
       throw InvalidParameter("number of initial states", static_cast<double>(initial_state.size()),
-                             "", "states() of the system");
+                             "", "equal to states() of the system");
     open(banded ? CV_BDF : CV_ADAMS, &Integrator::rate, initial_state, tolerances, this);
     if (outcome_ != IntegrationOutcome::completed) return;
     if constexpr (banded)
@@ -71,14 +71,14 @@ class Integrator : public detail::Session {
     if constexpr (bounded) watch_margin();
   }
 
-  /// Integrates to the instant `time` (s). Once it has failed it stays failed.
+  /// Integrates to the instant `time` (s). After a failure it only returns that outcome again.
   IntegrationOutcome advance_to(double time) {
     if (outcome_ != IntegrationOutcome::completed) return outcome_;
     check(CVode(memory_.get(), time, state_.get(), &time_, CV_NORMAL));
     return outcome_;
   }
 
-  /// Begins anew at the instant last reached, where the system's rate has jumped.
+  /// Restarts at the instant last reached, where the system's rate has jumped.
   void restart() {
     if (outcome_ == IntegrationOutcome::completed)
       check(CVodeReInit(memory_.get(), time_, state_.get()));
@@ -86,10 +86,10 @@ class Integrator : public detail::Session {
 
   /// The state (states() numbers) at the instant last reached.
   const double* state() const { return N_VGetArrayPointer(state_.get()); }
-  /// That instant (s).
+  /// The instant last reached (s).
   double time() const { return time_; }
 
-  /// Cost of the integration so far, since it last began anew.
+  /// Cost of the integration since its last start or restart.
   IntegrationCost cost() const {
     IntegrationCost cost;
     cost.steps = count(&CVodeGetNumSteps);

@@ -19,22 +19,22 @@
 
 /// Time integration of the library's continuous models by CVODE, SUNDIALS 6 and 7.
 ///
-/// SUNDIALS itself owns the global namespace `sundials`, hence this name.
+/// The namespace is not called `sundials`, since SUNDIALS itself has one of that name.
 namespace holdfast::cvode {
 
-/// How an integration ended; each case is a family of CVODE's return flags.
+/// Outcome of an integration; each value stands for several of CVODE's return flags.
 enum class IntegrationOutcome {
   completed,           ///< CV_SUCCESS and CV_TSTOP_RETURN
   model_ended,         ///< CV_ROOT_RETURN: the system's margin() reached zero
   too_much_work,       ///< CV_TOO_MUCH_WORK: the limit of steps was reached
   too_much_accuracy,   ///< CV_TOO_MUCH_ACC: the tolerances are finer than round-off
   error_test_failed,   ///< CV_ERR_FAILURE: the step shrank without passing the error test
-  convergence_failed,  ///< CV_CONV_FAILURE and its kin: Newton or the fixed point did not converge
+  convergence_failed,  ///< CV_CONV_FAILURE and the like: Newton or the fixed point did not converge
   linear_solver_failed,    ///< CV_LINIT_FAIL, CV_LSETUP_FAIL, CV_LSOLVE_FAIL
-  right_hand_side_failed,  ///< CV_RHSFUNC_FAIL and its kin: the rates were not finite
-                           ///< (on the way, Adams' fixed point calls it convergence_failed)
-  out_of_memory,           ///< a handle could not be made
-  refused,                 ///< any other flag: CVODE was asked what it does not do
+  right_hand_side_failed,  ///< CV_RHSFUNC_FAIL and the like: the rates were not finite
+                           ///< (after the start, Adams' method gives convergence_failed for it)
+  out_of_memory,           ///< an object of SUNDIALS could not be allocated
+  refused,                 ///< any other flag, for example for an illegal input
 };
 
 /// The outcome that a flag of CVODE means.
@@ -62,7 +62,7 @@ inline IntegrationOutcome outcome_of_flag(int flag) {
   return Outcome::refused;
 }
 
-/// CVODE's name of a flag: "CV_TOO_MUCH_WORK".
+/// CVODE's name of a flag, for example "CV_TOO_MUCH_WORK".
 inline std::string name_of_flag(int flag) {
   const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
   return name ? std::string(name.get()) : "flag " + std::to_string(flag);
@@ -70,7 +70,7 @@ inline std::string name_of_flag(int flag) {
 
 /// Cost of an integration.
 struct IntegrationCost {
-  long steps = 0;                 ///< of the integrator, not of the instants asked for
+  long steps = 0;                 ///< internal steps of the integrator
   long rate_evaluations = 0;      ///< calls of the right-hand side
   long jacobian_evaluations = 0;  ///< 0 for a system without a banded Jacobian
 };
@@ -79,7 +79,7 @@ struct IntegrationCost {
 struct Tolerances {
   double relative = 1e-6;  ///< > 0
   double absolute = 1e-9;  ///< > 0, in the units of the states (m, m/s)
-  /// > 0, from one instant asked for to the next; more end as `too_much_work`.
+  /// Limit (> 0) of the steps from one output to the next; beyond it: `too_much_work`.
   long largest_number_of_steps = 2000000;
 };
 
@@ -92,7 +92,7 @@ struct FreeBy {
     Free(handle);
   }
 };
-/// Deleter of handles of which SUNDIALS takes the address, to set them to null.
+/// Deleter by a function of SUNDIALS that takes the address of the handle, to set it to null.
 template <auto Free>
 struct FreeByAddress {
   template <class Handle>
@@ -121,7 +121,7 @@ inline SUNContext make_context() {
   return context;
 }
 
-/// Base of every integration by CVODE: the handles, the outcome and the words of a failure.
+/// Base of every integration by CVODE: its handles, its outcome and the message on a failure.
 class Session {
  public:
   Session(const Session&) = delete;
@@ -130,7 +130,7 @@ class Session {
   Session& operator=(Session&&) = delete;
 
   IntegrationOutcome outcome() const { return outcome_; }
-  /// CVODE's own words on a failure: the flag's name, and its message where it gave one.
+  /// The message on a failure: the flag's name, and CVODE's own message where there is one.
   const std::string& words() const { return words_; }
 
  protected:
@@ -142,7 +142,7 @@ class Session {
   }
   ~Session() = default;
 
-  /// Makes ready to integrate from t = 0; `user_data` is what CVODE hands to the functions.
+  /// Prepares the integration from t = 0; CVODE passes `user_data` to the system's functions.
   void open(int method, CVRhsFn rate, const Eigen::VectorXd& initial_state,
             const Tolerances& tolerances, void* user_data) {
     if (lacks_memory(context_ != nullptr)) return;
@@ -177,8 +177,8 @@ class Session {
     return false;
   }
 
-  /// SUNDIALS 6 does not look whether there was memory for its own vectors and matrices: as much is
-  /// asked for beforehand, and given back.
+  /// Tries whether memory for SUNDIALS' own vectors is lacking, which version 6 does not check, by
+  /// allocating and freeing as much. lacks_memory_for_matrix() does this for a matrix.
   bool lacks_memory_for_vectors(sunindextype states, sunindextype vectors) {
     const SerialVector spare(N_VNew_Serial(states * vectors, context_.get()));
     return lacks_memory(spare != nullptr);
@@ -196,15 +196,15 @@ class Session {
     return true;
   }
 
-  /// One of CVODE's counters, 0 where there is none.
+  /// The counter of CVODE that `get` reads; 0 where it cannot be read.
   long count(int (*get)(void*, long*)) const {
     long number = 0;
     return memory_ && get(memory_.get(), &number) == CV_SUCCESS ? number : 0;
   }
 
-  /// The history of Adams' method and what it works with; BDF has fewer.
+  /// Upper bound of the number of vectors that Adams' method allocates; BDF needs fewer.
   static constexpr sunindextype vectors_of_integrator = 32;
-  /// Beside the copy of a banded matrix CVODE allocates some vectors.
+  /// Rows added to a matrix for the vectors that CVODE allocates beside its copy of the matrix.
   static constexpr sunindextype spare_rows = 8;
 
   IntegrationOutcome outcome_ = IntegrationOutcome::completed;

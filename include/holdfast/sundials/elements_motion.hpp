@@ -18,33 +18,33 @@
 
 namespace holdfast::cvode {
 
-/// The computer, its drive and the excitation on the elements of a cable.
+/// The controller, its drive and the excitation of a cable in finite elements.
 struct ElementsLoop {
   Sampling<double> sampling;              ///< τ and δ ≤ τ
   PdGains<double> gains;                  ///< P and D
-  HarmonicExcitation<double> excitation;  ///< F_m and f, of the force at the absorber's place
+  HarmonicExcitation<double> excitation;  ///< F_m and f of the force at the absorber's place
   double backlash_width = 0.0;            ///< r₀ (m), ≥ 0
-  ForceHold hold = ForceHold::sampled;    ///< how the harmonic force is taken over a sample
+  ForceHold hold = ForceHold::sampled;    ///< harmonic force: held over a sample or continuous
 };
 
-/// The motion of the nonlinear cable in elements, with the absorber on its spring and the sampled
-/// drive with its play between the two: large sag, large motion, waves and all. The judge of what
-/// is said of it by fewer states.
+/// The motion of a nonlinear cable in finite elements with the absorber on its spring, with
+/// the sampled drive and its backlash between the two. It includes large sag, large motion and
+/// waves, and serves as reference for models with fewer states.
 ///
-/// As `SampledMotion`, `sense()` decides contact and force at t_j and `advance()` moves to t_{j+1};
-/// CVODE integrates between the instants at which a force jumps, and begins anew at each. Work per
-/// sample: some tens of steps of BDF, each linear in the elements.
+/// As in `SampledMotion`, `sense()` decides contact and force at t_j and `advance()` moves to
+/// t_{j+1}. CVODE integrates between the instants at which a force jumps and restarts at each. Work
+/// per sample: some tens of BDF steps, each linear in the number of elements.
 class ElementsMotion {
  public:
-  static constexpr int states = 4;                 ///< what is read
+  static constexpr int states = 4;                 ///< size of State
   using State = Vector<double, 4>;                 ///< [z, ż, z₂, ż₂] (m, m/s, m, m/s)
-  using Readings = PortReadings<TwoMass<double>>;  ///< how that is read
+  using Readings = PortReadings<TwoMass<double>>;  ///< readings of a State
 
-  /// @param cable       with the absorber as a spring–mass; must outlive this
-  /// @param loop        of which τ, δ and r₀ are checked
-  /// @param start       a state of the cable, as of `held_by`
+  /// @param cable       cable with the absorber as a spring–mass; must outlive this object
+  /// @param loop        loop; τ, δ and r₀ are checked
+  /// @param start       initial state of the cable, as from `CableElements::held_by`
   /// @param tolerances  local error per step, and the limit of steps in a sample
-  /// @throws InvalidParameter for another reading of the absorber, or outside these ranges
+  /// @throws InvalidParameter for an absorber that is no spring–mass, or τ, δ or r₀ out of range
   ElementsMotion(const CableElements& cable, const ElementsLoop& loop, const Eigen::VectorXd& start,
                  const Tolerances& tolerances = {})
       : loop_(loop),
@@ -56,11 +56,11 @@ class ElementsMotion {
                    loop.sampling.period);
     require_non_negative("backlash width r0", loop.backlash_width, "m");
     if (!cable.is_sprung())
-      throw InvalidParameter("reading of the absorber", 0.0, "", "the spring-mass");
+      throw InvalidParameter("reading of the absorber", 0.0, "", "AbsorberReading::spring_mass");
     system_.amplitude = loop.hold == ForceHold::exact ? loop.excitation.amplitude : 0.0;
   }
 
-  /// Takes sample j: whether the force is transmitted, and how large it is. Once per sample.
+  /// Takes sample j: decides the contact and the drive's force. To be called once per sample.
   MotionSample<double> sense() {
     const State seen = state();
     const bool engaged = law_.step(seen[2] - seen[0], seen[3] - seen[1]);
@@ -69,8 +69,8 @@ class ElementsMotion {
     return {index_, time(), seen, present_force_, engaged};
   }
 
-  /// Moves from t_j to t_{j+1} under the force that the last `sense()` decided; not once
-  /// `outcome()` is another than completed.
+  /// Moves from t_j to t_{j+1} under the force that the last `sense()` decided. Not to be called
+  /// after `outcome()` has changed from completed.
   void advance() {
     const double begin = time(), late = loop_.sampling.processing_delay;
     if (loop_.hold == ForceHold::sampled)
@@ -81,19 +81,19 @@ class ElementsMotion {
     previous_force_ = present_force_;
   }
 
-  /// j, the sample that `sense()` will take or has taken.
+  /// Index j of the next sample for `sense()`, or of the one taken since the last `advance()`.
   std::int64_t index() const { return index_; }
-  /// t_j (s).
+  /// Time t_j (s) of sample j.
   double time() const { return static_cast<double>(index_) * loop_.sampling.period; }
-  /// [z, ż, z₂, ż₂] at the instant last reached.
+  /// State [z, ż, z₂, ż₂] at the instant last reached.
   State state() const { return system_.cable.at_absorber(integrator_.state()); }
-  /// How that is read.
+  /// The readings of state().
   Readings readings() const { return {}; }
-  /// Whether the cable is one still and CVODE does not give up; and its words.
+  /// Outcome: completed while all bars are in tension and CVODE has not failed, else the reason.
   IntegrationOutcome outcome() const { return integrator_.outcome(); }
-  /// CVODE's own words on a failure.
+  /// CVODE's message on a failure.
   const std::string& words() const { return integrator_.words(); }
-  /// Cost of the motion so far, since the last jump of a force.
+  /// Cost of the integration since the last jump of a force.
   IntegrationCost cost() const { return integrator_.cost(); }
 
  private:

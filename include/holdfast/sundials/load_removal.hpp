@@ -11,31 +11,31 @@
 
 namespace holdfast::cvode {
 
-/// How the vibration after the removal of a load was found.
+/// Outcome of the simulation of a load removal.
 enum class LoadRemovalOutcome {
   completed,           ///< the record reaches to the end of the duration
-  no_equilibrium,      ///< the loaded cable has none that Newton's method finds
-  slack,               ///< a bar lost its tension: the cable model ends there
-  integration_failed,  ///< CVODE gave up; its words are in the result
+  no_equilibrium,      ///< Newton's method found no equilibrium of the cable
+  slack,               ///< a bar lost its tension, so that the model of the cable no longer holds
+  integration_failed,  ///< CVODE failed; its message is in the result
 };
 
 /// The vibration at the absorber's place after a force is removed at t = 0.
 struct LoadRemoval {
-  LoadRemovalOutcome outcome;  ///< whether the record is whole, else why not
-  std::string words;           ///< CVODE's own words, where it gave up
-  double last_time;  ///< s, of the record's end, or where the cable went slack or CVODE gave up
-  double initial_displacement;  ///< m, under the force, from the equilibrium with the weight
-  DecayRecord record;           ///< at t = 0, interval, 2 interval, …
+  LoadRemovalOutcome outcome;  ///< whether the record is complete, or why not
+  std::string words;           ///< CVODE's message where it failed
+  double last_time;  ///< instant (s) of the record's end, of slackness, or of CVODE's failure
+  double initial_displacement;  ///< m: drop under the force, from rest under the weight
+  DecayRecord record;           ///< displacements at t = 0, interval, 2 interval, …
   IntegrationCost cost;         ///< zeros where there is no equilibrium
 };
 
-/// Removes `force` (N) from the cable at rest and follows it.
-/// @param cable       `CableElements`, or what else has its members
+/// The free vibration of a cable at rest under a force, after this force is removed at t = 0.
+/// @param cable       `CableElements`, or a type with its members
 /// @param force       N, downward positive
 /// @param duration    s, > 0; the record ends at the last multiple of the interval not after it
 /// @param interval    s between the record's instants, > 0
 /// @param tolerances  local error per step, and the limit of steps in an interval
-/// @param at_each     called before each instant; what it throws ends the run
+/// @param at_each     called before each instant; an exception of it ends the run
 /// @throws InvalidParameter outside these ranges, and for 2⁵³ instants or more
 template <class Cable>
 LoadRemoval load_removal(const Cable& cable, double force, double duration, double interval,

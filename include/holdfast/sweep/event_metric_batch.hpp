@@ -20,15 +20,15 @@
 
 namespace holdfast {
 
-/// One motion of a sweep with exact switching: its loop, of which has_event_pack(), and its start.
+/// One motion of a sweep with exact switching: its loop and its initial state.
 struct EventSweepMotion {
-  const ImplementedLoop* loop;      ///< its own, every parameter of which may differ
+  const ImplementedLoop* loop;      ///< loop for which has_event_pack() is true
   Vector<double, 4> initial_state;  ///< [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 };
 
 namespace detail {
 
-/// A motion of a batch with all that it needs.
+/// A motion of a batch, with its start and its range of samples.
 struct PreparedEventMotion {
   EventStart start;
   SampleSpan span;
@@ -56,7 +56,7 @@ struct PreparedEventMotions {
     }
   }
 
-  /// One that serves a loop; mostly it is the last one.
+  /// The table for a loop: the latest one that serves it, or a new one.
   EventTable& table_of(const ImplementedLoop& loop) {
     const auto serving = std::find_if(tables.rbegin(), tables.rend(),
                                       [&](const auto& table) { return table->serves(loop); });
@@ -65,13 +65,13 @@ struct PreparedEventMotions {
   }
 };
 
-/// As many motions as a pack has lanes, with their metrics.
+/// A pack of motions, one per lane, with the observations for their metrics.
 template <class Scalar>
 class EventMetricTrack {
  public:
   static constexpr std::size_t lanes = Lanes<Scalar>::count;
 
-  /// @param motions  `count` of them, 1 ≤ count ≤ lanes
+  /// @param motions  first of `count` motions, 1 ≤ count ≤ lanes
   EventMetricTrack(const PreparedEventMotion* motions, std::size_t count)
       : pack_(starts_of(motions, count)) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -83,8 +83,8 @@ class EventMetricTrack {
 
   bool is_open() const { return std::find(open_.begin(), open_.end(), true) != open_.end(); }
 
-  /// The sample before which a lane begins to be steady or has had its samples, none after
-  /// `latest`.
+  /// The index of the next stop of the loop over samples: the first steady sample or the end of a
+  /// lane's motion, whichever comes first, or `latest` if that is earlier.
   std::int64_t next_stop(std::int64_t latest) const {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       if (!open_[lane]) continue;
@@ -95,7 +95,7 @@ class EventMetricTrack {
     return latest;
   }
 
-  /// To be called at such a sample.
+  /// Prepares for the samples up to the next stop (next_stop()); to be called at each stop.
   void begin_stretch() {
     const auto begin = from_lanes<Scalar>(
         [&](std::size_t lane) { return static_cast<double>(spans_[lane].first_steady); });
@@ -110,7 +110,7 @@ class EventMetricTrack {
     }
   }
 
-  /// Takes one sample.
+  /// Takes one sample and writes the metrics of the motions that end at this sample.
   void take(MotionMetrics* results) {
     close_diverged(results);
     const auto sample = pack_.sense();
@@ -172,8 +172,7 @@ class EventMetricTrack {
   bool steady_ = false, begins_ = false, seeks_extremum_ = true;
 };
 
-/// The metrics of motions that are prepared, group by group: the packs of a group hide each other's
-/// latency.
+/// Computes the metrics of prepared motions, two packs at a time to hide instruction latency.
 template <class Scalar, class Pause>
 void group_event_metrics(const PreparedEventMotion* motions, std::size_t count,
                          MotionMetrics* results, const Pause& pause) {
@@ -200,17 +199,17 @@ void group_event_metrics(const PreparedEventMotion* motions, std::size_t count,
 
 }  // namespace detail
 
-/// event_metrics() of many motions with exact switching, which may differ in every parameter, as
-/// many at a time as `Scalar` has lanes.
+/// Computes the metrics of many motions with exact switching, which may differ in every parameter,
+/// as many at a time as `Scalar` has lanes.
 ///
-/// The metrics are those of event_metrics() but for rounding, and do not depend on the other
-/// motions of the batch. Work: that of EventPack, and a few matrix exponentials for each plant,
-/// sampling and force among them.
-/// @param motions   each of a loop of which has_event_pack(), with a finite state
+/// The metrics equal those of event_metrics() for one motion except for rounding, and do not depend
+/// on the other motions of the batch. Work: that of EventPack, and a few matrix exponentials for
+/// each different plant, sampling and force.
+/// @param motions   motions, each with has_event_pack() true for its loop and a finite state
 /// @param count     number of motions, ≥ 0
-/// @param duration  s, ≥ 0
-/// @param results   as many, in the order of the motions
-/// @param pause     called every some hundred samples; may throw to end all
+/// @param duration  length of each motion (s), ≥ 0
+/// @param results   metrics, as many as motions and in their order
+/// @param pause     called every some hundred samples; may throw to stop the computation
 /// @throws InvalidParameter where a motion or the duration is not admissible
 template <class Scalar, class Pause>
 void event_metrics(const EventSweepMotion* motions, std::size_t count, double duration,

@@ -20,8 +20,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// Δż of a state; zero where the ports leave nothing of it but rounding, as in a stick. The two
-/// masses have ż₂ = ż₁ there to the last bit.
+/// The relative velocity Δż (m/s) of the drive in a state. Values as small as rounding errors,
+/// which occur in stick, are set to zero. For the two masses Δż is exactly zero in stick.
 template <class Plant>
 double drive_velocity(const PortReadings<Plant>& readings, const StateOf<Plant>& state) {
   const double velocity = readings.relative_velocity(state);
@@ -33,7 +33,7 @@ double drive_velocity(const PortReadings<Plant>& readings, const StateOf<Plant>&
   return velocity;
 }
 
-/// Whether the changes of contact of a motion accumulate, which those of sampled motions cannot.
+/// Whether a motion has SwitchCounts::accumulates; never for a SampledMotion.
 template <class Motion>
 bool accumulates(const Motion&) {
   return false;
@@ -43,7 +43,7 @@ bool accumulates(const EventMotion<Contact>& motion) {
   return motion.counts().accumulates;
 }
 
-/// The metrics of one motion that stands at its first sample.
+/// The metrics of one motion, which must be at its first sample.
 template <class Motion>
 MotionMetrics metrics_of_motion(Motion& motion, const SampleSpan& span,
                                 const std::function<void()>& pause) {
@@ -74,19 +74,19 @@ MotionMetrics metrics_of_motion(Motion& motion, const SampleSpan& span,
 
 /// The metrics of sweep/motion_metrics.hpp for one motion of an implemented loop.
 ///
-/// All is taken at the samples, t_j of the loop's clock, also where the drive switches between
-/// them: a sample transmits where the drive is `engaged` (a stick is not), and the force u_j is
-/// what the drive transmits there. Of the loop of the paper's model the metrics are those of
-/// `motion_metrics`, but for rounding.
+/// They are evaluated only at the samples t_j of the loop's clock, although the drive may switch in
+/// between. The drive transmits at a sample where it is `engaged` (in stick it is not); u_j is
+/// the force transmitted at the sample. For the loop of the paper's model the metrics equal those
+/// of `motion_metrics` except for rounding.
 ///
 ///     event_metrics(implemented_loop(loop), Vector<double, 4>::Zero(), 20.0).steady_peak;
 ///
 /// Work: that of EventMotion, and about 30 operations a sample. The loop over samples allocates
 /// nothing.
-/// @param loop           as it is built
-/// @param initial_state  x, N × 1; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
-/// @param duration       s, ≥ 0
-/// @param pause          called every 2¹⁴ samples; may throw to end the motion
+/// @param loop           loop with its excitation and backlash
+/// @param initial_state  x, N × 1; for the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
+/// @param duration       length of the motion (s), ≥ 0
+/// @param pause          called every 2¹⁴ samples; may throw to stop the computation
 /// @throws InvalidParameter where the loop or the duration is not admissible, or the state not
 /// finite
 /// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>

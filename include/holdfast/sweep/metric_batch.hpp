@@ -14,8 +14,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// The samples of all motions, neighbours of about equal numbers of them; equal ones keep their
-/// order, and so what they share.
+/// The spans of all motions, sorted by their numbers of samples. Motions with equal numbers keep
+/// their order, so that neighbours in that order can share matrices.
 /// @throws InvalidParameter where a motion or the duration is not admissible
 inline std::vector<SampleSpan> ordered_spans(const SweepMotion* motions, std::size_t count,
                                              double duration) {
@@ -29,8 +29,8 @@ inline std::vector<SampleSpan> ordered_spans(const SweepMotion* motions, std::si
   return spans;
 }
 
-/// The metrics of motions whose samples are known and ordered, group by group.
-/// @param source  SweepMatrices or its like
+/// Computes the metrics of motions with sorted spans, group by group.
+/// @param source  SweepMatrices, or an object with its members
 template <class Scalar, class Source>
 void group_metrics(const SweepMotion* motions, const SampleSpan* spans, std::size_t count,
                    MotionMetrics* results, Source& source) {
@@ -42,25 +42,25 @@ void group_metrics(const SweepMotion* motions, const SampleSpan* spans, std::siz
 
 }  // namespace detail
 
-/// The metrics of many motions, which may differ in every parameter, as many at a time as `Scalar`
-/// has lanes.
+/// Computes the metrics of many motions, which may differ in every parameter, as many at a time as
+/// `Scalar` has lanes.
 ///
 ///     std::vector<MotionMetrics> metrics(motions.size());
 ///     motion_metrics<double>(motions.data(), motions.size(), 20.0, metrics.data());
 ///
-/// A motion's metrics do not depend on the others, to the last bit; on packs and scalars they are
-/// the same but for rounding. Memory: some 50 bytes a motion beside the results. Work: see
-/// `detail::MetricTrack`; before that a motion costs a few matrix exponentials, unless the one
-/// before it among those of equal numbers of samples has the same plant and sampling.
-/// @param motions   each with an admissible loop and a finite state
+/// A motion's metrics do not depend on the other motions, to the last bit. Packs and scalars give
+/// the same metrics except for rounding. Memory: some 50 bytes per motion beside the results. Work:
+/// see `detail::MetricTrack`, and a few matrix exponentials for each motion whose plant or sampling
+/// differs from that of the motion before it.
+/// @param motions   motions, each with an admissible loop and a finite state
 /// @param count     number of motions, ≥ 0
-/// @param duration  s, ≥ 0
-/// @param results   as many, in the order of the motions
-/// @param source    SweepMatrices, or what is derived from it to be called at every sample j with
-///                  the numbers of the motions in the lanes, j, and the mask of the lanes that
-///                  transmit; also beyond a motion's last sample, and for a motion that repeats in
-///                  spare lanes or is done again; and its pause() every some hundred samples, which
-///                  may throw to end all
+/// @param duration  length of each motion (s), ≥ 0
+/// @param results   metrics, as many as motions and in their order
+/// @param source    SweepMatrices, or a class derived from it that observes: it is called at every
+///                  sample with the numbers of the motions in the lanes, the sample's index and the
+///                  mask of the lanes that transmit. Lanes may be past their motion's last sample
+///                  or repeat a motion. Its pause() is called every some hundred samples and may
+///                  throw to stop the computation
 /// @throws InvalidParameter where a motion or the duration is not admissible
 template <class Scalar, class Source = detail::SweepMatrices>
 void motion_metrics(const SweepMotion* motions, std::size_t count, double duration,

@@ -25,15 +25,15 @@
 
 namespace holdfast::detail {
 
-/// Conditions watched in a stretch of samples; those that no lane needs are left out.
+/// The observations needed in a stretch of samples; those that no lane needs are left out.
 struct Watch {
-  bool extremum;    ///< some first extremum is still to come
-  bool steady;      ///< some lane is steady
+  bool extremum;    ///< some lane has not yet had its first extremum
+  bool steady;      ///< some lane is in its steady samples
   bool divergence;  ///< some state is so large that it may leave the range of the number type
 };
 
-/// Size of a state beyond which every sample is looked at for divergence, and one that must not be
-/// met before that has begun.
+/// Sizes of a state: above `large_state` every sample is checked for divergence; a motion that
+/// reaches `unseen_state` without these checks is computed again with them.
 inline constexpr double large_state = 1e60, unseen_state = 1e200;
 
 /// A pack of motions with their metrics.
@@ -48,7 +48,7 @@ class MetricTrack {
 
   explicit MetricTrack(const Motion& motion) : motion_(motion) {}
 
-  /// Takes one sample. @return where the drive transmits
+  /// Takes one sample. @return the lanes in which the drive transmits
   template <bool Extremum, bool Steady, bool Divergence>
   Mask<Scalar> step() {
     const Scalar velocity_before = motion_.law().memory().previous_velocity;
@@ -75,15 +75,14 @@ class MetricTrack {
         lanes, is_reversal(motion_.law().memory().previous_velocity, velocity(motion_.state())));
   }
 
-  /// Begins to look for divergence; until now every sample of the lanes that are looked at was
-  /// finite.
+  /// Starts the checks for divergence, which count the samples with finite states. In lanes that
+  /// are still finite all samples so far are counted.
   void begin_watching_divergence() {
     finite_samples_ =
         select(finite_, Scalar(static_cast<double>(motion_.index())), finite_samples_);
   }
 
-  /// Σ |z_i| of the present state; its entries differ in unit, which does not matter to a magnitude
-  /// of tens of decades.
+  /// The size Σ |z_i| of the present state in SI units, a rough measure of divergence.
   Scalar size() const {
     using std::abs;
     Scalar result = abs(motion_.state()[0]);
@@ -111,17 +110,17 @@ class MetricTrack {
   Scalar finite_samples_ = Scalar(0);
 };
 
-/// Some motions side by side, each with its own loop and number of samples, from their start to
-/// their metrics.
+/// Computes the metrics of several motions in SIMD lanes, each with its own loop and number of
+/// samples.
 ///
-/// The lanes go in step; where one begins to be steady or has had its samples, the others pause for
-/// a moment. Thus no sample asks whose it is, and no lane's arithmetic depends on its neighbours.
-/// @tparam Source  gives the matrices of a loop and looks at the samples, as SweepMatrices does
+/// All lanes advance together. The loop over samples is left where a lane comes to its first steady
+/// sample or its end, so that it has no branches on lanes. No result depends on the other lanes.
+/// @tparam Source  type with the members of SweepMatrices: matrices of a loop, calls at samples
 template <class Scalar, class Source = SweepMatrices>
 class MetricGroup {
   using Lane = Lanes<Scalar>;
 
-  /// Two packs hide each other's latency where the processor has registers for both.
+  /// The number of packs: two hide instruction latency where there are registers enough for both.
   static constexpr std::size_t packs = Lane::count >= 8 ? 2 : 1;
   using Packs = std::make_index_sequence<packs>;
 
@@ -133,8 +132,9 @@ class MetricGroup {
     tracks_.reserve(packs);
   }
 
-  /// @param spans    `count` of them, 1 ≤ count ≤ lanes
-  /// @param results  one for each motion, in the order of `motions`
+  /// Computes the metrics of the `count` motions that `spans` name by their index in `motions`.
+  /// @param spans    samples of these motions, 1 ≤ count ≤ lanes
+  /// @param results  metrics, one for each motion, in the order of `motions`
   void compute(const SweepMotion* motions, const SampleSpan* spans, std::size_t count,
                MotionMetrics* results) {
     start(motions, spans, count);
@@ -146,10 +146,10 @@ class MetricGroup {
   }
 
  private:
-  /// Samples between two looks at the sizes of the states.
+  /// Number of samples between two checks of the sizes of the states.
   static constexpr std::int64_t stretch = 256;
 
-  /// Lanes beyond the last motion repeat it.
+  /// Starts the motions; lanes beyond the last motion repeat it.
   void start(const SweepMotion* motions, const SampleSpan* spans, std::size_t count) {
     tables_.clear();
     tracks_.clear();
@@ -257,8 +257,8 @@ class MetricGroup {
     }
   }
 
-  /// The loop over samples. It works on copies of the tracks, which the compiler then keeps in
-  /// registers, and all that it calls must be inlined for that.
+  /// The loop over samples. It works on copies of the tracks, so that the compiler keeps them in
+  /// registers; for that, every function called here must be inlined.
   template <bool Extremum, bool Steady, bool Divergence, std::size_t... Pack>
   [[gnu::flatten]] void take(std::int64_t end, std::index_sequence<Pack...> /*packs*/) {
     constexpr auto block = static_cast<std::int64_t>(PhasorTable<Scalar>::block);
@@ -298,7 +298,7 @@ class MetricGroup {
     }
   }
 
-  /// A motion that outgrew everything within one stretch is done again.
+  /// Ends motions beyond `unseen_state`, to be computed again with checks at every sample.
   void close_unseen() {
     const auto seen = flags([](const auto& track) { return track.size() < Scalar(unseen_state); });
     for (std::size_t k = 0; k < lanes; ++k) {
@@ -310,7 +310,7 @@ class MetricGroup {
 
   const MetricTrack<Scalar>& track_of(std::size_t k) const { return tracks_[k / Lane::count]; }
 
-  /// One byte a lane of a mask of every track.
+  /// The masks of all tracks, one byte per lane.
   template <class MaskOfTrack>
   std::array<std::uint8_t, lanes> flags(const MaskOfTrack& mask) const {
     std::array<std::uint8_t, lanes> result;

@@ -15,38 +15,37 @@
 
 namespace holdfast {
 
-/// Whether a velocity that was not zero changed its sign or became zero: the reversal by which the
-/// drive enters its gap (contact/hysteresis.hpp).
+/// Whether a nonzero velocity `before` has changed its sign or become zero in `now`. At such a
+/// reversal the drive enters its gap (contact/hysteresis.hpp).
 template <class Scalar>
 Mask<Scalar> is_reversal(const Scalar& before, const Scalar& now) {
   const Scalar zero(0);
   return ((before > zero) & (now <= zero)) | ((before < zero) & (now >= zero));
 }
 
-/// Sums and peaks behind the metrics of a motion, or of as many as a pack has lanes. Its drivers,
-/// MetricTrack of the sampled map and event_metrics() of the event-driven flow, decide which
-/// samples it is shown.
+/// The sums and peaks from which the metrics of a motion are computed; for packs, of one motion per
+/// lane. Its callers, such as MetricTrack and event_metrics(), decide which samples are steady.
 template <class Scalar>
 struct MetricObserver {
   static constexpr double infinity = std::numeric_limits<double>::infinity();  ///< ∞
 
-  Scalar before_last = Scalar(MotionMetrics::unknown);  ///< z₁ (m) two samples ago, NaN: none yet
-  Scalar last = Scalar(MotionMetrics::unknown);         ///< z₁ (m) of the sample before
-  Scalar first_peak = Scalar(MotionMetrics::unknown);   ///< |z₁| (m) at its first strict turn
+  Scalar before_last = Scalar(MotionMetrics::unknown);  ///< z₁ (m) two samples ago; NaN: none yet
+  Scalar last = Scalar(MotionMetrics::unknown);         ///< z₁ (m) one sample ago or NaN
+  Scalar first_peak = Scalar(MotionMetrics::unknown);   ///< |z₁| (m) at its first strict extremum
   Scalar force_peak = Scalar(0);                        ///< max |u| (N)
   Scalar highest = Scalar(-infinity);                   ///< max Δz (m)
   Scalar lowest = Scalar(infinity);                     ///< min Δz (m)
   Scalar steady_peak = Scalar(0);                       ///< max |z₁| (m) of the steady samples
   Scalar squares = Scalar(0);                           ///< Σ z₁² (m²) of the steady samples
   Scalar force_squares = Scalar(0);                     ///< Σ u² (N²) of the steady samples
-  Scalar engaged = Scalar(0);    ///< steady samples at which the drive transmits
-  Scalar reversals = Scalar(0);  ///< of Δż, from one steady sample to the next
+  Scalar engaged = Scalar(0);    ///< number of steady samples at which the drive transmits
+  Scalar reversals = Scalar(0);  ///< number of reversals of Δż between successive steady samples
 
-  /// Takes z₁ (m) of a sample; an extremum is known at the sample after it. About 4 comparisons and
-  /// 3 selects.
+  /// Takes z₁ (m) of a sample; an extremum is found at the sample after it. Work: about 4
+  /// comparisons and 3 selects.
   void observe_extremum(const Scalar& displacement) {
     using std::abs;
-    // A comparison with a sample that has not been is false.
+    // At the first two samples the comparisons are with NaN and therefore false.
     const Mask<Scalar> turns = ((last > before_last) & (displacement < last)) |
                                ((last < before_last) & (displacement > last));
     first_peak = select(without<Scalar>(turns, extremum_found()), Scalar(abs(last)), first_peak);
@@ -54,7 +53,7 @@ struct MetricObserver {
     last = displacement;
   }
 
-  /// The lanes in which there is a first extremum by now.
+  /// The lanes whose first extremum has been found.
   Mask<Scalar> extremum_found() const { return first_peak == first_peak; }
 
   /// Takes u (N) and Δz (m) of a sample.
@@ -70,7 +69,7 @@ struct MetricObserver {
   /// Takes a steady sample.
   /// @param displacement  z₁ (m)
   /// @param force         u (N)
-  /// @param transmits     whether the drive does
+  /// @param transmits     whether the drive transmits
   /// @param reverses      whether Δż changed its sign since the sample before
   void observe_steady(const Scalar& displacement, const Scalar& force,
                       const Mask<Scalar>& transmits, const Mask<Scalar>& reverses) {
@@ -85,8 +84,8 @@ struct MetricObserver {
   }
 
   /// Begins the steady samples of the lanes in the mask, at the sample about to be taken.
-  /// @param lanes     which begin
-  /// @param reverses  of that sample: its reversal began before and does not count
+  /// @param lanes     lanes that begin
+  /// @param reverses  whether Δż reverses at that sample; this reversal is not counted
   void begin_steady(const Mask<Scalar>& lanes, const Mask<Scalar>& reverses) {
     const Scalar zero(0);
     for (Scalar* sum : {&steady_peak, &squares, &force_squares, &engaged})
@@ -112,16 +111,16 @@ struct MetricObserver {
 
 namespace detail {
 
-/// The samples of one motion.
+/// The range of samples of one motion.
 struct SampleSpan {
-  std::size_t motion;         ///< its number
-  std::int64_t first_steady;  ///< ≤ samples; as many as there are samples where none is steady
-  std::int64_t samples;       ///< ≥ 1
-  double steady_time;         ///< s, from the first steady sample to the last
+  std::size_t motion;         ///< index of the motion
+  std::int64_t first_steady;  ///< index of the first steady sample; = samples where there is none
+  std::int64_t samples;       ///< number of samples, ≥ 1
+  double steady_time;         ///< time (s) from the first steady sample to the last
 };
 
-/// The samples not after the duration, and of them those not before half of it.
-/// @throws InvalidParameter where there is no such number of samples
+/// The samples of a motion up to `duration` (s). Samples from duration/2 on are steady.
+/// @throws InvalidParameter where the duration, the period or the number is not admissible
 inline SampleSpan sample_span(std::size_t motion, double duration, const SamplingClock& clock) {
   std::int64_t samples = samples_within(duration, clock.period());
   if (clock.jitter().half_width > 0.0) {
@@ -132,7 +131,7 @@ inline SampleSpan sample_span(std::size_t motion, double duration, const Samplin
   const auto is_steady = [&](std::int64_t index) {
     return not_before(clock.time(index), 0.5 * duration);
   };
-  // Half the duration by division is right to a sample or two.
+  // The quotient is correct to within a sample or two.
   const double near = std::floor(0.5 * duration / clock.period()) - 2.0;
   std::int64_t first = std::min(near > 0.0 ? static_cast<std::int64_t>(near) : 0, samples);
   while (first > 0 && is_steady(first - 1)) --first;
@@ -154,7 +153,7 @@ inline MotionMetrics completed_metrics(const MetricObserver<double>& seen, const
   return metrics;
 }
 
-/// @param samples  with a finite state
+/// @param samples  number of samples with a finite state
 inline MotionMetrics diverged_metrics(const MetricObserver<double>& seen, std::int64_t samples) {
   MotionMetrics metrics{MotionEnd::diverged, samples, seen.first_peak};
   for (double* number : {&metrics.steady_peak, &metrics.steady_rms, &metrics.force_peak,

@@ -11,13 +11,13 @@
 
 namespace holdfast {
 
-/// The metrics of sweep/motion_metrics.hpp for one motion of a conductor by its modes, z and z₂
-/// being the conductor at the absorber and the absorber. Work: that of ModalMotion.
-/// @param loop      of which nothing is checked
-/// @param poles     all of `plant_poles` of its modes and absorber
-/// @param state     the initial one, of `modal_plant`
-/// @param duration  s, ≥ 0
-/// @param pause     called every 2¹⁴ samples; may throw to end the motion
+/// The metrics of sweep/motion_metrics.hpp for one motion of a conductor given by its modes. Here
+/// z₁ is the conductor's displacement at the absorber. Work: that of ModalMotion.
+/// @param loop      loop, which is not checked
+/// @param poles     all `plant_poles` of the loop's modes and absorber
+/// @param state     initial state, laid out as that of `modal_plant`
+/// @param duration  length of the motion (s), ≥ 0
+/// @param pause     called every 2¹⁴ samples; may throw to stop the computation
 /// @throws InvalidParameter where the duration or the sampling is not admissible
 inline MotionMetrics modal_metrics(const ModalLoop& loop, const std::vector<PlantPole>& poles,
                                    const ModalMotion::Full& state, double duration,

@@ -14,8 +14,9 @@
 
 namespace holdfast::detail {
 
-/// The matrices of one loop after another. Their exponentials cost some microseconds; cells of a
-/// sweep in a row often share them. It looks at no sample; what is derived from it may hide that.
+/// The matrices of the loops of a sweep. They are computed only if they differ from the matrices
+/// of the loop before, since exponentials cost some microseconds. A derived class may observe the
+/// samples by its own operator() and pause(), which hide those of this class.
 class SweepMatrices {
  public:
   struct Matrices {
@@ -23,7 +24,7 @@ class SweepMatrices {
     HarmonicInput<double> input;
   };
 
-  /// @tparam Loop  IdealLoop<double>
+  /// The matrices of a loop. @tparam Loop  IdealLoop<double>
   template <class Loop>
   const Matrices& of(const Loop& loop) {
     const bool same_loop = known_ && numbers_of(known_->plant) == numbers_of(loop.plant) &&
@@ -46,11 +47,11 @@ class SweepMatrices {
   template <class LaneMask>
   void operator()(const std::size_t* /*motions*/, std::int64_t /*index*/,
                   const LaneMask& /*engaged*/) const {}
-  /// Called every some hundred samples; may throw in a derived one.
+  /// Called every some hundred samples; may throw in a derived class.
   void pause() const {}
 
  private:
-  /// Zero matrices, of no loop, which are copied with the rest.
+  /// The zero matrices that are stored before the first loop.
   static Matrices of_no_loop() {
     const Matrix<double, 4> square = Matrix<double, 4>::Zero();
     const Vector<double, 4> column = Vector<double, 4>::Zero();
@@ -61,7 +62,7 @@ class SweepMatrices {
   Matrices matrices_ = of_no_loop();
 };
 
-/// The sampled loop of every lane.
+/// The sampled loops of all lanes, joined into packs.
 template <class Scalar>
 SampledLoop<Scalar> loop_from_lanes(
     const std::array<SweepMatrices::Matrices, Lanes<Scalar>::count>& lanes) {

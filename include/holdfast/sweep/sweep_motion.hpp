@@ -9,19 +9,20 @@
 
 namespace holdfast {
 
-/// One motion of a sweep: its loop and where it begins.
+/// One motion of a sweep: its loop and its initial state.
 struct SweepMotion {
-  IdealLoop<double> loop;           ///< its own, every parameter of which may differ
+  IdealLoop<double> loop;           ///< loop, which may differ from motion to motion
   Vector<double, 4> initial_state;  ///< [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 };
 
-/// m₁, k₁, c₁, m₂, k₂, c₂ in SI units, to be compared.
+/// The parameters m₁, k₁, c₁, m₂, k₂, c₂ of a plant in SI units.
 inline std::array<double, 6> numbers_of(const TwoMass<double>& plant) {
   return {plant.conductor_mass, plant.conductor_stiffness, plant.conductor_damping,
           plant.absorber_mass,  plant.absorber_stiffness,  plant.absorber_damping};
 }
 
-/// @throws InvalidParameter where the loop is not admissible or the state not finite
+/// Refuses a motion whose loop is not admissible or whose state is not finite.
+/// @throws InvalidParameter naming the first quantity that is not admissible
 inline void validate(const SweepMotion& motion) {
   validate(motion.loop);
   for (const double entry : motion.initial_state) require_finite("initial state", entry, "SI");

@@ -117,7 +117,7 @@ KeyValues parse_key_values(std::string_view option, std::string_view text) {
   const std::string_view values = trimmed(side);
   if (values.substr(0, logarithmic.size()) == logarithmic) {
     const Axis ends = given.axis(values.substr(logarithmic.size()));
-    if (!(ends.min > 0.0)) given.refuse("a logarithmic axis begins above 0");
+    if (!(ends.min > 0.0)) given.refuse("a logarithmic axis must begin above 0");
     return {key, LogAxis{ends.min, ends.max, ends.count}};
   }
   if (values.find(':') != std::string_view::npos) return {key, given.axis(values)};
@@ -138,7 +138,7 @@ WindowOption parse_window(std::string_view option, std::string_view text) {
   const WindowOption window{given.range(parts[0], parts[1]), given.range(parts[2], parts[3])};
   const bool flat = window.displacement.min == window.displacement.max ||
                     window.velocity.min == window.velocity.max;
-  if (flat) given.refuse("the window has no extent");
+  if (flat) given.refuse("the window has no extent: each MIN and MAX must differ");
   return window;
 }
 

@@ -131,13 +131,13 @@ CaseFault unused_key_fault(const Device& device, const Kind& kind,
                            const std::set<std::string>& given) {
   for (const std::string& key : given)
     if (!kind.uses(key))
-      return {{key}, with_article(device) + " does not use it; it uses " + used_keys_text(kind)};
+      return {{key}, with_article(device) + " has no such key; its keys: " + used_keys_text(kind)};
   if (device.to == "ground" && kind.has_own_mass)
     return {{"to"}, "a " + device.kind + " hangs on the conductor: to must be \"conductor\""};
   if (device.to == "ground" && has(given, "mass"))
     return {{"mass", "to"},
-            "nothing hangs on " + with_article(device) +
-                " whose other end stands still: mass counts with to = \"conductor\" alone"};
+            "mass is used only with to = \"conductor\"; with to = \"ground\" " +
+                with_article(device) + " has no mass"};
   return {};
 }
 
@@ -146,26 +146,26 @@ CaseFault contradiction_fault(const Device& device, const std::set<std::string>&
   for (const std::string list : {"frequencies", "damping_ratios"}) {
     const std::string other(replaced_by(list));
     if (has(given, list) && has(given, other))
-      return {{list, other}, list + " stands in place of " + other + ": give one of them"};
+      return {{list, other}, list + " replaces " + other + ": give only one of them"};
   }
   return {};
 }
 
 CaseFault value_fault(const Device& device, const Kind& kind) {
   if (device.stiffness < 0.0 && device.kind != "stiffness")
-    return {{"stiffness"}, "of " + with_article(device) + " it must be at least 0 N/m"};
+    return {{"stiffness"}, "stiffness of " + with_article(device) + " must be at least 0 N/m"};
   if (device.kind == "tuned_mass" && device.frequencies.empty() && !(device.stiffness > 0.0))
-    return {{"stiffness"}, "of a tuned_mass it must be greater than 0 N/m"};
+    return {{"stiffness"}, "stiffness of a tuned_mass must be greater than 0 N/m"};
   for (const auto* list : {&device.frequencies, &device.damping_ratios}) {
     if (list->empty() || list->size() == kind.resonances) continue;
     const std::string name = list == &device.frequencies ? "frequencies" : "damping_ratios";
     return {{name},
-            "a " + device.kind + " has " + std::to_string(kind.resonances) + " of them, not " +
-                std::to_string(list->size())};
+            "a " + device.kind + " needs " + std::to_string(kind.resonances) + " " + name +
+                ", not " + std::to_string(list->size())};
   }
   const auto& frequencies = device.frequencies;
   if (frequencies.size() == 2 && !(frequencies[0] < frequencies[1]))
-    return {{"frequencies"}, "they must ascend"};
+    return {{"frequencies"}, "frequencies must ascend"};
   return {};
 }
 

@@ -30,9 +30,9 @@ void require_passive(const CsvTable& table, std::size_t row, double magnitude, d
   throw table.fault(row, "at " + format_number(table.number(row, frequency_column)) +
                              " Hz the real part of the impedance is " +
                              format_rounded(magnitude * share) +
-                             " N s/m, so that the device would give power, which no passive one "
-                             "does; is phase_deg that of the force over the velocity, and not over "
-                             "displacement or acceleration, nor of the force that acts back?");
+                             " N s/m, below 0, but a passive device gives no power; is phase_deg "
+                             "that of the force on the device over its velocity, not over "
+                             "displacement or acceleration, and not of the reaction force?");
 }
 
 /// Keeps the imaginary part alone where the real part is below 0.
@@ -86,16 +86,15 @@ std::vector<std::string> impedance_doubts(const Case& the_case) {
   for (const case_tables::Device& device : the_case.devices) {
     if (device.table == nullptr) continue;
     if (device.table->projected > 0)
-      doubts.push_back(
-          device.file + ": " + std::to_string(device.table->projected) +
-          " row(s) have a real part below 0, by up to " +
-          format_rounded(-100.0 * device.table->least_real_share) +
-          " % of the impedance, as phases do that are measured; it is taken as 0 there");
+      doubts.push_back(device.file + ": " + std::to_string(device.table->projected) +
+                       " row(s) have an impedance with a real part below 0, by up to " +
+                       format_rounded(-100.0 * device.table->least_real_share) +
+                       " % of its magnitude, as measured phases may give; 0 is used there");
     double largest = 0.0;
     for (const double phase : device.table->phase_deg) largest = std::max(largest, std::abs(phase));
     if (largest >= noticeable && largest <= turn)
-      doubts.push_back(device.file + ": no phase_deg is beyond " + format_rounded(largest) +
-                       ", as if the device were a mere dashpot; are they in radians?");
+      doubts.push_back(device.file + ": phase_deg never exceeds " + format_rounded(largest) +
+                       ", as for a pure dashpot; are the phases in radians?");
   }
   return doubts;
 }

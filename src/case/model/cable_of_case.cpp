@@ -117,11 +117,11 @@ void require_reading_range(const Case& the_case) {
   const ReadingRange range = reading_range_of(the_case);
   const double highest = highest_reading(the_case);
   if (!(-range.above > highest))
-    throw WrongInput(blame_for_range(the_case, "absorber.position", "reduction.reading_above") +
-                     "reduction.reading_above = " + format_number(range.above) +
-                     " m: the absorber's place cannot be lifted so far before the statics end; "
-                     "admissible is less than " +
-                     format_rounded(-highest) + " m");
+    throw WrongInput(
+        blame_for_range(the_case, "absorber.position", "reduction.reading_above") +
+        "reduction.reading_above = " + format_number(range.above) +
+        " m: the static model cannot lift the absorber's place so far; admissible is less than " +
+        format_rounded(-highest) + " m");
   if (!(range.below <= the_case.conductor.sag))
     throw WrongInput(blame_for_range(the_case, "conductor.sag", "reduction.reading_below") +
                      "reduction.reading_below = " + format_number(range.below) +
@@ -157,7 +157,7 @@ void require_force_within_statics(const Case& the_case, double force) {
   const double lowest = irvine_statics_of(the_case).lowest_force();
   if (force > lowest) return;
   throw WrongInput("a force of " + format_number(force) +
-                   " N lifts the cable by half of its own weight or more, where its statics end: "
+                   " N lifts half of the cable's own weight or more, beyond the static model: "
                    "admissible is greater than " +
                    format_rounded(lowest) + " N");
 }

@@ -17,9 +17,9 @@ std::string sensitive_reduction_warning(const Case& the_case) {
   if (result.outcome != ReductionOutcome::double_solution && !taken.is_ill_conditioned()) return "";
   return "the reduction is near its double solution (discriminant " +
          format_rounded(result.discriminant) +
-         "): an error of 1 % of k1, m2 and the two frequencies may be one of " +
-         format_rounded(taken.stiffness_condition) + " % of k2 and " +
-         format_rounded(taken.mass_condition) + " % of m1";
+         "): an error of 1 % in k1, m2 and the two frequencies may become " +
+         format_rounded(taken.stiffness_condition) + " % in k2 and " +
+         format_rounded(taken.mass_condition) + " % in m1";
 }
 
 std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& features) {
@@ -35,40 +35,40 @@ std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& f
 std::string near_border_warning(double border_share) {
   if (!(border_share < near_border)) return "";
   return "the orbit passes a switching surface at a distance of " + format_rounded(border_share) +
-         " of its own size: a relative change of the loop of that order may end it";
+         " of its own size: a relative change of the loop by as little may destroy the orbit";
 }
 
 std::string shifted_copies_warning(std::int64_t period, std::int64_t coincidence) {
   const std::int64_t copies = period / coincidence;
   if (copies < 2) return "";
-  return "the orbit has " + std::to_string(copies) + " copies, shifted by " +
+  return "the orbit has " + std::to_string(copies) + " copies, shifted in time by " +
          std::to_string(coincidence) +
-         " samples each: two motions that come to different copies stay apart for good, although "
-         "every copy is stable; holdfast deviation follows two motions";
+         " samples each: motions that settle on different copies stay apart, although every copy "
+         "is stable; holdfast deviation compares two motions";
 }
 
 std::string open_sign_warning(const LyapunovResult& result) {
   if (result.sign_is_known()) return "";
   return "the largest exponent, " + format_rounded(result.exponents[0]) + " per sample with the " +
          "standard error " + format_rounded(result.standard_errors[0]) +
-         ", is not told from zero: a longer --duration may tell its sign";
+         ", cannot be told from zero: a longer --duration may show its sign";
 }
 
 std::string stepped_reading_warning(const Case& the_case) {
   const auto& control = the_case.control;
   if (control.displacement_quantum == 0.0 && control.velocity_quantum == 0.0) return "";
-  return "the reading has steps (control.displacement_quantum, control.velocity_quantum), between "
-         "which its derivative is zero: the exponents are those of neighbours within one step; "
-         "deviation follows neighbours that are farther apart";
+  return "control.displacement_quantum or control.velocity_quantum rounds the readings to steps: "
+         "the exponents hold only for neighbours within one step; holdfast deviation follows "
+         "neighbours farther apart";
 }
 
 std::string short_average_warning(const Case& the_case, double averaged) {
   constexpr double least_periods = 20.0;
   const double periods = averaged * effective_excitation(the_case).frequency;
   if (!(periods < least_periods)) return "";
-  return "the exponents are averaged over " + format_rounded(periods) +
-         " forcing periods: of fewer than 20 they tell the beginning, not the motion; "
-         "take a longer --duration";
+  return "the exponents are averaged over only " + format_rounded(periods) +
+         " forcing periods: below 20 they describe the transient, not the settled motion; take a "
+         "longer --duration";
 }
 
 double held_share(const Case& the_case, double sampling_period, double frequency) {
@@ -85,10 +85,9 @@ std::string held_force_warning(const Case& the_case, double sampling_period, dou
   constexpr double noticeable = 0.02;
   const double share = held_share(the_case, sampling_period, frequency);
   if (std::abs(share - 1.0) <= noticeable) return "";
-  return "held over samples of " + format_rounded(sampling_period) +
-         " s (excitation.hold = \"sampled\") the force of " + format_rounded(frequency) +
-         " Hz would give " + format_rounded(share) +
-         " times the amplitude without control that the true force gives; " + shown;
+  return "excitation.hold = \"sampled\": held over samples of " + format_rounded(sampling_period) +
+         " s, the force of " + format_rounded(frequency) + " Hz gives " + format_rounded(share) +
+         " times the uncontrolled amplitude of the true force; " + shown;
 }
 
 std::string held_force_warning(const Case& the_case, const std::string& shown) {

@@ -112,7 +112,9 @@ SteadyResponse<double> LinearLoop::response(double frequency) const {
 void LinearLoop::require_poles() const {
   if (closed_ || by_poles_->response().at_radius(0.0)) return;
   loop_poles_of(case_);  // says which motions coincide
-  throw NoAnswer("natural motions of the loop coincide too nearly to be told apart");
+  throw NoAnswer(
+      "two natural motions of the loop coincide too nearly to be told apart: change a parameter of "
+      "the plant by a thousandth");
 }
 
 MinimumAmplitude LinearLoop::quietest(const AmplitudeOptions& options, double frequency,

@@ -84,10 +84,9 @@ SampledMasses sampled_masses_of(const Case& the_case) {
 MovingLoop smooth_loop_of(const Case& the_case, Switching switching) {
   MovingLoop moving = moving_loop_of(the_case, {switching});
   if (std::holds_alternative<BuiltPlant>(moving) && !is_ideal(controller_limits_of(the_case)))
-    throw WrongInput(
-        "with " + modal_words(the_case) +
-        " orbits, basins, exponents and verdicts are of a computer without quanta, limits "
-        "of its force and differences");
+    throw WrongInput("with " + modal_words(the_case) +
+                     " orbits, basins, exponents and verdicts need an ideal computer: no quanta, "
+                     "no control.largest_force, a measured velocity");
   return moving;
 }
 

@@ -87,17 +87,17 @@ double end_of_force(const Case& the_case) {
 void require_bearable(double samples) {
   constexpr double most = 1e10;
   if (samples > most)
-    throw NoAnswer("the motions would have " + format_rounded(samples) +
-                   " samples, more than the " + format_rounded(most) +
-                   " that are followed: a shorter duration or a longer control.sampling_period has "
-                   "fewer");
+    throw NoAnswer("the motions would take " + format_rounded(samples) +
+                   " samples, more than the limit of " + format_rounded(most) +
+                   ": give a shorter duration or a longer control.sampling_period");
 }
 
 std::int64_t samples_of(const Case& the_case, double duration) {
   const double end = end_of_force(the_case);
   if (duration > end) {
     throw WrongInput("the motion lasts " + format_number(duration) +
-                     " s, but the force in excitation.record ends at " + format_number(end) + " s");
+                     " s, but the force in excitation.record ends at " + format_number(end) +
+                     " s: give a shorter duration or a longer record");
   }
   const std::int64_t samples = samples_within(duration, sampling_of(the_case).period);
   require_bearable(static_cast<double>(samples));

@@ -18,10 +18,10 @@ namespace {
 NoAnswer no_plant(const Case& the_case, const FrequencyReduction<double>& asked,
                   const ReductionResult& result) {
   const bool computed = the_case.first_frequency_computed || the_case.second_frequency_computed;
-  const std::string remedy =
-      computed ? "; the frequencies are computed from the conductor where "
-                 "reduction.first_frequency and reduction.second_frequency are not given"
-               : "";
+  const std::string remedy = computed
+                                 ? "; or give reduction.first_frequency and "
+                                   "reduction.second_frequency, now computed from the conductor"
+                                 : "";
   return NoAnswer(
       "no two-mass plant has the natural frequencies " + format_rounded(asked.first_frequency) +
       " and " + format_rounded(asked.second_frequency) +
@@ -62,8 +62,8 @@ std::string distant_force_text(const Case& the_case) {
   return "the excitation is at " + format_rounded(frequency) +
          " Hz, far from the natural frequencies of " + format_rounded(first) + " and " +
          format_rounded(second) +
-         " Hz that the plant is reduced for: set reduction.second_frequency to about the "
-         "excitation's, reduction.first_frequency to that of the absorber on its spring";
+         " Hz of the reduced plant: set reduction.second_frequency near the excitation, "
+         "reduction.first_frequency near that of the absorber on its spring";
 }
 
 std::string joined_texts(const std::vector<std::string>& texts) {
@@ -116,7 +116,7 @@ std::string settle_absorber(Case& the_case) {
   std::string names;
   for (const char* key : {"plant.absorber_stiffness", "plant.absorber_damping"})
     if (!the_case.is_given(key)) names += (names.empty() ? "" : ", ") + std::string(key);
-  return names.empty() ? "" : names + " not given: the absorber's built-in value stands in";
+  return names.empty() ? "" : names + " not given: the built-in absorber's value is used";
 }
 
 std::string settle_plant(Case& the_case) {

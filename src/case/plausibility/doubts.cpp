@@ -261,9 +261,9 @@ std::string contradicted_conductor_text(const Case& the_case) {
                 format_rounded(pair.given) + " instead of " + format_rounded(pair.conductors) +
                 " " + pair.unit;
   if (differ.empty()) return "";
-  return "every key of [plant] is given, so that [conductor], [absorber] and [reduction] do not "
-         "count for it; it is not theirs: " +
-         differ + "; take [plant] away to have it reduced from the conductor";
+  return "every key of [plant] is given, so [conductor], [absorber] and [reduction] are not used "
+         "for the plant, and they contradict it: " +
+         differ + "; remove [plant] to compute the plant from the conductor";
 }
 
 std::string contradicted_name_text(const Case& the_case) {
@@ -279,12 +279,12 @@ std::string contradicted_name_text(const Case& the_case) {
     if (std::abs(ratio - 1.0) <= tolerance) continue;
     const std::string& unit = find_case_key(key.name)->unit;
     differ += (differ.empty() ? "" : "; ") + std::string(key.name) + " " + format_rounded(given) +
-              " instead of " + format_rounded(conductor->*key.value) + " " + unit + ", " +
-              format_rounded(ratio) + " of it" + mistaken_unit_text(unit, given, ratio);
+              " instead of " + format_rounded(conductor->*key.value) + " " + unit + ", ratio " +
+              format_rounded(ratio) + mistaken_unit_text(unit, given, ratio);
   }
   if (differ.empty()) return "";
   return the_case.places.at("conductor.name") + ": values beside conductor.name = \"" +
-         conductor->name + "\" are not those of the library: " + differ;
+         conductor->name + "\" differ from those of the library: " + differ;
 }
 
 std::string borrowed_damping_text(const Case& the_case) {
@@ -292,8 +292,8 @@ std::string borrowed_damping_text(const Case& the_case) {
       the_case.is_given("conductor.damping_ratio"))
     return "";
   return "conductor.damping_ratio is " + format_number(the_case.conductor.damping_ratio) +
-         ", that of the built-in cable: a stranded conductor at its tension has some 0.0001 to "
-         "0.002, which no library tells; give it";
+         ", that of the built-in cable: a stranded conductor under tension has about 0.0001 to "
+         "0.002, which the library does not list; give it";
 }
 
 std::string borrowed_control(const Case& the_case) {
@@ -316,9 +316,9 @@ std::string borrowed_gains_text(const Case& the_case) {
   constexpr double factor = 3.0;
   if (here < factor * there && there < factor * here) return "";
   return "control.proportional_gain and control.differential_gain are not given: the gains are "
-         "those of the built-in case, whose absorber is another (sqrt(k2 m2) is " +
+         "those of the built-in case, whose absorber differs (sqrt(k2 m2) is " +
          format_rounded(here) + " N s/m here and " + format_rounded(there) +
-         " there); holdfast design names some for this plant";
+         " there); holdfast design finds gains for this plant";
 }
 
 }  // namespace holdfast::program

@@ -68,8 +68,8 @@ double filled_share(const Case& c, double diameter) {
 
 constexpr bool asks_no_unit = false;
 constexpr const char* reach_reason =
-    "half of its distance from the nearer support, or 3 m where the case gives [plant] alone; "
-    "vibrations have 1e-5 to 0.1 of it";
+    "the reach is half the distance from the nearer support, or 3 m if the case gives only "
+    "[plant]; vibrations are 1e-5 to 0.1 of the reach";
 constexpr const char* usual_diameters =
     "lines have 0.005 to 0.06, stays 0.1 to 0.3, cables of suspension bridges 1.1";
 constexpr const char* usual_shares =
@@ -87,7 +87,7 @@ const Quantities listed_of_case = {
         at_most(1e5)),
     number_of(
         "conductor.gravity", "m/s2", [](const Case& c) { return c.conductor.gravity; }, {0.05, 30},
-        "9.81, and its part across a steep stay"),
+        "9.81 on earth, less across a steep stay"),
     number_of(
         "conductor.damping_ratio", "", [](const Case& c) { return c.conductor.damping_ratio; },
         at_most(0.2), "cables have 0.0001 to 0.03"),
@@ -122,7 +122,7 @@ const Quantities listed_of_case = {
               "air has 0.4 at 10 km to 1.4, water 1000"),
     number_of(
         "site.weibull_scale", "m/s", [](const Case& c) { return known(c.site.weibull_scale); },
-        {0.5, 25}, "the mean is 0.89 of it: sheltered places have 2, mountain tops 15"),
+        {0.5, 25}, "the mean speed is 0.89 of it; sheltered places have 2, mountain tops 15"),
     number_of(
         "site.weibull_shape", "", [](const Case& c) { return c.site.weibull_shape; }, {0.8, 6},
         "wind has 1.2 to 3, trade winds 4"),
@@ -192,8 +192,8 @@ const Quantities listed_of_case = {
         "conductor.sag over conductor.span", "", {"conductor.sag", "conductor.span"},
         [](const Case& c) { return of_own_cable(c, c.conductor.sag / c.conductor.span); },
         at_most(0.125),
-        "Eq. 1 and Irvine's modes are those of shallow cables; the exact statics and the finite "
-        "elements hold",
+        "Eq. 1 and Irvine's modes hold only for shallow cables, the exact statics and the finite "
+        "elements for all",
         whatever, asks_no_unit),
     quantity(
         "the speed of waves, conductor.span sqrt(conductor.gravity / (8 conductor.sag)),", "m/s",
@@ -233,7 +233,7 @@ const Quantities listed_of_case = {
     quantity(
         "wind.diameter over conductor.diameter", "", {"wind.diameter", "conductor.diameter"},
         [](const Case& c) { return of_wind<&Wind::diameter>(c) / known(c.conductor.diameter); },
-        {0.9, 10}, "the wind meets the conductor, or the ice about it"),
+        {0.9, 10}, "the wind meets the conductor, or the ice around it"),
     quantity(
         "plant.absorber_mass over absorber.mass", "", {"plant.absorber_mass", "absorber.mass"},
         [](const Case& c) {
@@ -241,7 +241,7 @@ const Quantities listed_of_case = {
           return both && c.plant.absorber_mass > 0.0 ? c.plant.absorber_mass / c.absorber.mass
                                                      : unknown;
         },
-        {0.5, 2}, "both are of the one absorber, and the first counts"),
+        {0.5, 2}, "both are masses of the same absorber, and plant.absorber_mass is used"),
     quantity(
         "control.sampling_period over the period of the force", "",
         {"control.sampling_period", "excitation.frequency", "wind.speed", "wind.diameter"},
@@ -303,17 +303,17 @@ const Quantities listed_of_plant = {
           return c.conductor_given ? c.plant.conductor_mass * c.conductor.gravity / weight_of(c)
                                    : unknown;
         },
-        {1e-5, 10}, "what moves in a mode is a part of the span"),
+        {1e-5, 10}, "a mode moves only a part of the span's mass"),
     quantity(
         "plant.absorber_mass over plant.conductor_mass", "",
         {"plant.absorber_mass", "plant.conductor_mass", "absorber.mass"},
         [](const Case& c) { return c.plant.absorber_mass / c.plant.conductor_mass; }, {1e-5, 100},
-        "absorbers have 0.001 to 10 of the mass that they calm"),
+        "absorbers have 0.001 to 10 of the mass that they damp"),
     quantity(
         "absorber.clamp_mass over plant.absorber_mass", "",
         {"absorber.clamp_mass", "plant.absorber_mass"},
         [](const Case& c) { return c.absorber.clamp_mass / c.plant.absorber_mass; }, at_most(2),
-        "a clamp is a part of what hangs on the conductor"),
+        "the clamp is only a part of the absorber"),
     quantity(
         "the higher natural frequency of the plant over the lower", "",
         {"plant.conductor_stiffness", "plant.absorber_stiffness", "plant.conductor_mass",
@@ -322,7 +322,7 @@ const Quantities listed_of_plant = {
           const auto frequencies = undamped_frequencies(c.plant);
           return frequencies[1] / frequencies[0];
         },
-        at_most(20), "an absorber is tuned to what it calms"),
+        at_most(20), "an absorber is tuned near the vibration that it damps"),
     quantity(
         "c1 over its critical value", "", {"plant.conductor_damping", "plant.conductor_stiffness"},
         [](const Case& c) {
@@ -336,7 +336,7 @@ const Quantities listed_of_plant = {
           const auto& p = c.plant;
           return damping_ratio(p.absorber_damping, p.absorber_stiffness, p.absorber_mass);
         },
-        at_most(30), "a damper so stiff holds the absorber fast"),
+        at_most(30), "so strong a damper locks the absorber"),
     quantity(
         "the frequency of the force over the higher one of the plant", "",
         {"excitation.frequency", "wind.speed", "wind.diameter", "plant.conductor_stiffness",
@@ -353,10 +353,10 @@ const Quantities listed_of_plant = {
         at_most(1), "from 0.5 on the computer sees none of its vibrations"),
     quantity("control.proportional_gain beside that of Eq. 6", "", {"control.proportional_gain"},
              proportional_share, {1.6e-3, 200},
-             "one so much smaller does nothing, one so much larger only disturbs"),
+             "a gain so much smaller does nothing, one so much larger only disturbs"),
     quantity("control.differential_gain over m2 omega", "", {"control.differential_gain"},
              differential_share, {3e-3, 500},
-             "one so much smaller does nothing, one so much larger only disturbs"),
+             "a gain so much smaller does nothing, one so much larger only disturbs"),
     quantity(
         "the vibration without control over the reach of the absorber's place", "",
         {"excitation.amplitude", "wind.speed", "wind.diameter", "wind.effective_length",

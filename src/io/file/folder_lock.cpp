@@ -36,7 +36,7 @@ FolderLock::FolderLock(const fs::path& folder) {
         open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, everyone_may_read_and_write));
     if (!opened.is_open() && errno == ELOOP)
       throw WrongInput("cannot write " + file.string() +
-                       ": is a symbolic link, which may lead anywhere");
+                       ": it is a symbolic link, which holdfast does not follow");
     if (!opened.is_open()) refuse_to_write(file, errno);
     const int error = lock_file(opened.number());
     if (error == EWOULDBLOCK) throw OutputError(folder.string() + " is in use by another program");

@@ -104,9 +104,9 @@ void require_output_name(const fs::path& path, bool drawn) {
   if (ending.empty() || ending == ".csv" || is_netcdf_name(path) || is_store_name(path)) return;
   if (drawn && is_picture_name(path)) return;
   throw WrongInput("--output " + path.string() +
-                   ": tables are written as .csv, those of cells as .nc and .zarr too, and " +
+                   ": tables are written as .csv, charts and sweeps also as .nc or .zarr, and " +
                    (drawn ? "the picture as .svg, .png or .pdf" : "this job has no picture") +
-                   "; " + ending + " is none of these");
+                   "; give one of these endings, not " + ending);
 }
 
 OutputFile::OutputFile(const std::optional<fs::path>& path) {

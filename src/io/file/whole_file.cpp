@@ -157,7 +157,7 @@ void require_not_overwritten(const std::filesystem::path& input,
                     std::filesystem::equivalent(input, *output, ignored);
   if (same)
     throw WrongInput("--output " + output->string() +
-                     ": the job reads this file, and its result would take the place of it");
+                     ": the job reads this file and would overwrite it; give another name");
 }
 
 }  // namespace holdfast::program

@@ -265,7 +265,7 @@ void take_decimal_commas(std::vector<std::string>& cells, char separator, const 
   }
   if (has_comma && (has_point || !is_decimal))
     throw WrongInput(file + ": some of its numbers have commas" +
-                     (has_point ? " and some have points" : ", which may be of thousands") +
+                     (has_point ? " and some have points" : ", which may separate thousands") +
                      "; write a decimal point, and nothing between thousands");
 }
 
@@ -284,7 +284,7 @@ void refuse_repeated_names(const std::vector<std::string>& names, const std::str
                          [](const auto& a, const auto& b) { return a.first == b.first; });
   if (same == sorted.end()) return;
   throw WrongInput(file + ":1: the columns " + std::to_string(same->second + 1) + " and " +
-                   std::to_string(std::next(same)->second + 1) + " have one name");
+                   std::to_string(std::next(same)->second + 1) + " have the same name");
 }
 
 }  // namespace
@@ -293,9 +293,9 @@ std::size_t CsvTable::index(std::string_view column) const {
   const auto found = std::find(names_.begin(), names_.end(), column);
   if (found == names_.end()) {
     throw WrongInput(
-        name_ + ": has no column \"" + std::string(column) + "\" among its " +
-        std::to_string(names_.size()) +
-        (names_.size() == 1 ? ": columns are told apart by commas, semicolons or tabs" : ""));
+        name_ + ": has no column \"" + std::string(column) +
+        "\", columns found: " + std::to_string(names_.size()) +
+        (names_.size() == 1 ? "; separate columns by commas, semicolons or tabs" : ""));
   }
   return static_cast<std::size_t>(found - names_.begin());
 }
@@ -331,7 +331,7 @@ double CsvTable::finite(std::size_t row, const std::string& column) const {
 void CsvTable::require_rows(std::size_t fewest, const std::string& what) const {
   if (rows() < fewest)
     throw WrongInput(name_ + ": " + what + " needs " + std::to_string(fewest) +
-                     " rows at least, here are " + std::to_string(rows()));
+                     " rows at least, but has " + std::to_string(rows()));
 }
 
 std::vector<double> CsvTable::ascending(const std::string& column) const {
@@ -339,7 +339,7 @@ std::vector<double> CsvTable::ascending(const std::string& column) const {
   for (std::size_t row = 0; row < rows(); ++row) {
     values.push_back(finite(row, column));
     if (row > 0 && values[row] <= values[row - 1])
-      throw fault(row, column + " = " + format_number(values[row]) + " does not come after " +
+      throw fault(row, column + " = " + format_number(values[row]) + " is not above " +
                            format_number(values[row - 1]) + " of the row before");
   }
   return values;
@@ -382,7 +382,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
                         "has " + std::to_string(row.cells.size()) + " cells, the header has " +
                             std::to_string(width) +
                             (row.cells.size() > width && scanner.separator() == ','
-                                 ? ": where commas are decimal, semicolons tell columns apart"
+                                 ? ": with decimal commas, separate columns by semicolons"
                                  : ""));
     for (std::string& cell : row.cells) table.cells_.push_back(std::move(cell));
   }

@@ -31,7 +31,7 @@ DecayRecord read_decay_text(const std::string& text, const std::string& name) {
   const CsvTable table = record_of(text, name, "displacement_m", 8, "a decay record");
   DecayRecord record{table.ascending("time_s"), finite(table, "displacement_m")};
   if (record.displacements.front() == 0.0)
-    throw table.fault(0, "displacement_m = 0: the decay must start displaced");
+    throw table.fault(0, "displacement_m = 0: a decay must start with a displacement other than 0");
   return record;
 }
 
@@ -63,7 +63,7 @@ std::string gap_text(const std::vector<double>& times) {
     const double step = times[k] - times[k - 1];
     if (step > wide * usual)
       return "a gap of " + format_rounded(step) + " s after " + format_rounded(times[k - 1]) +
-             " s, where rows stand up to " + format_rounded(usual) + " s apart";
+             " s, while rows are usually up to " + format_rounded(usual) + " s apart";
   }
   return "";
 }

@@ -28,8 +28,8 @@ std::size_t row_length(std::int64_t columns) {
   constexpr std::int64_t most = 1000000;
   if (columns > most)
     throw WrongInput("a row of the chart would have " + std::to_string(columns) +
-                     " values: at most " + std::to_string(most) +
-                     " along the second axis, any number along the first");
+                     " values: give at most " + std::to_string(most) +
+                     " along the second axis; the first may have any number");
   return static_cast<std::size_t>(columns);
 }
 

@@ -36,7 +36,7 @@ std::vector<EnclosedPole> proved_poles_of(const Case& the_case) {
         "change plant.absorber_damping or absorber.position by a thousandth");
   if (!all_decay(poles))
     throw NoAnswer(
-        "of a natural motion of conductor and absorber it cannot be proved that it decays: give "
+        "it cannot be proved that every natural motion of conductor and absorber decays: give "
         "conductor.damping_ratio a value above 0");
   return poles;
 }

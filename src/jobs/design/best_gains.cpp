@@ -79,9 +79,9 @@ std::string play_warning(const Case& the_case, const PdGains<double>& gains, dou
       duration, set);
   const double left = metrics[0].steady_peak / metrics[1].steady_peak;
   if (left <= noticeable * ideal) return "";
-  return "without play D = " + format_rounded(gains.differential) + " N s/m leaves " +
-         format_rounded(ideal) + " of the vibration, with the case's play of " +
-         format_rounded(backlash.width) + " m " + format_rounded(left) + " in a motion of " +
+  return "D = " + format_rounded(gains.differential) + " N s/m leaves " + format_rounded(ideal) +
+         " of the vibration without play, but " + format_rounded(left) +
+         " with the case's play of " + format_rounded(backlash.width) + " m in a motion of " +
          format_rounded(duration) + " s";
 }
 

@@ -80,15 +80,14 @@ namespace {
 void require_resolved(const SwitchCounts& counts, double time, bool quiet) {
   if (counts.accumulates) {
     throw NoAnswer("the contact changes more than " + std::to_string(EventMotion<>::most_switches) +
-                   " times within one sampling period, at t = " + format_number(time) +
-                   " s at the latest: the motion cannot be followed further");
+                   " times within one sampling period, before t = " + format_number(time) +
+                   " s: the motion cannot be followed further");
   }
   if (counts.grazing > 0)
-    report_warning(
-        std::to_string(counts.grazing) +
-            " change(s) of contact are decided by rounding: Delta z or its velocity only "
-            "touches where the contact would change",
-        quiet);
+    report_warning(std::to_string(counts.grazing) +
+                       " change(s) of contact are decided by rounding: Delta z or its velocity "
+                       "just touches the value at which the contact changes",
+                   quiet);
 }
 
 }  // namespace

@@ -48,8 +48,8 @@ Eigen::VectorXd bent_to(const CableElements& cable, double z1) {
     force = next;
     start = cable.held_by(force);
   }
-  throw NoAnswer("no static equilibrium of the elements was found with the absorber's place at " +
-                 format_number(z1) + " m");
+  throw NoAnswer("no static equilibrium of the cable was found with the absorber's place at " +
+                 format_number(z1) + " m: give a smaller initial.z1");
 }
 
 Eigen::VectorXd start_of(const Case& the_case, const CableElements& cable) {
@@ -63,7 +63,7 @@ Eigen::VectorXd start_of(const Case& the_case, const CableElements& cable) {
 void require_of_elements(const Case& the_case) {
   if (the_case.conductor.damping == "ratio")
     throw WrongInput(
-        "--plant elements is damped by Rayleigh, not as conductor.damping = \"ratio\"");
+        "--plant elements needs Rayleigh's damping: set conductor.damping = \"rayleigh\"");
 }
 
 /// Throws where the motion has ended.
@@ -71,9 +71,9 @@ void require_cable(const cvode::ElementsMotion& motion) {
   if (motion.outcome() == cvode::IntegrationOutcome::completed) return;
   if (motion.outcome() == cvode::IntegrationOutcome::model_ended)
     throw NoAnswer("the cable goes slack at t = " + format_rounded(motion.time()) +
-                   " s, and its model ends: its loop is unstable, or the force is too large; a "
-                   "shorter --duration shows how it grows");
-  throw NoAnswer("CVODE gave up after " + format_number(motion.time()) +
+                   " s and the model ends there: the loop is unstable or the force too large; "
+                   "give a shorter --duration to see the growth");
+  throw NoAnswer("the integrator CVODE failed at t = " + format_number(motion.time()) +
                  " s: " + one_line(motion.words()));
 }
 
@@ -105,10 +105,9 @@ std::string coarse_bars_warning(const Case& the_case, const ElementsQuestion& qu
   constexpr double harmless = 1.25;
   if (!question.controlled || bar <= harmless * wave) return "";
   return "the bars are " + format_rounded(bar) +
-         " m long, and half the sampling rate has waves of " + format_rounded(wave) +
-         " m: what the computer does there the bars do not show, and an unstable loop may look "
-         "stable; --elements " +
-         format_number(std::ceil(string.span / wave)) + " shows it";
+         " m long, too coarse for the waves at half the sampling rate, of " + format_rounded(wave) +
+         " m: an unstable loop may look stable; give --elements " +
+         format_number(std::ceil(string.span / wave));
 }
 
 #else

@@ -21,8 +21,8 @@ inline void look_for_interrupt(std::int64_t sample) {
 
 /// Throws NoAnswer: the motion diverged at `time`, s.
 [[noreturn]] inline void refuse_diverging(double time) {
-  throw NoAnswer("the motion diverges: it leaves the range of numbers at t = " +
-                 format_number(time) + " s; a shorter --duration shows how it grows");
+  throw NoAnswer("the motion diverges: its numbers overflow at t = " + format_number(time) +
+                 " s; give a shorter --duration to see how it grows");
 }
 
 /// Throws NoAnswer when the motion diverged, saying when.

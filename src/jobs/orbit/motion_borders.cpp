@@ -58,7 +58,8 @@ std::vector<FollowedKey> map_keys(const Case& the_case, const std::vector<std::s
   for (const FollowedKey& key : keys)
     if (moves_the_coincidence(key.name) && !the_case.excitation.harmonics.empty())
       throw WrongInput("--map " + key.name +
-                       ": with excitation.harmonics not every force keeps its phases");
+                       ": the orbit cannot be followed, since the forces of excitation.harmonics "
+                       "would change their phases at the samples: remove them or map another key");
   return keys;
 }
 
@@ -153,8 +154,7 @@ void write_region(const JobContext& context, const std::vector<FollowedKey>& key
   }
   table.commit();
   if (!region.closed)
-    report_warning("the border is lost at its last row: what lies beyond is not told",
-                   context.quiet);
+    report_warning("the border could not be followed beyond the last row", context.quiet);
 }
 
 /// Follows the border of the motion of a loop, `moving_at(case)` being the one at a point.
@@ -187,7 +187,7 @@ FollowedKey followed_key(const Case& the_case, const std::string& option, const 
   if (moves_the_coincidence(key) && !of_map)
     throw WrongInput(option + " " + key +
                      ": another value changes how sampling and excitation coincide, so the orbit "
-                     "cannot be followed along it");
+                     "cannot be followed along this key: give another key");
   if (!moves_the_orbit(key) && !moves_the_coincidence(key))
     throw WrongInput(
         option + " " + key +
@@ -200,12 +200,11 @@ FollowedKey followed_key(const Case& the_case, const std::string& option, const 
   }
   if (!(range.min <= value && value <= range.max))
     throw WrongInput(option + " " + text + ": the case's " + key + " = " + format_number(value) +
-                     " lies outside");
+                     " must lie in the range");
   if (key == "backlash.width" && value == 0.0)
-    throw WrongInput(
-        option +
-        " backlash.width: the case has no backlash, where the rule is another one; set a "
-        "width greater than 0 m");
+    throw WrongInput(option +
+                     " backlash.width: an orbit without backlash cannot be followed to one with "
+                     "backlash; set a backlash.width greater than 0 m");
   return {key, range, value};
 }
 

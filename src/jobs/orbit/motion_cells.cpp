@@ -64,7 +64,7 @@ MapGrid map_grid(const Case& the_case, const std::vector<std::string>& axes) {
   const double cells =
       static_cast<double>(grid.slow.axis.count) * static_cast<double>(grid.fast.axis.count);
   if (cells > most_map_cells)
-    throw WrongInput("--map: " + format_number(cells) + " cells are more than " +
+    throw WrongInput("--map: " + format_number(cells) + " cells are more than the limit of " +
                      format_number(most_map_cells));
   return grid;
 }

@@ -38,7 +38,7 @@ SettledMotion settled(const IdealLoop<double>& loop, const Vector<double, 4>& st
 std::string meeting_text(const IdealLoop<double>& loop, const SettledMotion& reference,
                          const SettledMotion& other) {
   const PeriodicOrbit *first = reference.orbit(), *second = other.orbit();
-  if (first == nullptr || second == nullptr) return "no two orbits to compare";
+  if (first == nullptr || second == nullptr) return "not both have a certified orbit";
   if (!is_phase_shifted_copy(*first, *second)) return "different orbits";
   const std::int64_t period = first->period_samples();
   // Long enough for either motion to be far nearer to its own phase than to the next one.
@@ -55,8 +55,8 @@ std::string meeting_text(const IdealLoop<double>& loop, const SettledMotion& ref
   const auto copies = first->states.size() / static_cast<std::size_t>(first->ratio.denominator);
   const std::size_t later = (phase(reference) + copies - phase(other)) % copies;
   if (later == 0) return "meet: the same orbit in the same phase";
-  return "stay apart: copies " + std::to_string(later) +
-         (later == 1 ? " coincidence" : " coincidences") + " later, of " + std::to_string(copies);
+  return "stay apart: copies shifted by " + std::to_string(later) +
+         (later == 1 ? " coincidence" : " coincidences") + ", of " + std::to_string(copies);
 }
 
 std::string apart_text(const IdealLoop<double>& loop, const Vector<double, 4>& reference,
@@ -64,18 +64,19 @@ std::string apart_text(const IdealLoop<double>& loop, const Vector<double, 4>& r
   const SettledMotion one = settled(loop, reference), two = settled(loop, other);
   const PeriodicOrbit *first = one.orbit(), *second = two.orbit();
   if (first == nullptr || second == nullptr)
-    return "no certified orbit was found of " +
-           std::string(first == second ? "either" : "one of them") + ", so that it is open why";
+    return "no certified orbit was found for " +
+           std::string(first == second ? "either motion" : "one of them") +
+           ", so the reason is unknown";
   const std::string period = std::to_string(first->period_samples()) + " samples";
   if (!is_phase_shifted_copy(*first, *second))
-    return "orbits coexist, and they come to different ones, certified, of " + period + " and of " +
+    return "they come to two different certified orbits, of " + period + " and of " +
            std::to_string(second->period_samples());
   const std::string meeting = meeting_text(loop, one, two);
   const std::string orbit = "both come to one certified orbit of " + period;
   if (meeting.rfind("meet", 0) != 0)
     return orbit + ", which has copies shifted in time, and " + meeting;
-  return orbit + " in the same phase, where they are to meet: its largest multiplier is " +
-         format_rounded(first->largest_multiplier()) + " in a period";
+  return orbit + " in the same phase, so they will meet: its largest multiplier is " +
+         format_rounded(first->largest_multiplier()) + " per period";
 }
 
 }  // namespace holdfast::program

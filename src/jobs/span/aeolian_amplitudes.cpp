@@ -175,11 +175,12 @@ std::string RangeCount::text() const {
   std::string text;
   if (below_ > 0)
     text = std::to_string(below_) +
-           " row(s) vibrate less than the law of the wind was measured for, a hundredth of the "
-           "diameter, which is given as their bound (amplitude_range)";
+           " row(s) vibrate below the measured range of the law of the wind: its lower end, a "
+           "hundredth of the diameter, is given (amplitude_range)";
   if (above_ > 0)
-    text += (text.empty() ? "" : "; ") + std::to_string(above_) +
-            " row(s) more than it was measured for, whose largest amplitude is given as theirs";
+    text +=
+        (text.empty() ? "" : "; ") + std::to_string(above_) +
+        " row(s) vibrate above the measured range of the law of the wind: its upper end is given";
   return text;
 }
 

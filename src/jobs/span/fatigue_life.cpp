@@ -95,15 +95,15 @@ void require_wires(const AeolianBalance& balance) {
   if (!balance.knows_strain())
     throw WrongInput(
         "fatigue needs the outer wires of the conductor: give conductor.outer_wire_diameter, "
-        "conductor.outer_wire_modulus and conductor.bending_stiffness (the least one), or "
-        "conductor.name of one in the library");
+        "conductor.outer_wire_modulus and conductor.bending_stiffness (its least value), or "
+        "conductor.name from the library");
   const double modulus = balance.outer_wire_modulus();
   constexpr double stiffest_alloy = 1e11;
   if (modulus > stiffest_alloy)
     throw WrongInput(
-        "the line of life is of wires of aluminium and its alloys, and "
+        "the safe border line is known only for wires of aluminium and its alloys, but "
         "conductor.outer_wire_modulus = " +
-        format_number(modulus) + " Pa is of steel: how long such strands live it does not tell");
+        format_number(modulus) + " Pa is of steel: the life of such strands cannot be computed");
 }
 
 /// Gives the parts that each wind speed has in the damages.
@@ -152,8 +152,8 @@ FatigueLife fatigue_life_of(const Case& the_case, bool controlled, double lowest
   }
   if (damped.of_laws.empty())
     throw WrongInput(
-        "no wind of the site sheds vortices at the frequencies that count: give other "
-        "speeds, or a wider --frequency");
+        "no wind of [site] sheds vortices within --frequency: give other speeds, or a wider "
+        "--frequency");
   const SafeBorderLine line = life_line_of(the_case);
   life.damage_bare = bare.damage(line);
   life.stress_bare = bare.stress();

@@ -129,8 +129,8 @@ std::string growth_text(const Case& the_case, const std::vector<ModeRow>& modes)
   // A pair each.
   if (outside > 2 * growing || growing == 0)
     text += std::string(growing > 0 ? ", and " : "") +
-            "a root grows that is none of these modes: a faster one, or the absorber's place with "
-            "its computer, which feels the waves that it sends out and its clamp";
+            "a root grows that belongs to none of these modes: it is of a faster mode, or of "
+            "the absorber's clamp under control";
   return text;
 }
 
@@ -140,12 +140,12 @@ namespace {
 const case_tables::Device& charted_device(const Case& the_case, int number) {
   const auto count = static_cast<int>(the_case.devices.size());
   if (number > count)
-    throw WrongInput("--device " + std::to_string(number) + ": the case has " +
-                     std::to_string(count) + " [[device]]");
+    throw WrongInput("--device " + std::to_string(number) + ": no such device, the case has " +
+                     std::to_string(count) + " [[device]] table(s)");
   const auto& device = the_case.devices[static_cast<std::size_t>(number) - 1];
   if (device.table || device.kind == "stockbridge")
     throw WrongInput("--device " + std::to_string(number) + ": a " + device.kind +
-                     " has no damping that could be chosen");
+                     " has no damping to vary; name another device");
   return device;
 }
 

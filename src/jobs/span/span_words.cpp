@@ -47,8 +47,7 @@ void require_frequencies(std::string_view option, std::string_view text, double 
   constexpr double fastest = 1000.0;
   if (lowest > 0.0 && highest <= fastest) return;
   throw WrongInput(std::string(option) + " " + std::string(text) +
-                   (lowest > 0.0 ? ": no span vibrates so fast in the wind; frequencies are up to "
-                                   "1000 Hz"
+                   (lowest > 0.0 ? ": no span vibrates so fast in the wind; give at most 1000 Hz"
                                  : ": a frequency must be greater than 0 Hz"));
 }
 
@@ -60,43 +59,43 @@ Axis parse_frequencies(std::string_view option, std::string_view text) {
 
 std::string unknown_strain_note(const AeolianBalance& balance) {
   if (balance.knows_strain()) return "";
-  return "the strains are nan: conductor.outer_wire_diameter, conductor.outer_wire_modulus or "
-         "conductor.bending_stiffness (the least one) is not known";
+  return "the strains are nan: give conductor.outer_wire_diameter, conductor.outer_wire_modulus "
+         "and conductor.bending_stiffness (its least value)";
 }
 
 std::string instability_note(const Case& the_case, bool controlled) {
   if (!comes_back(string_of(the_case), span_devices_of(the_case, false)))
     return "a negative stiffness pushes the conductor away faster than its tension brings it back: "
-           "it does not stay where it is, and nothing that is told of its vibration comes to be";
+           "the span is unstable at rest, and the results for its vibration do not hold";
   if (!controlled || !has_active_absorber(the_case)) return "";
   for (const case_tables::Device& device : the_case.devices)
     if (device.table)
-      return "whether the computer's loop is stable beside a measured impedance is not computed";
+      return "stability of the control loop is not computed beside a measured impedance table";
   if (!is_growing_span(the_case, controlled)) return "";
-  return "the loop of absorber and computer is unstable on this span: it grows by itself and comes "
-         "to no steady vibration, of which none is told (modal-damping shows which modes grow, "
-         "place finds gains that hold)";
+  return "the loop of absorber and computer is unstable on this span: its motion grows, and no "
+         "steady vibration is given (modal-damping shows which modes grow, place finds stable "
+         "gains)";
 }
 
 std::string self_damping_note(const Case& the_case) {
   if (!std::isfinite(the_case.conductor.rated_strength)) return "";
   const LibraryConductor* conductor = find_conductor(the_case.conductor.name);
   if (conductor != nullptr && conductor->kind == "ACSR") return "";
-  return "the laws of self-damping were measured on steel-cored aluminium (ACSR) alone, and " +
+  return "the laws of self-damping were measured only on steel-cored aluminium (ACSR), and " +
          (conductor != nullptr ? conductor->name + " is " + conductor->kind +
-                                     ": it may take far less, and vibrate more"
-                               : "the case does not say that this is one (conductor.name): another "
-                                 "one may take far less, and vibrate more") +
-         " than they say";
+                                     ": it may damp far less and vibrate more"
+                               : "conductor.name does not say that this is one: another conductor "
+                                 "may damp far less and vibrate more") +
+         " than they predict";
 }
 
 std::string life_line_note(const Case& the_case) {
   const LibraryConductor* conductor = find_conductor(the_case.conductor.name);
   if (conductor == nullptr || conductor->kind == "ACSR") return "";
-  return "the safe border line is of steel-cored aluminium (ACSR), and " + conductor->name +
-         " is " + conductor->kind +
-         ": conductors of alloy alone broke at 0.4 to 1.5 of its cycles in published tests, other "
-         "strands are not in it";
+  return "the safe border line was measured on steel-cored aluminium (ACSR), but " +
+         conductor->name + " is " + conductor->kind +
+         ": in published tests conductors of alloy only broke at 0.4 to 1.5 of its cycles; other "
+         "strands were not tested";
 }
 
 std::string years_text(double years) {
@@ -111,10 +110,9 @@ std::string life_advice(const FatigueLife& life, double years) {
   const std::string shortest = years_text(served.lowest), longest = years_text(served.highest);
   const std::string band = range_text(shortest, longest);
   if (life.damage.lowest == 0.0 && served.lowest < years)
-    return "by some laws the vibration is nowhere as large as they were measured for, and what it "
-           "does to the conductor is not known; the shortest life is that of its bound, a "
-           "hundredth "
-           "of the diameter (" +
+    return "by some laws the vibration is everywhere below their measured range, and its damage is "
+           "unknown; the shortest life is for the lower end of that range, a hundredth of the "
+           "diameter (" +
            band + " years)";
   if (served.lowest >= years)
     return "by every pair of laws the conductor lives longer than the " + asked +
@@ -124,7 +122,7 @@ std::string life_advice(const FatigueLife& life, double years) {
            band + " years): damp it more, or lower its tension";
   return "whether the conductor lives the " + asked +
          " that are asked for depends on the law: " + band +
-         " years; measure its vibration, or damp it until the lowest of them is enough";
+         " years; measure its vibration, or damp it until the shortest life is enough";
 }
 
 }  // namespace holdfast::program

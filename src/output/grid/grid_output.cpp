@@ -56,7 +56,7 @@ std::int64_t GridLayout::cells() const {
   for (const GridAxis& axis : axes) {
     const auto count = static_cast<std::int64_t>(axis.count());
     if (count > 0 && product > std::numeric_limits<std::int64_t>::max() / count)
-      throw WrongInput("the axes have more cells than can be counted");
+      throw WrongInput("the axes have more cells than can be counted: give fewer values");
     product *= count;
   }
   return product;

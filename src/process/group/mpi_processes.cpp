@@ -157,8 +157,7 @@ class Exchange {
       starts_.push_back(static_cast<int>(end));
       end += length;
       if (length < 0 || end > INT_MAX)
-        throw NoAnswer(
-            "the processes have more to tell each other than the 2 GiB that MPI carries");
+        throw NoAnswer("the processes must exchange more than the 2 GiB that MPI can carry");
     }
     received_.resize(static_cast<std::size_t>(end));
   }

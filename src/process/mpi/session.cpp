@@ -49,7 +49,7 @@ Session::Session() {
 
 std::unique_lock<std::mutex> Session::lock() {
   if (!serves_many_threads() && std::this_thread::get_id() != first_thread_) {
-    throw NoAnswer("this MPI serves one thread per process alone: give --threads 1");
+    throw NoAnswer("this MPI supports only one thread per process: give --threads 1");
   }
   return std::unique_lock<std::mutex>(mutex_);
 }

@@ -49,7 +49,7 @@ void compare_reduction(Comparisons& rows, const Case& the_case) {
   const auto irvine = irvine_modes(conductor_of(the_case), 6);
   const ElementsModes found = elements_modes(conductor_of(the_case), 200, 6);
   if (found.outcome != EquilibriumOutcome::converged)
-    throw NoAnswer("no static equilibrium of the elements was found");
+    throw NoAnswer("no static equilibrium of the cable was found");
   const auto& elements = found.modes;
   compare_masses(rows, irvine[0].frequency, irvine[5].frequency, "Irvine and Caughey");
   compare_masses(rows, elements[0].frequency, elements[5].frequency, "finite elements");

@@ -289,7 +289,7 @@ Answer how_slow(const Case& the_case) {
   if (longest.sampling_period > 0.0 && std::isfinite(longest.sampling_period)) {
     const std::string held =
         held_force_warning(the_case, longest.sampling_period, question.frequency,
-                           "what attenuates is judged by the force as it is held");
+                           "attenuation is judged with the held force");
     answer.detail += held.empty() ? "" : " At that period: " + held + ".";
   }
   const char* text = "up to a period";

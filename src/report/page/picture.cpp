@@ -109,10 +109,10 @@ const toml::array& row_for(const PictureRequest& request) {
     if (!option.empty() && !is_given(request, option)) continue;
     if (!text_of(row[2]).empty()) return row;
     throw WrongInput("--output " + request.context.output->string() + ": " + job + " " + option +
-                     " has no picture; its table is written as .csv");
+                     " has no picture; give a name that ends in .csv");
   }
   throw WrongInput("--output " + request.context.output->string() + ": " + job +
-                   " draws a picture only with " + needed + "; its table is written as .csv");
+                   " draws a picture only with " + needed + "; or give a name that ends in .csv");
 }
 
 /// The keys of its axes and their values; of a chart over the gains P and D.
@@ -142,8 +142,7 @@ MapAxis map_axis_of(const KeyValues& axis, bool even) {
   };
   if (const auto* list = std::get_if<std::vector<double>>(&axis.values)) {
     if (even)
-      throw WrongInput("--axis " + axis.key +
-                       ": a picture over two axes needs MIN:MAX:COUNT, not a list");
+      throw WrongInput("--axis " + axis.key + ": a picture over two axes needs MIN:MAX:COUNT");
     const auto [min, max] = std::minmax_element(list->begin(), list->end());
     take(Axis{*min, *max, static_cast<std::int64_t>(list->size())});
   } else if (const auto* ratios = std::get_if<LogAxis>(&axis.values)) {
@@ -278,7 +277,7 @@ bool has_picture(const std::string& job) {
 
 void write_picture(const PictureRequest& request, const CommandRunner& run) {
   if (mpi_launch().size > 1)
-    throw WrongInput("a picture is drawn by one process: let several write the table");
+    throw WrongInput("pictures need a single process: start one, or write .csv");
   OutputFile picture(request.context.output);
   std::unique_ptr<OutputFile> metadata;
   if (picture.is_file()) metadata = std::make_unique<OutputFile>(metadata_path(picture.target()));

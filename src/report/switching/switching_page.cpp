@@ -373,7 +373,7 @@ void add_charts(std::vector<DrawnFigure>& figures, const JobContext& context,
     for (Figure& chart : listed_figures("switching-charts", values))
       figures.push_back(without_picture(std::move(chart),
                                         "the force has " + std::to_string(harmonics) +
-                                            " harmonics, too many to follow hundreds of motions"));
+                                            " harmonics, too many to compute hundreds of motions"));
     return;
   }
   const auto charts =

@@ -214,7 +214,7 @@ MotionWindow window_of(const StudiedLoop& studied, double begin, double end, int
     const double previous_command = motion.previous_command();
     const EventSample sample = motion.sense();
     if (is_beyond(sample.state, bound)) throw NoAnswer("the motion diverges");
-    if (motion.counts().accumulates) throw NoAnswer("the changes of contact accumulate");
+    if (motion.counts().accumulates) throw NoAnswer("the contact changes too often to follow");
     const bool seen = sample.time + motion.period() > begin;
     if (!seen) {
       motion.advance();

@@ -28,7 +28,8 @@ std::string periods_text(const FoundPeriod& period) {
 }
 
 std::string amplitude_text(const StudiedMotion& motion) {
-  if (motion.steady.accumulates) return "not followed: its changes of contact accumulate";
+  if (motion.steady.accumulates)
+    return "not followed: too many changes of contact within one sampling period";
   return motion.steady.diverges ? "diverges" : in_millimetres(motion.steady.largest_displacement);
 }
 

@@ -110,7 +110,7 @@ TEST(NoAnswer, MotionsOfMoreSamplesThanAreFollowed) {
   for (const std::string job :
        {"simulate --duration 1", "deviation", "coverage", "section", "lyapunov", "spectrum",
         "answers", "diagram --axis backlash.width=0:0.001:2"}) {
-    expect_refused(job + fast + " --quiet", {"samples, more than the 1e+10"}, 1);
+    expect_refused(job + fast + " --quiet", {"samples, more than the limit of 1e+10"}, 1);
   }
   expect_said("sweep --axis backlash.width=0:0.001:2 --metric outcome" + fast,
               {"samples, more than"});

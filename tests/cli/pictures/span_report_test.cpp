@@ -63,7 +63,7 @@ TEST(SpanReport, ShowsWhatTheJobsTellOfALine) {
     expect_holds(page, {"amplitude y/d over frequency of vibration f; strain, zero to peak over "
                         "frequency of vibration f"});
   expect_holds(page, {"What vibrates without devices?", "What vibrates with the devices?",
-                      "150 peak to peak", "winds of 1 to 8 m/s", "no computer is on this span",
+                      "150 peak to peak", "winds of 1 to 8 m/s", "no computer acts on this span",
                       "Advice: by no pair of laws"});
   EXPECT_EQ(page.find("Left out"), std::string::npos);
   EXPECT_EQ(page.find("No picture"), std::string::npos);
@@ -105,17 +105,16 @@ TEST(SpanReport, ItsAnswersHaveTheNumbersOfItsTables) {
 TEST(SpanReport, SaysWhatToGiveForWhatItLeavesOut) {
   const TemporaryFolder folder;
   const std::string of_stay = page_of(written_report(stay, folder));
-  expect_holds(of_stay,
-               {"Left out: fatigue needs the outer wires of the conductor: give",
-                "No picture: fatigue needs the outer wires", "The strain is not told: give",
-                "At the right end nothing: no device is there", "mode 3, 1.21 Hz"});
+  expect_holds(of_stay, {"Left out: fatigue needs the outer wires of the conductor: give",
+                         "No picture: fatigue needs the outer wires", "The strain is unknown: give",
+                         "At the right end nothing, as no device is there", "mode 3, 1.21 Hz"});
   const TemporaryFolder second;
   const std::string bare = page_of(written_report(
       " --set conductor.name=Drake --set conductor.span=300 --set conductor.tension=28020",
       second));
   expect_holds(bare, {"No device is on the span: give [[device]]",
                       "No picture: no device is on the span: give [[device]]",
-                      "the case says nothing of the wind of its site: give [site]"});
+                      "the case does not describe the wind at its site: give [site]"});
 }
 
 TEST(SpanReport, TellsWhetherTheLoopOfAnAbsorberIsStable) {

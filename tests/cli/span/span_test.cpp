@@ -76,7 +76,7 @@ const std::string ground_wire =
 
 TEST(Span, LawsOfOtherConductorsAreSaidToBe) {
   const auto said = [](const std::string& arguments) {
-    return run_holdfast(arguments).errors.find("measured on steel-cored aluminium (ACSR) alone") !=
+    return run_holdfast(arguments).errors.find("measured only on steel-cored aluminium (ACSR)") !=
            std::string::npos;
   };
   const std::string unnamed =

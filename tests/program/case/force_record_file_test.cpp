@@ -53,20 +53,20 @@ TEST(ForceRecordFile, NamesFileAndLineOfAFault) {
   EXPECT_EQ(force_refusal(force_rows_and("1")), "force.csv:5: has 1 cells, the header has 2");
   for (const std::string time : {"0.25", "0.2"}) {
     EXPECT_EQ(force_refusal(force_rows_and(time + ",1")),
-              "force.csv:5: time_s = " + time + " does not come after 0.25 of the row before");
+              "force.csv:5: time_s = " + time + " is not above 0.25 of the row before");
   }
 }
 
 TEST(ForceRecordFile, RefusesWhatIsNoRecord) {
   EXPECT_EQ(force_refusal(""), "force.csv: has no header row");
   EXPECT_EQ(force_refusal("time_s,force_N\n"),
-            "force.csv: a force record needs 2 rows at least, here are 0");
+            "force.csv: a force record needs 2 rows at least, but has 0");
   EXPECT_EQ(force_refusal("time_s,force_N\n0,1\n"),
-            "force.csv: a force record needs 2 rows at least, here are 1");
+            "force.csv: a force record needs 2 rows at least, but has 1");
   EXPECT_EQ(force_refusal("time_s,displacement_m\n0,1\n1,2\n"),
-            "force.csv: has no column \"force_N\" among its 2");
+            "force.csv: has no column \"force_N\", columns found: 2");
   EXPECT_EQ(force_refusal("t,force_N\n0,1\n1,2\n"),
-            "force.csv: has no column \"time_s\" among its 2");
+            "force.csv: has no column \"time_s\", columns found: 2");
 }
 
 /// What is doubted of a record of 100 rows, `step` s apart from `first` on, with one row later by
@@ -90,8 +90,8 @@ TEST(ForceRecord, IsDoubtedForAGapALateStartAndTimeInMilliseconds) {
   EXPECT_EQ(doubt_of(0.01, 0.01, 0.0), "");
   EXPECT_EQ(doubt_of(-3.0, 0.01, 0.005), "");
   expect(doubt_of(0.0, 0.01, 0.8), "a gap of 0.81 s after 0.4 s");
-  expect(doubt_of(2.0, 0.01, 0.0), "its first row is at 2 s, and before there is no force");
-  expect(doubt_of(0.0, 10.0, 0.0), "10000 sampling periods: is time_s in ms?");
+  expect(doubt_of(2.0, 0.01, 0.0), "its first row is at 2 s; before that the force is 0");
+  expect(doubt_of(0.0, 10.0, 0.0), "(10000 sampling periods): is time_s in ms?");
   expect(doubt_of(1.7e9, 0.01, 0.8), "a gap of 0.81 s");
   expect(doubt_of(1.7e9, 0.01, 0.8), "its first row is at 1.7e+09 s");
 }

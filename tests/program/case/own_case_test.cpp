@@ -141,7 +141,7 @@ TEST(Units, AreThoseOfEveryKeyOfANumber) {
     EXPECT_EQ(case_value(load_case(std::nullopt, {given + key.unit}), key.name), value) << given;
     const std::string said =
         message_of<WrongInput>([&] { load_case(std::nullopt, {given + "furlong"}); });
-    EXPECT_TRUE(holds(said, "furlong is no unit of it: it may be in " + units_in_words(key.unit)))
+    EXPECT_TRUE(holds(said, "furlong is not a unit of this key: use " + units_in_words(key.unit)))
         << said;
   }
   EXPECT_GE(keys, 40);
@@ -161,7 +161,7 @@ TEST(Units, StandInFilesListsAndDevices) {
   EXPECT_DOUBLE_EQ(the_case.devices[0].position, 3.048);
   EXPECT_EQ(the_case.devices[0].damping, 1200.0);
   EXPECT_TRUE(holds(refusal("[conductor]\nspan = \"300 kg\"\n"),
-                    "kg is no unit of it: it may be in m, mm"));
+                    "kg is not a unit of this key: use m, mm"));
   EXPECT_TRUE(holds(refusal("[backlash]\nwidth = \"-2 mm\"\n"), "at least 0 m"));
 }
 
@@ -186,7 +186,7 @@ TEST(Contradictions, OfANamedConductorAreSaidWithBothValuesTheirRatioAndTheUnit)
     EXPECT_TRUE(holds(text, std::string("is it in ") + one.unit)) << text;
   }
   const std::string twice = said("mass_per_length = 3.256\n");
-  EXPECT_TRUE(holds(twice, "conductor.mass_per_length 3.256 instead of 1.628 kg/m, 2 of it"))
+  EXPECT_TRUE(holds(twice, "conductor.mass_per_length 3.256 instead of 1.628 kg/m, ratio 2"))
       << twice;
   EXPECT_FALSE(holds(twice, "is it in")) << twice;
 }

@@ -143,11 +143,11 @@ TEST(CsvReader, WhereItCannotKnowItNamesTheRemedy) {
     EXPECT_NE(message.find(remedy), std::string::npos) << text << '\n' << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   };
-  expect("time_s,force_N\n0,5,1,25\n", "semicolons tell columns apart");
-  expect("time_s force_N\n0.5 1.25\n", "columns are told apart by commas, semicolons or tabs");
+  expect("time_s,force_N\n0,5,1,25\n", "separate columns by semicolons");
+  expect("time_s force_N\n0.5 1.25\n", "separate columns by commas, semicolons or tabs");
   expect("time_s;force_N\n0,5;1.25\n", "write a decimal point");
   expect("time_s;force_N\n0.5;1,25\n", "write a decimal point");
-  expect("time_s\tforce_N\n1\t1,250\n2\t12,500\n", "may be of thousands");
+  expect("time_s\tforce_N\n1\t1,250\n2\t12,500\n", "may separate thousands");
   expect("time_s,force_N\n1,\"1,250\"\n", "write a decimal point");
   expect("time_s;force_N\n1;1.234,5\n", "is not a number");
   expect(std::string("\xFF\xFEt\0", 4), "save it as UTF-8");
@@ -180,11 +180,11 @@ TEST(CsvReader, MalformedTablesAreRefusedWithFileAndLine) {
 TEST(CsvReader, AbsentColumnsAndWordsForNumbersAreRefused) {
   CsvTable table = parse_csv("a,b\n1,2\n\"x\ny\",3\n\nz,\n", "data.csv");
   EXPECT_EQ(message_of<WrongInput>([&] { table.numbers("c"); }),
-            "data.csv: has no column \"c\" among its 2");
+            "data.csv: has no column \"c\", columns found: 2");
   EXPECT_EQ(message_of<WrongInput>([&] {
               table.require({"a", "c"});
             }),
-            "data.csv: has no column \"c\" among its 2");
+            "data.csv: has no column \"c\", columns found: 2");
   // Not yet known to be what it was taken for, it is not quoted.
   EXPECT_EQ(message_of<WrongInput>([&] { table.numbers("a"); }),
             "data.csv:3: column 1 is not a number");

@@ -87,7 +87,7 @@ TEST(SweepPlan, RefusesWhatNoCellCouldHave) {
       {sweep_for({"steady_peek"}), "steady_peak"},
       {sweep_for({"steady_rms", "steady_rms"}), "twice"},
       // The best gain takes the place of another, and needs time to settle.
-      {best_gain_over("control.differential_gain=-20,-10", 20.0), "is an axis"},
+      {best_gain_over("control.differential_gain=-20,-10", 20.0), "remove that --axis"},
       {best_gain_over("backlash.width=0,1", 0.0), "--duration"}};
   for (const auto& [options, words] : refused)
     EXPECT_NE(refusal_of(options).find(words), std::string::npos) << words;

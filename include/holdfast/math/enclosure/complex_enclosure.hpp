@@ -13,13 +13,13 @@ namespace holdfast {
 
 namespace detail {
 
-/// An upper bound of a sum of up to ten products of up to four non-negative numbers, each a
-/// modulus, computed as x with 20 roundings.
+/// An upper bound of a non-negative number that was computed as x: a sum of up to ten products of
+/// up to four moduli, with at most 20 roundings.
 inline double above_roundings(double x) {
   return rounded_up(x * (1.0 + 0x1.0p-48)) + std::numeric_limits<double>::denorm_min();
 }
 
-/// The modulus |z| up to a few roundings; at least half of it where squares underflow.
+/// The modulus |z| up to a few roundings; a value up to 1.5 |z| where |z|² would underflow.
 inline double rounded_modulus(const std::complex<double>& z) {
   const double x = std::abs(z.real()), y = std::abs(z.imag());
   const double most = std::max(x, y);
@@ -39,7 +39,7 @@ class ComplexEnclosure {
   ComplexEnclosure() = default;
   /// The exact value of a double; implicit, so that doubles may be used in formulas.
   ComplexEnclosure(double exact) : centre_(exact) {}  // NOLINT(google-explicit-constructor)
-  /// The disc around a centre; with a NaN nothing is known.
+  /// The disc around a centre; with a NaN or a negative radius its radius becomes infinite.
   ComplexEnclosure(const std::complex<double>& centre, double radius)
       : centre_(centre), radius_(radius) {
     const bool known = std::isfinite(centre.real()) && std::isfinite(centre.imag());
@@ -131,7 +131,7 @@ class ComplexEnclosure {
 };
 
 /// The exponential e^z of every number in a disc.
-/// @param z  disc; not finite, or with a radius of 1 or more, it gives an unknown result
+/// @param z  disc; the result is unknown where it is not finite or its radius is 1 or more
 inline ComplexEnclosure exponential(const ComplexEnclosure& z) {
   const double x = z.middle().real(), y = z.middle().imag();
   Matrix<Enclosure, 2> turning;

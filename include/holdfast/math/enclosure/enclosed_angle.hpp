@@ -43,7 +43,7 @@ inline EnclosedPhasor phasor_at(double x) {
   }
 }
 
-/// The phasor at the midpoint, widened by the angle's radius, since no slope exceeds 1.
+/// The phasor of an angle: at the midpoint, widened by the radius, as no slope exceeds 1.
 inline EnclosedPhasor phasor_of(const Enclosure& angle) {
   const Enclosure all(-1.0, 1.0);
   const double x = angle.middle(), radius = angle.radius();

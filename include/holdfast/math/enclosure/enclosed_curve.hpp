@@ -11,8 +11,7 @@
 namespace holdfast {
 
 /// A curve z(t) in the complex plane, −1 ≤ t ≤ 1, enclosed to second order: by z(0), z′(0) and a
-/// bound of |z″|. Every operation gives an enclosure of its result for all curves in its
-/// arguments.
+/// bound of |z″|. Every operation gives an enclosure of its result for all curves in its arguments.
 class EnclosedCurve {
  public:
   /// The constant curve of a number; implicit, so that numbers may be used in formulas.
@@ -60,7 +59,7 @@ class EnclosedCurve {
     return {a.value_ * b.value_, a.slope_ * b.value_ + a.value_ * b.slope_,
             detail::above_roundings(bend)};
   }
-  /// 1/z: (1/z)′ = −z′/z², |(1/z)″| ≤ (2|z′|²/|z| + |z″|)/|z|²; unknown where z may pass 0.
+  /// The reciprocal: (1/z)′ = −z′/z², |(1/z)″| ≤ (2|z′|²/|z| + |z″|)/|z|²; unknown if z may be 0.
   friend EnclosedCurve inverse(const EnclosedCurve& z) {
     const ComplexEnclosure inverted = inverse(z.value_);
     // 1/|z| and a rounding, 0 · ∞ being of no use.
@@ -103,7 +102,7 @@ class EnclosedSpiral {
   /// The conjugate spiral.
   friend EnclosedSpiral conj(const EnclosedSpiral& z) { return {conj(z.start_), conj(z.rate_)}; }
 
-  /// The difference a − b as a curve. Little accuracy is lost with similar rates, ν = σ_a − σ_b:
+  /// The difference z = a − b as a curve, accurate for similar rates too. With ν = σ_a − σ_b,
   ///
   ///     z′ = ν a + σ_b z,   |z| ≤ (|z(0)| + |ν||a|)/(1 − |σ_b|),   z″ = ν (σ_a + σ_b) a + σ_b² z
   friend EnclosedCurve difference(const EnclosedSpiral& a, const EnclosedSpiral& b) {

@@ -22,7 +22,7 @@ double norm_bound(const Matrix<Enclosure, Rows, Columns>& matrix) {
   return norm;
 }
 
-/// The matrix of all entries with moduli up to a bound.
+/// The enclosure of all square matrices whose entries have moduli up to a bound.
 template <int Size>
 Matrix<Enclosure, Size> ball(Eigen::Index order, double bound) {
   return Matrix<Enclosure, Size>::Constant(order, order, Enclosure(-bound, bound));

@@ -28,8 +28,8 @@ double largest_eigenvalue_near(const Matrix<double, Size>& form) {
 
 }  // namespace detail
 
-/// An upper bound of ‖M‖₂ of every matrix in an enclosure: a σ with σ² − M₀ᵀM₀ > 0, proved by
-/// elimination for the midpoint M₀, and the Frobenius norm of the deviations from M₀.
+/// An upper bound of ‖M‖₂ of every matrix in an enclosure: a σ with σ² I − M₀ᵀM₀ > 0, proved by
+/// elimination for the midpoint M₀, plus the Frobenius norm of the deviations from M₀.
 /// @param matrix  N × N
 /// @return ∞ where nothing was proved
 template <int Size>

@@ -45,7 +45,7 @@ class Enclosure {
   Enclosure() = default;
   /// The exact value of a double; implicit, so that doubles may be used in formulas.
   Enclosure(double exact) : Enclosure(exact, exact) {}  // NOLINT(google-explicit-constructor)
-  /// The interval between two doubles, lower ≤ upper; with a NaN nothing is known.
+  /// The interval between two doubles, lower ≤ upper; otherwise, or with a NaN, (−∞, ∞).
   Enclosure(double lower, double upper) : lower_(lower), upper_(upper) {
     if (!(lower <= upper)) *this = unknown();
   }

@@ -21,13 +21,13 @@ int nearest_power_of_four(Scalar ratio, int most) {
 
 }  // namespace detail
 
-/// Powers of two t_i for which row i and column i of diag(t)⁻¹ M diag(t) have about the same size.
+/// The powers of two t_i with which row i and column i of diag(t)⁻¹ M diag(t) are of similar size.
 ///
 /// Scaling and squaring and the QR algorithm have errors relative to the matrix norm, which
 /// balancing reduces almost to the spectral radius. Powers of two cause no rounding. The number
 /// type needs the four operations and a comparison; for dual numbers the powers are constants.
 /// Source: B. N. Parlett, C. Reinsch, Balancing a matrix, Numer. Math. 13 (1969).
-/// @throws InvalidParameter where the matrix is empty or not square, as do all users of balancing
+/// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size>
 Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
   // Entries at the end of the range of numbers would carry the factors beyond it.

@@ -36,7 +36,7 @@ std::complex<Scalar> exponential_integral(const std::complex<Scalar>& s, const S
 
 namespace detail {
 
-/// Complex numbers in parallel in vectors of the processor, for sums over many poles.
+/// Complex numbers in the lanes of a SIMD register, for sums over many poles.
 /// @tparam Scalar  double
 template <class Scalar>
 struct ComplexLanes {
@@ -82,15 +82,15 @@ struct ComplexLanes {
   }
 };
 
-/// Rows of complex numbers, several of which fill a vector of the processor.
+/// Rows of complex numbers, stored in blocks of one row for each lane of a SIMD register.
 /// @tparam Scalar  double
 template <class Scalar, std::size_t Columns>
 class ComplexRows {
  public:
   using Row = std::array<std::complex<Scalar>, Columns>;    ///< one row
-  using Block = std::array<ComplexLanes<Scalar>, Columns>;  ///< as many rows as fill a vector
+  using Block = std::array<ComplexLanes<Scalar>, Columns>;  ///< one row for each lane
 
-  /// @param first  first-column value of the rows that only fill up the last block
+  /// @param first  first-column value of the unused rows at the end of the last block
   explicit ComplexRows(const Scalar& first = Scalar(0)) : first_(first) {}
 
   /// Adds a row.

@@ -17,8 +17,8 @@ namespace holdfast {
 /// @param map  matrix M, n × n
 /// @return nothing where M does not contract, or so slowly that rounding hides it
 /// @throws InvalidParameter where M is not square
-/// Work: 4 n³ multiply-adds for each doubling; their number is log₂ of the steps in which M
-/// decays.
+/// Work: 4 n³ multiply-adds for each doubling; their number is log₂ of the number of steps in which
+/// Mˡ decays.
 template <class Scalar>
 std::optional<Matrix<Scalar, Eigen::Dynamic>> discrete_lyapunov(
     const Matrix<Scalar, Eigen::Dynamic>& map) {

@@ -74,9 +74,9 @@ struct TriangularForm {
 ///
 ///     η̇_k = s_k η_k + β_k u,   y = Σ γ_k η_k,   β = V⁻¹ b,   γ = h V
 ///
-/// They come from the real Schur form of the balanced matrix by back substitution; V is triangular
-/// in the Schur basis, so that no dense matrix is inverted. Work: about 30 N³. For (nearly)
-/// coinciding eigenvalues V is (nearly) singular: see `is_sound()`.
+/// They are computed from the real Schur form of the balanced matrix by back substitution; V is
+/// triangular in the Schur basis, so that no dense matrix is inverted. Work: about 30 N³. For
+/// (nearly) coinciding eigenvalues V is (nearly) singular: see `is_sound()`.
 template <class Scalar>
 class EigenBasis {
  public:
@@ -85,7 +85,7 @@ class EigenBasis {
   using ComplexMatrix = Matrix<Complex, Eigen::Dynamic>;  ///< N × N
 
   /// @param matrix  matrix A, N × N, finite, N ≥ 1
-  /// @throws InvalidParameter where it is empty or not square; `coordinates` and `readings` throw
+  /// @throws InvalidParameter where A is empty or not square; `coordinates` and `readings` throw
   /// for arguments of another size
   explicit EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix);
 
@@ -127,8 +127,8 @@ class EigenBasis {
   bool converged_ = false;
 };
 
-// Beside the class, so that who links holdfast::compiled is spared them: what stands in a class is
-// inline, and compiled by all who call it, with all that it calls.
+// Outside the class: what stands in a class is inline and compiled again, with all that it calls,
+// in every file that uses it.
 
 template <class Scalar>
 EigenBasis<Scalar>::EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix) {

@@ -67,13 +67,13 @@ Columns eliminated(Square matrix, Columns right) {
 }
 
 /// The derivative of an eigenvalue of M, λ′ = tr(R M′)/tr R with the resolvent R = (νI − M)⁻¹ at a
-/// ν close to λ, where R is almost the projector on its eigenvectors; for coinciding eigenvalues
-/// the mean. Accurate to about 10⁻⁸ relative in `double`.
+/// ν close to λ. There R is almost a multiple of the projector on the eigenvectors of λ. Coinciding
+/// eigenvalues give the mean derivative. Relative accuracy: about 10⁻⁸ in `double`.
 /// @param matrix  matrix M, n × n
 /// @param rate    derivative M′, n × n, per unit of the varying quantity
 /// @param value   eigenvalue λ
-/// @return        derivative λ′; NaN or infinite for λ = 0, where no ν is close
-/// @throws InvalidParameter where the matrix is not square, or its rate of another size
+/// @return        derivative λ′; NaN or infinite for λ = 0, where ν = λ
+/// @throws InvalidParameter where the matrix is not square, or the rate has another size
 /// Work: the inverse of one complex matrix.
 template <class Scalar>
 std::complex<Scalar> eigenvalue_derivative(const Matrix<Scalar, Eigen::Dynamic>& matrix,

@@ -51,7 +51,7 @@ Square square_product(const Square& a, const Square& b) {
   return product;
 }
 
-/// The sum Σ b_{2k + parity} M^{2k}, the even or odd half of an approximant (over M).
+/// The sum Σ b_{2k + parity} M^{2k}: even part of the numerator, or odd part divided by M.
 /// @param powers  I, M², M⁴, M⁶ as far as the degree needs them
 template <class Square>
 Square pade_half(const PadeApproximant& approximant, int parity,
@@ -89,11 +89,11 @@ Square approximated(const PadeApproximant& approximant, const Square& matrix) {
 ///
 /// Scaling and squaring of the balanced matrix, e^M = (e^{M/2^s})^{2^s}, with the diagonal Padé
 /// approximant of the least degree among 3, 5, 7 and 13 that is exact to round-off; s > 0 only with
-/// degree 13. Without balancing, a norm far above the eigenvalues would need squarings that cost as
-/// many digits. Work: up to 6 + s products and one elimination.
+/// degree 13. Without balancing, a norm far above the eigenvalues would need more squarings, each
+/// at a loss of accuracy. Work: up to 6 + s products and one elimination.
 /// Source: N. J. Higham, The scaling and squaring method for the matrix exponential revisited,
 /// SIAM J. Matrix Anal. Appl. 26 (2005).
-/// @param matrix  square, of fixed or dynamic size; NaN if it or Σ |M_ij| is not finite
+/// @param matrix  square, of fixed or dynamic size; if Σ |M_ij| is not finite the result is NaN
 /// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size>
 Matrix<Scalar, Size> exponential(const Matrix<Scalar, Size>& matrix) {

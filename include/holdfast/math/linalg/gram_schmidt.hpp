@@ -14,14 +14,14 @@ template <class Number, int Columns>
 using TangentBasis =
     Eigen::Matrix<Number, 5, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
 
-/// For each tangent vector, whether its length is nonzero; false where a map annihilated it.
+/// Flags of the tangent vectors: true until a map annihilates the vector, then false.
 using Alive = std::array<bool, 5>;
 
-/// The sizes of R in B = Q R.
+/// The squared diagonal of R in B = Q R, and the norm of R⁻¹.
 template <class Number, int Columns>
 struct Stretches {
   Vector<Number, Columns> squares;  ///< R_ii²; 0 where a column vanishes, 1 where one is not alive
-  Number inverse;  ///< ‖R⁻¹‖_F² over the columns that are and do not vanish
+  Number inverse;  ///< ‖R⁻¹‖_F² over the columns that are alive after the process
 };
 
 namespace detail {
@@ -75,7 +75,7 @@ Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, 
   return result;
 }
 
-/// Orthonormalises columns of any length by the classical process, repeated for the last digits.
+/// Orthonormalises columns of any length by the classical process, run twice for full accuracy.
 /// @param basis  matrix B, replaced by Q; a column that vanishes stays 0
 /// @return the triangle R
 inline Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& basis) {

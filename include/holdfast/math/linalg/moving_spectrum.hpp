@@ -27,12 +27,12 @@ struct TaylorMatrix {
 /// A complex vector of n entries as a function of a number x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ and a
 /// bound of the remainder of every entry.
 struct MovingVector {
-  std::vector<Eigen::VectorXcd> terms;  ///< n × 1 each, as many as those of the matrix
+  std::vector<Eigen::VectorXcd> terms;  ///< n × 1 each, as many as the matrix has terms
   Eigen::VectorXd remainder;            ///< n × 1, ≥ 0
 };
 
-/// The proof that all eigenvalues of a matrix moving with x stay inside the unit circle, if it
-/// succeeds.
+/// A proof, which may fail, that all eigenvalues of a matrix S(x) (`TaylorMatrix`) stay inside the
+/// unit circle for −1 ≤ x ≤ 1.
 ///
 /// In the coordinates Q of a triangular form of S(0) the terms are T_k. A unit lower triangular
 /// W(x) = I + Σ W_k xᵏ and an upper triangular D(x) = Σ D_k xᵏ are found, order by order, so that
@@ -45,33 +45,32 @@ struct MovingVector {
 ///
 ///     ρ(S(x)) ≤ ρ(B) < 1   where (I − B) v = 1 has a solution v > 0       (Perron, Frobenius)
 ///
-/// Where two eigenvalues are so near to one another that their entry of W would not converge,
-/// it stays 0 and the entry of D below the diagonal is kept. No exit from the circle can be
-/// missed; the round-off of the products is bounded too and included in R. Work: about 3 m²
-/// products n × n for m terms. Source: R. A. Horn, C. R. Johnson, Matrix Analysis, 2nd ed., 8.1
-/// and 8.3.
+/// Where two eigenvalues are so near to one another that their entry of W would not converge, that
+/// entry stays 0 and the entry of D below the diagonal is kept. No exit from the circle can be
+/// missed; R includes a bound of the products' round-off. Work: about 3 m² products n × n for m
+/// terms. Source: R. A. Horn, C. R. Johnson, Matrix Analysis, 2nd ed., 8.1 and 8.3.
 template <class Scalar = double>
 class MovingSpectrum {
  public:
   using Complex = std::complex<Scalar>;  ///< type of the triangular form
 
-  /// @param matrix  moving matrix; one that is not finite has no proof
+  /// @param matrix  moving matrix S(x); if it is not finite nothing is proved
   /// @throws InvalidParameter for fewer than two terms, or where the sizes disagree
   explicit MovingSpectrum(const TaylorMatrix& matrix);
 
   /// Whether all eigenvalues of S(0) are computed to lie inside the unit circle.
   bool inside_at_centre() const { return inside_at_centre_; }
 
-  /// Whether all eigenvalues of S(x) are proved to be so, for −1 ≤ x ≤ 1.
+  /// Whether all eigenvalues of S(x), −1 ≤ x ≤ 1, are proved to lie inside the unit circle.
   bool inside() const { return inside_; }
 
-  /// The responses c (λI − S(x))⁻¹ g(x) for rows c, where |λ(x)| = 1 and `inside`: term by term in
-  /// the coordinates of the proof. There |(λI − S)⁻¹| ≤ (I + Σ|W_k|) (I − B)⁻¹ (I − Σ|W_k|)⁻¹
-  /// bounds the truncation error, but not the round-off of these sums.
+  /// The responses c (λI − S(x))⁻¹ g(x) for rows c, term by term in the coordinates of the proof;
+  /// valid if |λ(x)| = 1 and `inside()`. The truncation error is bounded by |(λI − S)⁻¹| ≤ (I +
+  /// Σ|W_k|) (I − B)⁻¹ (I − Σ|W_k|)⁻¹; the round-off of these sums is not bounded.
   /// @param from_one  λ(x) − 1, with as many terms as S
   /// @param source    g(x), with as many terms as S
   /// @param rows      rows c, any number of them, each n wide
-  /// @throws InvalidParameter where the number of terms or the width of a row is another
+  /// @throws InvalidParameter where the number of terms or the width of a row differs from S
   std::vector<TaylorNumber> responses(const TaylorNumber& from_one, const MovingVector& source,
                                       const Eigen::MatrixXd& rows) const;
 
@@ -83,8 +82,8 @@ class MovingSpectrum {
   Eigen::Index size() const { return terms_.front().rows(); }
   std::size_t order() const { return terms_.size() - 1; }
 
-  /// Transforms the terms to the coordinates V = Q X, in which S(0) is diagonal except for pairs of
-  /// close eigenvalues, and their remainders.
+  /// Transforms the terms and the remainder to the coordinates V = Q X, in which S(0) is diagonal
+  /// except for pairs of close eigenvalues.
   void take(const TaylorMatrix& matrix) {
     const Eigen::Index n = matrix.remainder.rows();
     const BalancedMatrix<double, Eigen::Dynamic> similar(matrix.terms.front());
@@ -112,15 +111,14 @@ class MovingSpectrum {
     terms_[0].template triangularView<Eigen::StrictlyLower>().setZero();
   }
 
-  /// The relative round-off of a sum of as many products as here.
+  /// A bound of the relative round-off of the sums of products in this proof.
   Scalar rounding() const {
     return Scalar(4) * static_cast<Scalar>(static_cast<std::size_t>(size()) + terms_.size()) *
            std::numeric_limits<Scalar>::epsilon();
   }
 
-  /// Includes the error of `back` as the inverse of the basis: with back·V = I + G the similarity
-  /// with V gives (I + G)⁻¹T in place of the computed T. Nothing is proved where |G| is not
-  /// small.
+  /// Adds to the remainder the error of `back` as the inverse of the basis V: with back·V = I + G
+  /// the similarity gives (I + G)⁻¹T in place of T. Nothing is proved where |G| is not small.
   void count_inverse(const Form& back, const Form& basis) {
     const Bound identity = Bound::Identity(size(), size());
     off_ = (back * basis - Form::Identity(size(), size())).cwiseAbs() +
@@ -171,7 +169,7 @@ class MovingSpectrum {
     return right;
   }
 
-  /// The solution (νI − T₀)⁻¹ of a column, T₀ being upper triangular.
+  /// The product (νI − T₀)⁻¹ r with a column r, T₀ being upper triangular.
   Eigen::VectorXcd solved(const Complex& nu, Eigen::VectorXcd right) const {
     for (Eigen::Index i = size() - 1; i >= 0; --i) {
       for (Eigen::Index p = i + 1; p < size(); ++p) right[i] += terms_[0](i, p) * right[p];
@@ -180,7 +178,8 @@ class MovingSpectrum {
     return right;
   }
 
-  /// W_k and D_k from what they have to cancel and leave, R = T_k + Σ (T_l W_{k−l} − W_l D_{k−l}).
+  /// Appends W_k and D_k = R + T₀W_k − W_kT₀, R = T_k + Σ (T_l W_{k−l} − W_l D_{k−l}). W_k is such
+  /// that D_k vanishes below the diagonal for uncoupled pairs.
   void split(const Form& r) {
     const Form& t = terms_[0];
     const Eigen::Index n = size();
@@ -221,7 +220,7 @@ class MovingSpectrum {
     return sums;
   }
 
-  /// A lower bound of 1 − |D_ii(x)|; not positive where none is proved.
+  /// A lower bound of 1 − |D_ii(x)| for all x; ≤ 0 where none is proved.
   double distance(Eigen::Index i) const {
     const std::size_t m = order();
     double outside = 0.0;  // |D|² − 1, at most

@@ -14,7 +14,7 @@
 
 namespace holdfast {
 
-/// An eigenvalue of a product of many matrices, by its logarithm since it may underflow.
+/// An eigenvalue of a product of many matrices, as a logarithm since it may underflow.
 struct Multiplier {
   double log_modulus;  ///< ln |λ|; −∞ for a null direction
   double angle;        ///< arg λ (rad), in (−π, π]
@@ -44,7 +44,7 @@ struct ScaledTriangle {
         unit(Matrix<Scalar, Size>::Identity(order, order)),
         rank(order) {}
 
-  /// Replaces R by next · R. A diagonal entry below the round-off of `size` ends the rank.
+  /// Replaces R by next · R. The first diagonal entry below the round-off of `size` ends the rank.
   void multiply_from_left(const Matrix<Scalar, Size>& next, const Scalar& size) {
     const Scalar round_off = Scalar(8) * std::numeric_limits<Scalar>::epsilon() * size;
     for (Eigen::Index i = 0; i < rank; ++i) {
@@ -66,7 +66,7 @@ struct ScaledTriangle {
   }
 };
 
-/// Columns in general position: no invariant coordinate axis is taken for the leading direction.
+/// Columns in general position, so that no invariant axis is mistaken for the leading direction.
 template <class Columns>
 Columns generic_columns(Eigen::Index rows, Eigen::Index columns) {
   Columns dense(rows, columns);
@@ -79,7 +79,7 @@ Columns generic_columns(Eigen::Index rows, Eigen::Index columns) {
   return dense;
 }
 
-/// Turns the basis Q once around the period. @return the product of the triangular factors
+/// Carries the basis Q through all maps of a period. @return the product of the triangular factors
 template <class Scalar, int Size>
 ScaledTriangle<Scalar, Size> turn_basis(const std::vector<Matrix<Scalar, Size>>& maps,
                                         Matrix<Scalar, Size>& basis) {
@@ -92,8 +92,8 @@ ScaledTriangle<Scalar, Size> turn_basis(const std::vector<Matrix<Scalar, Size>>&
   return triangle;
 }
 
-/// Whether the first `leading` directions are invariant: the part of the turn W = Q₀ᵀQ_N that mixes
-/// them into the others is small.
+/// Whether the first `leading` directions are invariant: the block of the turn W = Q₀ᵀQ_K that
+/// mixes them with the other directions is small.
 template <class Scalar, int Size>
 bool decoupled(const Matrix<Scalar, Size>& turn, Eigen::Index leading) {
   const Eigen::Index others = turn.rows() - leading;
@@ -101,8 +101,8 @@ bool decoupled(const Matrix<Scalar, Size>& turn, Eigen::Index leading) {
          turn.bottomLeftCorner(others, leading).cwiseAbs().maxCoeff() < Scalar(1e-10);
 }
 
-/// Whether no three neighbouring directions remain coupled, starting at an odd one: usually a pair
-/// is left that no further cycle separates.
+/// Whether for every odd k the turn is decoupled after the first k or k + 1 directions. Pairs
+/// usually remain coupled: no further cycle separates them.
 template <class Scalar, int Size>
 bool settled(const Matrix<Scalar, Size>& turn, Eigen::Index rank) {
   for (Eigen::Index k = 1; k == 1 || k < rank; k += 2)
@@ -110,7 +110,7 @@ bool settled(const Matrix<Scalar, Size>& turn, Eigen::Index rank) {
   return true;
 }
 
-/// Appends the eigenvalues of rows and columns first … last − 1 of W D U.
+/// Appends the eigenvalues of the block first … last − 1 of W D U, D U being `triangle`.
 template <class Scalar, int Size>
 void append_multipliers(const Matrix<Scalar, Size>& turn,
                         const ScaledTriangle<Scalar, Size>& triangle, Eigen::Index first,

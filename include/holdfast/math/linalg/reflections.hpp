@@ -10,8 +10,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// The Householder reflection H = I − τ v vᵀ of the last rows of a matrix that maps the part of one
-/// of its columns in these rows to β e₁, |β| being the length of that part.
+/// The Householder reflection H = I − τ v vᵀ of the last rows of a matrix. It maps the entries of
+/// one column in these rows to β e₁, |β| being their Euclidean norm.
 ///
 /// It works column by column: for small matrices this is faster than blocks, compiles in a
 /// twentieth of the time, and avoids the packets that GCC 12 reports as reads out of bounds.
@@ -50,7 +50,7 @@ class Reflection {
     }
   }
 
-  /// Replaces M by M H, for as many columns as the other matrix had rows.
+  /// Replaces M by M H; M has as many columns as the matrix given to the constructor has rows.
   template <class Square>
   void reflect_rows(Square& matrix) const {
     using Column = Vector<Scalar, Square::RowsAtCompileTime>;
@@ -72,8 +72,8 @@ class Reflection {
 
 /// Replaces A by R = QᵀA with R upper triangular, and B by QᵀB, with Q orthogonal.
 ///
-/// It is backward stable, for matrices of any rank; |R_ii| need not decrease. Work: 2 n m² for A of
-/// n × m and 4 n m c for c columns of B.
+/// The method is backward stable for matrices of any rank; |R_ii| need not decrease. Work: 2 n m²
+/// for A of n × m and 4 n m c for c columns of B.
 /// @param matrix  matrix A, finite, at least as many rows as columns
 /// @param others  matrix B, as many rows as A
 template <class Tall, class Others>
@@ -85,7 +85,7 @@ void reflect_to_triangle(Tall& matrix, Others& others) {
   }
 }
 
-/// Replaces A by R as above. @return Q, with A = Q R
+/// Replaces A by the upper triangular R of A = Q R. @return Q
 template <class Square>
 Square orthogonal_factor(Square& matrix) {
   Square transposed = Square::Identity(matrix.rows(), matrix.rows());

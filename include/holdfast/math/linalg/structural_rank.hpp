@@ -11,7 +11,7 @@ namespace holdfast {
 enum class Carried : unsigned {
   in_force = 1,  ///< the command in force
   pending = 2,   ///< the command decided, which is not in force yet
-  anchor = 4,    ///< place of the gap
+  anchor = 4,    ///< position of the gap
   reading = 8,   ///< the displacement read at the last sample
 };
 
@@ -21,7 +21,7 @@ enum class Carried : unsigned {
 /// rank of their product is the number of disjoint paths from its inputs to its outputs, which is
 /// the smallest number of variables that cut all paths. Every cut consists of the independent
 /// directions of z at some instant (four, or three in stick) and of the stored quantities that act
-/// later. Among the cuts with the same set of quantities of unknown future only the smallest is
+/// later. Among the cuts with the same set of quantities that may still act only the smallest is
 /// kept.
 ///
 /// No tolerance is involved; a coincidence of the entries themselves is not detected.
@@ -39,25 +39,25 @@ class StructuralRank {
     cut = std::min(cut, directions);
   }
 
-  /// Makes a quantity a function of what is known at this instant.
+  /// Begins to store a quantity, a function of z and of the quantities stored at this instant.
   void begin(Carried quantity) { carried_ |= bit(quantity); }
 
   /// Lets a quantity act on z; it may act again later.
   void act(Carried quantity) { eliminate(quantity, 1, 0); }
 
-  /// Ends a quantity.
+  /// Ends the storage of a quantity.
   void end(Carried quantity) {
     eliminate(quantity, 0, 0);
     carried_ &= ~bit(quantity);
   }
 
-  /// Ends a quantity and continues it as another, new one.
+  /// Renames a stored quantity: it is continued as another quantity.
   void become(Carried quantity, Carried other) {
     eliminate(quantity, 0, bit(other));
     if ((carried_ & bit(quantity)) != 0) carried_ = (carried_ & ~bit(quantity)) | bit(other);
   }
 
-  /// The rank, with everything stored at this instant as output.
+  /// The rank of the product so far; its outputs are z and the quantities stored at this instant.
   int rank() const {
     int least = none;
     for (unsigned set = 0; set < sets; ++set) least = std::min(least, least_[set] + size_of(set));
@@ -73,7 +73,7 @@ class StructuralRank {
     return static_cast<int>((set & 1U) + (set >> 1U & 1U) + (set >> 2U & 1U) + (set >> 3U & 1U));
   }
 
-  /// Removes a quantity from all sets that contain it, at a cost, or replaces it by another one.
+  /// Removes a quantity from all sets that contain it, at `cost`, or replaces it by `other` (bits).
   void eliminate(Carried quantity, int cost, unsigned other) {
     for (unsigned set = 0; set < sets; ++set) {
       if ((set & bit(quantity)) == 0 || least_[set] == none) continue;

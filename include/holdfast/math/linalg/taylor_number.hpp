@@ -16,7 +16,7 @@ struct TaylorNumber {
   std::vector<std::complex<double>> terms;  ///< at least one
   double remainder;                         ///< ≥ 0
 
-  /// The sum Σ |terms|, an upper bound of the polynomial.
+  /// The sum Σ |terms|, an upper bound of the polynomial's modulus.
   double size() const {
     double sum = 0.0;
     for (const std::complex<double>& term : terms) sum += std::abs(term);
@@ -48,7 +48,7 @@ struct SquaresDifference {
       least;         ///< lower bound for −1 ≤ x ≤ 1
 };
 
-/// |a|² − |b|² of two Taylor numbers with as many terms each.
+/// The difference |a|² − |b|² of two Taylor numbers with equally many terms.
 inline SquaresDifference squares_difference(const TaylorNumber& a, const TaylorNumber& b) {
   const std::size_t last = a.terms.size() - 1;
   double first = 0.0, fall = 0.0;

@@ -25,7 +25,7 @@ Point evaluate(const Eigen::MatrixBase<Coefficients>& polynomial, const Point& x
   return value;
 }
 
-/// Product of two polynomials; the degrees add.
+/// The product of two polynomials; the degrees add.
 template <class Scalar, int DegreePlusOneA, int DegreePlusOneB>
 Vector<Scalar, DegreePlusOneA + DegreePlusOneB - 1> multiply(
     const Vector<Scalar, DegreePlusOneA>& a, const Vector<Scalar, DegreePlusOneB>& b) {
@@ -37,7 +37,7 @@ Vector<Scalar, DegreePlusOneA + DegreePlusOneB - 1> multiply(
   return product;
 }
 
-/// The derivative p′(x); not for a constant.
+/// The derivative p′(x) of a polynomial of degree 1 or more.
 template <class Scalar, int Size>
 Vector<Scalar, Size - 1> derivative(const Vector<Scalar, Size>& polynomial) {
   Vector<Scalar, Size - 1> result;
@@ -69,7 +69,7 @@ std::complex<Scalar> plain_product(const std::complex<Scalar>& a, const std::com
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
-/// The reciprocal 1 / z without that treatment; the roots are scaled to moduli about one.
+/// The reciprocal 1/z without the standard's treatment of infinities, for moduli about one.
 template <class Scalar>
 std::complex<Scalar> inverse(const std::complex<Scalar>& z) {
   return std::conj(z) / std::norm(z);
@@ -97,7 +97,7 @@ NewtonStep<Scalar> newton_step(const std::vector<Scalar>& coefficients,
   return {plain_product(value, inverse(slope)), std::norm(value) <= rounding * rounding};
 }
 
-/// Updates all approximations once, in Gauss–Seidel order; true when none changes any more.
+/// Updates all approximate roots once, in Gauss–Seidel order; true when none changes any more.
 template <class Scalar>
 bool aberth_sweep(const std::vector<Scalar>& coefficients,
                   std::vector<std::complex<Scalar>>& roots) {
@@ -117,7 +117,7 @@ bool aberth_sweep(const std::vector<Scalar>& coefficients,
   return settled;
 }
 
-/// Starting points with moduli about those of the roots, spread without symmetry.
+/// The starting points for roots of moduli about one: on the unit circle, without symmetry.
 template <class Scalar>
 std::vector<std::complex<Scalar>> spread_circle(std::size_t count) {
   std::vector<std::complex<Scalar>> points;
@@ -135,10 +135,10 @@ std::vector<std::complex<Scalar>> spread_circle(std::size_t count) {
 /// All roots of a real polynomial of low degree, by the Aberth–Ehrlich iteration.
 ///
 /// Coefficients at either end that are at most `negligible` times the largest are dropped: leading
-/// ones are roots at infinity, which do not return; trailing ones are roots at zero, which do. The
-/// rest is scaled to roots of geometric mean one and iterated until each value is down to its
-/// rounding error. A constant has none. Source: O. Aberth, Iteration methods for finding all zeros
-/// of a polynomial simultaneously, 1973.
+/// ones mean roots at infinity, which are left out; trailing ones mean roots at zero, which are
+/// returned. The other roots are scaled to geometric mean one and iterated until each value of the
+/// polynomial is down to its rounding error. A constant has no roots. Source: O. Aberth, Iteration
+/// methods for finding all zeros of a polynomial simultaneously, 1973.
 template <class Coefficients>
 std::vector<std::complex<typename Coefficients::Scalar>> roots(
     const Eigen::MatrixBase<Coefficients>& polynomial,
@@ -166,7 +166,7 @@ std::vector<std::complex<typename Coefficients::Scalar>> roots(
 }
 
 /// The positive roots of a real polynomial of low degree, ascending. A double root that round-off
-/// has split into a pair, by √ε off the real axis, counts as two of them.
+/// has split into a pair, by √ε off the real axis, counts as two roots.
 /// @param polynomial  coefficients, lowest degree first
 /// @param split       the largest |Im x/Re x| of such a pair
 template <class Coefficients>
@@ -213,7 +213,7 @@ Vector<Scalar, 3> parity_part(const Vector<Scalar, Size>& a, int parity) {
 }
 
 /// The mean modulus of the roots, (|a₀| / |a_n|)^{1/n}, the unit in which w is of order one; 1
-/// without roots.
+/// where that is 0 or not finite.
 template <class Scalar, int Size>
 Scalar mean_root_modulus(const Vector<Scalar, Size>& a) {
   const Scalar modulus = std::pow(std::abs(a[0] / a[Size - 1]), Scalar(1) / Scalar(Size - 1));
@@ -257,7 +257,7 @@ struct ParityParts {
 ///
 /// It maps |λ| < 1 onto Re w < 0, so that Hurwitz's conditions on q decide the sampled loop: q₀ = 0
 /// is a root λ = +1, q_n = 0 a root λ = −1 (w = ∞), and H_{n−1} = 0 a pair on the unit circle.
-/// Source: Kollár 2022, §4.1; times (1 + w), its b_j for δ = 0 having no root λ = 0.
+/// Source: Kollár 2022, §4.1; for δ = 0 the root λ = 0, thus a factor (1 + w), is missing there.
 /// @return q, constant coefficient first, same degree as p
 template <class Scalar, int Size>
 Vector<Scalar, Size> in_half_plane(const Vector<Scalar, Size>& in_powers_of_mu) {

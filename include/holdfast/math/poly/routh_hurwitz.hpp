@@ -5,8 +5,7 @@
 
 namespace holdfast {
 
-/// Whether (lane by lane) all roots have Re s < 0, for either sign of the leading
-/// coefficient.
+/// Whether all roots of a polynomial have Re s < 0, lane by lane, for either sign of a_n.
 ///
 /// Liénard and Chipart's half of Hurwitz's conditions (Kollár 2022, Eq. (15)) is sufficient:
 ///

@@ -46,8 +46,8 @@ Scalar chandrupatla_share(const Ordinate<Scalar>& near, const Ordinate<Scalar>& 
 /// method: inverse quadratic interpolation where three points make it reliable, bisection
 /// elsewhere.
 ///
-/// The order of convergence is about 1.8 at a simple zero; at a jump it bisects. If the function is
-/// exactly zero, both ends become that argument.
+/// The order of convergence is about 1.8 at a simple zero; at a jump it bisects. Where the function
+/// is exactly zero, both ends become that argument.
 /// @param function   Scalar → Scalar; zero, negative values and NaN count as negative
 /// @param bracket    lower < upper, values of opposite sign; otherwise returned unchanged
 /// @param tolerance  ≥ 0, in the unit of the argument

@@ -15,15 +15,15 @@ enum class Stretch {
   open,   ///< undecided: a shorter interval may be decided
 };
 
-/// The outcome of a walk.
+/// The outcome of the walk of first_crossing().
 enum class WalkOutcome {
   clear,    ///< the condition is proved up to the end
-  exit,     ///< it fails at `first_outside`, the end of the proved range up to `smallest`
+  exit,     ///< it fails at `first_outside`, within `smallest` of the proved range
   open,     ///< from `last_inside` on it is undecided, by round-off or by the limit of work
   blocked,  ///< it fails at the start
 };
 
-/// The end of a walk.
+/// The end of the walk of first_crossing().
 struct FirstCrossing {
   WalkOutcome outcome;   ///< outcome; `first_outside` is a number for `exit` only
   double last_inside;    ///< the condition is proved from the start to here
@@ -31,18 +31,18 @@ struct FirstCrossing {
   int evaluations;       ///< number of intervals examined, ≥ 1
 };
 
-/// The resolution and the work of a walk.
+/// The resolution and the work of the walk of first_crossing().
 struct WalkLimits {
-  double smallest;  ///< > 0; share of |argument| or, if larger, of the first step that may remain
-                    ///< unproved before an exit
+  double smallest;  ///< > 0; largest unproved range before an exit, as a share of |argument| or, if
+                    ///< larger, of the first step
   int most_evaluations;  ///< ≥ 1; most intervals to be examined
 };
 
 /// The first argument on the way from `from` to `to` (which may be smaller) at which a condition
 /// fails, found by proofs on successive intervals: no exit is passed over.
 ///
-/// Each interval adjoins the proved range. After a proof the next one is twice as long, else half
-/// as long. Once a failing argument is known, the intervals approach the edge before it, each
+/// Each interval adjoins the proved range. After a proof the next interval is twice as long, else
+/// half as long. Once a failing argument is known, the intervals approach the edge before it, each
 /// leaving about a tenth of the distance.
 /// @param examine  (centre, radius ≥ 0) → Stretch
 /// @param edge     (proved, failing) → estimate of the argument where the condition begins to fail

@@ -13,8 +13,8 @@ namespace holdfast {
 enum class RootOutcome {
   none,      ///< it stays above zero up to x = 1
   crossing,  ///< it falls through zero
-  grazing,   ///< it is so near to zero with so small a slope that within rounding it may cross,
-             ///< touch or turn before
+  grazing,   ///< it comes so near to zero with so small a slope that within rounding it may
+             ///< cross zero, touch it or turn back before
 };
 
 /// The first zero in [0, 1] of a polynomial that begins above zero.
@@ -26,7 +26,7 @@ struct FirstRoot {
 
 namespace detail {
 
-/// The distance s from x at which value + slope s − bend s² / 2 is zero; value > 0.
+/// The distance s > 0 at which height + slope s − bend s²/2 is zero, height > 0.
 inline double safe_step(const ValueAndSlope& at, double height, double bend) {
   const double root = std::sqrt(at.slope * at.slope + 2.0 * bend * height);
   // Each form where nothing cancels in it.
@@ -57,7 +57,7 @@ inline FirstRoot root_in_stretch(const Series& q, double rounding, int most_eval
 
 /// The first root of q(x), q(0) > 0.
 ///
-/// Where cancelling terms make the bound M far too large, the steps are too short: then the
+/// Where cancelling terms make the bound of |q″| far too large, the steps are too short: then the
 /// polynomial is expanded again about the point reached, over a shorter interval.
 inline FirstRoot first_root_of_positive(const Series& q) {
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * q.cwiseAbs().sum();
@@ -84,9 +84,9 @@ inline FirstRoot first_root_of_positive(const Series& q) {
 /// over.
 ///
 /// With M = Σ k (k − 1) |c_k| ≥ |p″| on [0, 1], p(x + s) ≥ p(x) + p′(x) s − M s²/2. The search
-/// moves from x to the root of that parabola, before which p has none: it converges quadratically
-/// to a crossing, linearly to a touching. Leading coefficients that are exactly zero are divided
-/// out; a polynomial that is or falls below zero at 0 has its root there.
+/// moves from x to the root of that parabola, before which p has no root: it converges
+/// quadratically to a crossing, linearly to a touching. Leading coefficients that are exactly zero
+/// are divided out; a polynomial that is or falls below zero at 0 has its root there.
 ///
 /// Work: one Horner evaluation of p and p′ per step; some five for a crossing, at most 2048.
 /// @param p  one coefficient or more; if one is not finite there is no root

@@ -12,14 +12,14 @@
 
 namespace holdfast {
 
-/// The coefficients c₀, c₁, … of a polynomial in every lane; those beyond its terms are unused.
+/// The coefficients c₀, c₁, … of a polynomial in every lane; entries beyond its terms are unused.
 template <class Scalar>
 using LaneSeries = std::array<Scalar, most_terms>;
 
-/// The first zero in [0, 1] of each lane's polynomial, FirstRoot in every lane.
+/// The first zero in [0, 1] of each lane's polynomial, as in `FirstRoot`.
 template <class Scalar>
 struct FirstRoots {
-  Mask<Scalar> found;  ///< whether there is one, crossing or grazing
+  Mask<Scalar> found;  ///< whether there is a zero, crossing or grazing
   Scalar at;           ///< 0 ≤ x ≤ 1; 1 without a zero
 };
 
@@ -52,7 +52,7 @@ struct RootSearch {
     active = active & (p[0] > zero);
   }
 
-  /// Uses p(x) and p′(x): accepts the root, or moves to the end of an interval without root.
+  /// Takes a step by p(x) and p′(x): accepts the root, or moves over an interval without root.
   void step(const Scalar& value, const Scalar& slope) {
     using std::max;
     using std::min;
@@ -78,7 +78,7 @@ struct RootSearch {
   }
 
  private:
-  /// The distance from x at which value + slope s + sag s²/2 is zero; infinite without one.
+  /// The distance s > 0 at which height + slope s + sag s²/2 is zero; infinite without one.
   Scalar safe_way(const Scalar& height, const Scalar& slope) const {
     using std::max;
     using std::sqrt;
@@ -103,7 +103,7 @@ struct RootSearch {
     }
   }
 
-  /// Computes the sizes of the polynomial, scaled so that their squares do not overflow.
+  /// Scales the polynomial so that squares do not overflow, and computes its bounds.
   void scale(int terms) {
     using std::abs;
     using std::max;
@@ -145,7 +145,7 @@ void search_alone(RootSearch<Scalar>& search, int terms, std::size_t lane) {
   search.found = Lanes<Scalar>::load(found) > Scalar(0.5);
 }
 
-/// Evaluates p(x) and p′(x) of all searches in parallel, to hide the latency of each.
+/// Takes one step in every search; p(x) and p′(x) are computed in parallel to hide latency.
 template <class Scalar, std::size_t Count>
 void step_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
   std::array<Scalar, Count> value, slope;
@@ -188,13 +188,13 @@ void search_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
 }  // namespace detail
 
 /// The search first_root() for `Count` polynomials in every lane. The lanes step together until
-/// each is decided; one that needs more than 16 steps continues alone.
+/// each is decided; a lane that needs more than 16 steps continues alone.
 ///
 /// Work: 2 `terms` multiply-adds for each step and polynomial; some five steps if any lane has a
 /// root, mostly none otherwise.
 /// @param polynomials  one or two, coefficients in all lanes; they are modified
 /// @param terms        common number of terms, 1 … `most_terms`
-/// @param lanes        lanes to be searched, for each polynomial; the others have no root
+/// @param lanes        lanes to be searched, for each polynomial; other lanes report no root
 template <class Scalar, std::size_t Count>
 std::array<FirstRoots<Scalar>, Count> first_roots(
     std::array<LaneSeries<Scalar>, Count>& polynomials, int terms,

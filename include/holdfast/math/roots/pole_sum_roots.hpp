@@ -18,11 +18,11 @@ namespace holdfast {
 ///     p(λ) = 1 − λ^{−n} w(rλ) (g/λ + Σ (a_k + b_k/λ)/(λ − 1 − ε_k)),   w(λ) = c + d (1 − 1/λ)
 template <class Scalar>
 struct PoleSum {
-  using Complex = std::complex<Scalar>;  ///< of poles and residues
+  using Complex = std::complex<Scalar>;  ///< type of poles and residues
 
   /// The term of one pole.
   struct Part {
-    Complex increment;  ///< ε, accurate with fast sampling too
+    Complex increment;  ///< ε, the pole λ less 1, accurate with fast sampling too
     Complex present;    ///< a
     Complex past;       ///< b
   };
@@ -36,22 +36,21 @@ struct PoleSum {
   std::vector<Part> parts;              ///< terms of all poles
   Complex past{0};                      ///< g
   Weight weight{Scalar(1), Scalar(0)};  ///< w, common to all terms
-  Scalar radius{1};                     ///< r; λ is that of the loop divided by r
+  Scalar radius{1};                     ///< r; the loop has the roots rλ
   int power = 0;                        ///< n ≥ 0
 };
 
 namespace detail {
 
 /// The simultaneous iteration for all roots of a PoleSum (Ehrlich 1967, Aberth 1973): each root is
-/// improved by Newton's step for the polynomial divided by all other roots. Each root but the
-/// extra ones is stored as its distance d from a pole, which is accurate where the root hardly
-/// moves.
+/// improved by Newton's step for the polynomial divided by all other roots. Each root but the extra
+/// ones is stored as its distance d from a pole, which is accurate for a root close to the pole.
 template <class Scalar>
 class RootIteration {
  public:
   using Complex = std::complex<Scalar>;
 
-  /// @param extra     number of roots beyond those of the poles: order of the pole at λ = 0
+  /// @param extra     number of roots beyond one for each pole: order of the pole at λ = 0
   /// @param mirrored  whether roots of conjugate poles are first assumed to be conjugate
   RootIteration(const PoleSum<Scalar>& sum, int extra, bool mirrored)
       : weight_(sum.weight),
@@ -75,6 +74,7 @@ class RootIteration {
           Scalar(0.3), Scalar(0.7) + Scalar(2) * pi<Scalar> * Scalar(j) / Scalar(extra)));
   }
 
+  /// Iterates until all roots have converged.
   /// @param enough  admissible error of a root, as a share of its distance from the unit circle
   /// @return whether all roots converged and their sum agrees with the polynomial
   bool converge(const Scalar& enough) {
@@ -115,7 +115,7 @@ class RootIteration {
     Complex divided_out;             ///< Σ (1/(λ − e) − 1/(λ − z)), z being the roots
   };
 
-  /// The factors λ^{−n} w and λ^{−n−1} w of these sums, with their derivatives.
+  /// The factors λ^{−n} w and λ^{−n−1} w of the sums a and b, with their derivatives.
   struct Factors {
     Complex a, b, slope_a, slope_b;
 
@@ -147,7 +147,7 @@ class RootIteration {
     }
   }
 
-  /// The start of a root: off the real axis, which a pair could not leave by symmetry.
+  /// The first estimate of root i, off the real axis, which a pair could not leave by symmetry.
   Complex first_of(std::size_t i) {
     Row own = parts_[i];
     own[3] = Complex(0);
@@ -157,7 +157,7 @@ class RootIteration {
     return std::isfinite(std::abs(first)) ? first : Complex(1e-3, 1e-3);
   }
 
-  /// Restarts the roots of conjugate poles that have not converged, and may be real, separately.
+  /// Restarts, one by one, the unconverged roots of conjugate poles: they may be real.
   void part_mirrors(std::vector<char>& settled) {
     for (std::size_t i = 0; i < poles_; ++i) {
       const std::size_t other = std::exchange(mirrors_[i], i);
@@ -190,7 +190,7 @@ class RootIteration {
     return {a.sum(), b.sum() + past_, -slope_a.sum(), -slope_b.sum(), -divided_out.sum()};
   }
 
-  /// The sums over all other poles at the root of one pole.
+  /// The sums over all other poles at the root that belongs to pole i.
   Sums without(std::size_t i, const Row& own) {
     parts_.set(i, {Complex(parked), Complex(0), Complex(0), Complex(0)});
     const Sums others = sums_at(own[0], own[3]);
@@ -246,7 +246,7 @@ class RootIteration {
     return settled;
   }
 
-  /// Takes a step from a root λ, except for a root at 0.
+  /// Moves a root λ, or its distance from a pole, by one step (`unknown`); a root at 0 stays.
   /// @return whether the root has converged: this step, or the next shrinking one, is negligible
   bool take(std::size_t i, Complex& unknown, const Value& p, const Sums& others,
             const Complex& lambda) {
@@ -300,7 +300,7 @@ class RootIteration {
 /// @param late    whether there are coefficients b
 /// @param enough  admissible error of a root, as a share of its distance from the unit circle; 0:
 ///                full precision
-/// @return nothing where they do not converge or their sum is wrong: for coinciding roots, or n >
+/// @return no roots where they do not converge or their sum is wrong: for coinciding roots, or n >
 ///         19
 template <class Scalar>
 std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late,

@@ -30,15 +30,15 @@ struct RegionLook {
 template <class Label>
 struct BorderPoint {
   PlanePoint at;  ///< position
-  Label label{};  ///< condition that ends the region; at a jump of the margin that outside
+  Label label{};  ///< condition that ends the region; at a jump of the margin, the one outside
 };
 
 /// The border of a region, with the region on its left.
 template <class Label>
 struct RegionBorder {
   std::vector<BorderPoint<Label>> points;  ///< if closed, the last point repeats the first one
-  bool closed = false;  ///< it returned to its start; else it was lost, or followed another part
-                        ///< that touches this one
+  bool closed = false;  ///< whether the border returned to its start; else it was lost, or the
+                        ///< walk changed to another part that touches this one
   int looks = 0;        ///< number of points examined
 };
 
@@ -47,14 +47,14 @@ struct BorderSteps {
   double longest = 0.02;       ///< longest step, in the unit of the plane
   double shortest = 1e-9;      ///< shortest step, the accuracy of a corner
   double tolerance = 1e-13;    ///< accuracy of a point
-  double jump = 1e-4;          ///< margin just inside the border above which it counts as a jump
+  double jump = 1e-4;          ///< smallest margin just inside the border that is a jump
   int most_looks = 1'000'000;  ///< limit of points examined, after which the border is left open
 };
 
 namespace detail {
 
-/// The walk along a border by circles: on a circle about a point of the border the next point is
-/// the first exit from the region, seen clockwise from where the border came.
+/// The walk along a border by circles. On a circle about the last point the next point is the first
+/// exit from the region, going clockwise from the direction of the point before.
 template <class Label, class Look>
 class BorderWalk {
  public:
@@ -156,8 +156,7 @@ class BorderWalk {
                        [&](double angle) { return moved(here, step, angle); });
   }
 
-  /// The next point of the border at a distance; none where the circle has no exit or no
-  /// entry.
+  /// The next point of the border, `step` from the last; none without an exit on the circle.
   std::optional<BorderPoint<Label>> next(double step) {
     const PlanePoint here = border_.points.back().at;
     const auto is_inside = [&](double angle) { return inside(moved(here, step, angle)); };
@@ -242,10 +241,10 @@ class BorderWalk {
 
 /// Follows the border of the plane region {margin > 0} around an inner point until it closes.
 ///
-/// Each point is the root of the margin on a circle about the previous one. Corners, where another
-/// condition takes over, need no special treatment: the circles shrink until two successive points
-/// of different labels are `shortest` apart. Parts narrower than a step may be missed, and holes of
-/// the region too.
+/// Each point is the root of the margin on a circle about the previous point. Corners, where
+/// another condition takes over, need no special treatment: the circles shrink until two successive
+/// points of different labels are `shortest` apart. Parts narrower than a step may be missed, and
+/// holes of the region too.
 ///
 ///     const auto border = region_border<int>(look, {0.5, 0.5});
 /// @tparam Label  name of a condition

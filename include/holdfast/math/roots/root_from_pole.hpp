@@ -12,16 +12,15 @@ namespace holdfast {
 /// The root of 1 − ε g(s) at ε = 1 that starts at a pole p of g at ε = 0: the change of a natural
 /// motion while the acting device grows from zero to its full size.
 ///
-/// It is continued along 1/g(s) = ε, which is smooth at the pole, by Euler's step and the secant. ε
-/// takes a path slightly off the real axis, so that a root meeting its conjugate has a unique
-/// direction. Steps are shortened while the root turns. A pole that moves by less than 10⁻⁷ of
-/// itself is moved by its residue alone.
+/// The root is continued along 1/g(s) = ε, which is smooth at the pole, by Euler's step and the
+/// secant. ε takes a path slightly off the real axis, so that a root meeting its conjugate has a
+/// unique direction. Steps are shortened while the root turns. A pole that moves by less than 10⁻⁷
+/// of itself is moved by its residue alone.
 ///
-/// The continuation is no proof: where two roots meet on their way, their assignment is
-/// arbitrary.
+/// The continuation is no proof: where two roots meet, their assignment is arbitrary.
 /// @param loop_gain  function g of a complex number; it is evaluated some hundred times
 /// @param pole       p ≠ 0, simple, exact to round-off
-/// @return NaN where 1000 steps are not sufficient (unchecked)
+/// @return root s at ε = 1, not verified; NaN where 1000 steps are not sufficient
 template <class LoopGain>
 std::complex<double> root_from_pole(const LoopGain& loop_gain, const std::complex<double>& pole) {
   using Complex = std::complex<double>;

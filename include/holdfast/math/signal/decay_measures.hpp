@@ -30,13 +30,12 @@ struct DecayPeak {
   double value;  ///< m
 };
 
-/// The crossings of the equilibrium by a record (s), on the chord between two samples, and the
-/// extrema between successive crossings, at the vertex of the parabola through the three samples
-/// around each.
+/// The times (s) at which a record crosses the equilibrium, interpolated linearly between samples,
+/// and the extrema between successive crossings, from a parabola through three samples.
 ///
-/// A swing counts once it reaches a twentieth of the previous swing. If noise crosses the
-/// equilibrium several times before, the crossing is midway between the first and the last. Noise
-/// raises each peak by about two of its standard deviations.
+/// A swing counts as soon as it reaches a twentieth of the previous one. Where noise makes several
+/// crossings before that, their time is midway between the first and the last. Noise raises each
+/// peak by about two of its standard deviations.
 struct DecayEvents {
   std::vector<double> crossings;  ///< times of crossing (s), ascending
   std::vector<DecayPeak> peaks;   ///< peaks[k] is between crossings[k] and crossings[k + 1]
@@ -44,7 +43,7 @@ struct DecayEvents {
 
 namespace detail {
 
-/// @throws InvalidParameter unless the times are finite and ascending
+/// Validates instants. @throws InvalidParameter unless they are finite and ascend
 inline void require_ascending(const std::vector<double>& times) {
   for (std::size_t k = 0; k < times.size(); ++k) {
     require_finite("time", times[k], "s");
@@ -68,14 +67,14 @@ inline DecayPeak vertex(const DecayRecord& record, std::size_t k) {
 
 }  // namespace detail
 
-/// @throws InvalidParameter where the columns differ in length, the times are not finite and
-/// ascending, or a displacement is not finite
+/// Finds the crossings and the extrema of a record. @throws InvalidParameter where the columns
+/// differ in length, the times are not finite and ascending, or a displacement is not finite
 inline DecayEvents decay_events(const DecayRecord& record) {
   const auto& t = record.times;
   const auto& z = record.displacements;
   if (t.size() != z.size())
     throw InvalidParameter("number of displacements", static_cast<double>(z.size()), "",
-                           "the number of times");
+                           "equal to the number of instants");
   detail::require_ascending(t);
   for (const double displacement : z) require_finite("displacement", displacement, "m");
   constexpr double smallest_swing = 0.05;

@@ -27,8 +27,8 @@ struct SpectralLine {
 
 /// The one-sided amplitude spectrum of a real signal:
 ///
-///     X_k = Σ w_n x_n e^{−2πikn/N},   amplitude_k = 2 |X_k| / Σ w_n   (once, not twice, at 0 and
-///     Nyquist)
+///     X_k = Σ w_n x_n e^{−2πikn/N},   amplitude_k = 2 |X_k| / Σ w_n
+///     (factor 1 in place of 2 at zero and at the Nyquist frequency)
 ///
 /// @param signal           samples x_n, N ≥ 2, finite
 /// @param sampling_period  τ (s), > 0
@@ -77,7 +77,7 @@ inline std::int64_t samples_per_common_period(double frequency, double sampling_
 /// The length of the longest record, at most `available` samples, with a whole number of forcing
 /// periods and of sampling periods, so that a rectangular window does not leak at the forcing and
 /// its harmonics.
-/// @return `available` itself where the two frequencies do not coincide within it
+/// @return `available` itself where no common period is short enough
 /// @throws InvalidParameter under the conditions of samples_per_common_period()
 inline std::int64_t whole_period_samples(std::int64_t available, double frequency,
                                          double sampling_period) {

@@ -32,7 +32,7 @@ inline std::vector<double> line_powers(const std::vector<SpectralLine>& lines,
 
 /// The shares of a record's power on the multiples of f/m.
 struct SubharmonicShares {
-  std::vector<double> shares;  ///< [m − 1] for m = 1 … the largest; 1 for a signal without power
+  std::vector<double> shares;  ///< share on the multiples of f/m at [m − 1]; 1 without power
   int division = 0;            ///< smallest m with at least the required share, 0 without one
 };
 
@@ -49,8 +49,8 @@ struct SubharmonicOptions {
 /// periods of f/m, with a rectangular window, so that nothing leaks. Multiples fewer than three
 /// lines apart would contain any spectrum: for such m the share is 0.
 ///
-/// Frequencies above the Nyquist frequency fold: with f τ = p/q, the multiples of f appear on those
-/// of f/p = 1/(q τ), which is then the base frequency. Work: one comparison for each line and m.
+/// Frequencies above the Nyquist frequency fold: with f τ = p/q, the multiples of f appear on
+/// multiples of f/p = 1/(q τ), the base frequency to be given. Work: one comparison per line and m.
 /// @throws InvalidParameter where an option is out of range or the lines do not match N
 inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lines,
                                             std::size_t samples,

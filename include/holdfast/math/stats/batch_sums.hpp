@@ -10,8 +10,8 @@
 
 namespace holdfast {
 
-/// The means of several long correlated series with their standard errors, in constant memory, from
-/// sums over steps.
+/// The means and standard errors of several long correlated series, in constant memory, from sums
+/// over steps.
 ///
 /// The steps are divided into batches of equal length; when all `Batches` are full, neighbours are
 /// merged. A sum may cover several steps, but not beyond the end of a batch (`steps_left()`). The
@@ -62,8 +62,8 @@ class BatchSums {
     return total;
   }
 
-  /// The standard errors of the means per step, from the complete batches without the first ones,
-  /// with `merged` neighbours (≥ 1) combined; NaN with fewer than four.
+  /// The standard errors of the means per step, from the complete batches without the first
+  /// `first`, with `merged` neighbours (≥ 1) combined; NaN with fewer than four left.
   Sums standard_errors(std::size_t merged = 1, std::size_t first = 0) const {
     using std::sqrt;
     const std::size_t batches = (complete_ - first) / merged;

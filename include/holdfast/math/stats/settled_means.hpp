@@ -13,7 +13,7 @@ namespace holdfast {
 /// The means per step of series whose beginning may not be representative.
 template <int Series>
 struct SettledMeans {
-  Vector<double, Series> means;            ///< over the remaining steps
+  Vector<double, Series> means;            ///< means over the steps not left out
   Vector<double, Series> standard_errors;  ///< NaN with fewer than four batches
   std::int64_t steps;                      ///< number of averaged steps
   std::int64_t left_out;                   ///< unsettled steps left out at the beginning
@@ -21,7 +21,7 @@ struct SettledMeans {
 
 namespace detail {
 
-/// The batches of some series, as settled_means() uses them.
+/// The computation of settled_means() from the sums of some series.
 template <int Series, std::size_t Batches>
 class SettledBatches {
   using Means = Vector<double, Series>;
@@ -47,15 +47,16 @@ class SettledBatches {
            (static_cast<double>(last - first) * static_cast<double>(sums_.batch_length()));
   }
 
-  /// The scatter of the batches from the first counted one on, or of pairs of them if larger.
+  /// The standard error by batches from `first` on, or by pairs of them where that is larger.
   Means scatter(std::size_t first) const {
     const Means single = sums_.standard_errors(1, first);
     if (sums_.complete_batches() - first < 8) return single;
     return single.cwiseMax(sums_.standard_errors(2, first));
   }
 
-  /// Whether the beginning differs: as many batches as were left out (or the first one) differ from
-  /// the later ones by more than six standard errors, by the scatter of the second half.
+  /// Whether the beginning is unsettled: the next batches, as many as were left out but at least
+  /// one, differ from those after them by more than six standard errors (scatter of the second
+  /// half).
   bool begins_otherwise() const {
     const std::size_t all = sums_.complete_batches(), half = all / 2;
     const std::size_t next = std::max<std::size_t>(1, 2 * from_);
@@ -67,7 +68,8 @@ class SettledBatches {
            6.0 * std::sqrt(static_cast<double>(all - half) * shares) * scatter(half)[0] + rounding;
   }
 
-  /// The range max − min of s_n − n mean over the ends of the batches.
+  /// The range max − min of s_n − n mean over the ends of the batches, s_n being the sum over n
+  /// steps.
   Means width(const Means& found) const {
     Means deviation = Means::Zero(found.size()), low = deviation, high = deviation;
     const double length = static_cast<double>(sums_.batch_length());
@@ -79,8 +81,8 @@ class SettledBatches {
     return high - low;
   }
 
-  /// The drift: second quarter against second half of the counted batches; for an unsettled
-  /// beginning, second quarter of all against the counted half.
+  /// The difference of the means of the second quarter and the second half of the counted batches;
+  /// if over a quarter is left out, of the later half left out and all counted batches.
   Means drift() const {
     const std::size_t all = sums_.complete_batches(), half = (from_ + all) / 2;
     if (from_ > all / 4) return (mean(from_ / 2, from_) - mean(from_, all)).cwiseAbs();
@@ -101,8 +103,8 @@ class SettledBatches {
 }  // namespace detail
 
 /// The means of series with standard errors that remain valid where the series settle first or stay
-/// bounded. The shortest beginning (of 0, 1, 2, 4, … batches, up to half of all) is left out whose
-/// continuation of equal length differs from the rest by less than six standard errors in the first
+/// bounded. The shortest beginning (of 0, 1, 2, 4, … batches, up to half of all) is left out after
+/// which the next part of equal length agrees with the rest within six standard errors in the first
 /// series. An error is the largest of three:
 ///
 /// - the scatter of batch means, or of pairs of them if that is larger because successive batches

@@ -23,15 +23,15 @@
 
 namespace holdfast {
 
-/// A pack of motions whose contact changes between the samples: like EventMotion, each with its own
-/// loop, all at the same sample.
+/// A pack of motions whose contact changes between the samples, as in EventMotion. Each motion has
+/// its own loop; all are at the same sample.
 ///
-/// The steps are those of EventMotion. Lanes in which a guard may reach zero advance from one
-/// change of contact to the next together while the others wait; the transition itself is computed
-/// by DriveContact, lane by lane. The results of a lane do not depend on the other lanes.
+/// Each lane takes the steps of EventMotion. Lanes in which a guard may reach zero advance together
+/// from one change of contact to the next, while the other lanes wait. The change itself is
+/// computed by DriveContact, lane by lane. The results of a lane do not depend on the other lanes.
 ///
-/// Work per sample without a change of contact: some 90 operations on packs; for each stretch of a
-/// lane, one or two for a change of contact, some 1500. No memory is allocated.
+/// Work per sample without a change of contact: some 90 operations on packs. A change of contact in
+/// a lane takes one or two Taylor series, some 1500 operations each. No memory is allocated.
 /// @tparam Scalar  `double` or a pack
 template <class Scalar>
 class EventPack {
@@ -44,10 +44,10 @@ class EventPack {
   /// A sample of all lanes, as `sense` returns it; the states are given by state().
   struct Sample {
     Scalar control_force;  ///< the transmitted force (N)
-    LaneMask engaged;      ///< whether the command is transmitted
+    LaneMask engaged;      ///< lanes whose drive transmits the command
   };
 
-  /// @param starts  one for each lane; surplus lanes repeat one and are to `sleep`
+  /// @param starts  one per lane; for a spare lane repeat another start, then call `sleep`
   explicit EventPack(const std::array<EventStart, lanes>& starts)
       : excitation_(
             [&](std::size_t lane) -> const DigitalLoop& { return starts[lane].loop->digital; }),
@@ -80,8 +80,8 @@ class EventPack {
 
   /// Observer of `advance` that does nothing.
   struct IgnoreFlowOfLanes {
-    /// Called at a change of contact of a lane, s after the sample, with the numbers of both modes
-    /// and of the guard, −1 for a jump.
+    /// Called at a change of contact: lane, mode before, mode after, number of the guard (−1: a
+    /// jump), time (s) after the sample.
     void switched(std::size_t, int, int, int, double) const {}
   };
 
@@ -104,7 +104,7 @@ class EventPack {
 
   /// The number j of the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
-  /// Renumbers the present sample; the excitation there stays the same.
+  /// Renumbers the present sample; the excitation must have the same phase at both numbers.
   void restart_index(std::int64_t index) { index_ = index; }
   /// The states z_j of all lanes.
   std::array<Scalar, 4> state() const {
@@ -116,16 +116,16 @@ class EventPack {
   }
   /// The contact of a lane, in its present mode.
   const DriveContact<>& contact(std::size_t lane) const { return modes_.contact(lane); }
-  /// Whether the changes of contact of a lane accumulate (SwitchCounts::accumulates).
+  /// Whether a lane's motion has SwitchCounts::accumulates: too many changes in one period.
   bool accumulates(std::size_t lane) const { return accumulates_[lane]; }
-  /// Whether the changes of contact of any lane accumulate or did so.
+  /// Whether `accumulates` is true for any lane.
   bool some_accumulate() const { return accumulates_.any(); }
-  /// Starts a motion of the lane's loop from z (m, m/s, m, m/s), with the drive at rest.
+  /// Starts a motion of the lane's loop from z (m, m/s, m, m/s), with u_{j−1} = 0.
   void restart(std::size_t lane, const Vector<double, 4>& z) {
     modes_.restart(lane, z);
     begin(lane, z);
   }
-  /// Ends the lane's motion: it is at rest from now on, and other lanes do not wait for it.
+  /// Ends a lane's motion: its state is zero from now on, and other lanes do not wait for it.
   void sleep(std::size_t lane) {
     awake_[lane] = 0.0;
     for (auto& number : state_) number[lane] = 0.0;
@@ -154,8 +154,8 @@ class EventPack {
     return {state(lane), detail::lane_of(command, lane), detail::lane_of(force, lane)};
   }
 
-  /// Applies a jump of the command or force in the lanes whose contact depends on it: in stick if
-  /// its condition is violated, and just after a change of contact.
+  /// Applies a jump of the command or force to the contact of lanes in stick whose guards are no
+  /// longer positive, and of lanes whose contact has just changed.
   /// @param instant_number  0: at the sample, 1: at the end of the delay
   template <class Observer>
   void jump(std::size_t instant_number, const Scalar& command, const LaneMask& which,
@@ -270,8 +270,8 @@ class EventPack {
     return far | (first_stays & second_stays & settled);
   }
 
-  /// Advances some lanes to their next change of contact or to the end of the part; `phasors_` are
-  /// the phasors at their present instants.
+  /// Advances some lanes to their next change of contact, but no farther than 1/rate or the end of
+  /// the part; `phasors_` are the phasors at the lanes' present instants.
   template <class Observer>
   void flow_to_event(const Part& part, const LaneMask& pending, Numbers& reached,
                      Observer& observer) {

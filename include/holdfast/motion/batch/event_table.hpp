@@ -32,7 +32,7 @@ inline bool has_event_pack(const ImplementedLoop& loop) {
 
 /// The growth rate of the powers of A (1/s): the largest ‖Aᵏ‖^{1/k}, k = 10 … most_terms, in
 /// balanced coordinates. A series of e^{A h} with terms_for(rate h) terms has the same truncation
-/// error as with balanced_norm(); the rate is nearer to the spectral radius.
+/// error as with balanced_norm(); this rate is nearer than that norm to the spectral radius.
 /// @tparam States  N, the order of the plant
 template <int States>
 double rate_of_powers(const Matrix<double, States>& a) {
@@ -51,12 +51,12 @@ double rate_of_powers(const Matrix<double, States>& a) {
   return rate * size;
 }
 
-/// The shared data of motions whose loops differ only in their gains and, with play, in their
-/// backlash: the dynamics of the two masses in each mode of the contact.
+/// The data shared by motions whose loops differ only in their gains and, unless it is a dead zone,
+/// in their backlash: the dynamics of the two masses in each mode of the contact.
 class EventTable {
  public:
   using Motion = ModeMotion<TwoMass<double>>;  ///< motion in one mode
-  using Drop = Motion::Bound::Drop;            ///< bound of a guard's depth below its chord
+  using Drop = Motion::Bound::Drop;            ///< terms of drop_below_chord()
 
   /// @throws InvalidParameter under the conditions of EventMotion
   explicit EventTable(const ImplementedLoop& loop)
@@ -83,19 +83,19 @@ class EventTable {
            same_stops(loop_.backlash, other.backlash);
   }
 
-  /// The dynamics in a mode.
+  /// The motion of the two masses in a mode.
   const Motion& motion(int mode) const { return motions_[at(mode)]; }
   /// Whether two modes differ only in the effect of the command; −1 means no mode.
   bool move_alike(int mode, int other) const {
     return mode == other || (mode >= 0 && other >= 0 && alike_[at(mode)][at(other)]);
   }
-  /// The reciprocal of the largest length (s) of a series in a mode.
+  /// The rate (1/s) of a mode: a Taylor series may cover a time of up to 1/rate.
   double rate(int mode) const { return rates_[at(mode)]; }
   /// The excitation, before any sample is selected.
   const ForceOverSamples& force() const { return force_; }
 
-  /// The bound of the guards' depth below the chord over a part of the period, in the contact's
-  /// present mode; not to be called for a contact that cannot change.
+  /// The bound of the guards' depth below their chords over part 0 or 1 of the period, in the
+  /// contact's present mode; not to be called for a contact that cannot change.
   Drop drop(const DriveContact<>& contact, std::size_t part) {
     const int mode = contact.mode();
     std::optional<std::array<Drop, 2>>& known = drops_[at(mode)];

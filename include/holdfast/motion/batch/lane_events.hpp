@@ -23,12 +23,11 @@ namespace holdfast {
 ///
 ///     g(x h) ≥ g_0 + (g_1 − g_0) x − 4 d x (1 − x),   d = M h²/8,   0 ≤ x ≤ 1,
 ///
-/// whose minimum is min(g_0, g_1) if |g_1 − g_0| ≥ 4 d, and otherwise min(g_0, g_1) − (4
-/// d − |g_1 − g_0|)² / 16 d: never below min(g_0, g_1) − d, and near an event far above
-/// it.
+/// whose minimum is min(g_0, g_1) if |g_1 − g_0| ≥ 4 d, and else min(g_0, g_1) − (4 d − |g_1 −
+/// g_0|)² / 16 d. It is never below min(g_0, g_1) − d, and far above that where g changes fast.
 /// @param begin  value g_0, in any unit
 /// @param end    value g_1, in the same unit
-/// @param drop   d > 0, bounded by NoEventBoundOf; for d = 0 the answer is no
+/// @param drop   d > 0, from NoEventBoundOf; for d = 0 the result is false
 template <class Scalar>
 Mask<Scalar> stays_above_zero(const Scalar& begin, const Scalar& end, const Scalar& drop) {
   using std::abs;
@@ -42,13 +41,13 @@ Mask<Scalar> stays_above_zero(const Scalar& begin, const Scalar& end, const Scal
 template <class Scalar>
 struct LaneEvent {
   Mask<Scalar> found;   ///< whether a guard reaches zero
-  Scalar at;            ///< place, in lengths of the stretch; 1 without an event
-  Mask<Scalar> second;  ///< whether it is the second guard
+  Scalar at;            ///< place, 0 … 1 of the stretch; 1 without an event
+  Mask<Scalar> second;  ///< whether the second of the two guards is the one at zero
 };
 
 namespace detail {
 
-/// The mask as one byte for each lane: 1 where it is set.
+/// A mask as one byte for each lane: 1 where the mask is set, else 0.
 template <class Scalar>
 std::array<std::uint8_t, Lanes<Scalar>::count> lane_flags(const Mask<Scalar>& mask) {
   std::array<std::uint8_t, Lanes<Scalar>::count> flags;
@@ -66,7 +65,7 @@ struct GuardOnStretch {
                             guard.state[3].all()};
   std::size_t terms = static_cast<std::size_t>(stretch.terms.most);
 
-  /// The guard as a power series g.
+  /// Computes the power series g of the guard.
   /// @param forced  whether the force enters any lane's guard
   /// @param fresh   whether any lane's contact has just changed
   void expand(bool forced, bool fresh, const Mask<Scalar>& which, LaneSeries<Scalar>& g) const {
@@ -135,10 +134,10 @@ void learn_signs(LaneModes<Scalar>& modes, const Mask<Scalar>& which, int terms,
 template <class Scalar>
 class LaneEventSearch {
  public:
-  /// @param modes    modes of the lanes; the sign of a contact's velocity is determined here
+  /// @param modes    modes of the lanes; signs of guards that were unknown are stored there
   /// @param stretch  part of the motion, at most 1 / modes.rate() long
   /// @param command  command u in force (N)
-  /// @param which    lanes to be searched; the others have no event
+  /// @param which    lanes to be searched; the result has no event in any other lane
   LaneEvent<Scalar> operator()(LaneModes<Scalar>& modes, const TwoMassSeries<Scalar>& stretch,
                                const Scalar& command, const Mask<Scalar>& which) {
     const Mask<Scalar> guarded = which & modes.guarded();

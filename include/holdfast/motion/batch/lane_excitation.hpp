@@ -19,12 +19,12 @@
 
 namespace holdfast {
 
-/// The excitation of a pack of motions, each with its own harmonics, held or exact; a held force is
-/// one harmonic of frequency 0.
+/// The excitation of a pack of motions, each with its own harmonics and ForceHold. A held force is
+/// treated as one harmonic of frequency 0.
 template <class Scalar>
 class LaneExcitation {
  public:
-  /// @param of_lane  (lane) → const DigitalLoop&
+  /// @param of_lane  function of the lane's number, returns its const DigitalLoop&
   template <class OfLane>
   explicit LaneExcitation(const OfLane& of_lane) {
     std::size_t lines = 1;
@@ -37,7 +37,7 @@ class LaneExcitation {
     phases_.resize(lines);
   }
 
-  /// Selects sample j; samples follow one another or restart from 0.
+  /// Selects sample j = `index`; the samples follow one another or restart from 0.
   void begin_sample(std::int64_t index) {
     const auto k = static_cast<std::size_t>(index) % RotatingPhasor<Scalar>::block;
     Scalar held_force(0);
@@ -61,7 +61,7 @@ class LaneExcitation {
   /// The phasor F_l cos ω_l t_j, F_l sin ω_l t_j of a harmonic; F_j and 0 for a held force.
   const ExcitationSample<Scalar>& phase(std::size_t line) const { return phases_[line]; }
 
-  /// The harmonics with their phases some time (s) after the sample.
+  /// Computes the phasors of the harmonics at the time `after` (s) since the sample.
   void turned(const Scalar& after, std::vector<LanePhasor<Scalar>>& phasors) const {
     for (std::size_t l = 0; l < lines_.size(); ++l)
       phasors[l] = {lines_[l].angular_frequency, turned_by(turn_of(lines_[l], after), l)};
@@ -73,12 +73,12 @@ class LaneExcitation {
     for (const Scalar& one : after)
       for (const Line& line : lines_) fixed_.push_back(turn_of(line, one));
   }
-  /// The result of `turned` at a fixed time.
+  /// Computes the phasors of the harmonics at the fixed time number `instant` of fix_instants().
   void turned_to(std::size_t instant, std::vector<LanePhasor<Scalar>>& phasors) const {
     for (std::size_t l = 0; l < lines_.size(); ++l)
       phasors[l] = {lines_[l].angular_frequency, turned_by(fixed_turn(instant, l), l)};
   }
-  /// The force F (N) at a fixed time.
+  /// The force F (N) at the fixed time number `instant` of fix_instants().
   Scalar force_at(std::size_t instant) const {
     Scalar sum(0);
     for (std::size_t l = 0; l < lines_.size(); ++l)
@@ -95,7 +95,7 @@ class LaneExcitation {
     Scalar frequency, phase_cycles, angular_frequency;  // 0 where the force is held
   };
 
-  /// The rotation of a harmonic in some time, with its phase.
+  /// The unit phasor of a harmonic's rotation over a time `after` (s), including its phase φ.
   static ExcitationSample<Scalar> turn_of(const Line& line, const Scalar& after) {
     using std::floor;
     const Scalar cycles = line.frequency * after + line.phase_cycles;

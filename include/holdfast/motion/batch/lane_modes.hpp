@@ -23,8 +23,8 @@ namespace holdfast {
 
 /// The start of one motion of an EventPack.
 struct EventStart {
-  const ImplementedLoop* loop;  ///< a loop that has_event_pack()
-  EventTable* table;            ///< valid for that loop; it must outlive the pack
+  const ImplementedLoop* loop;  ///< loop for which has_event_pack() is true
+  EventTable* table;            ///< table valid for that loop; it must outlive the pack
   Vector<double, 4> state;      ///< z_0 (m, m/s, m, m/s), finite
 };
 
@@ -32,10 +32,10 @@ struct EventStart {
 template <class Scalar>
 struct LaneGuard {
   std::array<LaneNumbers<Scalar>, 4> state;  ///< coefficients of z₁, ż₁, z₂, ż₂
-  LaneNumbers<Scalar> command;               ///< per newton of u
-  LaneNumbers<Scalar> force;                 ///< per newton of F
-  LaneNumbers<Scalar> constant;              ///< in the unit of g
-  LaneNumbers<Scalar> zeros;  ///< how many of g, ġ, … vanish just after a change of contact
+  LaneNumbers<Scalar> command;               ///< coefficient of u, per newton
+  LaneNumbers<Scalar> force;                 ///< coefficient of F, per newton
+  LaneNumbers<Scalar> constant;              ///< constant, in the unit of g
+  LaneNumbers<Scalar> zeros;  ///< how many of g, ġ, … are zero just after a change
 
   /// The value of g without its force term.
   Scalar at(const std::array<Scalar, 4>& z, const Scalar& u) const {
@@ -44,17 +44,17 @@ struct LaneGuard {
   }
 };
 
-/// The exact step over a part of the period in all lanes, with the bound of the guards' depth.
+/// The exact step over a part of the period in all lanes, with the terms of NoEventBoundOf.
 template <class Scalar>
 struct LaneStep {
   using Numbers = LaneNumbers<Scalar>;                       ///< one number for each lane
   std::array<std::array<Numbers, 4>, 4> transition;          ///< rows of e^{A h}
-  std::array<Numbers, 4> command;                            ///< per newton of u
-  std::array<Numbers, 4> drift;                              ///< contribution of a stop
-  std::vector<std::array<std::array<Numbers, 4>, 2>> lines;  ///< parts of each harmonic
-  Numbers drop_by_norm;                                      ///< member of Drop
-  Numbers drop_by_command;                                   ///< member of Drop
-  Numbers drop_constant;                                     ///< member of Drop
+  std::array<Numbers, 4> command;                            ///< response per newton of u
+  std::array<Numbers, 4> drift;                              ///< contribution of the drift
+  std::vector<std::array<std::array<Numbers, 4>, 2>> lines;  ///< g_c and g_s of each harmonic
+  Numbers drop_by_norm;                                      ///< Drop::by_norm
+  Numbers drop_by_command;                                   ///< Drop::by_command
+  Numbers drop_constant;                                     ///< Drop::constant
 
   /// The state at the end of the part from z under the command u.
   std::array<Scalar, 4> state(const std::array<Scalar, 4>& z, const Scalar& u,
@@ -75,8 +75,8 @@ struct LaneStep {
   }
 };
 
-/// The contacts of a pack of motions, each in its mode, with the modes' coefficients gathered lane
-/// by lane.
+/// The contacts of a pack of motions, each in its own mode, with the numbers that describe the
+/// motion in these modes.
 template <class Scalar>
 class LaneModes {
   using Numbers = LaneNumbers<Scalar>;
@@ -110,8 +110,8 @@ class LaneModes {
   /// The contact of a lane.
   const DriveContact<>& contact(std::size_t lane) const { return contacts_[lane]; }
 
-  /// Adopts the mode of a lane's contact after a change; its steps are computed when they are next
-  /// needed.
+  /// Takes over the mode of a lane's contact after a change; the lane's steps are computed when
+  /// next needed.
   void enter(std::size_t lane) {
     const DriveContact<>& contact = contacts_[lane];
     const int mode = contact.mode();
@@ -129,7 +129,7 @@ class LaneModes {
     refresh_guards(lane);
   }
 
-  /// Adopts the guards of a lane's contact.
+  /// Copies the guards of a lane's contact to `guard()`.
   void refresh_guards(std::size_t lane) {
     constexpr double far = 1e90;
     const Guards guards = ignored_[lane] ? Guards() : contacts_[lane].guards();
@@ -152,7 +152,7 @@ class LaneModes {
     has_guard_[lane] = guards.count > 0 ? 1.0 : 0.0;
   }
 
-  /// Stops following the changes of a lane's contact.
+  /// Ignores all further changes of a lane's contact.
   void ignore_guards(std::size_t lane) {
     ignored_.set(lane);
     refresh_guards(lane);
@@ -166,7 +166,7 @@ class LaneModes {
     set_fresh(lane, false);
   }
 
-  /// The accelerations of conductor and absorber under the command u.
+  /// The accelerations of conductor (0) and absorber (1) under the command u (N).
   std::array<LaneAcceleration<Scalar>, 2> accelerations(const Scalar& u) const {
     const auto row = [&](std::size_t mass) {
       const auto& of = acceleration_[mass];
@@ -177,13 +177,13 @@ class LaneModes {
     return {row(0), row(1)};
   }
 
-  /// The step over a part of the period, 0 or 1, in the present modes.
+  /// The steps of all lanes, in their present modes, over part 0 or 1 of the period.
   const LaneStep<Scalar>& step(std::size_t part) {
     if (stale_.any()) refresh_steps();
     return steps_[part];
   }
 
-  /// The norm ‖z‖ of EnergyNorm in the present modes; to be called after `step`.
+  /// The norm ‖z‖ of EnergyNorm in each lane's present mode; to be called after `step`.
   Scalar norm(const std::array<Scalar, 4>& z) const {
     using std::sqrt;
     const Scalar relative = z[2] - z[0];
@@ -191,29 +191,29 @@ class LaneModes {
                        energy_[1].all() * z[1] * z[1] + energy_[3].all() * z[3] * z[3]));
   }
 
-  /// The first or the second guard; far above zero in a lane without it.
+  /// The first (0) or second (1) guard; a lane without that guard has the constant 10⁹⁰.
   const LaneGuard<Scalar>& guard(std::size_t number) const { return guards_[number]; }
-  /// The reciprocal of the largest length (s) of a series.
+  /// The rate (1/s) of each lane: a Taylor series may cover a time of up to 1/rate.
   Scalar rate() const { return rate_.all(); }
-  /// Lanes whose drive transmits the command.
+  /// The lanes whose drive transmits the command.
   Mask<Scalar> engaged() const { return engaged_.all() > Scalar(0.5); }
-  /// Lanes in stick, where Δż = 0.
+  /// The lanes in stick, where Δż = 0.
   Mask<Scalar> sticks() const { return sticks_.all() > Scalar(0.5); }
-  /// Lanes whose contact has just changed, or in which a sign is still unknown.
+  /// The lanes whose contact has just changed, or in which a sign is still unknown.
   Mask<Scalar> fresh() const { return fresh_.all() > Scalar(0.5); }
-  /// Lanes that are not fresh().
+  /// The lanes that are not fresh().
   Mask<Scalar> settled() const { return fresh_.all() < Scalar(0.5); }
-  /// Lanes without a guard.
+  /// The lanes without a guard.
   Mask<Scalar> unguarded() const { return has_guard_.all() < Scalar(0.5); }
-  /// Lanes with a guard.
+  /// The lanes with a guard.
   Mask<Scalar> guarded() const { return has_guard_.all() > Scalar(0.5); }
   /// The lanes of sticks(), as bits.
   const std::bitset<lanes>& sticking() const { return sticking_; }
   /// The lanes of fresh(), as bits.
   const std::bitset<lanes>& freshly_changed() const { return fresh_lanes_; }
-  /// Lanes with two guards.
+  /// The lanes with two guards.
   const std::bitset<lanes>& with_two_guards() const { return two_guards_; }
-  /// Lanes in which the sign of the first guard is unknown.
+  /// The lanes in which the sign of the first guard is unknown.
   const std::bitset<lanes>& without_sign() const { return unsigned_; }
 
  private:
@@ -234,7 +234,7 @@ class LaneModes {
     }
   }
 
-  /// Recomputes the steps of the present modes.
+  /// Recomputes the LaneStep of every lane whose mode has changed.
   void refresh_steps() {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       if (!stale_[lane]) continue;

@@ -30,13 +30,13 @@ constexpr std::array<double, most_terms> inverse_factorials() {
 
 }  // namespace detail
 
-/// The numbers of terms of each lane's series. They depend on the lane's own length only, so that
-/// its results do not depend on other lanes, to the last bit.
+/// The number of terms of the series in each lane. It depends only on the lane's rate times length,
+/// so that the results of a lane do not depend on other lanes, to the last bit.
 template <class Scalar>
 struct TermsOfLanes {
-  int most;        ///< 1 … most_terms, largest of all lanes
-  int least;       ///< smallest of all lanes
-  Scalar of_lane;  ///< one for each lane
+  int most;        ///< largest number of all lanes, 1 … most_terms
+  int least;       ///< smallest number of all lanes
+  Scalar of_lane;  ///< number of each lane
 };
 
 /// The function terms_for() in all lanes.
@@ -57,7 +57,7 @@ class LaneTerms {
   }
 
  private:
-  static constexpr double parts = 64.0;  // of 0 … 1, in each of which few numbers of terms occur
+  static constexpr double parts = 64.0;  // equal parts of 0 … 1 for a first guess of the terms
 
   int of(double turns) const {
     if (!(turns > longest_[0])) return 1;
@@ -66,7 +66,7 @@ class LaneTerms {
     return terms;
   }
 
-  /// The largest lengths of series with 1, 2, … terms, in units of 1/rate.
+  /// The largest length for which 1, 2, … terms suffice, in units of 1/rate.
   static std::array<double, most_terms> lengths() {
     std::array<double, most_terms> longest{};
     for (int terms = 1; terms <= most_terms; ++terms) {
@@ -80,7 +80,7 @@ class LaneTerms {
     return longest;
   }
 
-  /// The smallest numbers of terms at the beginnings of the parts.
+  /// The number of terms that suffices at the beginning of each of the `parts` of 0 … 1.
   std::array<int, static_cast<std::size_t>(parts) + 1> fewest() const {
     std::array<int, static_cast<std::size_t>(parts) + 1> result{};
     for (std::size_t k = 0; k < result.size(); ++k) {
@@ -99,16 +99,16 @@ class LaneTerms {
 /// [z₁, ż₁, z₂, ż₂] + constant + force F (m/s²).
 template <class Scalar>
 struct LaneAcceleration {
-  std::array<Scalar, 4> state;  ///< row of A
+  std::array<Scalar, 4> state;  ///< coefficients of z₁, ż₁, z₂, ż₂: a row of A
   Scalar constant;              ///< drift + b u (m/s²)
-  Scalar force;                 ///< per newton of F
+  Scalar force;                 ///< coefficient of F, per newton
 };
 
 /// A harmonic of the excitation at the beginning of a stretch, in every lane.
 template <class Scalar>
 struct LanePhasor {
   Scalar angular_frequency;        ///< ω (rad/s); 0 for a held force
-  ExcitationSample<Scalar> phase;  ///< F_l cos and F_l sin of its angle (N)
+  ExcitationSample<Scalar> phase;  ///< F_l cos and F_l sin (N) of the harmonic's angle
 };
 
 /// The Taylor series of two masses over a length h, in every lane: TaylorStep on packs, with the
@@ -116,19 +116,19 @@ struct LanePhasor {
 ///
 ///     d_{k+1} = h (A d_k + w_k),   z(t + x h) = Σ d_k x^k / k!
 ///
-/// with w_k as there. Two of the four rows of A express ż = dz/dt and cost one product. Work per
-/// term: 8 multiply-adds and 9 products, 3 for each harmonic.
+/// with w_k of TaylorStep. Two of the four rows of A are dz/dt = ż and cost one product each. Work
+/// per term: 8 multiply-adds and 9 products, 3 for each harmonic.
 template <class Scalar>
 struct TwoMassSeries {
   std::array<LaneSeries<Scalar>, 4> state;  ///< series of z₁, ż₁, z₂, ż₂
   LaneSeries<Scalar> force;                 ///< series of F (N)
-  TermsOfLanes<Scalar> terms;               ///< common numbers of terms
+  TermsOfLanes<Scalar> terms;               ///< numbers of terms in the lanes
 
   /// @param masses   accelerations of conductor and absorber
   /// @param begin    values of z₁, ż₁, z₂, ż₂ at x = 0
-  /// @param phasors  harmonics of the excitation there, one or more
+  /// @param phasors  harmonics of the excitation at x = 0, one or more
   /// @param length   h (s), ≥ 0
-  /// @param count    numbers of terms
+  /// @param count    numbers of terms in the lanes
   TwoMassSeries(const std::array<LaneAcceleration<Scalar>, 2>& masses,
                 const std::array<Scalar, 4>& begin, const std::vector<LanePhasor<Scalar>>& phasors,
                 const Scalar& length, const TermsOfLanes<Scalar>& count)
@@ -158,7 +158,7 @@ struct TwoMassSeries {
     for (auto k = static_cast<std::size_t>(count.least); k < most; ++k) end_lanes(k);
   }
 
-  /// The state at x.
+  /// The state [z₁, ż₁, z₂, ż₂] at x, 0 … 1.
   std::array<Scalar, 4> state_at(const Scalar& x) const {
     auto k = static_cast<std::size_t>(terms.most - 1);
     std::array<Scalar, 4> sum{state[0][k], state[1][k], state[2][k], state[3][k]};
@@ -167,7 +167,7 @@ struct TwoMassSeries {
     return sum;
   }
 
-  /// The value of one of the series at x.
+  /// The value of one of the series at x, 0 … 1.
   Scalar value(const LaneSeries<Scalar>& series, const Scalar& x) const {
     auto k = static_cast<std::size_t>(terms.most - 1);
     Scalar sum = series[k];
@@ -176,7 +176,7 @@ struct TwoMassSeries {
   }
 
  private:
-  /// Ends the series in the lanes with fewer than k terms.
+  /// Sets the k-th coefficients to zero in the lanes with k terms or fewer.
   void end_lanes(std::size_t k) {
     const Mask<Scalar> has = terms.of_lane > Scalar(static_cast<double>(k));
     for (auto& series : state) series[k] = select(has, series[k], Scalar(0));
@@ -200,7 +200,7 @@ struct TwoMassSeries {
     }
   }
 
-  /// The rate of one row from the present coefficients, the constant and the force.
+  /// The next d_k by one row of A, from the present d_k, the constant and the force.
   static Scalar rate(const LaneAcceleration<Scalar>& row, const std::array<Scalar, 4>& now,
                      const Scalar& constant, const Scalar& force) {
     const Scalar early =

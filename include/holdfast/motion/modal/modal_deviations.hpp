@@ -15,9 +15,9 @@ namespace holdfast {
 ///     δξ_{j+1} = e^{sτ} δξ_j + γ₁ δu_{j−1} + γ₀ δu_j,   δu_j = P δz_j + D δż_j or 0 in the
 ///     backlash.
 ///
-/// The coordinates are [Re ξ; Im ξ of the pairs; u_{j−1}] in metres: for a natural motion its share
-/// of the conductor's displacement at the absorber, for a force the displacement it causes in a
-/// sampling period. Work per sample: 16 multiply-adds per natural motion and column.
+/// The coordinates are [Re ξ; Im ξ of the pairs; u_{j−1}] in metres. A natural motion is measured
+/// by its share of the conductor's displacement at the absorber, a force by the displacement that
+/// it causes in a sampling period. Work per sample: 16 multiply-adds per natural motion and column.
 class ModalDeviations {
  public:
   using Columns = Eigen::MatrixXd;  ///< order() × the number of deviations
@@ -44,7 +44,7 @@ class ModalDeviations {
       relative_z_.set(k, of.z2 - of.z);
       relative_v_.set(k, of.v2 - of.v);
     }
-    // A motion with a node at the absorber counts for next to nothing, but for something.
+    // A motion with a node at the absorber would have an infinite unit without this bound.
     const double least = largest > 0.0 ? 1e-12 * largest : 1.0;
     for (Eigen::Index k = 0; k < count_; ++k) {
       const double shown = std::abs(motions[static_cast<std::size_t>(k)].z);
@@ -55,7 +55,7 @@ class ModalDeviations {
     begin(Columns::Identity(order(), order()));
   }
 
-  /// The number of coordinates: the order of the plant and one.
+  /// The number of coordinates: the order of the plant plus one.
   Eigen::Index order() const { return units_.size(); }
   /// The values of [Re ξ; Im ξ; u_{j−1}] that correspond to 1 m in each coordinate.
   const Eigen::VectorXd& units() const { return units_; }
@@ -81,7 +81,7 @@ class ModalDeviations {
   /// Deviations of Δż (m/s).
   Row relative_velocity() const { return read(relative_v_); }
 
-  /// Advances over one sampling period, in which the drive transmits or not.
+  /// Advances over one sampling period; `engaged`: whether the drive transmits the new command.
   void advance(bool engaged) {
     for (Eigen::Index j = 0; j < force_.size(); ++j) {
       auto re = re_.col(j), im = im_.col(j);
@@ -112,7 +112,7 @@ class ModalDeviations {
     }
   };
 
-  /// The reading Re(w ξ) of every deviation.
+  /// The sum Σ Re(w ξ) over the natural motions, for every deviation; w are the weights.
   Row read(const Part& w) const { return w.re.transpose() * re_ - w.im.transpose() * im_; }
 
   Eigen::Index count_, pairs_;

@@ -18,11 +18,11 @@
 
 namespace holdfast {
 
-/// The motion of the sampled loop of a conductor by N of its modes, one sample at a time, in O(N).
+/// The motion of the sampled loop of a conductor given by N modes, one sample at a time, in O(N).
 ///
 /// Each natural motion e^{st} of conductor and absorber together is independent (NaturalMotion).
-/// The conductor at the absorber and the absorber are sums over them: z = Σ r ξ with the residues
-/// of `plant_poles`, ż = Σ s r ξ, z₂ = Σ θ r ξ, θ = (k₂ + c₂ s)/(m₂ s² + c₂ s + k₂). Computer and
+/// The displacements are sums over all natural motions: z = Σ r ξ with the residues r of
+/// `plant_poles`, ż = Σ s r ξ, z₂ = Σ θ r ξ, θ = (k₂ + c₂ s)/(m₂ s² + c₂ s + k₂). Computer and
 /// gap are those of `SampledMotion`. Work per sample: 20 multiply-adds per natural motion, in whole
 /// vectors. No memory is allocated.
 class ModalMotion {
@@ -35,7 +35,7 @@ class ModalMotion {
   using Memory = MotionMemory<double, BacklashMemory<double>>;  ///< memory before a sample
 
   /// @param loop   the loop, which is not checked
-  /// @param poles  all `plant_poles` of its modes and absorber
+  /// @param poles  all `plant_poles` of the loop's modes and absorber
   /// @param state  the initial state of `modal_plant`
   ModalMotion(const ModalLoop& loop, const std::vector<PlantPole>& poles, const Full& state)
       : loop_(loop),
@@ -54,7 +54,7 @@ class ModalMotion {
     read();
   }
 
-  /// Takes sample j: whether the force is transmitted, and its value; to be called once a sample.
+  /// Takes sample j: decides whether the drive transmits, and computes u_j; once for each sample.
   MotionSample<double> sense() {
     const bool engaged = law_.step(seen_[2] - seen_[0], seen_[3] - seen_[1]);
     present_force_ =
@@ -94,13 +94,13 @@ class ModalMotion {
 
   /// The number j of the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
-  /// The instant t_j (s) of that sample.
+  /// The instant t_j (s) of sample j = index().
   double time() const { return static_cast<double>(index_) * loop_.sampling.period; }
   /// The observed state [z, ż, z₂, ż₂] at t_j.
   const State& state() const { return seen_; }
   /// The readings of the observed state.
   const Readings& readings() const { return readings_; }
-  /// The memory for the coming samples, without the unobserved part of the natural motions.
+  /// The memory for the coming samples: the observed state, u_{j−1} and the backlash.
   Memory memory() const { return {seen_, previous_force_, law_.memory()}; }
   /// The amplitudes ξ of all natural motions, in the order of NaturalMotions.
   Eigen::VectorXcd amplitudes() const {
@@ -111,8 +111,8 @@ class ModalMotion {
   }
 
  private:
-  /// The rows of natural motions: ξ, ξ after a sample, contributions of forces, conjugate weights
-  /// of the readings, Re(w ξ) = Re w̄ Re ξ + Im w̄ Im ξ, and ξ of the bent conductor.
+  /// The rows over all natural motions: ξ, e^{sτ}, the factors γ₀, γ₁, g_c, g_s, the conjugate
+  /// weights w̄ of the readings, Re(w ξ) = Re w̄ Re ξ + Im w̄ Im ξ, and ξ of a displacement by 1 m.
   using Motions = detail::ComplexRows<double, 11>;
   using Block = Motions::Block;
   using Part = detail::ComplexLanes<double>;
@@ -152,8 +152,8 @@ class ModalMotion {
 /// @param loop   the loop with its excitation and backlash
 /// @param poles  `plant_poles` of the loop's modes and absorber
 /// @param state  the initial state
-/// @return nothing where not all of them were found: then use `harmonically_forced_motion` of the
-///         plant, at N² operations per sample
+/// @return nothing where `poles` is empty, which means that not all were found. Then use
+///         `harmonically_forced_motion` of the plant, at N² operations per sample
 /// @throws InvalidParameter where the loop is not admissible, or the state is not finite or of
 ///         another size
 inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
@@ -170,8 +170,9 @@ inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
 /// The motion from a state of `modal_plant`, whose poles are computed here.
 /// @param loop   the loop with its excitation and backlash
 /// @param state  the initial state
-/// @return as above
-/// @throws InvalidParameter as above
+/// @return nothing where not all poles were found
+/// @throws InvalidParameter where the loop is not admissible, or the state is not finite or of
+///         another size
 inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
                                                const ModalMotion::Full& state) {
   validate(loop);

@@ -19,10 +19,10 @@
 
 namespace holdfast {
 
-/// The sampled loop of a conductor by its modes, with its excitation and backlash.
+/// The sampled loop of a conductor given by its modes, with its excitation and backlash.
 struct ModalLoop {
   std::vector<PlaceMode<double>> modes;   ///< modes at the absorber's place
-  Absorber<double> absorber;              ///< with its clamp
+  Absorber<double> absorber;              ///< absorber with its clamp
   Sampling<double> sampling;              ///< τ and δ ≤ τ
   PdGains<double> gains;                  ///< P and D
   HarmonicExcitation<double> excitation;  ///< F_m and f of the force at the absorber's place
@@ -43,11 +43,12 @@ inline void validate(const ModalLoop& loop) {
 ///
 ///     ξ_{j+1} = e^{sτ} ξ_j + γ₁ u_{j−1} + γ₀ u_j + g_c F_m cos ωt_j + g_s F_m sin ωt_j ,
 ///
-/// with its readings: z = Re Σ w_z ξ, and so on. One of a conjugate pair represents both.
+/// with its weights w in the readings: z = Re Σ w_z ξ over all natural motions, and likewise ż, z₂
+/// and ż₂. One motion of a conjugate pair represents both.
 struct NaturalMotion {
   std::complex<double> decay;    ///< e^{sτ}
-  std::complex<double> present;  ///< γ₀, for the force that this sample decides
-  std::complex<double> past;     ///< γ₁, for the previous force
+  std::complex<double> present;  ///< γ₀, factor of the present command u_j
+  std::complex<double> past;     ///< γ₁, factor of the previous command u_{j−1}
   std::complex<double> cosine;   ///< g_c
   std::complex<double> sine;     ///< g_s
   std::complex<double> z;        ///< weight w of the conductor's displacement
@@ -56,22 +57,22 @@ struct NaturalMotion {
   std::complex<double> v2;       ///< weight w of the absorber's velocity
 };
 
-/// All natural motions of conductor and absorber, mutually independent; every motion of a ModalLoop
-/// is a sum of them.
+/// The natural motions of conductor and absorber. They are independent of each other, and every
+/// motion of a ModalLoop is a sum of them.
 class NaturalMotions {
  public:
   /// The state [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂] of `modal_plant`.
   using Full = Vector<double, Eigen::Dynamic>;
 
   /// @param loop   the loop, which is not checked
-  /// @param poles  all `plant_poles` of its modes and absorber
+  /// @param poles  all `plant_poles` of the loop's modes and absorber
   NaturalMotions(const ModalLoop& loop, const std::vector<PlantPole>& poles) : loop_(loop) {
     const detail::PoleFinder finder(loop.modes, loop.absorber);
     for (const bool real : {false, true}) {
       for (std::size_t k = 0; k < poles.size(); ++k) {
         const std::complex<double> s = poles[k].s;
         const bool is_real = !(std::abs(s.imag()) > 1e-9 * std::abs(s));
-        // The conjugate of a pair stands for it.
+        // The pole with Im s > 0 represents its pair.
         if (is_real != real || (!real && s.imag() < 0.0)) continue;
         shapes_.push_back(shape_of(poles[k], finder.weak_of_pole(k)));
         motions_.push_back(numbers_of(shapes_.back(), real, loop.sampling));
@@ -87,7 +88,7 @@ class NaturalMotions {
   /// The k-th natural motion.
   const NaturalMotion& operator[](std::size_t k) const { return motions_[k]; }
 
-  /// The k-th natural motion over the first `length` s of a sampling period.
+  /// The k-th natural motion over `length` (s) from a sample on, instead of a whole period.
   NaturalMotion over(std::size_t k, double length) const {
     return numbers_of(shapes_[k], k >= pairs_,
                       {length, std::min(loop_.sampling.processing_delay, length)});
@@ -119,8 +120,8 @@ class NaturalMotions {
     return state;
   }
 
-  /// The amplitude ξ of the k-th motion in a state, ψᵀ((sM + C) q + M q̇), where M and C belong to
-  /// the equations of motion; b enters by ψᵀb.
+  /// The amplitude ξ = ψᵀ((sM + C) q + M q̇) of the k-th natural motion in a state. M and C are the
+  /// matrices of mass and damping, ψ is the shape of the motion.
   std::complex<double> amplitude(std::size_t k, const Full& state) const {
     const Shape& natural = shapes_[k];
     const Absorber<double>& absorber = loop_.absorber;
@@ -144,20 +145,20 @@ class NaturalMotions {
  private:
   using Complex = std::complex<double>;
 
-  /// The shape ψ of a natural motion under a force f on the bare conductor.
+  /// The shape ψ of a natural motion: the bare conductor under a force f at the absorber.
   struct Shape {
     Complex s;
     Complex force;         // f
     Complex place;         // ψ at the absorber
-    Complex read;          // what z takes of ξ
-    Complex scale;         // what the state takes of ψ ξ
-    std::size_t mode = 0;  // the one that it is nearly, where `weak`
+    Complex read;          // factor of ξ in z
+    Complex scale;         // factor of ψ ξ in the state
+    std::size_t mode = 0;  // the mode nearly equal to ψ, where `weak`
     Complex own = 0.0;     // ψ of that mode, where `weak`
     bool weak = false;
   };
 
-  /// The shape for f = 1; for a weak mode, whose own part would be unbounded, its own part is that
-  /// for f = 1 times (s − s_n)/φ_n.
+  /// The shape for f = 1. For a weak mode n, whose own component would be unbounded, the whole
+  /// shape is multiplied by (s − s_n)/φ_n.
   Shape shape_of(const PlantPole& pole, const std::optional<detail::PoleFinder::Weak>& weak) const {
     Shape shape{pole.s, 1.0, receptance(loop_.modes, pole.s), 0.0, 0.0};
     if (weak) {

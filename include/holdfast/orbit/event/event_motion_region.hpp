@@ -19,8 +19,8 @@ namespace holdfast {
 /// The periodic motion of one loop near that of another loop: it has the same period and the same
 /// modes in the same order; the instants of its switches may differ.
 /// @param loop   the loop to be solved, with the same f τ
-/// @param orbit  orbit of a nearby loop; at some sample its drive is engaged, or at some sample its
-///               drive is in the gap and it is engaged now and then in between
+/// @param orbit  orbit of a nearby loop; its drive is engaged or in the gap at some sample, and it
+///               does not stay in the gap for ever
 /// @return not `certified` where there is no such motion, or it switches otherwise
 template <class Plant>
 OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
@@ -32,7 +32,7 @@ OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
   const auto fresh = event_motion(loop, orbit.states[at]);
   Contact contact = fresh.contact();
   if (orbit.modes[at] == ContactMode::gap) {
-    if (orbit.switches.empty()) return {};  // the gap of one that never leaves it lies anywhere
+    if (orbit.switches.empty()) return {};  // a gap that is never left may lie anywhere
     const double reversal = orbit.reversals[at];
     const double here = fresh.readings().relative_displacement(orbit.states[at]);
     contact.cross_gap(reversal, here < reversal ? 1.0 : -1.0);
@@ -80,7 +80,7 @@ bool mirrors_itself(const EventOrbitOf<States>& orbit) {
   return (open.array() <= rounding * largest.array()).all();
 }
 
-/// The least margin of a motion, as a share of its size, and the kind of border where it vanishes.
+/// The least margin, as a share of the motion's size, and the kind of border where it reaches zero.
 template <int States>
 RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
   const SwitchingMargins& margins = orbit.margins;
@@ -105,7 +105,7 @@ RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
   return look;
 }
 
-/// Continues an exactly switched motion over a plane, each time from the nearest solution.
+/// Continues a motion with exact switching over two parameters, from the nearest known solution.
 template <class Family, class Orbit>
 class EventContinuation {
  public:
@@ -130,7 +130,7 @@ class EventContinuation {
     return look;
   }
 
-  /// Sets the unit of the distances in the plane.
+  /// Sets the lengths along x and y that count as 1 in distances; initially 1.
   void set_unit(const PlanePoint& unit) { unit_ = unit; }
   int solutions() const { return solutions_; }
 
@@ -181,15 +181,15 @@ class EventContinuation {
 /// and attracts, given by its border: the motion keeps its period and the order of its modes, and
 /// all multipliers, saltation included, lie inside the unit circle.
 ///
-/// The least margin of EventOrbit decides the kind of the border. A switch may pass a sample: the
-/// motion continues, its multipliers jump. A motion that is its own mirror image half a period
-/// later is followed as long as it keeps this symmetry.
+/// The least margin of EventOrbit decides the kind of the border. Where a switch passes a sample
+/// the motion continues, but its multipliers jump. A motion that is its own mirror image half a
+/// period later is followed as long as it keeps this symmetry.
 /// @param family  (x, y) ↦ ImplementedLoop, with the same f τ everywhere
-/// @param orbit   certified, its drive engaged now and then
-/// @param window  around `at`
-/// @param at      (x, y) of the orbit
-/// @param steps   as shares of the window; the tolerance sets how exactly a jump is located
-/// @throws InvalidParameter where the window is not finite or does not hold the point
+/// @param orbit   certified orbit of family(at); its drive does not stay in the gap for ever
+/// @param window  range of the parameters that is searched, around `at`
+/// @param at      parameters (x, y) of the orbit
+/// @param steps   steps along the border, as shares of the window; tolerance: accuracy of a jump
+/// @throws InvalidParameter where the window is not finite or does not contain `at`
 template <class Family, int States>
 MotionRegion motion_region(const Family& family, const EventOrbitOf<States>& orbit,
                            const ParameterWindow& window, const PlanePoint& at,

@@ -22,26 +22,26 @@
 
 namespace holdfast {
 
-/// The distances of an orbit from switching otherwise than it does; +∞ for events that never occur.
+/// The margins by which an orbit avoids other switching; +∞ for events that never occur.
 ///
-/// At a margin of zero the motion grazes: its neighbours do not switch alike, and multipliers do
-/// not describe them. The margins belong to the guards of the contact between the samples; a law's
-/// decisions at the samples alone have none here.
+/// At a margin of zero the motion grazes: neighbouring motions switch in different ways, and
+/// multipliers do not describe them. The margins belong to the guards of the contact between the
+/// samples. A law that decides at the samples only has no margins here.
 struct SwitchingMargins {
   /// The margin of an event that never occurs.
   static constexpr double none = std::numeric_limits<double>::infinity();
 
   /// Least distance of Δz from an end of its gap, where Δz turns before it reaches that end (m).
   double border_distance = none;
-  /// Least way of Δz between leaving a gap and reversing (m).
+  /// Least distance that Δz covers between leaving a gap and the next reversal (m).
   double shortest_travel = none;
   /// Least |Δż| with which Δz passes an end of its gap (m/s).
   double exit_velocity = none;
-  /// Least |Δż| of an engaged drive at a minimum that is no reversal (m/s).
+  /// Least |Δż| at a minimum where the engaged drive does not reverse (m/s).
   double reversal_velocity = none;
   /// Least |a(u)|, the relative acceleration at a reversal under the transmitted force (m/s²).
   double reversal_acceleration = none;
-  /// Least |a(0)|, the relative acceleration without force; its sign decides: stick or gap (m/s²).
+  /// Least |a(0)| at a reversal (m/s²); the sign of a(0), without force, decides: stick or gap.
   double stick_acceleration = none;
 };
 
@@ -51,11 +51,10 @@ struct SwitchingMargins {
 /// Certified, in double precision: the motion of EventMotion closes after N samples to the stated
 /// error; it switches alike in three successive periods; all its multipliers, with the saltation at
 /// every switch, lie inside the unit circle; and its margins from switching otherwise are known.
-/// Not certified is that a true orbit lies within a bound of the computed one, which takes interval
-/// arithmetic.
+/// That a true orbit lies within a bound of the computed one is proved by prove_event_orbit() only.
 ///
-/// Its multipliers belong to the entries of [x; u_{j−1}; the gap; the displacement as last read]
-/// that depend on the past, padded to five.
+/// There is one multiplier for each entry of [x; u_{j−1}; the gap; the displacement as last read]
+/// on which the coming samples depend, and at least five in all.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct EventOrbitOf : LoopOrbit<States> {
@@ -64,18 +63,19 @@ struct EventOrbitOf : LoopOrbit<States> {
   /// stick the force that keeps both sides together at t_j.
   std::vector<double> forces;
   std::vector<ContactSwitch> switches;  ///< switches of one period, s after its first sample
-  /// At each sample in a gap: Δz at which that gap began (m), for exact play; else meaningless.
+  /// For each sample: Δz (m) of the reversal at which the gap began that the drive is in. It has no
+  /// meaning at samples outside a gap and for laws other than exact play (contact/contact.hpp).
   std::vector<double> reversals;
   SwitchingMargins margins;          ///< least margins over all switches and all near events
   std::array<double, 3> time_share;  ///< time in each ContactMode, as shares; their sum is 1
   double largest_displacement;       ///< max |z(t)| (m), between the samples too
   double largest_sample;             ///< max |z_j| (m), at the samples
-  StateScale extent;                 ///< of both sides of the gap, at the samples
+  StateScale extent;                 ///< extent of both sides of the gap, at the samples
 
-  /// Largest |z| (m) of the conductor at the samples.
+  /// The largest |z| (m) of the conductor at the samples.
   double amplitude() const { return largest_sample; }
 
-  /// Share of the samples after which the drive is engaged.
+  /// The share of the samples after which the drive is engaged.
   double engaged_fraction() const {
     const auto engaged = std::count(modes.begin(), modes.end(), ContactMode::engaged);
     return static_cast<double>(engaged) / static_cast<double>(modes.size());
@@ -93,7 +93,7 @@ struct EventOrbitOf : LoopOrbit<States> {
                      margins.reversal_acceleration / acceleration,
                      margins.stick_acceleration / acceleration});
   }
-  /// How many times a mode begins in one period.
+  /// The number of times that a mode begins in one period.
   std::int64_t entries(ContactMode mode) const {
     return std::count_if(switches.begin(), switches.end(),
                          [mode](const ContactSwitch& change) { return change.mode == mode; });
@@ -113,8 +113,8 @@ inline Series series_derivative(const Series& p) {
   return p.tail(terms).cwiseProduct(powers);
 }
 
-/// Visits every x in (0, 1] at which a series changes its sign, from the left to the right, with
-/// whether the series rises there. There are at most as many as the series has terms.
+/// Calls visit(x, rises) for every x in (0, 1] at which a series changes its sign, in ascending
+/// order. There are at most as many as the series has terms.
 template <class Visit>
 void for_each_sign_change(Series p, Visit&& visit) {
   double from = 0.0;
@@ -132,7 +132,7 @@ void for_each_sign_change(Series p, Visit&& visit) {
   }
 }
 
-/// Whether a guard is a multiple of a functional of the plant's state alone, such as Δz or Δż.
+/// Whether a guard is a multiple of `row`, a functional of the plant's state such as Δz or Δż.
 template <int States>
 bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
   const double factor = guard.state.dot(row) / row.squaredNorm();
@@ -151,8 +151,8 @@ bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
 ///
 /// The motion must outlive the measures and not be moved; its samples must follow one another.
 /// Turning points are roots of the derivatives of the same series by which the motion finds its
-/// switches, so that none is passed over.
-/// @tparam Contact  of the motion
+/// switches, so that none is missed.
+/// @tparam Contact  contact of the motion
 template <class Contact>
 class EventOrbitMeasures {
   using Motion = EventMotion<Contact>;
@@ -170,7 +170,7 @@ class EventOrbitMeasures {
         velocity_row_(readings_.velocity_row()),
         trace_(motion) {}
 
-  /// To be called after `sense()` and before `advance(measures)`.
+  /// Begins a sample; to be called after `sense()` and before `advance(measures)`.
   void begin() {
     trace_.begin();
     seen_ = 0;
@@ -178,17 +178,17 @@ class EventOrbitMeasures {
 
   /// The least margin of each kind so far.
   const SwitchingMargins& margins() const { return margins_; }
-  /// Time spent in each ContactMode, as a share of all.
+  /// The time spent in each ContactMode, as a share of the whole time.
   std::array<double, 3> time_share() const {
     const double all = time_[0] + time_[1] + time_[2];
     return {time_[0] / all, time_[1] / all, time_[2] / all};
   }
-  /// max |z(t)| (m) of the conductor.
+  /// The largest |z(t)| (m) of the conductor.
   double largest_displacement() const { return largest_displacement_; }
 
   // The observer of EventMotion::advance.
 
-  /// Measures a stretch of one mode of some length (s); `begin` (s) counts from the sample.
+  /// Measures a stretch in one mode, from `begin` (s after the sample) over `length` (s).
   void flowed(int mode, double begin, double length) {
     guards_ = motion_->contact().guards();
     time_[static_cast<std::size_t>(motion_->contact().word())] += length;

@@ -23,7 +23,7 @@
 
 namespace holdfast {
 
-/// Result of a search for the periodic orbit of an EventMotion.
+/// The result of a search for the periodic orbit of an EventMotion.
 template <class Contact>
 struct EventOrbitResult : OrbitResultOf<EventOrbitOf<EventMotion<Contact>::states>> {
   std::optional<StroboscopicState<Contact>> point;  ///< state of the orbit at its first sample
@@ -31,7 +31,7 @@ struct EventOrbitResult : OrbitResultOf<EventOrbitOf<EventMotion<Contact>::state
 
 namespace detail {
 
-/// Records the samples and switches of a motion in an orbit and passes the motion to its measures.
+/// Records the samples and switches of a motion in an orbit, and measures the motion.
 template <class Contact>
 class PeriodRecorder {
  public:
@@ -104,8 +104,8 @@ FarSample sample_far_from_switches(const EventOrbitOf<States>& orbit, ContactMod
   return best;
 }
 
-/// The sample at which an orbit is cut open: an engaged one, where no gap is remembered, unless a
-/// switch is so near that a neighbour may lack it; −1: there is no such sample.
+/// The sample at which an orbit's return map begins, −1: none. It is the engaged sample farthest in
+/// time from any switch, or the farthest sample in the gap if that is at least ten times as far.
 template <int States>
 std::int64_t section_of(const EventOrbitOf<States>& orbit) {
   constexpr double near = 0.1;
@@ -114,7 +114,7 @@ std::int64_t section_of(const EventOrbitOf<States>& orbit) {
   return engaged.distance > near * gap.distance ? engaged.sample : gap.sample;
 }
 
-/// Whether two periods have the same modes and the same switches at the same times (s).
+/// Whether two periods have the same modes and switches, at times equal within a tolerance (s).
 template <int States>
 bool switch_alike(const EventOrbitOf<States>& one, const EventOrbitOf<States>& other,
                   double tolerance) {
@@ -139,7 +139,7 @@ class EventOrbitSolver {
   EventOrbitSolver(const RepeatingMotion<Contact>& motion, const Rational& ratio)
       : motion_(motion), readings_(motion.motion().readings()), ratio_(ratio) {}
 
-  /// @param near  state near the orbit, at a stroboscopic instant
+  /// Solves for an orbit of N = `samples` samples near a state at a stroboscopic instant.
   Result solve(const Point& near, std::int64_t samples) {
     motion_.go_to(near);
     EventOrbitMeasures<Contact> unused(motion_.motion());
@@ -195,8 +195,8 @@ class EventOrbitSolver {
     return way;
   }
 
-  /// The orbit measured over three periods from a point, which must switch alike.
-  /// @param extent  of the states seen in the search; the orbit's own extent may be mere rounding
+  /// Measures the orbit from a point over three periods, which must switch alike.
+  /// @param extent  extent of the states in the search, as the orbit's own may be mere rounding
   Result measured(const Point& first, std::int64_t samples, const Extent& extent) {
     motion_.go_to(first);
     EventOrbitMeasures<Contact> measures(motion_.motion());
@@ -229,8 +229,8 @@ class EventOrbitSolver {
 };
 
 /// The model of an EventMotion for ReturnSearch. A near return is solved for its fixed point. The
-/// motion has come to an orbit once it was within a millionth of it and then ended two successive
-/// periods no farther from it than it began them, in the same modes.
+/// motion has come to an orbit once it was within a millionth of its extent from the orbit and did
+/// not move away from it over each of two successive periods with the modes of the orbit.
 template <class Contact>
 class EventSearchModel {
  public:
@@ -242,10 +242,10 @@ class EventSearchModel {
   using Result = EventOrbitResult<Contact>;
   using Seen = SeenMotion<Symbol, Plant>;
 
-  /// The cost of solving one sample, in samples of motion: between sixteen and sixty.
+  /// The cost of solving for one sample of an orbit, in samples of followed motion: 16 … 60.
   static std::int64_t samples_per_solved() { return 32; }
 
-  /// @param start  at a stroboscopic instant
+  /// @param start  motion at a stroboscopic instant
   EventSearchModel(const Motion& start, const Rational& ratio)
       : motion_(start, ratio.denominator), solver_(motion_, ratio) {}
 
@@ -264,7 +264,7 @@ class EventSearchModel {
     return motion_.motion().contact().mode() == other.contact.mode();
   }
 
-  /// False while the motion settles on an orbit: then no return is looked for.
+  /// Whether to look for a return: not while the motion settles on a proposed orbit.
   bool may_repeat(const Seen&, std::int64_t) const { return periods_on_orbit_ == 0; }
 
   Result solve(const Seen&, std::int64_t period, const Memory&) {
@@ -284,7 +284,7 @@ class EventSearchModel {
     periods_on_orbit_ = 0;
   }
 
-  /// Compares the motion with the orbit at those instants at which the orbit's period began.
+  /// Compares the motion with the orbit whenever whole periods have passed since approach().
   bool has_come(const Result& found, const Seen& seen) {
     const std::vector<ContactMode>& modes = found.orbit->modes;
     const auto period = static_cast<std::int64_t>(modes.size());
@@ -316,16 +316,16 @@ class EventSearchModel {
 ///     const auto found = find_event_orbit(motion);
 ///     if (found.outcome == OrbitOutcome::certified) use(found.orbit->period());
 ///
-/// `certified` means beside the statements of EventOrbit: the motion was within a millionth of the
-/// orbit's size and came nearer still over two further periods. With `neutral` the result names the
-/// state of an integrator that nothing restores. The answer is `none_found` too where changes of
-/// contact accumulate; it is `incommensurate` where sampling and forcing never coincide: other
-/// frequencies, a recorded force, samples that jitter.
+/// `certified` means, beside the statements of EventOrbit: the motion was within a millionth of its
+/// extent from the orbit and did not move away from the orbit over two further periods. With
+/// `neutral` the result names the state of an integrator without restoring term. The outcome is
+/// `none_found` also where changes of contact accumulate. It is `incommensurate` where sampling and
+/// forcing never come into phase again, as under a recorded force or with jittering samples.
 ///
-/// Bounded work: at most `most_samples` samples of the motion, and about as much again for solving.
+/// Bounded work: at most `limits.most_samples` samples of the motion and as much again for solving.
 /// Memory: one byte per sample of the motion, some 150 bytes per sample of the orbit.
-/// @param start   the motion, before a sample; it is left as it is
-/// @param limits  how long and how far to look
+/// @param start   the motion before a sample; it is not changed
+/// @param limits  limits of the search: largest period and length of the motion
 /// @throws InvalidParameter where the limits are not admissible
 template <class Contact>
 EventOrbitResult<Contact> find_event_orbit(const EventMotion<Contact>& start,

@@ -20,15 +20,15 @@
 
 namespace holdfast {
 
-/// The stroboscopic state of an EventMotion: everything that its coming samples depend on, where
-/// sampling and forcing coincide every q samples.
+/// The stroboscopic state of an EventMotion: everything that its coming samples depend on.
+/// Sampling and forcing are in phase at stroboscopic instants, every q samples.
 template <class Contact>
 struct StroboscopicState {
   std::int64_t phase;  ///< samples since the last stroboscopic instant, 0 … q − 1
   typename EventMotion<Contact>::State state;  ///< x_j, N × 1; of two masses z_j (m, m/s, m, m/s)
   double previous_command;                     ///< u_{j−1} (N)
   double previous_reading;                     ///< the displacement at t_{j−1} as read (m)
-  Contact contact;                             ///< before sample j
+  Contact contact;                             ///< contact with its memory before sample j
 };
 
 namespace detail {
@@ -68,8 +68,8 @@ StroboscopicState<Contact> shifted(StroboscopicState<Contact> point,
 template <class Contact>
 class RepeatingMotion {
  public:
-  /// @param motion  at a stroboscopic instant (sampling and forcing in phase) where its index is a
-  ///                multiple of q
+  /// @param motion  a motion that is at a stroboscopic instant (sampling and forcing in phase)
+  ///                whenever its index is a multiple of q
   /// @param period  q ≥ 1 of forcing_ratio()
   RepeatingMotion(const EventMotion<Contact>& motion, std::int64_t period)
       : motion_(motion), period_(period) {
@@ -95,7 +95,7 @@ class RepeatingMotion {
             motion_.contact()};
   }
 
-  /// Sets the motion to a state, its counts begun again.
+  /// Sets the motion to a state and restarts its counts.
   void go_to(const StroboscopicState<Contact>& point) {
     if constexpr (!own_controller) {
       if (motion_.loop().limits.velocity == VelocitySensing::difference)
@@ -124,11 +124,10 @@ class RepeatingMotion {
 
 namespace detail {
 
-/// Powers of two as units of X = [x; u_{j−1}; the gap; the displacement as last read]. For two
-/// masses they are those of plant_scaling() and 1 m; for another plant they follow the size of what
-/// a motion shows, or are 1.
-/// @param seen    the states of the motion
-/// @param forces  of the drive (N)
+/// The units of X = [x; u_{j−1}; the gap; the displacement as last read], powers of two: for two
+/// masses those of plant_scaling() and 1 m, else just below the largest values of a motion, or 1.
+/// @param seen    extent of the motion's states
+/// @param forces  forces of the drive in the motion (N)
 template <class Contact>
 PointDeviation<Contact> return_units(
     const EventMotion<Contact>& motion,
@@ -155,8 +154,8 @@ PointDeviation<Contact> return_units(
 /// The map X_0 → X_N of a motion, N a multiple of q, with its derivative, which includes the
 /// saltation at every switch; X as in VariationalFlow.
 ///
-/// The derivative is never formed: it is the product of the maps of blocks of samples.
-/// @tparam Contact  of the motion
+/// The derivative is stored as a sequence of maps of blocks of samples; it is their product.
+/// @tparam Contact  contact of the motion
 template <class Contact>
 class ReturnMap {
  public:
@@ -168,15 +167,15 @@ class ReturnMap {
   using Point = StroboscopicState<Contact>;
 
   /// @param motion     any motion of the loop
-  /// @param samples    N
-  /// @param units      of X, powers of two
+  /// @param samples    number N of samples
+  /// @param units      units of X, powers of two
   /// @param gap_opens  whether the drive leaves every gap that it enters; else the gap is constant
   ReturnMap(const RepeatingMotion<Contact>& motion, std::int64_t samples, const Deviation& units,
             bool gap_opens)
       : motion_(motion), samples_(samples), units_(units), gap_opens_(gap_opens) {}
 
-  /// A fixed point near a given state, found by Newton's method until it gains nothing more; its
-  /// linear steps are those of CyclicSystem.
+  /// The fixed point near a given state, by Newton's method with the linear steps of CyclicSystem.
+  /// It ends when further steps bring no improvement.
   /// @param near  a state that is not in stick
   /// @return nothing where 1 is a multiplier, where the motion touches a guard, or where X_N − X_0
   ///         does not decrease to rounding
@@ -207,9 +206,9 @@ class ReturnMap {
     return least <= 1e-10 ? best : std::nullopt;
   }
 
-  /// The coordinate of x that a neutral deviation moves most, in the units: a deviation that is
-  /// itself again after N samples. A controller's states are preferred where they are moved.
-  /// Nothing where there is no neutral deviation or where others grow.
+  /// The coordinate of x in which a neutral deviation is largest, in the units; a neutral deviation
+  /// is unchanged after N samples. The controller's states are preferred if it moves them.
+  /// @return nothing without a neutral deviation or where other deviations grow
   std::optional<Eigen::Index> neutral_coordinate(const Point& point) {
     Extent unused(motion_.motion().readings());
     const Blocks blocks = linearised(point, 64, unused).blocks;
@@ -257,14 +256,14 @@ class ReturnMap {
   struct Linearised {
     Point end;      // X_N
     Blocks blocks;  // of deviations, in the units
-    int rank;       // the structural one of their product
+    int rank;       // structural rank of their product
   };
 
   Eigen::Index order() const { return units_.size() - 3; }
   Eigen::Index gap_row() const { return order() + 1; }
 
-  /// @param most    largest number of samples in a block
-  /// @param extent  extended by the states passed
+  /// Follows the motion over N samples in blocks of at most `most`, with the maps of deviations.
+  /// @param extent  extended by the states of the motion
   Linearised linearised(const Point& point, std::size_t most, Extent& extent) {
     motion_.go_to(point);
     VariationalFlow<Contact> tangent(motion_.motion());
@@ -284,7 +283,7 @@ class ReturnMap {
     return {motion_.point(), products.blocks(), tangent.rank_of_product()};
   }
 
-  /// How many numbers the motion after a state depends on.
+  /// The count of the numbers on which the motion after a state depends.
   std::size_t memory_of(const Point& point) const {
     const DigitalLoop& loop = motion_.motion().loop();
     auto size = static_cast<std::size_t>(order());
@@ -304,7 +303,7 @@ class ReturnMap {
     return counting;
   }
 
-  /// The maps restricted to some coordinates, the others being zero.
+  /// The blocks restricted to the coordinates `counting`, filled up with zeros to at least 5 × 5.
   template <int Size>
   static std::vector<Matrix<double, Size>> restricted(const Blocks& blocks,
                                                       const std::vector<int>& counting) {
@@ -316,8 +315,8 @@ class ReturnMap {
     return maps;
   }
 
-  /// The length of a block in which no direction of x under plant and control contracts to rounding
-  /// against another; what is remembered beside x may be forgotten within a few samples.
+  /// The number of samples in which no direction of x contracts to rounding against another; 1
+  /// where the loop remembers more than x, since that memory may decay within a few samples.
   std::size_t samples_that_keep_digits() const {
     const EventMotion<Contact>& motion = motion_.motion();
     const DigitalLoop& loop = motion.loop();

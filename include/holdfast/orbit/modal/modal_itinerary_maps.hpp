@@ -23,8 +23,8 @@
 
 namespace holdfast {
 
-/// ItineraryMaps of a conductor by its modes: the maps of the natural motions, with state [Re ξ; Im
-/// ξ of the pairs; u_{j−1}], over one sampling period, engaged or in the backlash.
+/// The counterpart of ItineraryMaps for a conductor given by its modes: maps of the natural motions
+/// over one sampling period, engaged or in the backlash; state [Re ξ; Im ξ of the pairs; u_{j−1}].
 class ModalItineraryMaps {
  public:
   using State = Eigen::VectorXd;                        ///< [Re ξ; Im ξ of the pairs; u_{j−1}]
@@ -32,7 +32,7 @@ class ModalItineraryMaps {
   using System = CyclicSystem<double, Eigen::Dynamic>;  ///< solver for a periodic motion
 
   /// @param loop   the loop; its backlash width is not used
-  /// @param poles  all of `plant_poles` of its modes and absorber
+  /// @param poles  all `plant_poles` of the loop's modes and absorber
   /// @param ratio  f τ = p/q, of forcing_ratio()
   /// @param watch  called from time to time in long computations; may throw to end them
   /// @throws InvalidParameter unless 1 ≤ q ≤ 10⁹
@@ -42,14 +42,14 @@ class ModalItineraryMaps {
     watch_ = watch;
   }
 
-  /// Calls the watch.
+  /// Calls the function `watch`, if one is given.
   void look() const {
     if (watch_) watch_();
   }
 
-  /// Fresh deviations in their units, before any is begun.
+  /// The deviations in their units; none of them is begun yet.
   const ModalDeviations& deviations() const { return deviations_; }
-  /// Units of the deviations.
+  /// The units of the deviations.
   const Eigen::VectorXd& units() const { return deviations_.units(); }
   /// The state of rest.
   State rest() const { return State::Zero(units().size()); }
@@ -65,7 +65,7 @@ class ModalItineraryMaps {
   }
 
   /// The first state of the steady motion of a drive that is always engaged, ξ_j = A e^{iωτj} + B
-  /// e^{−iωτj}; not finite where the loop has a root there.
+  /// e^{−iωτj}; not finite where e^{iωτ} is a root of the loop.
   State steady() const {
     using Phasors = Eigen::ArrayXcd;
     const std::complex<double> i(0.0, 1.0), back = std::conj(turn_);
@@ -178,8 +178,8 @@ class ModalItineraryMaps {
 
 /// The maps of stretches of an itinerary, in the units of `maps`. A stretch ends within sixteen
 /// samples after its product grew a thousandfold.
-/// @return empty where there are more than 64: such an orbit cannot be told from rounding
-/// Work: 32 m² multiply-adds a sample, of m natural motions.
+/// @return empty for more than 64 stretches: such an orbit cannot be told from rounding
+/// Work: 32 m² multiply-adds a sample, m being the number of natural motions.
 inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& maps,
                                                    const Itinerary& itinerary) {
   constexpr std::size_t between_looks = 16, most = 64;
@@ -201,11 +201,11 @@ inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& map
 
 /// The ten largest multipliers of one period, or all where there are fewer.
 ///
-/// The eigenvalues of a single block where they are above its rounding; else by orthogonal
-/// iteration of sixteen deviations around the period, which keeps the digits of any contraction.
+/// They are the eigenvalues of a single block where these exceed its rounding; else they result
+/// from orthogonal iteration of sixteen deviations around the period, accurate for any contraction.
 /// @param maps       maps of the loop
 /// @param itinerary  contacts of one period
-/// @param blocks     maps_of_blocks() of the sequence
+/// @param blocks     maps_of_blocks() of the itinerary
 template <class Maps, std::enable_if_t<std::is_same_v<Maps, ModalItineraryMaps>, int> = 0>
 std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itinerary,
                                        const std::vector<typename Maps::Map>& blocks) {

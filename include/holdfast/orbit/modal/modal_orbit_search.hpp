@@ -29,11 +29,11 @@ namespace holdfast {
 /// A neighbourhood of the first sample of an orbit of a conductor by its modes: every motion in it,
 /// at the same phase of the forcing, follows the orbit's itinerary for ever and tends to the orbit.
 ///
-/// Deviations e, of every natural motion, of the force in metres (ModalDeviations) and of the gap
-/// that the drive is in, have the norm eᵀV e with V − MᵀV M > 0, M being the map of e over some
-/// periods of the orbit; hence M contracts. Contact and the sign of Δż of the last sample must
-/// agree with the orbit. An orbit that stays in the gap for ever does so in every gap that contains
-/// it: then the radius is per metre of clearance.
+/// A deviation e has entries for all natural motions, the force in metres (ModalDeviations) and the
+/// gap that the drive is in. Its norm is ‖R e‖ = √(eᵀV e) with V − MᵀV M > 0, where M is the map of
+/// e over some periods of the orbit; M contracts in this norm. Contact and the sign of Δż of the
+/// last sample must agree with the orbit. An orbit that stays in the gap for ever does so in every
+/// gap that contains it: then the radius is per metre of clearance.
 struct ModalAttraction {
   Eigen::VectorXd first;          ///< state of the orbit, as in ModalItineraryMaps
   BacklashMemory<double> memory;  ///< memory of the drive before its first sample
@@ -41,8 +41,8 @@ struct ModalAttraction {
   double lowest,                  ///< least Δz of the orbit (m)
       highest;                    ///< largest Δz of the orbit (m)
   Eigen::MatrixXd root;           ///< R, V = RᵀR
-  double radius;                  ///< of ‖R e‖ (m); > 0, ∞ where nothing switches
-  double inscribed_share;         ///< 1/‖R‖_F: the ball ‖e‖ < radius · share lies in it
+  double radius;                  ///< bound of ‖R e‖ (m); > 0, ∞ where nothing switches
+  double inscribed_share;         ///< 1/‖R‖_F: ‖e‖ < radius · share lies in the region
 };
 
 /// The neighbourhood of attraction of an orbit.
@@ -54,7 +54,7 @@ struct ModalAttraction {
 /// @param loop   the loop that has the orbit
 /// @param maps   maps of that loop
 /// @param orbit  attracting and certified
-/// @return nothing where no V is found that M contracts to working precision
+/// @return nothing where no V is found in whose norm M contracts to working precision
 template <class Loop>
 std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalItineraryMaps& maps,
                                                 const PeriodicOrbit& orbit) {
@@ -122,7 +122,7 @@ namespace detail {
 template <class Loop>
 class ModalRegion {
  public:
-  /// The cost of solving a sample, N² operations, in units of a followed one, N operations.
+  /// The cost of solving for a sample (N² operations) over that of following one (N operations).
   std::int64_t samples_per_solved() const {
     return std::max<std::int64_t>(16, maps_.units().size());
   }
@@ -174,15 +174,15 @@ std::optional<PeriodicOrbit> orbit_without_backlash(const ModalLoop& loop, const
 /// as find_periodic_orbit() of two masses. The states of the orbit are those of conductor and
 /// absorber, z̃_j = [z, ż, z₂, ż₂; u_{j−1}], its multipliers the ten largest of all.
 ///
-/// `none_found` is also the answer where some of the `plant_poles` were not found.
+/// `none_found` is also the outcome where some of the `plant_poles` were not found.
 ///
-/// Work: without backlash O(N) per sample of the orbit, its multipliers being powers of the loop's
-/// roots; else O(N) per sample of the motion, and for each proposed period O(N²) per sample and
-/// some N³.
-/// @param loop           with its excitation and backlash
-/// @param initial_state  of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂]
-/// @param limits         how long and how far to look
-/// @throws InvalidParameter where one of them is not admissible
+/// Work: without backlash O(N) per sample of the orbit (its multipliers are powers of the loop's
+/// roots); else O(N) per sample of the motion, and for each proposed period O(N²) per sample and
+/// some N³, N being the length of the state.
+/// @param loop           the loop with its excitation and backlash
+/// @param initial_state  state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂]
+/// @param limits         limits of the search: largest period and length of the motion
+/// @throws InvalidParameter where an argument is not admissible
 template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 OrbitResult find_periodic_orbit(const Loop& loop, const ModalMotion::Full& initial_state,
                                 const OrbitLimits& limits = {}) {

@@ -10,25 +10,25 @@
 
 namespace holdfast::detail {
 
-/// The factor ρ per map by which forms along a periodic sequence are made to shrink: the square
-/// root of the orbit's contraction per map, so that the forms stay small; at least 1/2.
+/// The factor ρ of contracting_forms(): the square root of the orbit's contraction per map, so that
+/// the forms stay small; at least 1/2.
 /// @param log_modulus  ln of the largest multiplier, < 0
-/// @param count        maps in a period
+/// @param count        number of maps in a period
 inline double contracting_rate(double log_modulus, std::size_t count) {
   return std::exp(std::max(0.5 * log_modulus / static_cast<double>(count), std::log(0.5)));
 }
 
-/// Quadratic forms along a periodic sequence of linear maps, in doubles,
+/// The quadratic forms P_j along a periodic sequence of linear maps, in doubles,
 ///
 ///     P_j = M_jᵀ P_{j+1} M_j / ρ² + Q_j,   j = 0 … N − 1,   P_N = P_0
 ///
-/// The sum Σ_k (Fᵀ)ᵏ Q Fᵏ over all later periods is computed by doubling.
-/// Work: three products of Size × Size a map, twice.
+/// P_0 = Σ_k (Fᵀ)ᵏ Q Fᵏ is summed by doubling: F = M_{N−1} … M_0 / ρᴺ, and Q is P_0 if P_N = 0.
+/// Work: six products of Size × Size matrices per map.
 /// @param count    N ≥ 1
 /// @param map_of   j ↦ M_j, Size × Size of doubles
 /// @param rest_of  j ↦ Q_j, positive definite
 /// @param rate     ρ
-/// @return nothing where the sum is not finite: a multiplier is not below ρ^N
+/// @return nothing where the sum is not finite: a multiplier is not below ρᴺ
 template <int Size, class MapOf, class RestOf>
 std::optional<std::vector<Matrix<double, Size>>> contracting_forms(std::size_t count,
                                                                    const MapOf& map_of,

@@ -16,15 +16,15 @@
 
 namespace holdfast {
 
-/// Norms along a periodic sequence of linear maps, one for each sample, in which it is proved that
-/// every map shrinks what it moves: a Lyapunov function of the sequence,
+/// The norms V_j of deviations e along a periodic sequence of linear maps, one for each sample, in
+/// which the sequence is proved to contract: a Lyapunov function of the sequence,
 ///
 ///     V_j(e)² = eᵀ P_j e,   V_{j+1}(M_j e) ≤ s_j V_j(e),   s_{N−1} … s_0 < 1
 ///
 /// The P_j are found in doubles from P_j = M_jᵀ P_{j+1} M_j / ρ² + I and taken as exact; the
 /// inequalities are proved by elimination in enclosures. Hence all multipliers are at most s_{N−1}
 /// … s_0 in modulus.
-/// @tparam Size  N of e
+/// @tparam Size  size of e
 template <int Size>
 class ContractingNorms {
  public:
@@ -32,8 +32,8 @@ class ContractingNorms {
   using Maps = std::array<Matrix<Enclosure, Size>, 2>;
 
   /// Constructs the norms; since MᵀPM is convex in M, a proof at the corners holds in between.
-  /// @param corners      corners of a segment or box of loops, for all of which the norms are
-  ///                 valid; one corner for a single loop
+  /// @param corners      maps at the corners of a segment or box of loops, for all of which the
+  ///                     norms are valid; one corner for a single loop
   /// @param sequence     index of the map that moves sample j, for each j; not empty
   /// @param log_modulus  ln of the largest multiplier, an estimate
   /// @return nothing where no such norms were found
@@ -55,7 +55,7 @@ class ContractingNorms {
     return norms;
   }
 
-  /// An upper bound of V_j over all enclosed vectors.
+  /// An upper bound of V_j(e), j = `sample`, over all e that `vector` encloses.
   Enclosure size(std::size_t sample, const Vector<Enclosure, Size>& vector) const {
     const Vector<Enclosure, Size> image = forms_[sample].template cast<Enclosure>() * vector;
     return sqrt(Enclosure(vector.dot(image).magnitude()));
@@ -81,7 +81,7 @@ class ContractingNorms {
  private:
   using Form = Matrix<double, Size>;
 
-  /// The mean of the corners.
+  /// The mean of one of the two maps over all corners.
   static Form middle(const std::vector<Maps>& corners, std::size_t which) {
     Form sum = corners.front().at(which).template cast<double>();
     for (std::size_t k = 1; k < corners.size(); ++k)

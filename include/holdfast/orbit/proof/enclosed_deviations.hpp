@@ -9,7 +9,7 @@
 
 namespace holdfast::detail {
 
-/// The row that gives Δz or Δż of z̃.
+/// The row whose product with z̃ is Δz or Δż.
 inline RowVector<double, 5> relative_row(bool of_velocity) {
   const Eigen::Index first = of_velocity ? 1 : 0;
   return RowVector<double, 5>::Unit(2 + first) - RowVector<double, 5>::Unit(first);
@@ -34,9 +34,9 @@ struct RowWithError {
   }
 };
 
-/// Deviations along an orbit that begin as the six unit vectors [z̃; gap] of a weighted norm:
-/// values in doubles with a bound of all their errors, propagated in the norms in which the orbit's
-/// maps contract.
+/// The six deviations along an orbit that begin as the unit vectors of [z̃; gap] in a weighted
+/// norm. They are computed in doubles, with a bound of all their errors in the norms in which the
+/// orbit's maps contract.
 template <class Number>
 class EnclosedDeviations {
  public:
@@ -57,13 +57,13 @@ class EnclosedDeviations {
     gap_.row = RowVector<double, 6>::Unit(5);
   }
 
-  /// The deviation of Δz (m) or Δż (units) at a sample.
+  /// The deviation of Δz (m) or Δż (in the unit of ż) at a sample.
   RowWithError relative(std::size_t sample, bool of_velocity) const {
     const Eigen::Index first = of_velocity ? 1 : 0;
     const Number error = error_ * Number(norms_.reading(sample, relative_row(of_velocity)));
     return RowWithError{columns_.row(2 + first), error} - RowWithError{columns_.row(first), {}};
   }
-  /// Deviation of the gap that the drive is in (m).
+  /// The deviation of the gap that the drive is in (m).
   const RowWithError& gap() const { return gap_; }
 
   /// Applies the decision of a sample and moves on to the next one.
@@ -74,7 +74,7 @@ class EnclosedDeviations {
     take(next, map * columns_.template cast<Number>(), Number(norms_.factor(sample)) * error_);
   }
 
-  /// Whether all deviations are proved to be shorter, at the first sample, than at the beginning.
+  /// Whether all deviations are proved to be shorter, back at the first sample, than initially.
   bool have_contracted(bool with_gap) const {
     Number sum, error;
     for (Eigen::Index i = 0; i < 5; ++i) {

@@ -33,7 +33,7 @@ enum class ContactSurface {
 
 namespace detail {
 
-/// The places of the entries of w, the state of a motion with all that drives it,
+/// The places of the entries of w, the state of a motion with the quantities that drive it,
 ///
 ///     w = [z₁, ż₁, z₂, ż₂, u in force, u to come, g, F, F_s, 1, t],   ẇ = A w in each mode
 ///
@@ -67,8 +67,8 @@ class EnclosedModes {
   using Row = FlowRow<Number>;                        ///< a functional of w
   using Guards = std::vector<EnclosedGuard<Number>>;  ///< guards of a mode
 
-  /// Most terms of the Taylor series of e^{As}, ‖A‖ s ≤ 3; the remainder is below e³ 3³⁴/34! =
-  /// 10⁻²¹.
+  /// The number of terms in the longest Taylor series of e^{As}, ‖A‖ s ≤ 3; the remainder is below
+  /// e³ 3³⁴/34! = 10⁻²¹.
   static constexpr int terms = 34;
   /// An upper bound of e³.
   static constexpr double most_growth = 20.1;
@@ -86,7 +86,7 @@ class EnclosedModes {
     for (const Number& part : parts_)
       if (!(part.lower() > 0.0) && part.upper() > 0.0)
         throw InvalidParameter("processing delay", part.middle(), "s",
-                               "0, the sampling period, or farther from both than their rounding");
+                               "0, the sampling period, or clear of both by more than rounding");
     for (const ContactMode mode : {ContactMode::engaged, ContactMode::gap, ContactMode::stick}) {
       rates_[at(mode)] = Sparse(rate_of(loop, mode));
       norm_ = std::max(norm_, norm_bound(rate(mode)));
@@ -110,13 +110,13 @@ class EnclosedModes {
 
   /// The matrix A of a mode.
   const Rate& rate(ContactMode mode) const { return rates_[at(mode)].matrix; }
-  /// The product A w for each column.
+  /// The product A w for each column w of `states`.
   template <int Columns>
   Matrix<Number, FlowPlace::size, Columns> moved(
       ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states) const {
     return product<Columns>(rates_[at(mode)], states);
   }
-  /// The product e^{As} w for each column and all s of the enclosed length.
+  /// The product e^{As} w for each column w of `states` and all s in `length` (s).
   /// @param length  |s| ≤ longest()
   template <int Columns>
   Matrix<Number, FlowPlace::size, Columns> flowed(
@@ -127,27 +127,27 @@ class EnclosedModes {
                               length - Number(middle));
   }
 
-  /// How many terms a series over a length (s) needs for its remainder to be below rounding.
+  /// The number of terms with which the remainder of a series over a length (s) is below rounding.
   int terms_for(double length) const {
     int count = 1;
     for (double rest = most_growth; rest > 1e-22 && count < terms; ++count)
       rest *= norm_ * length / count;
     return count;
   }
-  /// 3/‖A‖, the longest length (s) of one Taylor series.
+  /// The longest length (s) of one Taylor series, 3/‖A‖.
   double longest() const { return longest_; }
   /// The two parts δ and τ − δ (s) of a sampling period.
   const Number& part(std::size_t number) const { return parts_[number]; }
-  /// Number of equal pieces of a part when no contact changes in it; 0: the part is empty.
+  /// The number of equal pieces of a part when no contact changes in it; 0: the part is empty.
   int pieces(std::size_t part) const { return pieces_[part]; }
-  /// The product e^{As} w for each column over one such piece.
+  /// The product e^{As} w for each column w of `states`, s being piece(part).
   template <int Columns>
   Matrix<Number, FlowPlace::size, Columns> over_piece(
       ContactMode mode, std::size_t part,
       const Matrix<Number, FlowPlace::size, Columns>& states) const {
     return product<Columns>(steps_[part][at(mode)], states);
   }
-  /// The length of such a piece (s).
+  /// The length of each of the pieces(part) equal pieces of a part (s).
   Number piece(std::size_t part) const { return parts_[part] / Number(double(pieces_[part])); }
 
   /// The guards of a mode for a sign σ of Δż: in the gap its upper end, then its lower end; in
@@ -159,7 +159,7 @@ class EnclosedModes {
   Row displacement() const { return units_[2] * unit(2) - units_[0] * unit(0); }
   /// The functional Δż (m/s).
   Row velocity() const { return units_[3] * unit(3) - units_[1] * unit(1); }
-  /// The functional a(0) (m/s²).
+  /// The functional a(0) (m/s²), the relative acceleration without force.
   Row free_acceleration() const { return velocity() * rate(ContactMode::gap); }
   /// The functional (m₁ ż₁ + m₂ ż₂)/(m₁ + m₂), in the unit of ż.
   const Row& common_velocity() const { return common_velocity_; }
@@ -169,7 +169,7 @@ class EnclosedModes {
   const std::pair<Number, Number>& force(std::size_t sample) const {
     return forces_[sample % forces_.size()];
   }
-  /// Units of [z₁, ż₁, z₂, ż₂, u].
+  /// The units of [z₁, ż₁, z₂, ż₂, u].
   const Vector<double, 5>& units() const { return in_doubles_; }
 
   /// The functional that selects one coordinate.
@@ -202,7 +202,7 @@ class EnclosedModes {
 
   static std::size_t at(ContactMode mode) { return static_cast<std::size_t>(mode); }
 
-  /// The sum of the Taylor series over the whole length, which widens with that length's width.
+  /// The product e^{As} w by one Taylor series; the enclosure widens with that of `length`.
   template <int Columns>
   Matrix<Number, FlowPlace::size, Columns> by_series(
       ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states,

@@ -27,25 +27,25 @@
 
 namespace holdfast {
 
-/// A theorem on a periodic motion of the sampled loop whose drive switches between the samples,
-/// where the outcome is `proved`. There is exactly one periodic motion of the given period that
-/// begins in the ball in the contact of the first state. It lies within the errors of the given
-/// states, all its multipliers are within the bound, and every motion that begins so has the same
-/// changes of contact in the same sampling periods for ever and tends to it. For an orbit that
-/// stays inside its gap this holds for that gap.
+/// A theorem, where the outcome is `proved`, on a periodic motion of the sampled loop whose drive
+/// switches between the samples. Exactly one periodic motion of the given period begins in the ball
+/// with the contact of the first state. It lies within the errors of the given states, and all its
+/// multipliers are within the bound. Every motion that begins in this way has the same changes of
+/// contact in the same sampling periods for ever and tends to it. For an orbit that stays inside
+/// its gap all this is stated for motions in that gap.
 struct EventOrbitProof {
   OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< result of the proof
   double multiplier_bound = std::numeric_limits<double>::infinity();  ///< bound of all |λ|, < 1
   double displacement_error =
-      std::numeric_limits<double>::infinity();                      ///< of the states (m), at most
-  double velocity_error = std::numeric_limits<double>::infinity();  ///< bound (m/s)
-  double miss = 0.0;           ///< largest share by which the image of a state misses the next
+      std::numeric_limits<double>::infinity();                      ///< bound, displacements (m)
+  double velocity_error = std::numeric_limits<double>::infinity();  ///< bound, velocities (m/s)
+  double miss = 0.0;           ///< largest |image of a state − next state|, as a share of extent
   double instant_error = 0.0;  ///< bound of the error of the recorded instants of change (s)
   /// The inequality with the least ratio of value to error; for `near_surface` the undecided
   /// one.
   ContactTest nearest;
   /// Radius of the ball about the first given state (m), in the norm and weights of AttractionBall.
-  /// It consists of the states that the contact allows: without a gap while engaged, with fixed Δz
+  /// The ball has only states that the contact allows: without a gap while engaged, with fixed Δz
   /// and Δż = 0 in stick, without u_{j−1} where δ = 0, and with the orbit's own gap where the orbit
   /// stays inside. ∞ without backlash.
   double radius = 0.0;
@@ -70,6 +70,7 @@ class EventOrbitProver {
   EventOrbitProver(const EnclosedModes<Number>& modes, const RecordedContacts& path, double delay)
       : modes_(modes), path_(path), delay_(delay), nodes_(path.samples.size()) {}
 
+  /// Proves the motion, without a ball of attraction.
   /// @param log_modulus   ln of the largest multiplier, an estimate
   /// @param largest_miss  most by which the image of a sample may miss the next one, as a share of
   ///                      the states' extent
@@ -160,9 +161,9 @@ class EventOrbitProver {
     return true;
   }
 
-  /// Computes axes X with X Xᵀ = P⁻¹ from forms P in which the maps contract. Forms with Q = I are
-  /// long in slowly decaying directions and short in quickly forgotten ones; a second pass with Q =
-  /// P⁻¹ makes rounder ellipsoids, which contain larger balls.
+  /// Computes axes X with X Xᵀ = P⁻¹ from forms P in which the maps contract. Ellipsoids for Q = I
+  /// are long in slowly decaying directions and short in quickly forgotten ones; a second pass with
+  /// Q = P⁻¹ makes rounder ellipsoids, which contain larger balls.
   bool make_axes(const std::vector<Matrix<double, 6>>& maps, double log_modulus) {
     if (!(log_modulus < 0.0)) return false;
     using Form = Matrix<double, 6>;
@@ -193,7 +194,7 @@ class EventOrbitProver {
     return true;
   }
 
-  /// The distance of the centre's image from the proposal of the next sample.
+  /// The difference of the centre's image from the proposal of the next sample.
   Six missed(std::size_t sample, const Set& set) const {
     const Passage passage(modes_, path_, delay_);
     const Vector<double, 6> proposed = passage.proposed(after(sample));
@@ -203,7 +204,7 @@ class EventOrbitProver {
     return miss;
   }
 
-  /// The distance of displacements and velocities, as a share of the extent of the states.
+  /// The size of a difference's displacements and velocities, as a share of the states' extent.
   double share_of_extent(const Six& miss) const {
     StateScale extent;
     for (const RecordedSample& sample : path_.samples) extent.include(sample.state);
@@ -235,7 +236,7 @@ class EventOrbitProver {
     return {true, radius, contraction.upper()};
   }
 
-  /// Records the distances of the set's motions from the given state of a sample.
+  /// Records the largest distances of the set's motions from the given state of a sample.
   void note_errors(std::size_t sample, const Set& set, const Passage& passage) {
     const Vector<double, 6> given = passage.proposed(sample);
     for (const Eigen::Index i : {0, 1, 2, 3}) {
@@ -245,7 +246,7 @@ class EventOrbitProver {
     }
   }
 
-  /// Finds the largest first ellipsoid proved to return into itself, by the ball inside it.
+  /// Finds the largest first ellipsoid proved to return into itself and the ball inside it.
   bool attract(const Vector<double, 6>& weights) {
     if (modes_.guards(ContactMode::engaged, 1.0).empty()) {
       proof_.radius = std::numeric_limits<double>::infinity();
@@ -289,7 +290,7 @@ class EventOrbitProver {
     return (Number(spectral_norm_bound<6>(lengths)) * Number(first_radius_)).upper();
   }
 
-  /// Weight of a coordinate in its unit.
+  /// The weight of a coordinate in the unit of that coordinate.
   Number weight(Eigen::Index coordinate, const Vector<double, 6>& weights) const {
     const double unit = coordinate < 5 ? modes_.units()[coordinate] : 1.0;
     return Number(weights[coordinate]) * Number(unit);
@@ -317,11 +318,11 @@ class EventOrbitProver {
 /// Taylor series with enclosed coefficients.
 /// @param loop          the loop, its numbers in doubles
 /// @param orbit         the proposal: its period and multipliers are used
-/// @param first         state at which the orbit begins, in phase with the forcing
-/// @param largest_miss  most by which the image of a state may miss the next one, as a share of
-///                      their extent; with more the proposal is refused
+/// @param first         state at which the orbit begins, at phase 0 of the forcing
+/// @param largest_miss  most by which the image of a state may miss the next one, as a share of the
+///                      states' extent; with more the proposal is refused
 /// @throws InvalidParameter where the loop is not admissible, or the orbit not one of its samples
-/// Work: some 0.1 ms per sample and 1 ms per change of contact, some twenty times over.
+/// Work: some twenty passages of the period, each 0.1 ms per sample and 1 ms per change of contact.
 template <class Scalar>
 EventOrbitProof prove_event_orbit(const IdealLoop<Scalar>& loop, const EventOrbit& orbit,
                                   const StroboscopicState<DriveContact<>>& first,
@@ -330,7 +331,7 @@ EventOrbitProof prove_event_orbit(const IdealLoop<Scalar>& loop, const EventOrbi
   const std::int64_t samples = orbit.period_samples(), q = orbit.ratio.denominator;
   if (samples <= 0 || samples % q != 0 || first.phase != 0 || orbit.multipliers.empty())
     throw InvalidParameter("samples of the orbit", static_cast<double>(samples), "",
-                           "a multiple of q from a coincidence on, with multipliers");
+                           "a multiple of the q of p/q, from phase 0, with a multiplier");
   detail::validate_ratio(loop, orbit.ratio);
   ImplementedLoop switching = implemented_loop(loop);
   switching.switching = Switching::exact;

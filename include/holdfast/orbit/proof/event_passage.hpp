@@ -23,8 +23,8 @@ struct ContactTest {
   ContactSurface surface = ContactSurface::reversal;  ///< surface of the guard
   int order = 0;             ///< order of the time derivative: 0 the guard itself, 1 its rate, …
   std::int64_t sample = -1;  ///< j, from the orbit's first sample; −1: there is none
-  double instant = 0.0;      ///< after that sample (s)
-  double distance = std::numeric_limits<double>::infinity();  ///< SI; positive in a proof
+  double instant = 0.0;      ///< instant after that sample (s)
+  double distance = std::numeric_limits<double>::infinity();  ///< value (SI), > 0 in a proof
   double error = 0.0;                                         ///< bound of the value's error
 
   /// The ratio of value to error; above 1 in a proof.
@@ -36,31 +36,31 @@ namespace detail {
 /// The passage of a set of motions to the next sample: follows all of them through the same changes
 /// of contact and proves that no other change occurs.
 ///
-/// Just after a change the end of the gap is as near as the motion has moved away from it. The ball
-/// at the next sample extends beyond that end, although no motion does. Therefore the set of the
-/// previous sample, the witness, is kept for the guards as long as needed; each motion is in both
-/// sets.
+/// Just after a change of contact the motion is still close to an end of its gap. The ball at the
+/// next sample then extends beyond that end, although no motion does. Therefore the set carried on
+/// from the previous sample, the witness, is kept to decide the guards as long as needed; each
+/// motion is in both sets.
 template <class Number>
 class EventPassage {
  public:
   using Modes = EnclosedModes<Number>;
   using Set = SetOfStates<Number>;
   using Row = FlowRow<Number>;
-  /// [z₁, ż₁, z₂, ż₂, u_{j−1}, g] in the units of Modes.
+  /// Six deviations of [z₁, ż₁, z₂, ż₂, u_{j−1}, g], in the units of Modes.
   using Deviations = Matrix<Number, 6>;
 
   /// @param delay  δ (s), in doubles
   EventPassage(const Modes& modes, const RecordedContacts& path, double delay)
       : modes_(modes), path_(path), delay_(delay), moves_gap_(path.switches()) {}
 
-  /// The proposed state at the beginning of a sample, in the units.
+  /// The proposed state at the beginning of a sample, in the units of Modes.
   Vector<double, 6> proposed(std::size_t sample) const {
     Vector<double, 6> state = path_.samples[sample].state;
     for (Eigen::Index i = 0; i < 5; ++i) state[i] /= modes_.units()[i];
     if (!is_late()) state[4] = 0.0;
     return state;
   }
-  /// The ball {proposed + axes · y, |y| ≤ radius} at a sample, cut to what its contact allows.
+  /// The ball {proposed + axes · y, |y| ≤ radius} at a sample, as far as the contact allows.
   Set ball(std::size_t sample, const Matrix<double, 6>& axes, double radius) const {
     Set set;
     set.radius = radius;
@@ -153,7 +153,7 @@ class EventPassage {
     if (!is_late()) set.assign(FlowPlace::command, Number());
   }
 
-  /// Computes, at a sample, the command to come and the entries that change with the time since it.
+  /// Computes the command decided at a sample, and sets the force and the time there.
   void take_command(Set& set) const {
     set.assign(FlowPlace::pending, modes_.command());
     if (!is_late()) set.assign(FlowPlace::command, Modes::unit(FlowPlace::pending));
@@ -175,7 +175,7 @@ class EventPassage {
     if (mode_ != ContactMode::stick || to.sign != sign_) return false;
     constrain(ContactMode::stick, set);
     if (to.mode == ContactMode::engaged) {
-      // The drive would rather enter the gap where nothing pushes it on.
+      // Without an acceleration onwards the drive would enter the gap instead.
       const Row pushed_on = Number(sign_) * modes_.free_acceleration();
       if (!test(about(ContactSurface::free_acceleration, 0, now(set)), set.range(pushed_on)))
         return false;
@@ -283,9 +283,9 @@ class EventPassage {
     if (set.is_apart) set.at_once = modes_.flowed(mode_, set.at_once, length);
   }
 
-  /// Moves the set to a surface h w = 0 that all motions meet within a length, the centre within
-  /// another one. With D as before and f⁻ = A⁻w there, the derivative with respect to y of the
-  /// points of meeting is (I − f⁻ h/(h f⁻)) e^{A⁻s} D.
+  /// Moves the set to a surface h w = 0 that all motions meet after a time s in `length`, the
+  /// centre after `centre_length`. With the set's spread D and f⁻ = A⁻w at the surface, the points
+  /// of meeting have the derivative (I − f⁻ h/(h f⁻)) e^{A⁻s} D with respect to y.
   void meet(const Row& surface, const Number& centre_length, const Number& length,
             ContactMode after, Set& set) {
     Set there = set;
@@ -308,8 +308,8 @@ class EventPassage {
   }
 
   /// The saltation S = R + (f⁺ − R f⁻) h/(h f⁻) for all motions that meet a surface, R being the
-  /// change of g. Where stick begins, momentum is conserved and Δż vanishes for all accelerations;
-  /// where stick ends at a surface, the rates agree.
+  /// matrix that sets g. Where stick begins, S conserves momentum and makes Δż vanish, whatever the
+  /// accelerations are; where stick ends at a surface, f⁺ = f⁻.
   typename Modes::Rate saltation(const Row& surface, ContactMode after, const Set& there) const {
     using Rate = typename Modes::Rate;
     Rate result = Rate::Identity();
@@ -367,8 +367,8 @@ class EventPassage {
     begin(to, zeros);
   }
 
-  /// Whether the law allows a zero of a guard to lead to a given contact; the guards of that
-  /// contact decide between the possible ones.
+  /// Whether the law allows the zero of a guard to lead to a given contact; where it allows
+  /// several, the guards of the contact that begins decide.
   bool may_change(std::size_t guard, const RecordedContact& to) const {
     if (guard >= guards().size()) return false;
     switch (mode_) {
@@ -383,7 +383,7 @@ class EventPassage {
     return false;
   }
 
-  /// Whether all guards but one are positive over a length.
+  /// Whether all guards except number `but` are proved to be positive up to the time `end` (s).
   bool stays_positive(const Set& set, double end, std::size_t but) {
     for (std::size_t g = 0; g < guards().size(); ++g) {
       if (g == but) continue;
@@ -457,7 +457,7 @@ class EventPassage {
   double sign_ = 1.0;
   int zeros_ = 0;
   std::array<double, 2> last_slopes_{};  // of the guards where the last stretch ended; 0: not known
-  std::optional<Set> witness_;           // in which the motions are too, moved as the set itself is
+  std::optional<Set> witness_;           // another set with all motions, moved as the set itself
   ContactTest nearest_;
   bool is_undecided_ = false;
   double instant_error_ = 0.0;

@@ -54,11 +54,11 @@ class GuardSeries {
     return sum;
   }
 
-  /// Whether g > 0 for 0 < s ≤ end; at s = 0 too unless g vanishes there identically.
-  /// @param zeros  how many of g, ġ, g̈, … vanish exactly at s = 0
+  /// Whether g > 0 for 0 < s ≤ end, and at s = 0 too if `zeros` is 0.
+  /// @param zeros  number of the derivatives g, ġ, g̈, … that vanish exactly at s = 0
   bool is_positive(double end, int zeros) const { return is_positive_on(0.0, end, zeros, 0); }
 
-  /// An interval in whose interior g of every motion has its only zero, with falling sign.
+  /// An interval of s in which g falls through zero, exactly once, for every motion of the set.
   /// @param near  estimate of the zero (s)
   /// @return nothing where this was not proved
   std::optional<Number> falls_through_zero(double near) const {

@@ -19,14 +19,14 @@
 
 namespace holdfast {
 
-/// Outcome of the proof of an orbit.
+/// The outcome of the proof of an orbit.
 enum class OrbitProofOutcome {
   proved,           ///< all statements of the proof are theorems
-  not_contracting,  ///< no norms were found in which its maps contract: a multiplier may be ≥ 1
+  not_contracting,  ///< no norms were found in which the maps contract: a multiplier may be ≥ 1
   other_contacts,   ///< the given states lead to other contacts than stated
   not_closed,       ///< the image of a given state misses the next one by more than rounding
   near_surface,     ///< at one sample the contact could not be decided
-  no_ball,          ///< all is proved but a ball of attraction
+  no_ball,          ///< all is proved except a ball of attraction
 };
 
 /// An open interval.
@@ -35,26 +35,26 @@ struct OpenRange {
   double to = std::numeric_limits<double>::infinity();  ///< upper end
 };
 
-/// A theorem on a periodic motion of the sampled loop, where the outcome is `proved`. The loop has
+/// A theorem, where the outcome is `proved`, on a periodic motion of the sampled loop. The loop has
 /// exactly one periodic motion with the orbit's contacts. It lies within the errors of the given
-/// states, and all its multipliers are within the bound. Every motion that begins in the ball keeps
-/// its contacts for ever and tends to it.
+/// states, and all its multipliers are within the bound. Every motion that begins in the ball has
+/// the orbit's contacts for ever and tends to the periodic motion.
 struct OrbitProof {
   OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< result of the proof
   double multiplier_bound = std::numeric_limits<double>::infinity();  ///< bound of all |λ|, < 1
   double displacement_error =
-      std::numeric_limits<double>::infinity();                      ///< of the states (m), at most
-  double velocity_error = std::numeric_limits<double>::infinity();  ///< bound (m/s)
-  /// The contact with the least ratio of distance to error; above 1 in a proof, for `near_surface`
-  /// the undecided one.
+      std::numeric_limits<double>::infinity();                      ///< bound, displacements (m)
+  double velocity_error = std::numeric_limits<double>::infinity();  ///< bound, velocities (m/s)
+  /// The contact whose distance from its switching surface has the least ratio to the error; for
+  /// `near_surface` the undecided one.
   Border nearest;
-  double decided_by = std::numeric_limits<double>::infinity();  ///< that ratio
-  /// Range of r₀ (m) for which the loop has this same motion, whatever r₀ is in the case; for an
-  /// orbit that stays inside, in some gap.
+  double decided_by = std::numeric_limits<double>::infinity();  ///< least ratio; > 1 in a proof
+  /// Range of r₀ (m) for which the loop, otherwise unchanged, has this same motion. For an orbit
+  /// that stays inside its gap: the r₀ for which some position of the gap contains the orbit.
   OpenRange widths;
-  /// Radius of the ball of attraction about the first given state (m), in the norm and weights
-  /// of AttractionBall; for an orbit that stays inside its gap, with that gap; ∞ without
-  /// backlash.
+  /// Radius (m) of the ball of attraction about the first given state, in the norm and weights of
+  /// AttractionBall. For an orbit that stays inside its gap, the ball of motions that are in the
+  /// same gap; ∞ without backlash.
   double radius = 0.0;
 };
 
@@ -68,16 +68,16 @@ inline void validate_ratio(const IdealLoop<double>& loop, const Rational& ratio)
   if (!(cycles * Enclosure(static_cast<double>(ratio.denominator)))
            .contains(static_cast<double>(ratio.numerator)))
     throw InvalidParameter("f tau", cycles.middle(), "",
-                           "exactly p/q in the decimals of f and tau, for a proof");
+                           "exactly the p/q of the orbit, with f and tau as written in decimals");
 }
 
-/// Rejects an orbit of the wrong length, or a loop whose f τ differs from the fraction.
+/// Rejects an orbit whose length is no multiple of q, or a loop whose f τ is not the orbit's p/q.
 inline void validate_proposal(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
   const std::int64_t samples = orbit.period_samples(), q = orbit.ratio.denominator;
   const bool is_whole = samples > 0 && q > 0 && samples % q == 0;
   if (!is_whole || orbit.itinerary.size() != orbit.states.size() || orbit.multipliers.empty())
     throw InvalidParameter("samples of the orbit", static_cast<double>(samples), "",
-                           "a multiple of q, with a contact each, and multipliers");
+                           "a multiple of the q of p/q, one contact a sample, with a multiplier");
   validate_ratio(loop, orbit.ratio);
 }
 
@@ -134,8 +134,8 @@ class OrbitProver {
     return static_cast<std::size_t>((sample % count + count) % count);
   }
 
-  /// The difference of a state's image from the next proposal, on the whole segment: linear maps
-  /// times linear states are quadratic in the position.
+  /// The difference of a state's image from the next proposal, on the whole segment. It is
+  /// quadratic in the position, since maps and states are linear.
   State missed_at(std::size_t sample) const {
     const auto& map = loops_.map(orbit_.itinerary[sample]);
     const auto addition = loops_.addition(sample);
@@ -311,7 +311,7 @@ class OrbitProver {
            Number(errors_[entry].displacement);
   }
 
-  /// The largest deviation at the beginning of one more period for which all its tests are true.
+  /// The largest initial deviation for which all tests of one more period are true.
   double limit_over_period(EnclosedDeviations<Number>& deviations) const {
     double limit = std::numeric_limits<double>::infinity();
     auto test = tests_.begin();
@@ -350,18 +350,18 @@ class OrbitProver {
 
 }  // namespace detail
 
-/// Proves a periodic motion of the sampled loop for the given decimals, or reports what remained
-/// undecided.
+/// Proves a periodic motion of the sampled loop, or reports what remained undecided. The loop's
+/// numbers are the decimals nearest to the given doubles, and f τ is exactly p/q.
 ///
 /// The maps of the samples and the force's contributions are enclosed. Norms in which the maps
 /// contract along the sequence are proved (ContractingNorms), so that the affine sequence has one
 /// periodic motion, and the closure errors of the given states bound their distance from it. Each
 /// sample's contact is then a strict inequality (SwitchingTest). Deviations are followed with all
-/// errors until they are shorter than at the beginning, which gives the ball.
+/// errors until they are shorter than at the beginning, which gives the ball of attraction.
 /// @param loop           the loop, its numbers in doubles
 /// @param orbit          the proposal: its states and contacts are used
 /// @param largest_miss   most by which the image of a state may miss the next one, as a share of
-///                      their extent; with more the proposal is refused
+///                       the states' extent; with more the proposal is refused
 /// @throws InvalidParameter where the loop is not admissible, or the orbit not one of its samples
 /// Work: about 30 µs per sample, and 20 µs per sample until the deviations have become shorter.
 template <class Scalar>

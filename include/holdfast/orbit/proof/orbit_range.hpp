@@ -45,7 +45,7 @@ inline bool differ_linearly(const IdealLoop<double>& a, const IdealLoop<double>&
   return others(a) == others(b) && a.hold == b.hold;
 }
 
-/// Proves the itinerary of an orbit for all loops between those of two values of a parameter.
+/// Proves the itinerary of an orbit for all loops whose parameter lies between two values.
 template <class Scalar, class Family>
 OrbitProof proof_between(const Family& family, const PeriodicOrbit& orbit, Scalar from, Scalar to) {
   const auto solved = [&](const IdealLoop<Scalar>& loop) {
@@ -66,15 +66,15 @@ OrbitProof proof_between(const Family& family, const PeriodicOrbit& orbit, Scala
 /// Proves that the loop has an orbit for all values of a parameter, range by range: a range that is
 /// not proved is halved, down to the given width.
 ///
-/// The states are assumed to be linear between two values. The maps are linear too, so that the
-/// error is quadratic and the ranges are wide.
+/// The proposed states are linear in the parameter between the ends of a range, as the maps are. So
+/// their error is quadratic in the length of the range, and ranges can be wide.
 /// @param family    parameter ↦ IdealLoop<double>, in which P, D, F_m and r₀ are linear and nothing
 ///                  else differs
-/// @param orbit     of a loop of the family; its itinerary is proved
-/// @param from, to  finite, from < to
+/// @param orbit     orbit of a loop of the family; its itinerary is proved
+/// @param from, to  ends of the parameter's range, finite, from < to
 /// @param narrowest least width of a range as a share of to − from, 0 < … ≤ 1
-/// @return ascending; neighbours of equal outcome are joined, with the least decided contact
-/// @throws InvalidParameter where an argument is not admissible or the loops differ in more
+/// @return ranges in ascending order; neighbours of equal outcome are joined into one
+/// @throws InvalidParameter where an argument is not admissible or the loops differ elsewhere
 template <class Family, class Scalar = double>
 std::vector<ProvedOrbitRange> prove_orbit_along(const Family& family, const PeriodicOrbit& orbit,
                                                 Scalar from, Scalar to, double narrowest = 1e-3) {
@@ -85,7 +85,7 @@ std::vector<ProvedOrbitRange> prove_orbit_along(const Family& family, const Peri
   if (!detail::differ_linearly(family(from), family(to)))
     throw InvalidParameter(
         "range of the parameter", to - from, "",
-        "such that P, D, the amplitude of the force and the backlash differ alone");
+        "one in which only P, D, the force's amplitude and the backlash width change");
   detail::validate_proposal(family(from), orbit);
   std::vector<ProvedOrbitRange> proved;
   std::vector<Scalar> open{to};  // right ends of what is to be proved, the next one last

@@ -29,7 +29,7 @@ struct RecordedSwitch {
 
 /// One sample of a motion in doubles, with the changes of contact until the next sample.
 struct RecordedSample {
-  Vector<double, 6> state;  ///< [z₁, ż₁, z₂, ż₂, u_{j−1}, g], SI; g 0 while engaged
+  Vector<double, 6> state;  ///< [z₁, ż₁, z₂, ż₂, u_{j−1}, g], SI; g = 0 while engaged
   RecordedContact before;   ///< contact up to the sample
   RecordedContact from;     ///< contact from the sample on
   std::vector<RecordedSwitch> switches;  ///< changes up to the next sample
@@ -37,9 +37,9 @@ struct RecordedSample {
 
 /// A period of a motion that switches between the samples, recorded as the proposal of a proof.
 struct RecordedContacts {
-  std::vector<RecordedSample> samples;  ///< N of them
+  std::vector<RecordedSample> samples;  ///< the N samples of the period
   bool repeats = false;                 ///< the contact at the end equals that at the beginning
-  bool is_plain = false;                ///< without touched guards or endless switching
+  bool is_plain = false;                ///< no guard is only touched, no changes accumulate
 
   /// Whether the drive changes its contact at all.
   bool switches() const {
@@ -72,8 +72,8 @@ class ContactRecorder {
   double reached_ = 0.0;
 };
 
-/// Follows a motion of the two masses over one period.
-/// @param point    state at which it begins
+/// Follows a motion of the two masses over one period and records it.
+/// @param point    state at which the period begins
 /// @param samples  number N of samples
 template <class Contact>
 RecordedContacts recorded_contacts(RepeatingMotion<Contact> motion,

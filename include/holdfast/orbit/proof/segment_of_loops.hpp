@@ -30,19 +30,19 @@ inline IdealLoop<Enclosure> enclosed(const IdealLoop<double>& loop) {
 
 namespace detail {
 
-/// A quantity of every loop between two: centre + s · slope, s from −1/2 to 1/2.
+/// A quantity that is linear along a segment of loops: centre + s · slope, −1/2 ≤ s ≤ 1/2.
 template <class Value>
 struct AlongSegment {
   Value centre, slope;
 };
 
 /// The segment between two loops that differ only in P, D, F_m and r₀, so that the maps of a sample
-/// are linear along it: all that proofs need, in plant_scaling() units. A single loop is a segment
-/// without length.
+/// are linear along it. It holds the maps, forces and widths of these loops in plant_scaling()
+/// units. A single loop is a segment without length.
 template <class Number>
 class SegmentOfLoops {
  public:
-  using Map = Matrix<Number, 5>;    ///< of z̃
+  using Map = Matrix<Number, 5>;    ///< map of z̃
   using State = Vector<Number, 5>;  ///< z̃
 
   SegmentOfLoops(const IdealLoop<Number>& first, const IdealLoop<Number>& last,
@@ -62,7 +62,7 @@ class SegmentOfLoops {
 
   /// The maps S* and S at both ends of the segment, or of the single loop.
   const std::vector<std::array<Map, 2>>& ends() const { return ends_; }
-  /// The map S of an engaged drive (1), S* of one in the backlash (0).
+  /// The map S for `engaged` = 1, the map S* in the backlash for 0.
   const AlongSegment<Map>& map(std::uint8_t engaged) const { return maps_.at(engaged); }
   /// The contribution of the excitation in sample j.
   AlongSegment<State> addition(std::size_t sample) const {
@@ -74,7 +74,7 @@ class SegmentOfLoops {
   bool has_backlash() const {
     return widths_.centre.upper() > 0.0 || widths_.slope.magnitude() > 0.0;
   }
-  /// Units of [z₁, ż₁, z₂, ż₂, u].
+  /// The units of [z₁, ż₁, z₂, ż₂, u].
   const Vector<double, 5>& units() const { return units_; }
 
  private:

@@ -6,15 +6,15 @@
 
 namespace holdfast::detail {
 
-/// The states that motions from a ball have come to: of each motion, y being its place in the ball,
+/// The set of states that motions from a ball have reached; y is a motion's place in the ball,
 ///
 ///     w = centre + D y,   |y| ≤ radius,   D one of the matrices in `spread`
 ///
-/// The centre encloses the motion with y = 0. The spread is the derivative, with respect to y on
-/// the whole ball, of the point where a motion meets a surface (the mean value theorem). Where the
-/// motions meet it at different instants, `at_once` is the derivative at one instant after them
-/// all, transported by the flow back to the instant of the centre: the saltation matrix applied,
-/// without the large displacement along the flow, which cancels.
+/// The centre encloses the motion with y = 0. The spread encloses the derivative with respect to y,
+/// on the whole ball, of the point where a motion meets a surface (mean value theorem). Where the
+/// motions meet it at different instants, `at_once` is the derivative at one instant after all of
+/// them, transported by the flow back to the instant of the centre. It includes the saltation
+/// matrix, but not the large displacement along the flow, which cancels.
 template <class Number>
 struct SetOfStates {
   using State = Vector<Number, FlowPlace::size>;      ///< w
@@ -50,7 +50,7 @@ struct SetOfStates {
     assign_where_met(coordinate, row);
     if (is_apart) at_once.row(coordinate) = (row * at_once).eval();
   }
-  /// Makes a coordinate equal to a functional, for the motions where they met the surface.
+  /// Makes a coordinate equal to a functional at the points where the motions met the surface.
   void assign_where_met(Eigen::Index coordinate, const Row& row) {
     const Number value = at_centre(row);
     const RowVector<Number, 6> change = row * spread;

@@ -12,7 +12,7 @@ namespace holdfast {
 ///
 ///     sign · Δż_j > 0   or   sign · (Δz_j − Δz_k) + widths · r₀ > 0,
 ///
-/// where sample k is the one at which the drive entered the gap that it is in.
+/// where k is the sample at which the drive entered the gap that it is in at sample j.
 struct SwitchingTest {
   std::int64_t sample;       ///< sample j, counted from the first sample of the period
   std::int64_t entry;        ///< sample k, negative in the period before; unused for a reversal
@@ -41,8 +41,8 @@ inline void append_gap_tests(const ContactDecision& decision, std::int64_t sampl
 
 }  // namespace detail
 
-/// Whether every sample outside the gap enters one exactly where its velocity changes sign against
-/// the sample before.
+/// Whether the drive, at every sample before which it is engaged, enters a gap exactly if Δż has
+/// changed its sign since the sample before.
 inline bool enters_at_reversals(const SwitchingPattern& pattern) {
   const auto& all = pattern.decisions;
   for (std::size_t j = 0; j < all.size(); ++j) {
@@ -53,8 +53,8 @@ inline bool enters_at_reversals(const SwitchingPattern& pattern) {
   return true;
 }
 
-/// All inequalities of one period, by samples: if they are true, a motion with these Δz and Δż has
-/// the pattern's contacts for ever.
+/// The inequalities of one period in the order of the samples. If all are true, a periodic motion
+/// with these Δz and Δż has the pattern's contacts for ever.
 /// @param pattern  a pattern that repeats, does not stay inside, and enters at reversals
 inline std::vector<SwitchingTest> switching_tests(const SwitchingPattern& pattern) {
   std::vector<SwitchingTest> tests;

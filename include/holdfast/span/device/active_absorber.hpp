@@ -18,7 +18,7 @@ struct ActiveAbsorber {
   LoopHardware hardware = {};  ///< measurement filter and drive
 };
 
-/// The impedance Z(s) of `absorber_impedance` (N s/m).
+/// The impedance Z(s) (N s/m) of an active absorber, by `absorber_impedance`.
 /// @param device  absorber with its computer (unchecked)
 /// @param s       complex frequency (1/s), ≠ 0
 inline std::complex<double> impedance(const ActiveAbsorber& device, const std::complex<double>& s) {

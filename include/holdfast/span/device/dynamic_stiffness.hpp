@@ -36,7 +36,7 @@ inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
   return sum;
 }
 
-/// The eigenvalues of a device on a fixed clamp (1/s), one of each conjugate pair.
+/// The eigenvalues (1/s) other than zero of a device on a fixed clamp, one of each conjugate pair.
 inline std::vector<std::complex<double>> own_motions(const LumpedDevice& device) {
   std::vector<std::complex<double>> motions;
   for (const DeviceBranch& branch : device.branches) {

@@ -14,14 +14,14 @@ namespace holdfast {
 /// A dashpot, a spring and an inerter in parallel between the conductor and a mass or the ground.
 struct DeviceBranch {
   double damping = 0.0;    ///< c (N s/m), ≥ 0
-  double stiffness = 0.0;  ///< k (N/m); a negative one repels the conductor
+  double stiffness = 0.0;  ///< k (N/m), of either sign
   double inertance = 0.0;  ///< b (kg), ≥ 0: force over the difference of accelerations
   /// The mass m (kg), > 0, at the other end; infinity: the ground.
   double mass = std::numeric_limits<double>::infinity();
 };
 
-/// Z(s) of a branch, force over velocity of the conductor (N s/m): 1/Z = 1/(b s + c + k/s) +
-/// 1/(m s).
+/// The impedance Z(s) of a branch, force over velocity of the conductor (N s/m):
+/// 1/Z = 1/(b s + c + k/s) + 1/(m s).
 /// @param branch  branch of a device (unchecked)
 /// @param s       complex frequency (1/s), ≠ 0
 inline std::complex<double> impedance(const DeviceBranch& branch, const std::complex<double>& s) {
@@ -61,8 +61,8 @@ inline void validate(const LumpedDevice& device) {
   }
 }
 
-/// A mass on a spring and a dashpot, given by its natural frequency on a fixed
-/// clamp.
+/// A branch of a mass on a spring and a dashpot, given by its natural frequency and damping ratio
+/// on a fixed clamp.
 /// @param mass           m (kg), > 0
 /// @param frequency      f (Hz), > 0
 /// @param damping_ratio  ζ ≥ 0
@@ -74,15 +74,15 @@ inline DeviceBranch tuned_branch(double mass, double frequency, double damping_r
 /// The data of a Stockbridge damper: two weights on a messenger wire, whose clamp shows two
 /// resonances.
 struct StockbridgeData {
-  double mass;                           ///< of the weights (kg), > 0
-  std::array<double, 2> frequencies;     ///< Hz, ascending, on a fixed clamp
-  std::array<double, 2> damping_ratios;  ///< of the two resonances, > 0
+  double mass;                           ///< mass of both weights together (kg), > 0
+  std::array<double, 2> frequencies;     ///< resonances on a fixed clamp (Hz), ascending
+  std::array<double, 2> damping_ratios;  ///< ζ of these resonances, > 0
   double mass_share = 0.5;               ///< share of the mass in the lower resonance, 0 … 1
-  double clamp_mass = 0.0;               ///< kg, ≥ 0
+  double clamp_mass = 0.0;               ///< mass of the clamp (kg), ≥ 0
 };
 
-/// A Stockbridge damper by its two resonances: every device of weights on springs answers at its
-/// clamp like masses side by side, each on a spring of its own, whose sum is that of the weights.
+/// A Stockbridge damper by its two resonances, as two parallel branches of a mass on a spring and a
+/// dashpot, one per resonance. Their masses add up to that of the weights.
 /// @throws InvalidParameter where the data are not admissible
 inline LumpedDevice stockbridge(const StockbridgeData& data) {
   require_positive("mass of a Stockbridge damper", data.mass, "kg");

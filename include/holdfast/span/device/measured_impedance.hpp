@@ -15,7 +15,7 @@ namespace holdfast {
 /// frequencies.
 ///
 /// Real and imaginary part are interpolated linearly: if no row supplies power, no value between
-/// them does. Outside the measured range the result is NaN.
+/// two rows does. Outside the measured range the result is NaN.
 class MeasuredImpedance {
  public:
   /// A row of the measurement.
@@ -25,7 +25,7 @@ class MeasuredImpedance {
   };
 
   /// @param rows  at least two, ω ascending
-  /// @throws InvalidParameter where they are fewer, not ascending, not finite, or supply power
+  /// @throws InvalidParameter for one row or none, ω not ascending, Re Z < 0, or values not finite
   explicit MeasuredImpedance(std::vector<Row> rows) : rows_(std::move(rows)) {
     require_within("rows of a measured impedance", static_cast<double>(rows_.size()), "", 2, 1e7);
     double before = 0.0;
@@ -33,7 +33,7 @@ class MeasuredImpedance {
       require_finite("measured impedance", std::abs(row.impedance), "N s/m");
       if (!(std::isfinite(row.angular_frequency) && row.angular_frequency > before))
         throw InvalidParameter("angular frequency of a measured impedance", row.angular_frequency,
-                               "rad/s", "above the one before it");
+                               "rad/s", "above that of the row before");
       if (!(row.impedance.real() >= -giving * std::abs(row.impedance)))
         throw InvalidParameter("real part of a measured impedance", row.impedance.real(), "N s/m",
                                ">= 0: a passive device gives no power");
@@ -56,7 +56,7 @@ class MeasuredImpedance {
   }
 
   double lowest() const { return rows_.front().angular_frequency; }  ///< ω (rad/s) of the first row
-  double highest() const { return rows_.back().angular_frequency; }  ///< and of the last one
+  double highest() const { return rows_.back().angular_frequency; }  ///< ω (rad/s) of the last row
 
  private:
   static constexpr double giving = 1e-9;  // of |Z|: the round-off of a phase of 90°
@@ -64,8 +64,8 @@ class MeasuredImpedance {
   std::vector<Row> rows_;
 };
 
-/// The impedance Z of a measured device at s = iω, and for complex s at the same |s|: a mode that
-/// decays by few per cent per cycle moves the device nearly like a steady vibration.
+/// The impedance Z of a measured device at s = iω; for another s the value at ω = |s|, an
+/// approximation for modes that decay by a few per cent per cycle.
 /// @return NaN outside the measured range
 inline std::complex<double> impedance(const MeasuredImpedance& device,
                                       const std::complex<double>& s) {

@@ -16,7 +16,7 @@ namespace holdfast {
 /// A device clamped on a span.
 struct SpanDevice {
   double position;  ///< m from the left support, inside the span
-  std::variant<LumpedDevice, MeasuredImpedance, ActiveAbsorber> device;  ///< kind of device
+  std::variant<LumpedDevice, MeasuredImpedance, ActiveAbsorber> device;  ///< the device itself
 
   /// The impedance Z(s), force over velocity of the conductor (N s/m).
   /// @param s  complex frequency (1/s), ≠ 0

@@ -8,26 +8,26 @@
 namespace holdfast {
 
 /// A conductor at a clamp, as a beam under tension whose wires bend individually (Poffenberger &
-/// Swart, IEEE Trans. PAS 84 (1965)): beside the clamp its deflection is y = θ (x − (1 −
-/// e^{−px})/p) with p = √(T/EI), θ being the slope away from the clamp.
+/// Swart, IEEE Trans. PAS 84 (1965)). At x from the clamp its deflection is
+/// y = θ (x − (1 − e^{−px})/p), p = √(T/EI), with the slope θ far from the clamp.
 ///
 /// Stress and strain are those of the outermost wire, zero to peak.
 struct ClampBending {
   double tension;              ///< T (N), > 0
   double mass_per_length;      ///< m (kg/m), > 0
-  double bending_stiffness;    ///< EI (N m²), > 0: sum of the single wires' values, its minimum
+  double bending_stiffness;    ///< EI (N m²), > 0: the least value, the sum over the single wires
   double outer_wire_diameter;  ///< d_a (m), > 0
   double outer_wire_modulus;   ///< E_a (Pa), > 0
 
   /// The decay constant p (1/m).
   double decay() const { return std::sqrt(tension / bending_stiffness); }
 
-  /// The strain ε = ½ d_a p θ, θ (rad) being the slope behind the bend.
+  /// The strain ε = ½ d_a p θ at the clamp for a slope θ (rad) far from it.
   double strain_of_angle(double angle) const { return 0.5 * outer_wire_diameter * decay() * angle; }
 
   /// The stress σ (Pa) from the bending amplitude: σ = E_a d_a p² Y_b/(4 (e^{−ps} − 1 + ps)).
   /// @param bending_amplitude  Y_b (m), peak-to-peak, relative to the clamp
-  /// @param place              s (m), from the last point of contact; usually 89 mm
+  /// @param place              s (m), distance from the last point of contact; usually 89 mm
   double stress_of_bending_amplitude(double bending_amplitude, double place = 0.089) const {
     const double p = decay();
     return outer_wire_modulus * outer_wire_diameter * p * p * bending_amplitude /
@@ -42,7 +42,7 @@ struct ClampBending {
            std::sqrt(mass_per_length / bending_stiffness) * frequency * amplitude;
   }
 
-  /// The bending amplitude Y_b (m) for a slope θ (rad).
+  /// The bending amplitude Y_b (m) at s = `place` (m) for a slope θ (rad) far from the clamp.
   double bending_amplitude_of_angle(double angle, double place = 0.089) const {
     const double p = decay();
     return 2.0 * angle * (place - (1.0 - std::exp(-p * place)) / p);

@@ -13,13 +13,13 @@ struct WindHours {
   double hours;  ///< per year, ≥ 0
 };
 
-/// The hours per year of wind speeds U with a Weibull distribution, P(U > u) = e^{−(u/A)^k}, from
-/// one speed to another in equal steps; each row represents the step around it.
+/// The hours per year of wind speeds U with the Weibull distribution P(U > u) = e^{−(u/A)^k}. The
+/// range from `lowest` to `highest` is divided into equal steps, each a row with its middle speed.
 /// @param scale    A (m/s), > 0
 /// @param shape    k, > 0
 /// @param lowest   m/s, ≥ 0
 /// @param highest  m/s, above the lowest
-/// @param steps    ≥ 1
+/// @param steps    number of steps, 1 … 10⁶
 /// @throws InvalidParameter where an argument is outside its range
 inline std::vector<WindHours> weibull_hours(double scale, double shape, double lowest,
                                             double highest, int steps) {
@@ -46,8 +46,8 @@ struct StressCycles {
   double cycles;  ///< n, per year
 };
 
-/// The damage per year by Miner's rule, Σ n/N(σ): 1/damage is the number of years to the first
-/// broken wire by the given line of life.
+/// The damage per year by Miner's rule, Σ n/N(σ). Its inverse is the number of years to the first
+/// broken wire according to the fatigue line N(σ).
 /// @tparam LifeLine  type with `cycles(stress)`, N
 template <class LifeLine>
 double miner_damage(const std::vector<StressCycles>& year, const LifeLine& line) {

@@ -9,12 +9,12 @@
 namespace holdfast {
 
 /// The fatigue life of a conductor at its clamps by the safe border line of CIGRE Study Committee
-/// 22, Working Group 04 (Electra 63, 1979): below all measured failures.
+/// 22, Working Group 04 (Electra 63, 1979), which lies below all measured failures.
 ///
 ///     σ = A N^{−α} up to N₀ cycles,  σ = B N^{−β} beyond     (σ in MPa, zero to peak)
 ///
-/// At N₀ the two branches do not meet, and stresses between their values there have no number of
-/// cycles on their own branch: then the smaller number of both is used.
+/// At N₀ the two branches have different stresses. For a stress between these two, N is the smaller
+/// of the numbers of cycles that the two branches give.
 struct SafeBorderLine {
   double steep_stress;     ///< A (MPa)
   double steep_exponent;   ///< α

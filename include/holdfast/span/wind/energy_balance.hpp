@@ -6,7 +6,7 @@
 
 namespace holdfast {
 
-/// The location of an amplitude relative to the validity of the wind's law.
+/// The place of the balanced amplitude relative to the range of the wind's law.
 enum class BalanceRange {
   within,  ///< within the law's range
   below,   ///< below the law's smallest amplitude, which is returned
@@ -16,7 +16,7 @@ enum class BalanceRange {
 /// The amplitude at which the wind's power equals the power losses.
 struct BalancedAmplitude {
   double amplitude;    ///< y (m), half the peak-to-peak, at the antinodes
-  BalanceRange range;  ///< whether it is the amplitude, or a bound
+  BalanceRange range;  ///< whether y is the balanced amplitude or only a bound
 };
 
 /// The amplitude of aeolian vibration at one frequency by the energy balance: the largest amplitude
@@ -30,8 +30,8 @@ struct BalancedAmplitude {
 /// @param frequency  f (Hz), > 0
 /// @param diameter   d (m), > 0
 /// @param loss       p: map from an amplitude (m) to the total loss per length (W/m), averaged over
-///              the span; NaN makes the result NaN
-/// @throws whatever `loss` throws
+///                   the span; NaN makes the result NaN
+/// @throws the exceptions of `loss`
 template <class Loss>
 BalancedAmplitude balanced_amplitude(const WindPowerLaw& law, double frequency, double diameter,
                                      const Loss& loss) {

@@ -10,8 +10,8 @@
 
 namespace holdfast {
 
-/// The modes of a span in parallel, η̈ + 2 ζ ω η̇ + ω² η = g, by exact steps: with g constant over
-/// a step there is no discretisation error for any length. ζ may change between steps and may be
+/// An integrator of the modes of a span, η̈ + 2 ζ ω η̇ + ω² η = g, all at once. For g constant over
+/// a step its solution is exact, however long the step. ζ may change between steps and may be
 /// negative.
 template <class Scalar = double>
 class ModesInStep {
@@ -33,7 +33,7 @@ class ModesInStep {
   Column squared_amplitudes() const { return position.square() + (velocity / omega_).square(); }
 
   /// Sets the damping of the coming steps.
-  /// @param ratios  ζ, limited to ±0.9: such a mode is invisible in a vibration
+  /// @param ratios  ζ; values outside ±0.9 are replaced by ±0.9
   void damp(const Column& ratios) {
     const Column zeta = ratios.max(Scalar(-0.9)).min(Scalar(0.9));
     const Column turning = omega_ * (Scalar(1) - zeta.square()).sqrt();
@@ -46,7 +46,7 @@ class ModesInStep {
   }
 
   /// Performs one step.
-  /// @param force  g (m/s²)
+  /// @param force  g (m/s²), the force on each mode over its modal mass
   void step(const Column& force) {
     rest_ = force / omega_.square();
     position -= rest_;
@@ -63,15 +63,15 @@ class ModesInStep {
   double step_;
 };
 
-/// The mean squares of a motion of modes sin(nπx/L), in several successive windows of time.
+/// The mean squares of a motion of the modes sin(nπx/L) in successive windows of time.
 template <class Scalar = double>
 class AmplitudeRecord {
  public:
-  using Column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;                ///< a number a mode
+  using Column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;                ///< a number per mode
   using Square = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;  ///< modes by modes
 
   /// @param modes    number of modes
-  /// @param samples  number in all windows, ≥ windows
+  /// @param samples  number of samples in all windows together, ≥ windows
   /// @param windows  number of windows, ≥ 1
   AmplitudeRecord(Eigen::Index modes, long samples, int windows)
       : samples_(samples),
@@ -89,8 +89,8 @@ class AmplitudeRecord {
     velocities_ += motion.velocity.square();
   }
 
-  /// Finds the largest mean square: at 8 places per half-wave of the highest mode, refined about
-  /// the best of them.
+  /// Finds the place of the largest mean square: the best of 8 places per half-wave of the highest
+  /// mode, then refined. The functions below are valid only after this call.
   void evaluate() {
     Square total = sums_.front();
     for (std::size_t w = 1; w < sums_.size(); ++w) total += sums_[w];
@@ -104,12 +104,12 @@ class AmplitudeRecord {
     turn_ = std::sqrt(static_cast<double>(velocities_[mode_] / total(mode_, mode_)));
   }
 
-  double antinode() const { return antinode_; }                       ///< x/L
+  double antinode() const { return antinode_; }                       ///< place x/L of the maximum
   double amplitude() const { return std::sqrt(2.0 * mean_square_); }  ///< √2 times the rms there
-  int mode() const { return static_cast<int>(mode_) + 1; }            ///< that moves most
-  double angular_frequency() const { return turn_; }  ///< of that mode, rms velocity over rms
+  int mode() const { return static_cast<int>(mode_) + 1; }            ///< number of largest mode
+  double angular_frequency() const { return turn_; }  ///< rms velocity over rms η of that mode
 
-  /// The standard deviation of the windows' amplitudes.
+  /// The standard deviation of the amplitudes in the windows, at the same place.
   double spread() const {
     double sum = 0.0, squares = 0.0;
     for (const double square : squares_) {

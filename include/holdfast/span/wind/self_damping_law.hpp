@@ -11,7 +11,7 @@ namespace holdfast {
 
 /// The data of a stranded conductor that its self-damping depends on.
 struct StrandedConductor {
-  double mass_per_length;  ///< m (kg/m), > 0
+  double mass_per_length;  ///< μ (kg/m), > 0
   double diameter;         ///< d (m), > 0
   double rated_strength;   ///< RTS (N), > 0
   double tension;          ///< T (N), > 0, below RTS
@@ -30,17 +30,17 @@ inline void validate(const StrandedConductor& conductor) {
 
 /// The law of self-damping of a stranded conductor by friction of its wires, as power per length:
 ///
-///     P_self = k (y/d)^l f^m/T^n  (mW/m),   k = d/√(RTS m)
+///     P_self = k (y/d)^l f^m/T^n  (mW/m),   k = d/√(RTS μ)
 ///
-/// in the units of the fits: d in mm, RTS and T in kN, m in kg/m, f in Hz; y (m) is half the
-/// peak-to-peak.
+/// with the d of k in mm, RTS and T in kN, μ in kg/m and f in Hz, the units of the fits. The
+/// amplitude y is half the peak-to-peak.
 struct SelfDampingLaw {
   std::string_view name;      ///< name of its authors
   double amplitude_exponent;  ///< l
   double frequency_exponent;  ///< m
   double tension_exponent;    ///< n
 
-  /// The power P_self per length (W/m).
+  /// The power P_self per length (W/m) at a frequency (Hz) and an amplitude y (m).
   double power(const StrandedConductor& conductor, double frequency, double amplitude) const {
     constexpr double milli = 1e-3;
     const double strength = milli * conductor.rated_strength, tension = milli * conductor.tension;
@@ -50,8 +50,8 @@ struct SelfDampingLaw {
   }
 };
 
-/// The exponents by three groups of authors, collected by CIGRE Study Committee 22, Working Group
-/// 11: they differ by a factor, since they extrapolate from other spans and tensions.
+/// The laws of three groups of authors, collected by CIGRE Study Committee 22, Working Group 11.
+/// Extrapolated from different spans and tensions, they differ by a factor of up to 3 at 20 Hz.
 inline constexpr std::array<SelfDampingLaw, 3> self_damping_laws = {
     SelfDampingLaw{"noiseux", 2.44, 5.63, 2.76}, SelfDampingLaw{"kraus_hagedorn", 2.47, 5.38, 2.80},
     SelfDampingLaw{"seppa", 2.5, 5.75, 2.8}};

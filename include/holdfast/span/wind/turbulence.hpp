@@ -17,12 +17,11 @@ namespace holdfast {
 /// vortices are synchronised, relative to steady wind.
 ///
 /// Source: Foti & Martinelli, J. Wind Eng. Ind. Aerodyn. (2018), doi 10.1016/j.jweia.2018.09.005,
-/// equations 4 and 5, as two open programs write them down (the article itself was not seen). It is
-/// one law of several, and like all of them uncertain by tens of per cent: it knows nothing of the
-/// amplitude, while a large vibration holds its vortices over more speeds.
-/// @param intensity  I, standard deviation of the speed over its mean, 0 … 1; open country has up
-/// to
-///                   about 0.3
+/// equations 4 and 5, as two open programs write them down (the article itself was not seen). Such
+/// laws are uncertain by tens of per cent. This one does not depend on the amplitude, although the
+/// shedding stays synchronised with a larger vibration over a wider range of speeds.
+/// @param intensity  I, standard deviation of the speed over its mean, 0 … 1; up to about 0.3 in
+///                   open country
 /// @throws InvalidParameter outside this range
 inline double turbulent_share(double intensity) {
   require_within("turbulence intensity", intensity, "", 0.0, 1.0);
@@ -30,7 +29,7 @@ inline double turbulent_share(double intensity) {
   return 1.0 / std::hypot(1.0, intensity / lock_in);
 }
 
-/// The law of a wind in turbulence, with its power reduced by `turbulent_share`.
+/// The power law of a turbulent wind: the law of the steady wind times `turbulent_share`.
 /// @throws InvalidParameter where the intensity is outside 0 … 1
 inline WindPowerLaw in_turbulence(WindPowerLaw law, double intensity) {
   const double share = turbulent_share(intensity);

@@ -29,7 +29,7 @@ inline void validate(const TurbulentWind& wind) {
 }
 
 /// Independent normal random numbers of mean 0 and variance 1, by Box and Muller from
-/// `std::mt19937_64`: the same for the same seed with every standard library.
+/// `std::mt19937_64`. A seed gives the same numbers with every standard library.
 class NormalNumbers {
  public:
   /// @param seed  any number
@@ -61,9 +61,9 @@ class NormalNumbers {
 ///
 ///     ⟨u(x, t) u(x′, t′)⟩ = I² U² e^{−|t − t′|/T} e^{−|x − x′|/Λ},   T = length scale/U
 ///
-/// drawn every T/50 and linear in between, where its variance is up to 1 % smaller. Faster
-/// fluctuations are left out: vortices are shed faster still and react to their mean. Speeds below
-/// U/10 (at I = 0.3 one in 700) are replaced by U/10.
+/// where Λ is the span scale. u is drawn every T/50 and linear in between, where its variance is up
+/// to 1 % smaller. Faster fluctuations are left out. Speeds below U/10 (1 in 700 at I = 0.3) are
+/// replaced by U/10.
 template <class Scalar = double>
 class GustField {
  public:
@@ -71,7 +71,7 @@ class GustField {
 
   /// @param wind      wind that passed `validate`
   /// @param stations  number of stations, ≥ 1
-  /// @param spacing   distance between them (m), > 0
+  /// @param spacing   distance between two stations (m), > 0
   GustField(const TurbulentWind& wind, int stations, double spacing)
       : wind_(wind),
         numbers_(wind.seed),
@@ -86,9 +86,10 @@ class GustField {
     }
   }
 
-  /// Whether there is no turbulence.
+  /// Whether the wind is steady, I = 0.
   bool steady() const { return wind_.intensity == 0.0; }
 
+  /// The wind speeds at all stations.
   /// @param time  time (s), ≥ that of the last call
   const Speeds& at(double time) {
     if (steady()) return speeds_;
@@ -103,7 +104,7 @@ class GustField {
   }
 
  private:
-  /// Draws numbers of variance I² U² that are a Markov process along the span.
+  /// Draws fluctuations (m/s) of variance I² U² that form a Markov process along the span.
   void draw(Speeds& fluctuations) {
     const double deviation = wind_.intensity * wind_.mean_speed;
     double number = numbers_.next();

@@ -58,16 +58,16 @@ inline void validate(const WakeOscillatorLaw& law) {
 ///
 ///     q̇ = p + (A/d) ẏ,   ṗ = −ε ω_s (q² − 1) q̇ − ω_s² q
 ///
-/// A step holds ẏ at its middle and consists of half a step of q, a whole one of p by the
-/// trapezoidal rule at that q, and half a step of q: of second order, and stable for any q. Without
-/// correction its frequency would be too high by (ω_s h)²/24; ω_s² of the restoring term is
-/// therefore (4/h²) sin²(ω_s h/2), so that the frequency is St U/d to within 10⁻⁵.
+/// A step uses ẏ at its middle. It consists of half a step of q, a whole step of p by the
+/// trapezoidal rule at this q, and half a step of q: of second order, stable for any q. Without
+/// correction the wake's frequency would be too high by (ω_s h)²/24. In the restoring term ω_s² is
+/// therefore replaced by (4/h²) sin²(ω_s h/2), so that the frequency is St U/d to within 10⁻⁵.
 template <class Scalar = double>
 class WakeOscillators {
  public:
   using Column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;  ///< one number for each station
 
-  /// Starts from lifts of random size and phase, about a twentieth of that of a fixed cylinder.
+  /// Starts from lifts of random size and phase, about a twentieth of a fixed cylinder's lift.
   /// @param law       law that passed `validate`
   /// @param diameter  d (m)
   /// @param strouhal  St
@@ -90,7 +90,7 @@ class WakeOscillators {
 
   /// Performs one step h of all wakes.
   /// @param velocities  ẏ (m/s) in the middle of the step
-  /// @param speeds      U (m/s) there
+  /// @param speeds      U (m/s) at the stations
   /// @param step        h (s)
   void step(const Column& velocities, const Column& speeds, double step) {
     const Scalar half(0.5 * step);
@@ -106,7 +106,7 @@ class WakeOscillators {
     q_ += half * (p_ + moved_);
   }
 
-  /// The lift force ¼ ρ U² d C_L0 q (N/m).
+  /// Writes the lift force ¼ ρ U² d C_L0 q (N/m) of each wake to `force`.
   void lift(const Column& speeds, Column& force) const {
     force = Scalar(pressure_) * speeds.square() * q_;
   }

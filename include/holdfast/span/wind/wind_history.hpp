@@ -28,17 +28,17 @@ struct WindHistorySetting {
   double diameter = 0.0;        ///< d (m), > 0
   double rated_strength = 0.0;  ///< RTS (N), > T; used by the law of self-damping only
   std::optional<SelfDampingLaw> self_damping;  ///< its amplitude exponent ≥ 2
-  std::vector<SpanDevice> devices;             ///< near the supports
+  std::vector<SpanDevice> devices;             ///< devices near the supports
   TurbulentWind wind;                          ///< across the span
   /// The model of the force: wake oscillators coupled to the span, or a measured power of the wind.
   std::variant<WakeOscillatorLaw, WindPowerLaw> force;
   double strouhal = 0.2;           ///< St, > 0: vortices are shed at St U/d
   int modes = 100;                 ///< N, sines 1 … N of the span, 1 … 1000
-  int stations = 400;              ///< M, of the wakes, N + 1 … 20000; 8 per half-wave suffice
-  double initial_amplitude = 0.0;  ///< of the mode nearest to the shedding (m), ≥ 0
+  int stations = 400;              ///< M, number of wakes, N + 1 … 20000; 8 per half-wave suffice
+  double initial_amplitude = 0.0;  ///< of the mode nearest to the shedding frequency (m), ≥ 0
   double duration = 0.0;           ///< s, > 0
-  int steps_per_cycle = 40;        ///< of the shedding at U, 16 … 1000
-  double observed = 0.25;          ///< of the duration, the last part, above 0 to 1
+  int steps_per_cycle = 40;        ///< steps per cycle of the shedding at U, 16 … 1000
+  double observed = 0.25;          ///< evaluated share of the duration, at its end, 0.001 … 1
   double place = 0.0;              ///< m from the left support, place of the recorded displacement
   int stride = 10;                 ///< steps between recorded values, ≥ 1
 
@@ -54,16 +54,16 @@ struct WindHistory {
   /// The amplitude y (m): √2 times the rms over the observed part, at its maximum along the span;
   /// not finite where devices that supply power let it grow without bound.
   double amplitude;
-  double spread;                      ///< standard deviation of y there over ten parts of it (m)
+  double spread;                      ///< standard deviation of y (m) over ten parts of that time
   double antinode;                    ///< place of that maximum (m)
   int mode;                           ///< number of the largest mode
-  double frequency;                   ///< of that mode (Hz), its velocity over its displacement
+  double frequency;                   ///< of that mode (Hz): rms velocity/(2π rms displacement)
   std::vector<double> times;          ///< s
   std::vector<double> displacements;  ///< recorded displacements (m)
 };
 
-/// Rejects a setting outside the ranges stated at its members, and a measured power whose shedding
-/// is not within half a mode's distance of a mode.
+/// Rejects a setting outside the ranges stated at its members. With a WindPowerLaw it also rejects
+/// a shedding frequency more than half a mode's distance below mode 1 or above mode N.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const WindHistorySetting& setting) {
   validate(setting.string);
@@ -96,10 +96,10 @@ inline void validate(const WindHistorySetting& setting) {
                  setting.string.angular_frequency(setting.modes + 0.5));
 }
 
-/// ζ of each mode by the devices at both ends, Σ artanh(S)/(nπ) with S of `end_response` at the
-/// mode's frequency: the decay of waves that run up and down the span. The energy balance's
-/// ½ Z_c ω² y² S is the same to the first order of S; S/(nπ) takes y for the antinode next to the
-/// device, artanh(S)/(nπ) for the root mean square over the span, which is what a mode has.
+/// The damping ratio ζ = Σ artanh(S)/(nπ) of each mode by the devices at both ends, with S of
+/// `end_response` at the mode's frequency: the decay of waves that run to and fro along the span.
+/// The energy balance's power ½ Z_c ω² y² S gives S/(nπ), which agrees to first order in S. There y
+/// is the amplitude at the antinode next to the device; here y is √2 times the rms over the span.
 ///
 /// Outside the table of a measured impedance the devices are assumed to absorb nothing.
 /// @param string       tension and mass
@@ -195,7 +195,7 @@ class WindRun {
     return shapes;
   }
 
-  /// Sets the damping that does not depend on the amplitude, with self-damping at one diameter.
+  /// Sets the damping that does not depend on the amplitude, and the self-damping at y = d.
   void set_damping() {
     const std::vector<double> omega(motion_.frequencies().begin(), motion_.frequencies().end());
     const std::vector<double> devices = device_damping(setting_.string, setting_.devices, omega);
@@ -217,7 +217,7 @@ class WindRun {
     }
   }
 
-  /// Sets the mode nearest to the shedding to its initial amplitude, the others to 10⁻⁴ d.
+  /// Sets all modes to random η of about 10⁻⁴ d, and adds the initial amplitude to mode `nearest_`.
   void set_start() {
     const double shedding = 2.0 * pi<double> * setting_.shedding_frequency();
     (motion_.frequencies() - Scalar(shedding)).abs().minCoeff(&nearest_);
@@ -238,7 +238,7 @@ class WindRun {
     return ratios;
   }
 
-  /// The damping ratio ζ by which measured power feeds its mode, f³ d⁴ F(y/d)/(½ μ ω³ y²).
+  /// The decrease of ζ that stands for the measured power, f³ d⁴ F(y/d)/(½ μ ω³ y²), at most 0.05.
   Scalar fed(double amplitude) const {
     const auto omega = static_cast<double>(motion_.frequencies()[nearest_]);
     const WindPowerLaw law =
@@ -251,7 +251,7 @@ class WindRun {
     return Scalar(std::min(given / damped_power(mass_, 1.0, omega, amplitude), 0.05));
   }
 
-  /// The modal force ∫ f sin(nπx/L) dx over the modal mass (m/s²), for the step from t.
+  /// The modal force ∫ f sin(nπx/L) dx over the modal mass (m/s²), for the step from `time` (s).
   const Column& force(double time) {
     if (!wakes_law_) {
       if (force_.size() == 0) force_ = Column::Zero(setting_.modes);
@@ -278,27 +278,26 @@ class WindRun {
 
 }  // namespace detail
 
-/// The motion of a span in a wind, by steps of its modes and of the wakes at stations
-/// along it: a second route to the amplitude of aeolian vibration, beside
-/// `balanced_amplitude`.
-/// With a WakeOscillatorLaw each station has a wake of its own, and the wind and the motion there
-/// are all that it knows: which modes move, and how far, is left to them. With a WindPowerLaw the
-/// mode nearest to the shedding is given the power that was measured, in phase with its velocity,
-/// as a negative damping that depends on its amplitude; the others are left to their damping. That
-/// run ends where the energy balance of the same laws does, which is what it is for. Below the
-/// law's smallest amplitude its power goes with y, above the largest there is none; turbulence
-/// lowers it by `turbulent_share`.
+/// The motion of a span in the wind, by time steps of its modes and of the wakes at stations along
+/// it. It gives the amplitude of aeolian vibration without an energy balance
+/// (`balanced_amplitude`).
+/// With a WakeOscillatorLaw each station has its own wake, driven by the wind and the motion there;
+/// the modes that vibrate and their amplitudes follow from the simulation. With a WindPowerLaw only
+/// the mode nearest to the shedding frequency gets power, as a negative damping that depends on its
+/// amplitude; all others decay. This run tends to the amplitude of the energy balance and serves to
+/// check it. Below the law's smallest amplitude the power is proportional to y; above its largest
+/// it is zero. Turbulence multiplies the power by `turbulent_share`.
 ///
-/// Damping of a mode: the string's ζ, the devices' (`device_damping`), the stall of the wakes at
-/// the mean speed, and self-damping as P_self(Y)/(½ m ω³ Y²), four times a cycle anew. Y² is the
-/// sum of the squared amplitudes of all modes: that of a mode alone is the law as measured; of
-/// several at once the strands slip for all of them, and a mode that barely moves is damped by the
-/// slip of those that do.
+/// The damping of a mode is the sum of the string's ζ, that of the devices (`device_damping`), the
+/// stall of the wakes at the mean speed, and self-damping P_self(Y)/(½ m ω³ Y²), which is renewed
+/// four times a cycle. Y² is the sum of the squared amplitudes of all modes. For a single mode this
+/// is the measured law. With several modes the strands slip under all of them, so that the slip
+/// caused by large modes damps small ones too.
 ///
-/// Step: 1/40 of a cycle of shedding. Modes go exactly under a force that is held over a step,
-/// wakes under a velocity held over theirs, which lies half a step beside: of second order, and
-/// stable for modes however fast. Halving it changes amplitudes by less than 1 % (tests/span).
-/// Cost: two products of N by M a step.
+/// Step: by default 1/40 of a cycle of shedding. A step of the modes is exact for a constant force.
+/// A step of the wakes, half a step apart, takes the velocity as constant. The method is of second
+/// order, and stable for modes of any frequency. Halving the step changes amplitudes by less than
+/// 1 % (tests/span). Cost: two products of an N by M matrix per step.
 ///
 /// Not included are buffeting by the fluctuations themselves, interaction of wakes along the span,
 /// inclined wind, and the sag.

@@ -29,7 +29,8 @@ struct WindPowerLaw {
     return x * sum;
   }
 
-  /// The power P_wind (W/m); an amplitude at an end of the fit up to round-off counts as that end.
+  /// The power P_wind (W/m) at f (Hz), d (m) and y (m); NaN for y/d outside the range of the fit,
+  /// the ends of which include round-off.
   double power(double frequency, double diameter, double amplitude) const {
     double x = amplitude / diameter;
     for (const double end : {lowest, highest})
@@ -38,9 +39,9 @@ struct WindPowerLaw {
   }
 };
 
-/// Two measured laws, which differ by a factor: rigid cylinders in laminar flow (Diana & Falco,
-/// Meccanica 6 (1971)), and one in a turbulence below 0.5 % whose ends were free (Brika &
-/// Laneville, J. Fluid Mech. 250 (1993)), as fits of the printed curves.
+/// Two laws fitted to printed curves of measurements; their powers differ by a factor of 1.5 … 2.1.
+/// Rigid cylinders in laminar flow: Diana & Falco, Meccanica 6 (1971). A cylinder with free ends in
+/// a turbulence below 0.5 %: Brika & Laneville, J. Fluid Mech. 250 (1993).
 inline constexpr std::array<WindPowerLaw, 2> wind_power_laws = {
     WindPowerLaw{
         "diana_falco",

@@ -17,18 +17,17 @@ namespace holdfast {
 
 namespace detail {
 
-/// A place on a curve of root pairs: its parameter with the gains.
+/// A point of a curve of root pairs: the curve's parameter there and the gains.
 template <class Scalar>
 struct CurvePlace {
   Scalar parameter;
   PdGains<Scalar> gains;  // not finite at a pole
 };
 
-/// The tracer of a curve of root pairs within a range of P, with points as dense as a plot needs.
+/// A tracer of a curve of root pairs in a range of P, with points as dense as a plot needs.
 ///
-/// A piece of the curve is halved until its quarter points lie on the chord to 1/1000 (of the range
-/// in P, of the gain itself in D, since a plot's range of D is unknown here) and the chord spans at
-/// most 1/50 of the range; a piece that leaves the range is halved at the edge.
+/// A piece of the curve is halved until its chord spans at most 1/50 of the range and its quarter
+/// points are within 1/1000 of the chord (`distance`). Pieces outside are left out.
 /// @tparam Curve  `BoundaryCurves` or `CircleBoundary`: `gains`, `between` and `angle` as functions
 ///                of a parameter, and `pair_kind`
 template <class Scalar, class Curve>
@@ -44,7 +43,7 @@ class CurveTracer {
 
   Place at(const Scalar& parameter) const { return {parameter, curve_.gains(parameter)}; }
 
-  /// Appends the points of the pieces between neighbouring places, which ascend.
+  /// Appends the points of the curve from the first to the last of `places`, which ascend.
   void trace(const std::vector<Place>& places, Points& points) const {
     for (std::size_t k = 0; k + 1 < places.size(); ++k) {
       append(places[k], points);
@@ -54,7 +53,7 @@ class CurveTracer {
   }
 
  private:
-  /// Whether a place is in the range of P; round-off must not exclude the end of the range.
+  /// Whether P of a place is in the range, with a slack of 10⁻¹² of its width for round-off.
   bool in_range(const Place& place) const {
     const Scalar slack = Scalar(1e-12) * width();
     return place.gains.proportional >= Scalar(range_.lower) - slack &&
@@ -85,7 +84,8 @@ class CurveTracer {
 
   Scalar width() const { return Scalar(range_.upper) - Scalar(range_.lower); }
 
-  /// The distance of a point from the chord, P in units of the range and D in units of its size.
+  /// The distance of a point from the chord from `start` to `end`: P in units of the range, D in
+  /// units of |D| at `start` plus |D| at `end`, since a plot's range of D is unknown here.
   Scalar distance(const PdGains<Scalar>& point, const PdGains<Scalar>& start,
                   const PdGains<Scalar>& end) const {
     const Scalar size = std::abs(start.differential) + std::abs(end.differential);
@@ -100,7 +100,7 @@ class CurveTracer {
     return std::abs(p(end) * d(point) - d(end) * p(point)) / length;
   }
 
-  /// Appends a place unless its angle repeats that before, as at a pole almost cancelled by a zero.
+  /// Appends a place that is in the range, finite, and at a larger angle than the last point.
   void append(const Place& place, Points& points) const {
     if (!std::isfinite(place.gains.differential) || !in_range(place)) return;
     const Scalar angle = curve_.angle(place.parameter);
@@ -116,10 +116,10 @@ class CurveTracer {
   int deepest_;
 };
 
-/// The places where the curve is cut: at the edges of the range, at its poles and where P or D is
-/// stationary. So both gains are monotone between cuts and no branch is missed. At a pole the curve
-/// leaves the range at one end and returns at the other. Y begins at 10⁻¹² of the square of the
-/// plant's mean root and ends at 10¹² of it, or for the sampled loop at θ = π − 2·10⁻⁶.
+/// The places at which the curve is cut: the ends of the range of P, the poles, and where P or D is
+/// stationary. Between neighbouring places both gains are monotone, so that no branch is missed.
+/// The first place is at Y = 10⁻¹², Y as in `RootPairCurve`. The last place is at Y = 10¹², or for
+/// the sampled loop at θ = π − 2·10⁻⁶.
 template <class Scalar, int Degree>
 std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>& curves,
                                            const Interval<double>& range) {
@@ -150,9 +150,9 @@ std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>&
 
 }  // namespace detail
 
-/// The whole boundary of stability over a range of P: first the lines (their two ends), then the
-/// curve of root pairs (ascending angle), with points as dense as its curvature requires, and
-/// exactly at the ends of the range.
+/// Points of the boundary of stability over a range of P: first the two ends of each line, then the
+/// curve of root pairs by ascending angle. The points of the curve are as dense as its curvature
+/// requires. Those at the ends of the range are exact.
 ///
 /// Sampled loop (degree 5): λ = +1, λ = −1 and λ = e^{±iθ}. Continuous loop (degree 4): s = 0 and s
 /// = ±iω. A line is absent where no gain moves the root; λ = +1 and s = 0 are absent for the

@@ -21,9 +21,9 @@ template <class Scalar>
 struct BoundaryLine {
   BoundaryCurve curve;  ///< `plus_one`, `minus_one` or `zero`
   Scalar angle;         ///< θ = 0 or π (rad); ω = 0 (rad/s) for the continuous loop
-  Scalar constant;      ///< polynomial without control at the root
-  Scalar proportional;  ///< change of it per N/m of P; 0 where P does not move the root
-  Scalar differential;  ///< change of it per N s/m of D; 0 where D does not move the root
+  Scalar constant;      ///< value of the polynomial at the root without control
+  Scalar proportional;  ///< change of this value per N/m of P; 0 where P does not move the root
+  Scalar differential;  ///< change of this value per N s/m of D; 0 where D does not move the root
 
   /// Whether the line is P = const: D does not move the root.
   bool is_vertical() const { return differential == Scalar(0); }
@@ -65,8 +65,8 @@ void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<
 /// curve of root pairs, parametrised by Y (`RootPairCurve`), and at most two lines.
 ///
 /// The sampled loop (degree 5) is treated in w, λ = (1 + w)/(1 − w), with Y = tan²(θ/2), the
-/// continuous loop (degree 4) in s with Y = ω², both up to the unit of Y. A line whose root no gain
-/// moves is left out.
+/// continuous loop (degree 4) in s with Y = ω². Y is in units of `RootPairCurve::unit()` squared. A
+/// line is left out where no gain moves its root.
 template <class Scalar, int Degree>
 class BoundaryCurves {
  public:
@@ -87,18 +87,18 @@ class BoundaryCurves {
 
   /// The curve of root pairs, parametrised by Y.
   const RootPairCurve<Scalar>& pairs() const { return pairs_; }
-  /// Boundary lines that a gain moves, λ = +1 (s = 0) before λ = −1: none, one or two.
+  /// The lines of the boundary, λ = +1 (s = 0) before λ = −1: none, one or two.
   const std::vector<BoundaryLine<Scalar>>& lines() const { return lines_; }
 
-  /// The kind of points of `pairs()`: `complex_pair`, or `imaginary_pair` in the continuous loop.
+  /// The kind of pair on `pairs()`: `complex_pair`, or `imaginary_pair` in the continuous loop.
   BoundaryCurve pair_kind() const {
     return sampled ? BoundaryCurve::complex_pair : BoundaryCurve::imaginary_pair;
   }
 
-  /// The gains with the root pair of Y; infinite at a pole.
+  /// The gains at which the loop has the root pair of Y; infinite at a pole of the curve.
   PdGains<Scalar> gains(const Scalar& square) const { return pairs_.gains(square); }
 
-  /// The mean of two Y, in ln Y.
+  /// The geometric mean of two Y.
   static Scalar between(const Scalar& lower, const Scalar& upper) {
     return std::sqrt(lower) * std::sqrt(upper);
   }
@@ -110,7 +110,7 @@ class BoundaryCurves {
   }
 
  private:
-  /// A number whose double bounds the moduli of all roots without control (Fujiwara).
+  /// Half of Fujiwara's bound on the moduli of all roots without control.
   static Scalar root_bound(const Polynomial<Scalar, Degree>& base) {
     Scalar largest(0);
     for (int k = 0; k < Degree; ++k) {
@@ -120,9 +120,9 @@ class BoundaryCurves {
     return largest;
   }
 
-  /// Adds the line on which the polynomial vanishes at x. A gain does not move the root if its
-  /// coefficient there is round-off: below 1e−13 of the largest at s = 0, s in units of the fastest
-  /// root; below 1e−9 at λ = ±1, since the matrix exponential is less exact.
+  /// Adds the line on which the polynomial vanishes at x. A gain does not move the root if its part
+  /// of the polynomial is round-off at x: at s = 0 below 1e−13 of its largest term, s in units of
+  /// the fastest root; at λ = ±1 below 1e−9, the error of the matrix exponential.
   void add_line(const AffinePolynomial<Scalar, Degree>& polynomial, BoundaryCurve curve,
                 const Scalar& angle, const Scalar& x) {
     const Scalar unit = sampled ? Scalar(1) : root_bound(polynomial.base);

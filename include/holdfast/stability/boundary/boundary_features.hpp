@@ -29,8 +29,8 @@ struct DoubleNeimarkSacker {
 
 namespace detail {
 
-/// The rows of the two 3 × 3 matrices that map (1, P, D) to the coefficients of Y⁰, Y¹, Y² of the
-/// even and the odd part. Rows and columns are scaled to similar size; `column` undoes the latter.
+/// The 3 × 3 matrices that map (1, P, D) to the coefficients of Y⁰, Y¹, Y² of the even and odd
+/// part. Rows and columns are scaled to similar size; `column` has the factors of the columns.
 template <class Scalar>
 struct ParityPencil {
   Matrix<Scalar, 3> even, odd;
@@ -69,7 +69,7 @@ struct ParityPencil {
     return {-mixed(0), mixed(1) + mixed(2) + mixed(4), -mixed(3) - mixed(5) - mixed(6), mixed(7)};
   }
 
-  /// The gains with odd = ν even; not finite where there are none.
+  /// The gains at which the odd part is ν times the even part; not finite where there are none.
   PdGains<Scalar> gains(const Scalar& ratio) const {
     const Matrix<Scalar, 3> matrix = at(ratio);
     Vector<Scalar, 3> null = Vector<Scalar, 3>::Zero();
@@ -85,9 +85,9 @@ struct ParityPencil {
   }
 };
 
-/// The two roots in Y of the larger part of the polynomial; nothing unless they are positive and
-/// differ by more than 1e−5 of Y (else they form a cusp). If a first or last coefficient is
-/// round-off, one root is 0 or ∞: then the point is an `end`, or no pair at all.
+/// The gains with the two roots Y of the even or odd part (that with larger coefficients). Nothing
+/// unless the roots are positive, finite and differ by more than 1e−5 of their sum. Closer roots
+/// form a cusp; a root 0 or ∞, where a coefficient is round-off, is at an `end` or in no pair.
 template <class Scalar>
 std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scalar>& curve,
                                                         const PdGains<Scalar>& gains) {
@@ -125,8 +125,8 @@ std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scal
 ///
 ///     (ν E − O) (1, P, D)ᵀ = 0,   det(ν E − O) = 0
 ///
-/// a cubic in ν, so that none is missed. Where the curve as a whole is traced twice (no damping: D
-/// = 0 twice, once for each pair) its points are not isolated, and the result is empty.
+/// It has degree 3 in ν, so that no point is missed. Without damping the curve is D = 0, traced
+/// once for each pair: then its double points are not isolated, and the result is empty.
 template <class Scalar>
 std::vector<DoubleNeimarkSacker<Scalar>> double_neimark_sacker_points(
     const RootPairCurve<Scalar>& curve) {
@@ -180,7 +180,7 @@ class FeatureFinder {
     add(kind, pair, pair, gains);
   }
 
-  /// Marks vertical and horizontal tangents at nearly the same angle as near cusps.
+  /// Marks a vertical and a horizontal tangent whose angles differ by at most 1/1000 as near cusps.
   void mark_near_cusps() {
     constexpr double near = 1e-3;
     const auto is_near = [](const BoundaryFeature<Scalar>& one,
@@ -197,8 +197,8 @@ class FeatureFinder {
     }
   }
 
-  /// Adds tangents; stationary points that coincide to 1e−9 of Y are one cusp, each a simple root.
-  /// Without damping one gain is zero on the whole curve and each extreme of the other is a cusp.
+  /// Adds tangents and cusps. A cusp has P and D stationary at the same Y (to 1e−9 of it). Without
+  /// damping one gain is zero on the whole curve, and each extreme of the other is a cusp.
   void add_tangents() {
     const std::vector<Scalar> vertical = pairs_.proportional_extremes();
     std::vector<Scalar> horizontal = pairs_.differential_extremes();
@@ -217,8 +217,8 @@ class FeatureFinder {
     }
   }
 
-  /// Adds the meetings with a line c + P p + D d = 0, where c Δ + p n_P + d n_D = 0. The curve
-  /// begins (Y = 0) or ends (Y = ∞) on the line, so that the outermost coefficient is zero.
+  /// Adds the points common to the curve of pairs and a line c + P p + D d = 0: c Δ + p n_P + d n_D
+  /// = 0. The curve begins (Y = 0) or ends (Y = ∞) on the line, so that one outer coefficient is 0.
   void add_meetings(const BoundaryLine<Scalar>& line) {
     const bool at_infinity = line.curve == BoundaryCurve::minus_one;
     Polynomial<Scalar, 4> on_line = line.constant * pairs_.denominator() +
@@ -239,8 +239,8 @@ class FeatureFinder {
         end);
   }
 
-  /// A root improved by Newton's method on the line's value on the curve, which does not cancel
-  /// like the sum above where they almost coincide; the slope is a difference, as long as it helps.
+  /// A root Y refined by up to three Newton steps on c + P(Y) p + D(Y) d, which loses fewer digits
+  /// than the polynomial where line and curve almost coincide. The slope is a difference quotient.
   Scalar polished(const BoundaryLine<Scalar>& line, Scalar square) const {
     const auto value = [&](const Scalar& y2) {
       const PdGains<Scalar> gains = pairs_.gains(y2);
@@ -295,9 +295,9 @@ class FeatureFinder {
 
 /// The special points of the boundary in a window of gains: tangents, cusps, crossings, ends.
 ///
-/// All are roots of polynomials of degree at most six, so that none is missed: stationary P and D
-/// from n′ Δ = n Δ′, crossings of the curve of pairs with a line from a polynomial of degree four
-/// in Y, with itself from a cubic (`double_neimark_sacker_points`).
+/// All are roots of polynomials of degree at most six, so that none is missed. A gain n/Δ is
+/// stationary where n′ Δ = n Δ′. The curve of pairs crosses a line at roots of a polynomial of
+/// degree four in Y, and itself at those of a cubic (`double_neimark_sacker_points`).
 /// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
 /// @param window      window of P (N/m) and D (N s/m), its edges included
 /// @throws InvalidParameter unless the window's ranges are finite and not empty

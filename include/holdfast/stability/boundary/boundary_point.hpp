@@ -6,7 +6,7 @@
 
 namespace holdfast {
 
-/// The place where a characteristic root crosses as the gains cross a boundary curve.
+/// The kind of a boundary curve, by the value of the characteristic root that crosses there.
 enum class BoundaryCurve {
   plus_one,  ///< sampled loop: real root λ = +1 (divergence)
   minus_one,  ///< sampled loop: real root λ = −1 (flip: the force alternates from sample to sample)
@@ -23,13 +23,13 @@ enum class FreeGain {
 
 namespace detail {
 
-/// The value of the free gain of a pair.
+/// The free one of two gains.
 template <class Scalar>
 const Scalar& gain_of(const PdGains<Scalar>& gains, FreeGain free) {
   return free == FreeGain::differential ? gains.differential : gains.proportional;
 }
 
-/// The gains with a new value of the free one.
+/// The gains with the free one replaced by a given value.
 template <class Scalar>
 PdGains<Scalar> with_gain(PdGains<Scalar> gains, FreeGain free, const Scalar& value) {
   (free == FreeGain::differential ? gains.differential : gains.proportional) = value;
@@ -49,7 +49,7 @@ void require_held(const PdGains<Scalar>& gains, FreeGain free) {
 /// One point of the boundary in the gain plane.
 template <class Scalar>
 struct BoundaryPoint {
-  BoundaryCurve curve;  ///< which root crosses
+  BoundaryCurve curve;  ///< root or pair that crosses here
   Scalar angle;  ///< θ (rad) of the sampled loop's root, 0 … π; ω (rad/s) for the continuous loop
   PdGains<Scalar> gains;  ///< P (N/m), finite; D (N s/m), ∓∞ at the ends of a vertical line
 };
@@ -63,7 +63,7 @@ inline void validate_proportional(const Interval<double>& range) {
 /// A rectangle of the gain plane, its edges included.
 struct GainWindow {
   Interval<double> proportional;  ///< P (N/m), finite, lower < upper
-  Interval<double> differential;  ///< D (N s/m), likewise
+  Interval<double> differential;  ///< D (N s/m), finite, lower < upper
 
   /// The extent in P (N/m).
   double width() const { return proportional.upper - proportional.lower; }
@@ -73,7 +73,7 @@ struct GainWindow {
   /// The area in the plane of P and D (N²s/m²).
   double area() const { return width() * height(); }
 
-  /// Whether gains lie in the window or on its edges, with 10⁻¹² of the size for round-off.
+  /// Whether gains lie in the window or on its edges; round-off of 10⁻¹² of its size is allowed.
   template <class Scalar>
   bool contains(const PdGains<Scalar>& gains) const {
     const Scalar p_slack(1e-12 * width()), d_slack(1e-12 * height());
@@ -96,25 +96,25 @@ enum class BoundaryFeatureKind {
   vertical_tangent,    ///< dP/dθ = 0: a stable interval of D opens or closes here
   horizontal_tangent,  ///< dD/dθ = 0: a stable interval of P opens or closes here
   cusp,                ///< dP/dθ = dD/dθ = 0: a double pair, the curve turns back on itself
-  crossing,            ///< two curves, or the curve of pairs with itself
+  crossing,            ///< crossing of two curves, or of the curve of pairs with itself
   end,                 ///< the curve of pairs ends on a line: a double root λ = ±1 (s = 0)
 };
 
 /// A root, or a pair of roots, on the boundary of stability.
 template <class Scalar>
 struct BoundaryRoot {
-  BoundaryCurve curve;  ///< curve that it lies on
+  BoundaryCurve curve;  ///< curve on which the root crosses
   Scalar angle;         ///< θ (rad) 0 … π, or ω (rad/s) for the continuous loop
 };
 
 /// One special point of the boundary. Its two roots differ at crossings and ends only.
 template <class Scalar>
 struct BoundaryFeature {
-  BoundaryFeatureKind kind;     ///< determines the kind of the two roots
-  BoundaryRoot<Scalar> first;   ///< the pair, of two pairs the slower one; of two lines λ = +1
-  BoundaryRoot<Scalar> second;  ///< the line, or the faster pair; of two lines λ = −1
+  BoundaryFeatureKind kind;    ///< kind of the point and so of its two roots
+  BoundaryRoot<Scalar> first;  ///< root pair; the slower of two pairs; λ = +1 (s = 0) of two lines
+  BoundaryRoot<Scalar> second;  ///< root of the line; the faster of two pairs; λ = −1 of two lines
   PdGains<Scalar> gains;        ///< P (N/m) and D (N s/m), finite
-  Scalar residual;  ///< larger |p(x)| of the two roots, over the sum of the moduli of its terms
+  Scalar residual;  ///< larger |p|/Σ|terms| at the two roots, p the characteristic polynomial
   /// Whether a tangent of the other kind is so near that the two almost form a cusp: a small change
   /// of the loop swaps them, and stable intervals appear or vanish.
   bool nearly_cusp = false;

@@ -27,7 +27,7 @@ struct GainCrossing {
 
 namespace detail {
 
-/// The free gain x(θ) = (1 − y G_held)/G_free on the circle; it is a real gain where Im x(θ) = 0.
+/// The value x(θ) = (1 − y G_held)/G_free of the free gain that gives a root e^{iθ}; y: fixed gain.
 template <class Scalar>
 class FreeGainOnCircle {
  public:
@@ -64,8 +64,8 @@ class FreeGainOnCircle {
   PdGains<Scalar> gains_;
 };
 
-/// The angles θ > 0 of the eigenvalues e^{iθ} of a pencil, det(M − λ L) = 0, including those within
-/// 10⁻⁴ of the circle in the variable w of λ = (w + a)/(1 + a w).
+/// The angles θ > 0 of the eigenvalues on the unit circle of a pencil, det(M − λ L) = 0.
+/// Eigenvalues within 10⁻⁴ of the circle in the variable w of λ = (w + a)/(1 + a w) are included.
 ///
 /// The change of variable preserves the circle and turns the pencil into the matrix (L − a M)⁻¹(M −
 /// a L) with the eigenvalues w. Eigenvalues at 0 and ∞ move to −a and −1/a, where they do no harm,
@@ -85,7 +85,7 @@ std::vector<Scalar> angles_on_circle(const Matrix<Scalar, Eigen::Dynamic>& m,
   return angles;
 }
 
-/// The pencil M − λ L whose eigenvalues on the circle are the crossings.
+/// The pencil M − λ L whose eigenvalues on the unit circle are the crossings.
 /// @param s, b, h  map, command and reading of the loop, balanced; b and h in any unit
 template <class Scalar>
 std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossing_pencil(
@@ -112,16 +112,16 @@ std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossi
 /// All values of one gain, for a fixed value of the other, at which a loop of any order has a root
 /// on the unit circle; ascending.
 ///
-/// With the fixed gain in the loop, S = S₀ + s K_held, the free gain x has a root at λ where x g(λ)
-/// = 1, g = h (λI − S)⁻¹ s. On the circle x is real where g(λ) = g(1/λ). These λ are the
-/// eigenvalues of a pencil of size 2n + 1, n = N + k:
+/// Let S = S₀ + s K_held contain the fixed gain, and let the free gain x multiply the reading h.
+/// Then λ is a root if x g(λ) = 1, g = h (λI − S)⁻¹ s. On the circle x is real where g(λ) = g(1/λ).
+/// These λ are the eigenvalues of a pencil of size 2n + 1, n being the size of S:
 ///
 ///     λ y₁ = S y₁ + s w,   y₂ = λ (S y₂ + s w),   h (y₁ − y₂) = 0
 ///
-/// No crossing is passed over. Eigenvalues next to the circle are included, since round-off moves
-/// double ones off it by its square root, and refined on the circle; a spurious one only divides an
-/// interval. λ = ±1 are always among the solutions. Cost: the eigenvalues of one matrix, about 10
-/// (2n + 1)³ multiply-adds.
+/// No crossing is missed. Round-off moves a double eigenvalue off the circle by its square root; so
+/// eigenvalues next to the circle are included and refined on it. A spurious crossing does no harm:
+/// it only divides an interval. λ = ±1 are always solutions. Cost: the eigenvalues of one matrix,
+/// about 10 (2n + 1)³ multiply-adds.
 template <class Scalar>
 std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain free,
                                            const PdGains<Scalar>& gains) {
@@ -149,11 +149,11 @@ std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain 
   return crossings;
 }
 
-/// The open intervals of one gain, for a fixed value of the other, with a stable loop of any order.
+/// The open intervals of one gain, for a fixed value of the other, in which a loop is stable.
 ///
 /// Each gap between neighbouring crossings is decided by the eigenvalues of the map at its middle.
 /// Adjacent stable gaps are joined where the loop is stable at the point between them too.
-/// @param map    the loop
+/// @param map    the loop, of any order
 /// @param free   the gain that varies
 /// @param gains  the fixed gain; the value of the free one is not used
 /// @throws InvalidParameter where the fixed gain is not finite

@@ -11,15 +11,15 @@
 
 namespace holdfast {
 
-/// One end of an arc: Y with the numerator and the denominator of P there (at Y = 0 and ∞ their
-/// first coefficients that do not both vanish; at a pole the denominator is 0).
+/// One end of an arc: Y with the numerator and the denominator of P there. At Y = 0 (∞) these are
+/// the coefficients of the lowest (highest) power of Y at which not both vanish.
 template <class Scalar>
 struct ArcEnd {
   Scalar square;       ///< Y, 0 … ∞
   Scalar numerator;    ///< numerator of P; where P is finite at a pole, divided by |Y − pole|
-  Scalar denominator;  ///< denominator Δ, divided in the same way
+  Scalar denominator;  ///< denominator Δ, divided in the same way; otherwise 0 at a pole
 
-  /// A number whose sign gives the curve's side of a gain P, without division at a pole.
+  /// The residual n − P Δ at a given P (N/m); its sign changes along an arc that takes this P.
   Scalar residual(const Scalar& proportional_gain) const {
     return numerator - proportional_gain * denominator;
   }
@@ -45,11 +45,11 @@ struct MonotoneArc {
   }
 };
 
-/// The differential gain at which a line of constant P crosses the boundary.
+/// The D at which a line P = const crosses the boundary.
 template <class Scalar>
 struct RowCrossing {
   Scalar differential;  ///< D (N s/m)
-  Scalar uncertainty;   ///< D (N s/m) within which round-off leaves the crossing open
+  Scalar uncertainty;   ///< bound of the error of D by round-off (N s/m)
 };
 
 /// The gains at which the loop has a pair of roots w = ±iy on the imaginary axis, as rational
@@ -59,9 +59,9 @@ struct RowCrossing {
 ///
 ///     P(Y) = (b_o d_e − b_e d_o) / Δ,   D(Y) = (b_e p_o − b_o p_e) / Δ,   Δ(Y) = p_e d_o − p_o d_e
 ///
-/// Numerators and Δ are of degree ≤ 4 in Y, in units of `unit()` squared. Coefficients of the gains
-/// below round-off of the largest are set to zero (no gain moves the root there). In the sampled
-/// loop w = i tan(θ/2) is the pair λ = e^{±iθ}; in the continuous loop w = iω.
+/// Numerators and Δ are of degree ≤ 4 in Y, in units of `unit()` squared. Coefficients of p and d
+/// that are round-off beside the largest are set to zero. In the sampled loop w = i tan(θ/2) is the
+/// pair λ = e^{±iθ}; in the continuous loop w = iω.
 template <class Scalar>
 class RootPairCurve {
  public:
@@ -103,9 +103,9 @@ class RootPairCurve {
     Scalar square_per_gain;  ///< dY/dP
   };
 
-  /// The place where P on an arc has the given value (N/m), which must exist (`passes`), to
-  /// round-off: Newton's method on n − P Δ, n being the numerator of P. Where its steps do not
-  /// shrink or leave the arc, the rest of the arc is halved.
+  /// The place at which P on an arc has the given value (N/m), which must exist (`passes`).
+  /// Newton's method on n − P Δ, n being the numerator of P, finds it to round-off. Where its steps
+  /// leave the arc or do not shrink, the rest of the arc is halved.
   /// @param arc                arc of this curve
   /// @param proportional_gain  P (N/m)
   /// @param guess              initial Y; any number, NaN too
@@ -131,8 +131,8 @@ class RootPairCurve {
     return {square, at.denominator / at.slope};
   }
 
-  /// The Y on an arc at a given P, without a guess; the nearer end where the arc does not reach it.
-  /// Y = 0 and ∞ are replaced by values at which all powers of Y are finite.
+  /// The Y on an arc at a given P (N/m); the nearer end where the arc does not reach it. Y = 0 and
+  /// ∞ are replaced by values at which all powers of Y are finite.
   Scalar square(MonotoneArc<Scalar> arc, const Scalar& proportional_gain) const {
     const Scalar largest = std::pow(std::numeric_limits<Scalar>::max(), Scalar(0.125));
     arc.start.square = std::max(arc.start.square, Scalar(1) / largest);
@@ -168,13 +168,13 @@ class RootPairCurve {
   /// Even and odd part of the polynomial's change per N s/m of D.
   const ParityParts<Scalar>& differential() const { return differential_; }
 
-  /// One part of the polynomial at some gains, with the sum of the moduli of its terms as a measure
-  /// of round-off.
+  /// The coefficients of the even or odd part at some gains, with a measure of their round-off.
   struct Terms {
     Vector<Scalar, 3> sum,  ///< b + P p + D d
         size;               ///< |b| + |P p| + |D d|
   };
 
+  /// The coefficients of one part at given gains.
   /// @param part   `&ParityParts<Scalar>::even` or `odd`
   /// @param gains  P (N/m) and D (N s/m)
   Terms terms(Vector<Scalar, 3> ParityParts<Scalar>::*part, const PdGains<Scalar>& gains) const {
@@ -187,12 +187,12 @@ class RootPairCurve {
   /// The Y > 0 at which the curve goes to infinity, ascending.
   std::vector<Scalar> poles() const { return positive_roots(denominator_); }
 
-  /// The Y > 0 at which P is stationary (a vertical tangent with P horizontal), ascending.
+  /// The Y > 0 at which P is stationary, ascending: there the curve is parallel to the axis of D.
   std::vector<Scalar> proportional_extremes() const {
     return positive_roots(slope(reduced(proportional_numerator_, differential_)));
   }
 
-  /// The Y > 0 at which D is stationary, ascending.
+  /// The Y > 0 at which D is stationary, ascending: there the curve is parallel to the axis of P.
   std::vector<Scalar> differential_extremes() const {
     return positive_roots(slope(reduced(differential_numerator_, proportional_)));
   }
@@ -247,13 +247,13 @@ class RootPairCurve {
     return result;
   }
 
-  /// Im(ā c) / y for a(iy), c(iy): a_e c_o − a_o c_e, degree 4 in Y.
+  /// The polynomial Im(ā c)/y = a_e c_o − a_o c_e for a(iy) and c(iy), of degree 4 in Y.
   static Polynomial<Scalar, 4> cross(const ParityParts<Scalar>& a, const ParityParts<Scalar>& c) {
     return difference<5>(multiply<Scalar, 3, 3>(a.even, c.odd),
                          multiply<Scalar, 3, 3>(a.odd, c.even));
   }
 
-  /// The two ends of arcs at a cut.
+  /// A cut: the end of the arc below it and the beginning of the arc above it.
   struct Cut {
     ArcEnd<Scalar> below, above;
   };
@@ -262,8 +262,8 @@ class RootPairCurve {
     Polynomial<Scalar, 4> numerator, denominator;
   };
 
-  /// The fraction numerator / Δ without the poles at zeros of `factor`, common to both: d(iy) for
-  /// P, p(iy) for D. Without damping the velocity has zeros on the axis: there only D is infinite.
+  /// The fraction numerator / Δ with common zeros cancelled: the poles at which `factor` vanishes,
+  /// d(iy) for P or p(iy) for D. Without damping d has such zeros; there only D is infinite.
   Fraction reduced(const Polynomial<Scalar, 4>& numerator,
                    const ParityParts<Scalar>& factor) const {
     Fraction result{numerator, denominator_};
@@ -275,7 +275,7 @@ class RootPairCurve {
     return result;
   }
 
-  /// Whether the even and the odd part are both zero up to round-off.
+  /// Whether the even and the odd part are both zero at Y up to round-off.
   static bool vanishes(const ParityParts<Scalar>& factor, const Scalar& square) {
     const Scalar even = evaluate(factor.even, square), odd = evaluate(factor.odd, square);
     const Scalar size =
@@ -303,7 +303,7 @@ class RootPairCurve {
         .template head<7>();
   }
 
-  /// The end of an arc at Y = 0 (powers from 0 upwards) or ∞ (powers from 4 downwards).
+  /// The end of an arc at Y = 0 (powers `from` 0 to `last` 4 are tried) or ∞ (from 4 to 0).
   ArcEnd<Scalar> outer_end(const Scalar& square, int from, int last) const {
     int order = from;
     while (order != last && proportional_numerator_[order] == Scalar(0) &&

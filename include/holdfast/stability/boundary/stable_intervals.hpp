@@ -20,8 +20,8 @@ namespace holdfast {
 ///
 ///     a_e(Y) d_o(Y) − a_o(Y) d_e(Y) = 0,   x = −a_e / d_e = −a_o / d_o
 ///
-/// so that none is passed over. w is measured in mean root moduli; a slope below 1e−12 of the
-/// largest counts as zero, and its crossing is at infinity.
+/// so that none is missed. w is in units of the mean root modulus of a. Where d is below 1e−12 of
+/// its largest coefficient, x is at infinity and left out.
 template <class Scalar, int Size>
 std::vector<Scalar> boundary_crossings(const Vector<Scalar, Size>& constant_part,
                                        const Vector<Scalar, Size>& slope_part) {

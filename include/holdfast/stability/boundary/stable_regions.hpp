@@ -18,11 +18,11 @@
 
 namespace holdfast {
 
-/// A connected part of a window of gains, without boundary inside, in which the loop has a constant
+/// A connected part of a window of gains with no boundary in it, so that the loop has a constant
 /// number of unstable roots.
 template <class Scalar>
 struct GainRegion {
-  int unstable_roots;      ///< with |λ| > 1 (continuous loop: Re s > 0); 0: asymptotically stable
+  int unstable_roots;      ///< roots with |λ| > 1 (continuous: Re s > 0); 0: asymptotically stable
   Scalar area;             ///< ∬ dP dD within the window, N²s/m²
   PdGains<Scalar> inside;  ///< a point far from the region's edge
   Interval<Scalar> proportional;  ///< extent in P (N/m)
@@ -35,9 +35,9 @@ namespace detail {
 /// A part of the boundary on which D is a function of P: an arc or a line that is not vertical.
 template <class Scalar>
 struct BoundaryBranch {
-  const RootPairCurve<Scalar>* curve;  ///< of an arc; it must outlive the branch; null for a line
-  MonotoneArc<Scalar> arc;             ///< used with a curve
-  BoundaryLine<Scalar> line;           ///< used without a curve
+  const RootPairCurve<Scalar>* curve;  ///< curve of the arc, to outlive the branch; null for a line
+  MonotoneArc<Scalar> arc;             ///< the arc, unless `curve` is null
+  BoundaryLine<Scalar> line;           ///< the line, if `curve` is null
 
   /// Whether the branch has a D at P (N/m): an arc within its range, a line everywhere.
   bool passes(const Scalar& proportional_gain) const {
@@ -90,7 +90,7 @@ class RegionBuilder {
   /// The slabs, ascending in P, without gaps.
   const std::vector<GainSlab<Scalar>>& slabs() const { return slabs_; }
 
-  /// The regions: by number of unstable roots, stable ones first; the larger first among equals.
+  /// The regions: fewest unstable roots first; among equals the largest first.
   std::vector<GainRegion<Scalar>> regions() {
     std::vector<GainRegion<Scalar>> result;
     for (std::size_t k = 0; k < cells_.size(); ++k) {
@@ -143,7 +143,7 @@ class RegionBuilder {
               [](const Event& a, const Event& b) { return a.proportional < b.proportional; });
   }
 
-  /// Cuts the window into slabs; cuts closer than 1e−12 of the window are one.
+  /// Cuts the window into slabs; cuts closer together than 1e−12 of its width count as one.
   void cut() {
     find_events();
     const Scalar closest = Scalar(1e-12 * window_.width());
@@ -186,7 +186,7 @@ class RegionBuilder {
     Scalar largest;                // area of the cell that gave the point inside
   };
 
-  /// The D of the lower edge, the branches and the upper edge at P, ascending.
+  /// The D at P of the window's lower edge, of each branch and of the upper edge, ascending.
   Levels levels(const GainSlab<Scalar>& slab, const Scalar& proportional_gain) const {
     const Scalar top(window_.differential.upper);
     Levels result = {Scalar(window_.differential.lower)};
@@ -284,12 +284,12 @@ class RegionBuilder {
 ///
 /// Each slab is a range of P over which the boundary has a constant shape. In it the gap between
 /// two crossings D₁(P) < D₂(P) < … is a cell with a constant number of unstable roots, counted at
-/// its middle; its area is ∫ (D_{k+1} − D_k) dP. Cells of neighbouring slabs that touch without a
-/// boundary between them are one region. Areas are accurate to 1e−10 of the window's; a neck
-/// narrower than 1e−9 of the window's height does not connect.
+/// the cell's middle; its area is ∫ (D_{k+1} − D_k) dP. Cells of neighbouring slabs that touch
+/// without a boundary between them are one region. Areas are accurate to 1e−10 of the window's
+/// area. A neck narrower than 1e−9 of the window's height does not connect.
 /// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
 /// @param window      window of P (N/m) and D (N s/m), its edges included
-/// @return regions, stable ones first, larger ones first
+/// @return regions, fewest unstable roots first, among equals the largest first
 /// @throws InvalidParameter unless the window's ranges are finite and not empty
 template <class Scalar, int Degree>
 std::vector<GainRegion<Scalar>> gain_regions(const AffinePolynomial<Scalar, Degree>& polynomial,

@@ -27,19 +27,19 @@ struct GainPassage {
   int leaving;  ///< number of roots that leave the circle as the gain grows: ±2, or ±1 at λ = ±1
 };
 
-/// The response of a loop of any order on the unit circle, at angles so dense that G_z and G_v of
-/// `ModalResponse` are smooth between them: the step is a fraction of the distance to the nearest
-/// pole, and of the phase of a delay of many samples. It yields the gains at which roots cross the
-/// circle, and the number of roots outside for any gains:
+/// The response G_z, G_v (`ModalResponse`) of a loop of any order on the unit circle, at angles so
+/// dense that it is smooth between them. A step is at most 0.12 of the distance to the nearest
+/// pole, and turns the phase of the delay by at most 0.4 rad. The response gives the gains at which
+/// roots cross the circle. The winding of p gives the roots outside, n_plant being the plant's own:
 ///
 ///     p(λ) = 1 − P G_z(λ) − D G_v(λ),   n_out = n_plant − (1/π) [arg p(e^{iθ})] from 0 to π
 ///
-/// A free gain x has a crossing where X(θ) = (1 − y G_held)/G_free is real; the roots leave as x
-/// grows where Im X rises through zero, since dλ/dx = 1/X′(λ). Intervals that are stable by this
-/// count, or would be with two missed pairs, are counted again by the winding number (few
-/// intervals: all). Where both counts differ, the winding number alone decides every interval.
-/// Work: about 30 angles per pole once (`ModalResponse::Nearby`), then some 10 operations per angle
-/// and 10 values of G per crossing. No power of λ and no determinant is computed.
+/// A free gain x has a crossing where X(θ) = (1 − y G_held)/G_free is real, y being the fixed gain.
+/// As x grows, roots leave the circle where Im X rises through zero, since dλ/dx = 1/X′(λ). The
+/// number of roots outside, found by winding in one interval, follows for the others. It is checked
+/// by winding in every interval or, of more than twelve, where it is at most four. Where the counts
+/// differ, the winding number alone decides every interval. Work: about 30 angles per pole once,
+/// then some 10 operations per angle and 10 values of G per crossing.
 template <class Scalar>
 class UnitCircleCrossings {
  public:
@@ -78,14 +78,14 @@ class UnitCircleCrossings {
     }
   }
 
-  /// The response G_z, G_v that everything is computed from.
+  /// The response from which everything is computed.
   const ModalResponse<Scalar>& response() const { return response_; }
 
-  /// The angles at which the circle is resolved, ascending, with the response.
+  /// The angles at which the response is stored, ascending, with its values.
   const std::vector<Place>& places() const { return places_; }
 
   /// The number of roots of the loop outside the unit circle; −1 where round-off hides it: a root
-  /// is on the circle, or the gains are so large or not finite that p is noise.
+  /// is on the circle, or the gains are not finite or so large that p is noise.
   int roots_outside(const PdGains<Scalar>& gains) const {
     Turn turn{gains, static_cast<std::int64_t>(20 * places_.size())};
     std::vector<std::complex<Scalar>> p;
@@ -101,8 +101,8 @@ class UnitCircleCrossings {
     return response_.unstable_poles() - static_cast<int>(std::lround(half_turns));
   }
 
-  /// Approximate λ − 1 of the roots near the unit circle, by one Newton step from each minimum of
-  /// |p| on it, nearest root first; a substitute where `loop_roots` does not converge.
+  /// The values λ − 1 of roots near the unit circle, approximated by one Newton step from each
+  /// minimum of |p| on it; nearest root first. A substitute where `loop_roots` does not converge.
   std::vector<std::complex<Scalar>> roots_nearby(const PdGains<Scalar>& gains) const {
     std::vector<std::pair<Scalar, std::complex<Scalar>>> found;
     const auto size = [&](std::size_t i) { return std::abs(characteristic(places_[i].g, gains)); };
@@ -125,7 +125,7 @@ class UnitCircleCrossings {
     return roots;
   }
 
-  /// All crossings of one gain for a fixed value of the other; ascending.
+  /// All values of one gain, the other fixed, at which roots cross the circle; ascending.
   /// @param free   the gain that varies
   /// @param gains  the fixed gain; the value of the free one is not used
   std::vector<GainPassage<Scalar>> passages(FreeGain free, const PdGains<Scalar>& gains) const {
@@ -196,7 +196,8 @@ class UnitCircleCrossings {
     std::int64_t budget;  ///< values of G that may still be computed
     int crossings = 0;    ///< counterclockwise crossings minus clockwise ones
 
-    /// Accepts a step of p that turns by at most 45°, or whose chord is at a distance from 0.
+    /// Whether the chord from a to b gives the turn of p: the chord turns by at most 45° or keeps
+    /// more than `distance` from 0. If so, its crossing of the negative real axis is counted.
     bool takes(const std::complex<Scalar>& a, const std::complex<Scalar>& b,
                const Scalar& distance = std::numeric_limits<Scalar>::infinity()) {
       const Scalar along = a.real() * b.real() + a.imag() * b.imag();
@@ -210,7 +211,7 @@ class UnitCircleCrossings {
     }
   };
 
-  /// A bound of the distance of p from its chord between places i − 1 and i, by second differences.
+  /// The estimated distance of p from its chord between places i − 1 and i (second differences).
   Scalar bend_of(const std::vector<std::complex<Scalar>>& p, std::size_t i) const {
     if (i < 2 || i + 1 == p.size()) return std::numeric_limits<Scalar>::infinity();
     const Scalar step = places_[i].angle - places_[i - 1].angle;
@@ -222,8 +223,8 @@ class UnitCircleCrossings {
     return std::max(from(i - 1), from(i + 1));
   }
 
-  /// Adds the winding of p between two angles by halves, each of which bends by about a quarter as
-  /// much: its chord gives the turn unless it passes 0 within four times that.
+  /// Adds the winding of p between two angles, in halves. Each half departs from its chord by about
+  /// a quarter of `bend`, the whole's departure. A chord farther than `bend` from 0 gives the turn.
   void halve(Turn& turn, const std::pair<Scalar, std::complex<Scalar>>& from,
              const std::pair<Scalar, std::complex<Scalar>>& to) const {
     const Scalar middle = (from.first + to.first) / Scalar(2);
@@ -236,7 +237,7 @@ class UnitCircleCrossings {
     if (!turn.takes(between.second, to.second, bend)) halve(turn, between, to);
   }
 
-  /// Adds a root pair where Im X changes its sign.
+  /// Adds the crossing of a root pair between two angles at which Im X has opposite signs.
   void add_pair(const Line& line, const Scalar& lower, const Scalar& at_lower, const Scalar& upper,
                 const Scalar& at_upper, std::vector<GainPassage<Scalar>>& found) const {
     const auto zero = bracketing_root<Scalar>(
@@ -246,8 +247,8 @@ class UnitCircleCrossings {
          line, found);
   }
 
-  /// Adds a crossing unless its gain is round-off of a free gain without effect, like both gains at
-  /// λ = 1 of a drive between absorber and conductor.
+  /// Adds a crossing unless the gain hardly moves its root, so that the gain's value is round-off.
+  /// So it is for both gains at λ = 1 where the drive acts between absorber and conductor.
   void keep(const GainPassage<Scalar>& passage, const Line& line,
             std::vector<GainPassage<Scalar>>& found) const {
     const Scalar size = line.free == FreeGain::differential ? size_of_v_ : size_of_z_;
@@ -255,7 +256,7 @@ class UnitCircleCrossings {
   }
 
   /// Adds the crossing of a real root at λ = 1 or −1.
-  /// @param rising  sign of the slope of Im X there
+  /// @param rising  any number with the sign of the slope of Im X there
   void add_real_root(const Line& line, const Place& place, const Scalar& rising,
                      std::vector<GainPassage<Scalar>>& found) const {
     const Scalar end = place.angle < Scalar(1) ? Scalar(0) : pi<Scalar>;
@@ -265,9 +266,9 @@ class UnitCircleCrossings {
          found);
   }
 
-  /// Adds two crossings within one step, where Im X almost touches zero; the search starts where
-  /// its modulus is least among three neighbours.
-  /// @param at  value of place i, between those of its neighbours
+  /// Adds two crossings between neighbouring angles, where Im X passes zero and returns. They are
+  /// sought where |Im X| is least at the middle one of three places.
+  /// @param at  pointer to Im X at place i, in the array of Im X at all places
   void add_close_pairs(const Line& line, std::size_t i, const Scalar* at,
                        std::vector<GainPassage<Scalar>>& found) const {
     const Scalar before = at[-1], here = at[0], after = at[1];
@@ -299,7 +300,7 @@ class UnitCircleCrossings {
     }
   }
 
-  /// The gaps between crossings without a root outside; undecided gaps are left out.
+  /// The gaps between crossings in which no root is outside; undecided gaps are left out.
   template <class Outside>
   static std::vector<Interval<Scalar>> without_roots_outside(
       const std::vector<GainPassage<Scalar>>& found, const Outside& outside) {
@@ -339,8 +340,8 @@ class UnitCircleCrossings {
   Scalar size_of_z_{0}, size_of_v_{0};  // max |G_z| and |G_v| over them
 };
 
-/// The excess ρ − 1, ρ being the largest modulus of the loop's roots: from `loop_roots`, or where
-/// these do not converge from the winding of p on circles of other radii, halved to ten digits.
+/// The excess ρ − 1, ρ being the largest modulus of the loop's roots: from `loop_roots` or, where
+/// these do not converge, to ten digits by bisection of ρ with the winding of p on circles.
 /// @param response  response of the plant by its poles
 /// @param gains     gains P and D
 /// @return NaN where the response has no sum over poles

@@ -15,7 +15,7 @@
 
 namespace holdfast {
 
-/// A rectangle of gains: P slowest, D fastest.
+/// A rectangular grid of gains; its cells are in the order P slowest, D fastest.
 struct GainGrid {
   Axis proportional;  ///< P (N/m)
   Axis differential;  ///< D (N s/m)
@@ -36,8 +36,8 @@ struct GainGrid {
   }
 };
 
-/// Validates a grid. @throws InvalidParameter unless its gains are finite and ascend, at least one
-/// each, and at most 10¹⁵ together
+/// Validates a grid. @throws InvalidParameter unless both axes are finite, ascend and have at least
+/// one value, and the grid has at most 10¹⁵ cells
 inline void validate(const GainGrid& grid) {
   validate(grid.proportional, "proportional gain P", "N/m");
   validate(grid.differential, "differential gain D", "N s/m");
@@ -47,10 +47,10 @@ inline void validate(const GainGrid& grid) {
 /// The rows of a chart of stable gains, each for one value of P.
 ///
 /// Along a row stability changes only at the boundary; one Hurwitz test decides each gap. A cell
-/// within round-off of the boundary is not stable. On each arc of `RootPairCurve` that reaches P a
-/// Newton iteration starts from the previous row and needs one or two steps where rows are close.
-/// The lines w = 0 and w = ∞ are linear in D. For rows of constant D exchange the roles of P and D
-/// in the polynomial.
+/// within round-off of the boundary counts as not stable. On each arc of `RootPairCurve` that
+/// reaches P a Newton iteration starts from the previous row and needs one or two steps where rows
+/// are close. Roots w = 0 and w = ∞ give linear equations in D. For rows of constant D exchange the
+/// roles of P and D in the polynomial.
 ///
 /// Work per row: about 40 multiply-adds for each arc of the boundary and 60 for each gap,
 /// independent of the number of cells.
@@ -120,7 +120,7 @@ class StabilityRows {
     if (std::isfinite(crossing.differential)) crossings_.push_back(crossing);
   }
 
-  /// Adds the crossing of the line on which one coefficient vanishes, unless D does not move it.
+  /// Adds the crossing where coefficient k of the even or odd part vanishes, if it depends on D.
   void add_line(double proportional_gain, Part part, int k) {
     const double slope = (curve_.differential().*part)[k];
     if (slope == 0.0) return;

@@ -19,9 +19,9 @@ namespace holdfast {
 ///
 ///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ)
 ///
-/// of `EnclosedResponse` is known to first order in the angle with a bound of the remainder. It
-/// determines the arcs on which a loop with gains in a box may have a root, and counts the roots
-/// outside a circle without roots. Arcs are halved where needed and stored.
+/// of `EnclosedResponse` is known to first order in the angle with a bound of the remainder. The
+/// class finds the arcs on which a loop with gains in a box may have a root, and counts the roots
+/// outside a circle without roots. Arcs are halved where needed; the halves are stored.
 class CircleArcs {
  public:
   /// A list of arcs, by their numbers.
@@ -38,8 +38,8 @@ class CircleArcs {
   /// The undivided half circle as the only arc.
   Arcs all() const { return {0}; }
 
-  /// The arcs, among some or their parts, on which a loop of the box may have a root; on all others
-  /// no loop of the box has one. Arcs are divided as finely as the size of the box requires.
+  /// The parts of the given arcs on which a loop with gains in the box may have a root; on the rest
+  /// it is proved that none has one. Arcs are divided as finely as the size of the box requires.
   Arcs meeting(const GainBox& box, const Arcs& among) {
     const Gains gains(box);
     if (!gains.are_finite()) return among;
@@ -56,15 +56,15 @@ class CircleArcs {
 
   /// The proved number of roots of a loop outside the circle; nothing where one may lie on it.
   ///
-  /// On each arc, halved where necessary, the real or the imaginary part of q has a constant sign.
-  /// From one arc to the next, which share a point, that half-plane stays the same or turns by a
-  /// quarter. At both ends q is real, so that the quarters from 0 to π sum to half turns. With w of
-  /// these, q turns w times along the whole circle, and as F has as many poles as the plant,
+  /// On each arc, halved where necessary, the real or the imaginary part of q has a constant sign:
+  /// q is in a half-plane. At the next arc this half-plane is the same or turned by a quarter. At
+  /// the ends, 0 and π, q is real, so that the quarters sum to w half turns. Then q turns w times
+  /// along the whole circle. As F has the poles of the plant, n_plant of them outside,
   ///
   ///     n_out = n_plant + k − w
   ///
   /// @param gains       gains P and D, the exact values of those doubles
-  /// @param most_arcs   number of arcs beyond which it remains undecided
+  /// @param most_arcs   largest number of arcs; if more are needed the result is nothing
   std::optional<int> roots_outside(const PdGains<double>& gains, std::size_t most_arcs = 20000) {
     const auto own = response_.poles_outside(radius_);
     const Gains box(
@@ -94,8 +94,8 @@ class CircleArcs {
  private:
   using Complex = std::complex<double>;
 
-  /// The linear function value + slope t + r, −1 ≤ t ≤ 1, |r| ≤ rest + haze; on a shorter arc the
-  /// rest is smaller, the haze is the same.
+  /// A function of t, value + slope t + r, −1 ≤ t ≤ 1, with |r| ≤ rest + haze. On a shorter arc the
+  /// rest is smaller; the haze, from the uncertainty of the parameters, is the same.
   struct Line {
     Complex value, slope;
     double rest, haze;
@@ -150,8 +150,8 @@ class CircleArcs {
                   rest_ + haze_;
     }
 
-    /// Whether q ≠ 0 is proved: a line separates the set from 0. The lines tried are parallel to
-    /// the sides of the set without its remainder, and across its middle.
+    /// Whether q ≠ 0 is proved, by a line that separates the set from 0. The lines tried are
+    /// perpendicular to c, or parallel to a, F_z or F_v.
     bool avoids_zero() const {
       if (!std::isfinite(rounding_)) return false;
       return is_ahead(centre_) || is_ahead(across(along_)) || is_ahead(across(by_p_)) ||
@@ -196,8 +196,8 @@ class CircleArcs {
     double rest_, haze_, rounding_;
   };
 
-  /// The line in t from an expansion about λ₀ = r e^{iθ₀} on θ = θ₀ + h t: λ − λ₀ is λ₀ i h t plus
-  /// a remainder of at most r h²/2.
+  /// The `Line` of an expansion about λ₀ = r e^{iθ₀}, on θ = θ₀ + h t: λ − λ₀ is λ₀ i h t plus a
+  /// remainder of at most r h²/2.
   static Line line_of(const EnclosedExpansion& expansion, const ComplexEnclosure& centre,
                       const Enclosure& half_width) {
     const ComplexEnclosure slope = expansion.slope * centre.times_i() * half_width;
@@ -219,7 +219,7 @@ class CircleArcs {
             line_of(response.velocity, centre, half_width)};
   }
 
-  /// Appends the two halves of an arc to a list, the first one last.
+  /// Appends the two halves of an arc to a list, the second half before the first.
   /// @return whether the arc can be halved
   bool add_halves(std::size_t index, Arcs& list) {
     if (arcs_[index].first_half == 0) {

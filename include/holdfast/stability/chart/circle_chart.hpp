@@ -9,7 +9,7 @@
 
 namespace holdfast {
 
-/// A row of the stability chart of a loop of any order: 1 (stable) or 0 (not stable).
+/// Fills a row of the stability chart of a loop of any order: 1 (stable) or 0 (not stable).
 /// @param circle        response of the loop on the unit circle
 /// @param proportional  P (N/m) of the row
 /// @param differential  values of D (N s/m) along the row

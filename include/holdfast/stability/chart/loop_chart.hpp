@@ -39,7 +39,7 @@ constexpr bool is_gain(LoopParameter parameter) {
   return parameter >= LoopParameter::proportional_gain;
 }
 
-/// The value of a parameter of a loop.
+/// The value of a parameter of a loop, by reference.
 inline double& value_of(OperatingPoint& point, LoopParameter parameter) {
   auto& [plant, sampling, gains] = point;
   double* const all[] = {&plant.conductor_mass,     &plant.conductor_stiffness,
@@ -50,8 +50,8 @@ inline double& value_of(OperatingPoint& point, LoopParameter parameter) {
   return *all[static_cast<int>(parameter)];
 }
 
-/// Sets a parameter of a loop; with τ the processing delay δ changes in proportion, never beyond τ
-/// by rounding.
+/// Sets a parameter of a loop. A new τ changes the processing delay δ in proportion; rounding does
+/// not bring δ above τ.
 inline void set(OperatingPoint& point, LoopParameter parameter, double value) {
   if (parameter == LoopParameter::sampling_period) {
     const double fraction = point.sampling.processing_delay / point.sampling.period;
@@ -130,8 +130,8 @@ AffineLine<Degree> along(LoopParameter gain,
 }
 
 /// The characteristic polynomials of the cells of a chart, with as few matrix exponentials as the
-/// axes allow: one in all where both axes are gains; one per row or per column where one of them
-/// is; one per cell where none is.
+/// axes allow: one in all where both axes are gains; one per row or column where one axis is a
+/// gain; one per cell where neither is.
 template <int Degree, PolynomialVariable Variable>
 class ChartPolynomials {
  public:
@@ -140,11 +140,11 @@ class ChartPolynomials {
   /// The function that computes the characteristic polynomial of a loop.
   using PolynomialOf = Affine (*)(const OperatingPoint&);
 
-  /// The polynomials along a row, coefficient by coefficient: columns × (Degree + 1).
+  /// The polynomials of a row: columns × (Degree + 1), constant coefficients first.
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Degree + 1>;
 
   /// @param chart          the chart, which is copied
-  /// @param polynomial_of  function of `StabilityChartRows` or `RadiusChartRows`
+  /// @param polynomial_of  `polynomial_of` of `StabilityChartRows` or `RadiusChartRows`
   /// @throws InvalidParameter where the chart is not admissible
   ChartPolynomials(const LoopChart& chart, PolynomialOf polynomial_of)
       : chart_(chart), polynomial_of_(polynomial_of) {
@@ -168,7 +168,7 @@ class ChartPolynomials {
   /// The two axes and the loop that they vary.
   const LoopChart& chart() const { return chart_; }
 
-  /// The polynomial that is common to all cells where both axes are gains.
+  /// The polynomial, affine in the gains, that all cells share; only where both axes are gains.
   const Affine& common() const { return common_; }
 
   /// Whether the polynomial is affine in the fast parameter: then use `line`, else `table`.

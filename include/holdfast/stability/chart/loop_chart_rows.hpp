@@ -22,7 +22,7 @@
 
 namespace holdfast {
 
-/// Tests a row of a chart cell by cell, as many cells at a time as the number type has lanes.
+/// Tests the stability of each cell in a row, as many at a time as the number type has lanes.
 ///
 /// Work per cell: the polynomial (Degree + 1 multiply-adds where it is affine along the row) and
 /// `lienard_chipart_stable`: 17 multiply-adds and 5 comparisons for the sampled loop. No product
@@ -30,9 +30,10 @@ namespace holdfast {
 /// @tparam Scalar        a SIMD pack, or double
 /// @param columns        number of cells, ≥ 0
 /// @param polynomial_at  (column, Number{}) → Polynomial<Number, Degree> of the cells from that
-/// column on, for Number = Scalar and double; in a variable whose stable half-plane is Re < 0
-/// It is passed by value: otherwise, to the compiler, writing through `stable` might change the
-/// captured data, and every coefficient would be read again for every pack.
+///                       column on, for Number = Scalar and double; in a variable whose stable
+///                       half-plane is Re < 0. It is passed by value: otherwise, to the compiler,
+///                       writing through `stable` might change the captured data, and every
+///                       coefficient would be read again for every pack.
 /// @param stable         array with `columns` entries: 1 stable, 0 not
 template <class Scalar, class PolynomialAt>
 void hurwitz_row(std::int64_t columns, PolynomialAt polynomial_at, std::uint8_t* stable) {
@@ -61,10 +62,10 @@ Vector<Scalar, Size> affine(const Vector<Scalar, Size>& c, const Scalar& x,
   return result;
 }
 
-/// Tests a row of polynomials constant + x slope, one for each value x.
+/// Tests a row of polynomials constant + x slope, one for each value x, for stability.
 ///
-/// They are scaled by a common factor so that no product overflows. Where the values span so many
-/// decades that the smallest would underflow, each polynomial is scaled individually.
+/// The polynomials are scaled by a common factor so that no product overflows. Where the values
+/// span so many decades that the smallest would underflow, each polynomial is scaled individually.
 /// @param constant  the polynomial at x = 0, in a variable whose stable half-plane is Re < 0
 /// @param slope     change of the polynomial per unit of x
 /// @param values    x of each cell, ascending; at least one
@@ -99,8 +100,8 @@ void hurwitz_row(const Vector<double, Size>& constant, const Vector<double, Size
       stable);
 }
 
-/// Tests a row of polynomials in a table, columns × (Degree + 1), each scaled by its largest
-/// coefficient.
+/// Tests a row of polynomials in a table, columns × (Degree + 1), for stability. Each is scaled by
+/// its largest coefficient.
 template <class Scalar, int Size>
 void hurwitz_row(const Eigen::Matrix<double, Eigen::Dynamic, Size>& table, std::uint8_t* stable) {
   const Eigen::Matrix<double, Eigen::Dynamic, Size> scaled =
@@ -120,10 +121,10 @@ void hurwitz_row(const Eigen::Matrix<double, Eigen::Dynamic, Size>& table, std::
 
 namespace detail {
 
-/// The characteristic polynomial of a point's loop in powers of λ − 1, for any gains.
+/// The characteristic polynomial of a point's sampled loop in powers of λ − 1, for any gains.
 ///
-/// All called functions are inlined into it, under a name that contains the pack: the matrix
-/// exponential of a row then uses the instruction set of the pack as well.
+/// All called functions are inlined into it, and its name contains the type of the pack: so the
+/// matrix exponential of a row is compiled for the pack's instruction set as well.
 template <class Scalar>
 [[gnu::flatten, gnu::noinline]] AffinePolynomial<double, 5> polynomial_of(
     const OperatingPoint& point) {
@@ -181,8 +182,8 @@ class StabilityChartRows {
 /// A chart of the spectral radius over any two parameters of the sampled loop. Several rows are
 /// computed at once, one per lane, each by continuation from its first cell (`DominantFactor`).
 ///
-/// Two packs of rows are computed together, so that one works while the other waits for its
-/// division. The first cells are continued from one batch of rows to the next.
+/// Two packs of rows are computed together, so that one is worked on while the other waits for its
+/// division. The factors of the first cells are continued from one batch of rows to the next.
 /// @tparam Degree  5 where every loop of the chart has δ = 0, 6 otherwise (see `DominantFactor`)
 template <class Scalar, int Degree>
 class RadiusChartRows {
@@ -195,7 +196,7 @@ class RadiusChartRows {
   /// The number of rows computed at once, one in each lane of two packs.
   static constexpr auto most_rows = static_cast<std::int64_t>(packs_ * lanes_);
 
-  /// The polynomial of a loop in powers of λ − 1, with a root λ = 0.
+  /// The polynomial of a loop in powers of λ − 1. It has a root λ = 0, added where Degree is 6.
   static AffinePolynomial<double, Degree> polynomial_of(const OperatingPoint& point) {
     const AffinePolynomial<double, 5> p = detail::polynomial_of<Scalar>(point);
     return {root_added(p.base), root_added(p.proportional), root_added(p.differential)};
@@ -257,7 +258,8 @@ class RadiusChartRows {
         radius);
   }
 
-  /// @param polynomial_at  (pack, column) → Pack; surplus lanes are computed and dropped
+  /// Writes the spectral radii of up to `most_rows` rows; surplus lanes are computed and dropped.
+  /// @param polynomial_at  (pack, column) → Pack
   template <class PolynomialAt>
   void follow(std::int64_t rows, std::int64_t columns, const PolynomialAt& polynomial_at,
               double* radius) {
@@ -275,8 +277,7 @@ class RadiusChartRows {
     }
   }
 
-  /// Packs of polynomials from one polynomial for each row, one in each lane; surplus lanes repeat
-  /// the last row.
+  /// The polynomials of one pack of rows, one in each lane; surplus lanes repeat the last row.
   template <class PolynomialOfRow>
   static Pack gathered(std::size_t pack, std::int64_t count, const PolynomialOfRow& of_row) {
     const auto last = static_cast<std::size_t>(count - 1);

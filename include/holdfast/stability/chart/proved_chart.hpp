@@ -48,8 +48,8 @@ struct ProvedBox {
   ProvedStability stability;  ///< verdict on all loops in it
 };
 
-/// A chart of proved stability: its cells or their parts as boxes, ascending in P and then in D,
-/// which cover it without overlapping; each is decided or undecided.
+/// A chart of proved stability, covered without overlap by boxes with their verdicts. Each box is a
+/// cell of the grid or part of one. Boxes ascend in P and then in D.
 struct ProvedChart {
   std::vector<ProvedBox> boxes;  ///< at least one
 
@@ -74,7 +74,7 @@ namespace detail {
 /// that are all positive if all roots have Re < 0, and all non-negative if all roots have Re ≤ 0.
 /// The first `sufficing` of them are sufficient, by Liénard and Chipart.
 ///
-///     a_n a_0,  a_n a_2,  a_n a_{n−1},  H₃ a_n or H₂ and H₄;  then the others
+///     a_n a_0,  a_n a_2,  a_n a_{n−1},  H₃ a_n (n = 4) or H₂ and H₄ (n = 5);  then all others
 ///
 /// Source: F. R. Gantmacher, The Theory of Matrices, vol. 2 (1959), ch. XV, §§ 6 and 13.
 template <class Number, int Degree>
@@ -106,11 +106,11 @@ struct HurwitzConditions {
 ///
 ///     f(P, D) ∈ f(P₀, D₀) + ∂f/∂P [box] (P − P₀) + ∂f/∂D [box] (D − D₀)
 ///
-/// all in enclosures, hence proved. The overestimate is quadratic in the box's size.
+/// evaluated in enclosures. The form exceeds f's range by an amount quadratic in the box's size.
 template <int Degree>
 class GainBoxProof {
  public:
-  /// @param polynomial  enclosure of the loop's polynomial, in the half-plane's variable
+  /// @param polynomial  enclosure of the loop's polynomial, whose stable half-plane is Re < 0
   explicit GainBoxProof(HalfPlanePolynomial<Enclosure, Degree> polynomial)
       : polynomial_(std::move(polynomial)) {}
 
@@ -167,7 +167,7 @@ inline std::vector<GainBox> cells_of(const GainGrid& grid) {
   return cells;
 }
 
-/// Rejects a grid without boxes, or an undecided share out of range.
+/// Rejects a grid without cells or with cells as narrow as round-off, or a share not in 0 … 1.
 inline void validate_proved(const GainGrid& grid, double undecided) {
   validate(grid);
   for (const Axis& axis : {grid.proportional, grid.differential}) {
@@ -178,7 +178,7 @@ inline void validate_proved(const GainGrid& grid, double undecided) {
     const double least = 16.0 * std::numeric_limits<double>::epsilon() * size;
     if (!((axis.max - axis.min) / count > least))
       throw InvalidParameter("width of a cell of the chart", (axis.max - axis.min) / (count - 1.0),
-                             "", "above the rounding of its gains");
+                             "", "larger than the rounding of the gains");
   }
   require_within("undecided share", undecided, "", 0.0, 1.0);
 }
@@ -199,10 +199,10 @@ inline std::vector<GainBox> quarters_of(const GainBox& box) {
   return {{p0, p1, d0, d1}, {p0, p1, d1, d2}, {p1, p2, d0, d1}, {p1, p2, d1, d2}};
 }
 
-/// Quarters open boxes until they cover at most a given area, or there are too many boxes, or they
-/// cannot be divided any further.
-/// @param open     items with a box, `gains`; undecided ones remain in it
-/// @param take     (item, quarter) → adds the quarter to `open`, or to the decided ones
+/// Quarters open boxes until they cover at most `most_area` (N²·s/m²), none can be divided, or the
+/// next quartering might give more than `most_boxes` boxes.
+/// @param open     items with a box `gains`; on return those still undecided
+/// @param take     (item, quarter) → adds the quarter to `open`, or to the decided boxes
 /// @param decided  () → number of decided boxes
 template <class Open, class Take, class Decided>
 void quarter(std::vector<Open>& open, double most_area, std::size_t most_boxes, const Take& take,
@@ -254,14 +254,14 @@ ProvedChart proved_chart(const Decide& decide, const GainGrid& grid, double unde
   return chart;
 }
 
-/// The proof for the continuous loop of two masses without delay, whose parameters are the decimals
-/// nearest to the given doubles.
-/// @throws InvalidParameter where they are not admissible
+/// The proof for the continuous loop of two masses without delay. It holds for all decimal
+/// parameters that are rounded to the given doubles.
+/// @throws InvalidParameter where the two masses are not admissible
 inline GainBoxProof<4> gain_box_proof(const TwoMass<double>& plant) {
   return GainBoxProof<4>(characteristic_polynomial(enclosed(plant)));
 }
 
-/// The proof for boxes of gains of the sampled loop of two masses.
+/// The proof for the sampled loop of two masses, for all decimals rounded to its parameters.
 /// @throws InvalidParameter where the two masses or the sampling are not admissible
 inline GainBoxProof<5> gain_box_proof(const TwoMass<double>& plant,
                                       const Sampling<double>& sampling) {

@@ -42,7 +42,7 @@ struct BoxSide {
   std::size_t box;
 };
 
-/// Joins the boxes of each pair of sides, one of either list, that share a segment.
+/// Joins two boxes where a side in `ends` and one in `begins` have a segment in common.
 inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, JoinedSets& sets) {
   const auto by_place = [](const BoxSide& a, const BoxSide& b) {
     return std::tie(a.at, a.from) < std::tie(b.at, b.from);
@@ -62,9 +62,9 @@ inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, J
 
 }  // namespace detail
 
-/// For each of some boxes that do not overlap, the number of one box of its region. A region is a
-/// set of boxes that are connected through shared sides.
-/// @param boxes  boxes whose common sides are identical doubles
+/// The region of each box, as the number of one of the boxes in it. A region is a set of boxes that
+/// are connected through shared sides.
+/// @param boxes  boxes that do not overlap; their common sides are identical doubles
 inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) {
   std::vector<detail::BoxSide> left, right, lower, upper;
   for (std::size_t k = 0; k < boxes.size(); ++k) {
@@ -84,8 +84,8 @@ inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) 
 
 namespace detail {
 
-/// A box and, for each circle, the arcs on which one of its loops may have a root. For a wider
-/// circle that decides nothing more the arcs are dropped.
+/// A box and, for each circle, the arcs on which one of its loops may have a root. The arcs of a
+/// wider circle are dropped once that circle can decide nothing more.
 struct CrossedBox {
   GainBox gains;
   std::vector<std::optional<CircleArcs::Arcs>> arcs;
@@ -102,7 +102,7 @@ struct CellRange {
             grid.differential.at(d_to)};
   }
   bool is_cell() const { return p_to - p_from == 1 && d_to - d_from == 1; }
-  /// The two halves across the longer side.
+  /// The two halves of the range, divided across its longer side.
   std::pair<CellRange, CellRange> halves() const {
     std::pair<CellRange, CellRange> both(*this, *this);
     if (p_to - p_from > d_to - d_from)
@@ -128,7 +128,7 @@ class ModalChart {
     open_cells(all, whole);
   }
 
-  /// Quarters boxes that a root may cross until they cover at most a given area.
+  /// Quarters undecided boxes until they cover at most `most_area` (N²·s/m²) or are too many.
   void refine(double most_area, std::size_t most_boxes) {
     quarter(
         open_, most_area, most_boxes,
@@ -136,7 +136,7 @@ class ModalChart {
         [this] { return unstable_.size() + free_.size(); });
   }
 
-  /// The finished chart, the roots of each region counted.
+  /// The finished chart; roots outside the circle are counted once for each region of free boxes.
   ProvedChart finished() {
     ProvedChart chart;
     for (const GainBox& box : unstable_) chart.boxes.push_back({box, ProvedStability::unstable});
@@ -151,7 +151,7 @@ class ModalChart {
   }
 
  private:
-  /// Opens a range of cells by halving, down to single cells.
+  /// Halves a range down to single cells and stores each as free, unstable or open (`take`).
   void open_cells(const CellRange& range, const CrossedBox& around) {
     CrossedBox box = part_of(around, range.box());
     if (range.is_cell()) return take(std::move(box));
@@ -160,7 +160,7 @@ class ModalChart {
     open_cells(second, box);
   }
 
-  /// A part of a box, with the arcs of that box that its own loops may still meet.
+  /// A part of a box, with the arcs, among those of the box, on which its loops may have a root.
   CrossedBox part_of(const CrossedBox& box, const GainBox& part) {
     watch_();
     CrossedBox result{part, {}};
@@ -182,7 +182,7 @@ class ModalChart {
     open_.push_back(std::move(box));
   }
 
-  /// The verdicts on the regions, indexed by the number of the region.
+  /// The verdicts on the regions, indexed by the number of a region (`joined_boxes`).
   std::vector<ProvedStability> verdicts_on(const std::vector<std::size_t>& regions) {
     std::vector<std::optional<GainBox>> largest(free_.size());
     for (std::size_t k = 0; k < free_.size(); ++k) {
@@ -208,11 +208,11 @@ class ModalChart {
 
 }  // namespace detail
 
-/// Proves the cells of a chart of a loop of any order. A box of gains is free where none of them
-/// puts a root on the unit circle. The number of roots outside is constant on connected free boxes;
-/// it is counted once for each region (`CircleArcs::roots_outside`). A box that is not free is
-/// unstable where a wider circle is free and has a root outside. All others are quartered until
-/// their share of the area is at most the given one.
+/// Proves the cells of a chart of a loop of any order. A box is free if none of its gains puts a
+/// root on the unit circle. The number of roots outside is constant on connected free boxes; it is
+/// counted once for each region (`CircleArcs::roots_outside`). Any other box is unstable if its
+/// loops have no root on a wider circle and some outside it. The rest is quartered until its share
+/// of the area is at most the given one.
 /// @param response    response of the loop
 /// @param grid        grid of cells between its points; both axes ascend, with at least 2 points
 /// @param undecided   largest undecided share, 0 ≤ … < 1

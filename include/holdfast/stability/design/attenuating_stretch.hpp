@@ -17,7 +17,7 @@
 
 namespace holdfast::detail {
 
-/// A bound of Σ_{j > m} of terms whose ratio from one to the next is at most `rate`/(j + 1).
+/// A bound of Σ a_j over j > `order`: `next` is its first term, a_{j+1}/a_j ≤ `rate`/(j + 1).
 inline double tail_beyond(double next, double rate, std::size_t order) {
   const double ratio = rate / static_cast<double>(order + 2);
   return ratio < 1.0 ? next / (1.0 - ratio) : std::numeric_limits<double>::infinity();
@@ -36,8 +36,9 @@ inline TaylorNumber moving_phase(double omega, double period, double radius, std
   return result;
 }
 
-/// The phasor g = cosine − i sine of the harmonic input within `radius` of a period, from g′ = A_d
-/// c + iωg for the exact force and g′ = A_d c for the held one, A_d′ = A A_d.
+/// The Taylor series of the harmonic input's phasor g = cosine − i sine within `radius` (s) of a
+/// period. Its derivatives are g′ = A_d c + iωg for the exact force, g′ = A_d c for the held one,
+/// and A_d′ = A A_d, with c the plant's `excitation_input()`.
 ///
 /// In the coordinates that balance A, let p_j and γ_j be the sizes of the terms of A_d c and g and
 /// r = max(‖A‖, ω) radius. Then max(γ_j r, p_j radius) grows by at most 2 r/(j + 1) per term.
@@ -70,7 +71,7 @@ MovingVector moving_input(const Plant& plant, const LoopMap<double>& map, ForceH
   return result;
 }
 
-/// Whether one Taylor number is above the other over the whole stretch.
+/// The verdict on a stretch, from the difference of two squared moduli that is to be positive.
 inline Stretch stretch_of(const SquaresDifference& gap) {
   return gap.least > 0.0 ? Stretch::holds : gap.at_centre > 0.0 ? Stretch::open : Stretch::fails;
 }
@@ -78,14 +79,14 @@ inline Stretch stretch_of(const SquaresDifference& gap) {
 /// Whether the loop is proved to be stable, and its conductor's steady amplitude to be below that
 /// without control, for all periods within `radius` of a given one.
 ///
-/// With y = (λI − S)⁻¹ g and Y = (λI − S)⁻¹ s for the closed loop, λ = e^{iωτ}, and c the row of
-/// the conductor's displacement,
+/// For the closed loop y = (λI − S)⁻¹ g is due to the excitation and Y = (λI − S)⁻¹ s to the
+/// command, λ = e^{iωτ}. With the row K of the gains and the row c of the conductor's displacement
 ///
 ///     Z/Z₀ = n/(n − (c Y)(K y)),   n = (c y)(1 + K Y)
 ///
 /// so that the poles of the plant without control do not matter; Z itself is c y. The truncation
 /// errors of the series are bounded, the round-off of its sums is not.
-/// @param reference  bound for |c y| (m/N); NaN: |Z₀|
+/// @param reference  amplitude that |c y| must stay below (m/N); NaN: |Z₀|
 template <class Plant>
 Stretch attenuation(const Plant& plant, const SamplingFamily<Plant>& family,
                     const PdGains<double>& gains, ForceHold hold, double omega, double period,

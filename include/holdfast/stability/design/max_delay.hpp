@@ -40,16 +40,17 @@ enum class DelayCriterion {
                ///< control
 };
 
-/// A search for the largest feasible sampling period at one excitation frequency.
+/// The options of the search for the largest feasible sampling period at one frequency.
 struct MaxDelayOptions {
   double frequency;          ///< f (Hz), > 0
-  double proportional_gain;  ///< P (N/m), finite; Eq. (6) tunes it to f
+  double proportional_gain;  ///< P (N/m), finite; Eq. (6) of Kollár 2022 tunes it to f
   DelayCriterion criterion = DelayCriterion::attenuates;  ///< criterion for a feasible period
   ForceHold hold = ForceHold::sampled;  ///< hold of the excitation; used by `attenuates` only
-  double delay_fraction = 0.0;  ///< δ/τ, 0 … 1000, constant while τ varies; by matrices ≤ 1
+  double delay_fraction = 0.0;  ///< δ/τ, constant while τ varies; 0 … 1, of a loop by poles ≤ 1000
   double shortest_period = 1e-5;  ///< s; start of the search, or 1/(1000 f) if that is less
-  /// End of the search (s), > `shortest_period`; 0: where every longer period is proved to be
-  /// stable if that is within 200 periods of the plant's slowest mode, else 20 of these periods.
+  /// The end of the search (s), > `shortest_period`; 0: 1/(2f) for `attenuates`. For `stable` 0
+  /// means the period beyond which every period is proved to be stable, if that is within 200
+  /// periods of the plant's slowest mode, else 20 of these periods.
   double longest_period = 0.0;
   double search_ratio = 1.00001;  ///< > 1; infeasible windows narrower than this ratio may be
                                   ///< missed where no D is proved to serve over a whole step
@@ -121,7 +122,7 @@ DelayOffer delay_offer(const ConductorWithAbsorber& plant, const MaxDelayOptions
   return offer;
 }
 
-/// False where the criterion requires samples that resolve the vibration and they do not.
+/// Whether the samples resolve the vibration, τ < 1/(2f); true if the criterion is `stable`.
 inline bool shows_vibration(const MaxDelayOptions& options, double sampling_period) {
   return options.criterion == DelayCriterion::stable ||
          2.0 * options.frequency * sampling_period < 1.0;
@@ -136,7 +137,7 @@ inline double serving_gain(const MaxDelayOptions& options, double period, const 
   return best.ratio_to_uncontrolled < 1.0 ? best.differential_gain : std::nan("");
 }
 
-/// The least amplitude ratio over the stabilising D; NaN where it is not required or none exists.
+/// The least amplitude ratio over the stabilising D; NaN for `stable` or where no D stabilises.
 inline double least_ratio(const MaxDelayOptions& options, const DelayOffer& offer) {
   if (!offer.response) return std::numeric_limits<double>::quiet_NaN();
   return offer.response->best_differential_gain(options.proportional_gain, offer.stable)
@@ -146,8 +147,7 @@ inline double least_ratio(const MaxDelayOptions& options, const DelayOffer& offe
 }  // namespace detail
 
 /// The open intervals of D (N s/m) that make one sampling period feasible, exact and ascending:
-/// those that stabilise and, for attenuation, also have an amplitude below that without
-/// control.
+/// those that stabilise and, for attenuation, also have an amplitude below that without control.
 /// @tparam Plant           two masses, in closed form, or a plant of any order with ports
 /// @param plant            plant within its ranges, which are not checked here
 /// @param options          options within their ranges (`validate`), which are not checked here
@@ -163,7 +163,7 @@ std::vector<Interval<double>> feasible_differential_gains(const Plant& plant,
                       offer.response->differential_gains_below(options.proportional_gain));
 }
 
-/// How the search for the largest sampling period ended.
+/// The outcome of the search for the largest sampling period.
 enum class MaxDelayOutcome {
   found,      ///< every period up to `sampling_period` is feasible, a slightly longer one is not
   unlimited,  ///< every period is feasible: beyond the end of the search the loop is proved to be
@@ -177,14 +177,14 @@ enum class MaxDelayOutcome {
 /// The cause of infeasibility beyond the largest period.
 enum class MaxDelayLimit {
   none,         ///< no known cause: the outcome is `unlimited` or `beyond_search`
-  stability,    ///< feasible gains of shorter periods no longer stabilise
+  stability,    ///< no D stabilises, or the interval of D that served so far has vanished
   attenuation,  ///< stabilising gains no longer bring the amplitude below that without control
   nyquist,      ///< τ = 1/(2f): the samples no longer resolve the vibration
 };
 
 /// The largest sampling period τ* such that every τ in (0, τ*] is feasible.
 struct MaxDelay {
-  MaxDelayOutcome outcome;   ///< how the search ended
+  MaxDelayOutcome outcome;   ///< outcome of the search
   double sampling_period;    ///< τ* (s)
   double differential_gain;  ///< D (N s/m) at τ*: of minimum amplitude, or inside the stable
                              ///< interval; a limit without any margin, not a recommended gain; NaN
@@ -194,7 +194,7 @@ struct MaxDelay {
 
 namespace detail {
 
-/// The period from which on D = 0 stabilises for every longer one; infinite where not proved.
+/// The period (s) beyond which D = 0 is proved to stabilise; infinite where nothing is proved.
 template <class Plant>
 double certain_from(const Plant& plant, const MaxDelayOptions& options) {
   return SlowSamplingBound(plant, {options.proportional_gain, 0.0}, options.delay_fraction)
@@ -204,7 +204,7 @@ inline double certain_from(const ConductorWithAbsorber& /*plant*/, const MaxDela
   return std::numeric_limits<double>::infinity();
 }
 
-/// The default end of the search for stability.
+/// The default end of the search (s) for the criterion `stable`.
 template <class Plant>
 double longest_of_stability(const Plant& plant, double certain) {
   const double slowest = slowest_mode_period(plant);
@@ -216,8 +216,8 @@ inline double longest_of_stability(const ConductorWithAbsorber& plant, double /*
   return 20.0 * 2.0 * pi<double> / slowest;
 }
 
-/// The search that joins feasible periods up to their end: by a D that is proved to serve on a
-/// whole stretch, or, for a conductor by its modes, by steps of the search ratio.
+/// The search for the end of the feasible periods. It goes to a longer period by a D that is proved
+/// to serve in between, or for a conductor by its modes by steps of the search ratio, unproved.
 template <class Plant>
 class DelaySearch {
  public:
@@ -270,8 +270,8 @@ class DelaySearch {
   }
   double gain_at(double period) const { return serving_gain(options_, period, offer_at(period)); }
 
-  /// The cause of infeasibility at a period. Where the amplitude jumps beyond that without control,
-  /// the feasible interval of D has vanished.
+  /// The cause of infeasibility at a period. Where the least ratio jumps, an interval of
+  /// stabilising D has vanished: the cause is stability.
   /// @param before  least ratio just below the period, NaN without one
   MaxDelayLimit limit_at(double period, double before) const {
     const DelayOffer offer = offer_at(period);
@@ -325,8 +325,8 @@ class DelaySearch {
     return std::nullopt;
   }
 
-  /// Whether a period is feasible with some D, which is stored. For a conductor by its modes all
-  /// roots of a loop cost less than all its stable D: so the last feasible D is tested first.
+  /// Whether a period is feasible with some D, which is stored. For a conductor by its modes the
+  /// roots at one D cost less than all stable D: so the last feasible D is tested first.
   bool is_served(double period) {
     if constexpr (is_walked_) {
       const PdGains<double> gains{options_.proportional_gain, start_};
@@ -345,7 +345,7 @@ class DelaySearch {
     return !gains.empty();
   }
 
-  /// Whether one D that is feasible at both ends is proved to be so in between.
+  /// Whether one D feasible at `feasible_` and at `next` is proved to be so in between.
   bool links(double next, const Intervals& gains) {
     Intervals common = intersection(gains_, gains);
     std::sort(common.begin(), common.end(),
@@ -395,9 +395,9 @@ class DelaySearch {
     return offer.response ? 1.0 - least_ratio(options_, offer) : -1.0;
   }
 
-  /// The last feasible period of a bracket whose ends differ. The bracket is halved while it is
-  /// wide, since the existence of a gain costs less than the reserve; it is halved to the end where
-  /// the reserve has no closed form.
+  /// The last feasible period between a feasible and an infeasible one. The bracket is halved while
+  /// it is wide, since a test of feasibility costs less than a reserve. For a plant without closed
+  /// forms it is halved to the end.
   double boundary_between(double feasible, double infeasible) {
     constexpr double wide = is_walked_ ? 1.0 + 1e-9 : has_closed_forms<Plant> ? 1.01 : 1.0 + 1e-13;
     while (infeasible > wide * feasible) {
@@ -421,7 +421,7 @@ class DelaySearch {
     return last_feasible_before(feasible, infeasible);
   }
 
-  /// The last period with an interval of gains; round-off may put the sign change beyond it.
+  /// The last period before `infeasible` with a feasible D (round-off may shift the sign change).
   double last_feasible_before(double feasible, double infeasible) const {
     for (double step = 1e-13 * infeasible; infeasible - step > feasible; step *= 2.0)
       if (!gains_at(infeasible - step).empty()) return infeasible - step;
@@ -449,8 +449,7 @@ class DelaySearch {
 /// ratio over the stabilising D; for a plant of another order than the two masses', by halving on
 /// the existence of a D. A step by less than search_ratio, like the last one to τ*, is feasible at
 /// its ends and assumed to be so in between. Source: Kollár 2022, Fig. 5.
-/// @tparam Plant  two masses, in closed form, or a plant of any order with ports; `validate` checks
-///                it
+/// @tparam Plant  two masses, in closed form, or a plant of any order with ports (validated)
 /// @throws InvalidParameter where the plant or an option is outside its admissible range
 template <class Plant>
 MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options) {
@@ -461,11 +460,12 @@ MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options)
 }
 
 /// The largest sampling period of the computer on a conductor by its modes, as
-/// `max_sampling_period` of two masses, but found in steps. A step is (ratio − 1) times the longest
-/// period that resolves all natural motions and the excitation, at least times the present period
-/// and at most times ten of it. It is tested by all roots with the last feasible D, or else by all
-/// stable intervals of D. At an infeasible period the edge is halved to 10⁻⁹. Infeasible windows
-/// narrower than a step are missed; nothing is proved between the steps or beyond.
+/// `max_sampling_period` of two masses, but found in steps. A step is (ratio − 1) T. T is the
+/// longest period that resolves all natural motions and the excitation, at least the present period
+/// and at most ten times it. A step is tested by all roots with the last feasible D, or else by all
+/// stable intervals of D. If its end is infeasible, the last feasible period is found by halving,
+/// to 10⁻⁹. Infeasible windows narrower than a step are missed; nothing is proved between the steps
+/// or beyond.
 /// @param plant    conductor with its poles, without any of its hardware
 /// @param options  within their ranges; search ratio and most steps are not used
 /// @param ratio    ratio of two successive periods, > 1

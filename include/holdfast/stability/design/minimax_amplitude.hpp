@@ -49,14 +49,15 @@ struct WorstFrequency {
   double ratio;  ///< |Z₁| over that without control; ∞ where the loop has the root e^{2πifτ}
 };
 
-/// The model of a plant that AmplitudeBand requires.
+/// The loop of a plant with its steady response, its roots and the zeros of its amplitude without
+/// control: all that AmplitudeBand evaluates.
 /// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
 template <class Plant>
 struct PlantOverBand {
-  Plant plant;               ///< that of the loop
+  Plant plant;               ///< plant of the loop
   AmplitudeOptions options;  ///< τ, δ, the hold of the force and the reference of the ratios
-  SampledLoop<double> loop = sampled_loop(plant, options.sampling);          ///< of the plant
-  AffinePolynomial<double, 5> polynomial = characteristic_polynomial(loop);  ///< of the loop
+  SampledLoop<double> loop = sampled_loop(plant, options.sampling);          ///< sampled loop
+  AffinePolynomial<double, 5> polynomial = characteristic_polynomial(loop);  ///< its polynomial
 
   /// The steady response at ω (rad/s).
   SteadyResponse<double> response(double angular_frequency) const {
@@ -74,17 +75,17 @@ struct PlantOverBand {
   }
 };
 
-/// The amplitude ratio to no control over a band of frequencies, for a given P.
+/// The amplitude with control over that without, over a band of frequencies, for a given P.
 ///
-/// Peaks belong to roots of the loop near the unit circle, where the controlled amplitude is large,
-/// and to zeros of the uncontrolled amplitude near it. Both are known with their widths: the grid
-/// over the band is uniform, refined about the zeros, and for each D about the loop's roots. Its
-/// highest points are then refined by golden-section search.
+/// The peaks of the ratio belong to roots of the loop near the unit circle, where the controlled
+/// amplitude is large, or to zeros of the uncontrolled amplitude near it. Both are known with their
+/// widths: the grid over the band is uniform, refined about the zeros, and for each D about the
+/// roots. The highest grid points are then refined by golden-section search.
 /// @tparam Model  PlantOverBand, or ConductorOverBand of modal_design.hpp
 template <class Model>
 class AmplitudeBand {
  public:
-  /// Solves for the steady response at each frequency of the grid: 401 and those about the zeros.
+  /// Computes the steady response at 401 uniform frequencies and at others about the zeros.
   /// @param model              model of the loop
   /// @param proportional_gain  P (N/m), finite
   /// @param band               band within its range (`validate`), which is not checked here
@@ -99,7 +100,7 @@ class AmplitudeBand {
     for (const double frequency : frequencies) grid_.push_back(at(frequency));
   }
 
-  /// The squared ratio at one frequency of the band.
+  /// The squared ratio at one frequency (Hz) of the band.
   RatioAtFrequency at(double frequency) const {
     const auto response = model_.response(2.0 * pi<double> * frequency);
     return {frequency, response.squared_ratio(proportional_gain_)};
@@ -148,7 +149,7 @@ class AmplitudeBand {
     return points;
   }
 
-  /// Adds frequencies about those of roots near the unit circle, as dense as the roots are near.
+  /// Adds frequencies about that of each root, the denser the nearer it is to the unit circle.
   void append_about(const std::vector<std::complex<double>>& from_one,
                     std::vector<double>& frequencies) const {
     const double unit = 2.0 * pi<double> * model_.options.sampling.period;
@@ -164,7 +165,7 @@ class AmplitudeBand {
     }
   }
 
-  /// The maximum between two neighbours of a grid point that is higher than both.
+  /// The largest squared ratio between the neighbours of a point that is higher than both.
   WorstFrequency refined(double left, double middle, double right, double differential_gain) const {
     constexpr double golden = 0.61803398874989485;
     WorstFrequency best{middle, value(at(middle), differential_gain)};
@@ -198,7 +199,7 @@ struct MinimaxAmplitude {
   MinimaxOutcome outcome;  ///< existence of an admissible D and agreement of the bounds
   /// The D (N s/m); at the edge of the admissible intervals it is a limit.
   double differential_gain = std::nan("");
-  /// The largest amplitude ratio to no control over the band with this D.
+  /// The largest amplitude ratio (with control to without) over the band with this D.
   double worst_ratio = std::nan("");
   double worst_frequency = std::nan("");  ///< frequency of that ratio (Hz)
   double lower_bound = std::nan("");      ///< no admissible D has a smaller worst ratio than this
@@ -209,8 +210,8 @@ namespace detail {
 
 /// The minimum over D of the largest of finitely many quotients of quadratics.
 ///
-/// The minimum is at an end of an admissible interval, where one quotient is stationary, or where
-/// two of them intersect: roots of quadratics and quartics, collected as frequencies are added.
+/// The minimum is at an end of an admissible interval, at a stationary point of one quotient, or
+/// where two intersect. These roots of quadratics and quartics are collected with the frequencies.
 class WorstOfFrequencies {
  public:
   explicit WorstOfFrequencies(const std::vector<Interval<double>>& admissible)
@@ -231,7 +232,7 @@ class WorstOfFrequencies {
     ratios_.push_back(ratio);
   }
 
-  /// A D and the ratio for it.
+  /// A D (N s/m) and the largest ratio at the collected frequencies with it.
   struct Least {
     double differential_gain;
     double ratio;
@@ -264,7 +265,7 @@ class WorstOfFrequencies {
   std::vector<double> candidates_;
 };
 
-/// The exchange of frequencies over a band, for the admissible D of the options.
+/// The answer of `minimax_amplitude` for any model, by exchange of frequencies.
 /// @tparam Model  model of the plant, see AmplitudeBand
 template <class Model, class Plant>
 MinimaxAmplitude exchanged(const Plant& plant, const AmplitudeOptions& options,
@@ -302,12 +303,12 @@ MinimaxAmplitude exchanged(const Plant& plant, const AmplitudeOptions& options,
 
 }  // namespace detail
 
-/// The D that minimises the largest amplitude ratio to no control over a band, for a given P.
+/// The D that minimises the largest amplitude ratio (with control to without) over a band, given P.
 ///
-/// Exchange of frequencies: the minimax over the frequencies collected so far is a lower bound; the
+/// Exchange of frequencies: the minimax over the frequencies collected so far is a lower bound. The
 /// worst frequency of the whole band for that D gives an upper bound and is added. The gap between
-/// both is the error, up to maxima missed in the search over frequencies (`AmplitudeBand`; peaks
-/// are resolved to 1e−9 of the band).
+/// the bounds is the error, except for maxima missed in the search over frequencies
+/// (`AmplitudeBand`); peaks are resolved to 1e−9 of the band.
 /// @tparam Plant             anything with `state_matrix()`, `control_input()` and
 ///                           `excitation_input()` that `validate` checks
 /// @param plant              plant within its ranges

@@ -31,21 +31,22 @@ enum class MinimumAmplitudeOutcome {
 
 /// The options of a sampled loop whose amplitude is minimised.
 struct AmplitudeOptions {
-  Sampling<double> sampling;  ///< τ (s) > 0, δ (s) 0 … 1000 τ, of two masses up to τ
-  ForceHold hold = ForceHold::sampled;  ///< how the excitation enters a sample
-  /// The bound, 0 < … ≤ 1, below which the spectral radius of an admissible D stays: 1 requires
-  /// stability, less a transient that decays at least like largest_radiusʲ.
+  Sampling<double> sampling;  ///< τ (s) > 0, δ (s) 0 … 1000 τ; for two masses δ ≤ τ
+  ForceHold hold = ForceHold::sampled;  ///< hold of the excitation over a sample
+  /// The bound, 0 < … ≤ 1, below which the spectral radius of an admissible D stays. 1 requires
+  /// stability; a smaller one a transient that decays at least like largest_radiusʲ in j samples.
   double largest_radius = 1.0;
-  /// The margin, 0 … < 1: share of the way from the boundary of stability to the D of minimum
-  /// radius that keeps an admissible D off the boundary, along D and in the rate of decay, −ln ρ. 0
-  /// admits the boundary as a limit; the program recommends with 1/2. For a ModalResponse it refers
-  /// to the D of largest modulus margin (modal_design.hpp), unless by_decay.
+  /// The margin m, 0 … < 1, of an admissible D. Its distance from the boundary of stability exceeds
+  /// m times that of D*, the D of minimum radius; its rate of decay −ln ρ exceeds m times that of
+  /// D*. m = 0 admits the boundary as a limit; the program recommends with 1/2. For a
+  /// ModalResponse, unless by_decay, D* has the largest modulus margin, which replaces the rate
+  /// (modal_design.hpp).
   double margin = 0.0;
   /// Whether ratios refer to the plant without control under the true force
   /// (`true_amplitude_per_force`); else to the plant without control under the force held as with
   /// control (Kollár 2022, Fig. 5).
   bool relative_to_true_force = false;
-  /// Whether a ModalResponse has its margin about the D of minimum radius too, as two masses.
+  /// Whether the margin of a ModalResponse refers to the D of minimum radius, as for two masses.
   bool by_decay = false;
 };
 
@@ -71,7 +72,7 @@ inline void validate(const AmplitudeOptions& options) {
 
 namespace detail {
 
-/// The part of the interval around one D, up to `share` of the way to either end.
+/// The interval that contains `from`, with ends at `share` of their distances from it; or none.
 template <class Scalar>
 std::vector<Interval<Scalar>> within_share(const std::vector<Interval<Scalar>>& intervals,
                                            const Scalar& from, const Scalar& share) {
@@ -81,7 +82,7 @@ std::vector<Interval<Scalar>> within_share(const std::vector<Interval<Scalar>>& 
   return {};
 }
 
-/// The gains of `admissible_differential_gains` by their decay, for a ModalResponse too.
+/// The intervals of `admissible_differential_gains` by rate of decay, for a ModalResponse too.
 template <class Loop>
 std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proportional_gain,
                                                const AmplitudeOptions& options) {
@@ -98,12 +99,13 @@ std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proporti
 
 }  // namespace detail
 
-/// The open intervals of D (N s/m) that the options admit for one P: with a margin m > 0 those with
+/// The open intervals of D (N s/m) that the options admit for one P: those with ρ below the largest
+/// radius and, for a margin m > 0,
 ///
-///     ρ(D) < ρ_min^m  and  D = D* + (1 − m)(D_s − D*),  D_s stable
+///     ρ(D) < ρ_min^m  and  D = D* + (1 − m)(D_s − D*)  with a stable D_s
 ///
-/// about the D* of minimum radius, which is always among them if any D stabilises. They are the D
-/// that `minimum_amplitude` searches; a ModalResponse has another overload with more criteria.
+/// about the D* of minimum radius, which is admitted if any D stabilises and its radius is below
+/// the largest. `minimum_amplitude` searches them; a ModalResponse has an overload of its own.
 /// @param loop               loop of `sampled_loop` or `loop_map`
 /// @param proportional_gain  P (N/m), finite
 /// @param options            options within their ranges, which are not checked here

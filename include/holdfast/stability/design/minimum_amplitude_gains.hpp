@@ -21,7 +21,7 @@ struct MinimumAmplitudeGains {
 
 namespace detail {
 
-/// The D of least amplitude for a given P, among those with a given modulus margin.
+/// The D of least amplitude for a given P, of those with the modulus margin `options.margin`.
 template <class Scalar>
 MinimumAmplitude quietest_at_modulus(const UnitCircleCrossings<Scalar>& circle, double p,
                                      const AmplitudeOptions& options,
@@ -45,7 +45,7 @@ inline bool is_quieter(const MinimumAmplitude& one, const MinimumAmplitude& othe
 
 /// The P and D of least steady amplitude of a loop given by its poles, among the stable pairs with
 ///
-///     min |1 − P G_z − D G_v| ≥ m   over the unit circle, m the options' margin itself
+///     min |1 − P G_z − D G_v| ≥ m   over the unit circle, m = `options.margin`
 ///
 /// that is, with a sensitivity of at most 1/m: m = 1/2 gives a gain margin of at least 6 dB upwards
 /// and a phase margin of at least 29°.
@@ -57,7 +57,7 @@ inline bool is_quieter(const MinimumAmplitude& one, const MinimumAmplitude& othe
 /// @param options    options within their ranges
 /// @param frequency  f (Hz), > 0
 /// @param range      initial range of P (N/m), lower < upper, finite
-/// @param response   see `minimum_amplitude` of such a loop
+/// @param response   steady response at f, as for `minimum_amplitude` of a ModalResponse
 /// @throws InvalidParameter where an argument is outside its admissible range
 /// Source of the margin: K. J. Åström and R. M. Murray, Feedback Systems (2008), 9.3.
 template <class Scalar>

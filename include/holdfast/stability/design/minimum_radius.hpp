@@ -25,7 +25,7 @@ enum class MinimumRadiusOutcome {
 
 /// The differential gain with which the sampled loop decays fastest, for a given P.
 struct MinimumRadius {
-  MinimumRadiusOutcome outcome;  ///< whether one D has it, an interval, all, or it is unresolved
+  MinimumRadiusOutcome outcome;  ///< D that have the minimum: one, an interval, all; or unresolved
   double differential_gain;      ///< D (N s/m), inside `interval`
   double radius;                 ///< least ρ = max |λ|; stable ⇔ below 1
   double margin;                 ///< 1 − radius, computed without cancellation
@@ -35,10 +35,10 @@ struct MinimumRadius {
 
 namespace detail {
 
-/// Calls `consider` with probable minima of a function, given its level sets: the middle of each
-/// interval, and the vertex of the V where the secants of its two ends meet, between its level and
-/// the level of the outer interval around it.
-/// @param outer     intervals of a higher level
+/// Calls `consider` with probable minima of a function: the middle of each interval, and the
+/// intersection of the two secants that join its ends to those of the outer interval around it.
+/// @param intervals  intervals on which the function is below a level
+/// @param outer      intervals on which it is below a higher level
 template <class Consider>
 void consider_promising(const std::vector<Interval<double>>& intervals,
                         const std::vector<Interval<double>>& outer, const Consider& consider) {
@@ -56,9 +56,9 @@ void consider_promising(const std::vector<Interval<double>>& intervals,
 /// The search for the least level r for which {D : ρ(P, D) < r} is not empty.
 ///
 /// The set is a union of intervals known for every r, and grows with r, so that each tested level
-/// bounds the global minimum from above or from below. Levels are taken from ρ in the middle of the
-/// intervals and where the secants of their two ends meet, which is exact in the limit for a smooth
-/// minimum and for two crossing branches.
+/// bounds the global minimum from above or from below. Levels are taken from ρ at probable minima
+/// (`consider_promising`), which are exact in the limit for a smooth minimum and for two crossing
+/// branches.
 /// @tparam Loop  polynomial of the loop in `double`, see `LoopPolynomial`
 template <class Loop>
 class MinimumRadiusSearch {
@@ -69,7 +69,7 @@ class MinimumRadiusSearch {
   MinimumRadiusSearch(const Loop& loop, double proportional_gain, double accuracy = 0.0)
       : loop_(loop), proportional_gain_(proportional_gain), accuracy_(accuracy) {}
 
-  /// Runs the search. @param start  any D; one near the minimum is quicker
+  /// Runs the search. @param start  any D (N s/m); one near the minimum is quicker
   MinimumRadius from(double start) {
     if (!begin(loop_.radius_offset({proportional_gain_, start}))) {
       return {MinimumRadiusOutcome::unresolved, start, loop_.centre + upper_,
@@ -103,7 +103,7 @@ class MinimumRadiusSearch {
   }
   double closing_step() const { return 4.0 * tolerance(); }
 
-  /// Starts from a level; false where no level has gains, for example by overflow.
+  /// Starts from a level, raised until some D is below it; false where none is (overflow).
   bool begin(double level) {
     lower_ = -loop_.centre;
     upper_ = level;
@@ -116,7 +116,7 @@ class MinimumRadiusSearch {
     return !intervals_.empty();
   }
 
-  /// The next level: the best ρ found if it is lower, else a step down, doubled while gains remain.
+  /// The next level: ρ at a probable minimum if that is lower, else a step down, doubled each time.
   double next_level() {
     double best = upper_;
     consider_promising(intervals_, previous_, [&](double differential) {
@@ -130,9 +130,8 @@ class MinimumRadiusSearch {
     return std::max(below, middle);
   }
 
-  /// The gains slightly above the least level: where two roots coincide, the radius depends on D
-  /// like a square root, and a rounding error of the exact minimum's D would give a much larger
-  /// radius.
+  /// The answer for gains slightly above the least level. Where two roots coincide, the radius
+  /// depends on D like a square root and is much larger at the rounded D of the exact minimum.
   MinimumRadius answer() const {
     const Intervals close = within(upper_ + 1e-12 * std::max(loop_.scale(), std::abs(upper_)));
     const Interval<double> interval = close.empty() ? intervals_.front() : close.front();
@@ -156,7 +155,7 @@ class MinimumRadiusSearch {
   Intervals intervals_, previous_;
 };
 
-/// The model of a loop of any order for `MinimumRadiusSearch`, with radii counted from 1.
+/// A loop of any order in the form that `MinimumRadiusSearch` needs, radii being given as ρ − 1.
 /// @tparam Loop  a `LoopMap<double>` or `ModalResponse<double>`
 template <class Loop>
 struct RadiusLevels {

@@ -19,7 +19,7 @@ namespace holdfast {
 enum class MinimumRadiusGainsOutcome {
   found,  ///< `radius` and `lower_bound` agree to 1e−6 of the roots' distance from λ = 1
   open,   ///< they do not agree: better gains may exist, but none with a radius below `lower_bound`
-  idle,   ///< the gains, or a combination of them, do not move the roots: P is 0, D the best for it
+  idle,  ///< some combination of the gains does not move the roots: P is 0 and D the best for P = 0
 };
 
 /// The pair of gains with which the sampled loop decays fastest.
@@ -41,9 +41,9 @@ inline void narrow(Interval<double>& range, double low, double high) {
   range.upper = std::min(range.upper, std::max(low, high));
 }
 
-/// A rectangle that contains all gains with all |λ′| < 1. The coefficient of λ′^k, an affine
-/// function b_k + P p_k + D d_k of the gains, is then within ± C(5, k): five strips, any two of
-/// which bound a parallelogram. Infinite where all strips are parallel.
+/// A rectangle that contains all gains for which the roots λ′ = 1 + μ all have |λ′| < 1. Then the
+/// coefficient of λ′^k, an affine function b_k + P p_k + D d_k of the gains, is within ± C(5, k):
+/// these are five strips, any two of which bound a parallelogram. Infinite where all are parallel.
 template <class Scalar>
 GainWindow window_of_unit_radius(const AffinePolynomial<Scalar, 5>& in_powers_of_mu) {
   const auto q = in_powers_of_mu.template transformed<PolynomialVariable::about_centre>(
@@ -74,8 +74,8 @@ GainWindow window_of_unit_radius(const AffinePolynomial<Scalar, 5>& in_powers_of
 /// The shape of that set over P changes only at the special points of its boundary
 /// (`boundary_features`); between neighbouring ones a single P decides whether the set has gains
 /// (`stable_intervals`). So each tested level bounds the global minimum from above or from below.
-/// Levels are taken from min ρ over D (`MinimumRadiusSearch`) in the middle of the P intervals and
-/// where the secants of their ends meet.
+/// Levels are taken from min ρ over D (`MinimumRadiusSearch`) at P where it is probably least
+/// (`consider_promising`).
 /// @tparam Loop  polynomial of the loop in `double`, see `LoopPolynomial`
 template <class Loop>
 class MinimumRadiusGainsSearch {
@@ -116,7 +116,7 @@ class MinimumRadiusGainsSearch {
             least.lower_bound};
   }
 
-  /// Takes one step from above, or, where that no longer helps, one from below.
+  /// Lowers the upper bound or, where that no longer helps, tests a level below it.
   void refine() {
     const double found = descend();
     const double drop = upper_ - found, margin = std::abs((1.0 - loop_.centre) - found);
@@ -162,7 +162,7 @@ class MinimumRadiusGainsSearch {
     return result;
   }
 
-  /// The minimum radius over D at promising P; the gains are stored if they are the best so far.
+  /// The least radius over D at a P where it is probably least; the best gains so far are stored.
   double descend() {
     double best = upper_;
     consider_promising(intervals_, previous_, [&](double proportional) {

@@ -40,7 +40,7 @@ std::vector<Interval<Scalar>> differential_gains_within_radius(
 
 namespace detail {
 
-/// Narrows an interval to a minimum by golden section.
+/// Narrows an interval about a minimum in it by golden section.
 /// @param left_is_better  (left, right) ↦ whether the first of two places in it is better
 template <class Scalar, class Better>
 void narrow_to_best(Scalar lower, Scalar upper, int steps, const Better& left_is_better) {
@@ -52,8 +52,8 @@ void narrow_to_best(Scalar lower, Scalar upper, int steps, const Better& left_is
   }
 }
 
-/// The least ρ(P, D) − 1 over D in an interval, with that D: from the roots at some D and by golden
-/// section about the best of them, if it is below a known value.
+/// The least ρ(P, D) − 1 over D in an interval, with that D: the best of 25 places, refined by
+/// golden section if the best is not above `known`.
 template <class Scalar>
 std::pair<Scalar, Scalar> least_excess(const ModalResponse<Scalar>& response, const Scalar& p,
                                        const Interval<Scalar>& gains, const Scalar& known) {
@@ -80,9 +80,9 @@ std::pair<Scalar, Scalar> least_excess(const ModalResponse<Scalar>& response, co
 }  // namespace detail
 
 /// The minimum over D of ρ(P, D) of a loop given by its poles. As for a `LoopMap` it follows from
-/// the D within each radius, the margin to a millionth of itself. A circle of some radius may be so
-/// near a pole that the winding of p on it is undecided; therefore the roots themselves are
-/// computed for some stable D, and about the best of them where that is better.
+/// the D within each radius; 1 − ρ is accurate to 10⁻⁶ of itself. A circle may be so near a pole
+/// that the winding of p on it is undecided. So ρ is also computed from the roots, at some stable D
+/// and about the best of these, and the smaller minimum is returned.
 /// @param response           response of the plant given by its poles, which must exist
 /// @param proportional_gain  P (N/m), finite
 /// @param start              initial D (N s/m), finite
@@ -108,7 +108,7 @@ MinimumRadius minimum_radius(const ModalResponse<Scalar>& response, double propo
 
 namespace detail {
 
-/// The distance of a loop's p(e^{iθ}) = 1 − P G_z − D G_v from 0 as a function of D.
+/// The modulus margin of a loop, min |p(e^{iθ})|, p = 1 − P G_z − D G_v, as a function of D.
 template <class Scalar>
 class ModulusLevels {
  public:
@@ -122,7 +122,7 @@ class ModulusLevels {
     }
   }
 
-  /// The stable D with |p| > modulus at all angles; |p|² is a quadratic in D at each angle.
+  /// The stable D with |p| > modulus at all stored angles; there |p|² is a quadratic in D.
   std::vector<Interval<Scalar>> beyond(const Scalar& modulus) const {
     std::vector<Interval<Scalar>> nearer;
     for (const Place& at : places_) {
@@ -182,13 +182,12 @@ class ModulusLevels {
 
 }  // namespace detail
 
-/// The open intervals of D (N s/m) that the options admit for a given P, of a loop given by its
-/// poles: with a margin m > 0 those with
+/// The open intervals of D (N s/m) that the options admit for a given P and a loop given by its
+/// poles. With a margin m > 0, unless by_decay, they are those with
 ///
 ///     min |1 − P G_z − D G_v| > m max_D min |1 − P G_z − D G_v|  and  D = D* + (1 − m)(D_s − D*)
 ///
-/// about the D* of the largest modulus margin, with minima over the unit circle and D_s
-/// stable.
+/// about the D* of largest modulus margin; minima are over the unit circle, and D_s is stable.
 ///
 /// The D of least radius, to which the margin of two masses refers, is unsuitable for a conductor:
 /// its slowest mode alone determines that radius.
@@ -221,8 +220,8 @@ std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<
 /// @param options            options within their ranges
 /// @param frequency          f (Hz), > 0
 /// @param proportional_gain  P (N/m), finite
-/// @param response           its `steady_response` at f, relative to the wanted reference; the
-///                  reference in the options is not used
+/// @param response           `steady_response` of the loop at f, relative to the wanted reference;
+///                           `relative_to_true_force` of the options is not used
 /// @throws InvalidParameter where an argument is outside its admissible range
 template <class Scalar>
 MinimumAmplitude minimum_amplitude(const ModalResponse<Scalar>& loop,
@@ -236,7 +235,7 @@ MinimumAmplitude minimum_amplitude(const ModalResponse<Scalar>& loop,
                                       [&] { return response; });
 }
 
-/// The model of a conductor by its modes for AmplitudeBand; ratios refer to the plant without
+/// A conductor by its modes in the form that AmplitudeBand needs. Ratios refer to the plant without
 /// control under the true force.
 template <class Scalar>
 struct ConductorOverBand {
@@ -257,8 +256,8 @@ struct ConductorOverBand {
     for (std::complex<double>& root : found) root -= 1.0;
     return found;
   }
-  /// The Newton step H/H′ at s for a zero of the conductor's receptance: of the bare conductor's,
-  /// or with devices of the sum over the poles.
+  /// The Newton step H/H′ at s towards a zero of the conductor's receptance H. With devices H is
+  /// the sum over the poles, otherwise the receptance of the bare conductor.
   std::complex<double> receptance_step(const std::complex<double>& s) const {
     if (!conductor.has_devices)
       return receptance(conductor.modes, s) / detail::receptance_slope(conductor.modes, s);
@@ -270,8 +269,8 @@ struct ConductorOverBand {
     }
     return sum / slope;
   }
-  /// The offsets λ − 1 of the zeros of the receptance, one between every two modes, by Newton's
-  /// method from the middle, and of the absorber's own motion on a fixed conductor.
+  /// The offsets λ − 1 of the receptance's zeros, one between every two neighbouring modes, by
+  /// Newton's method, and of the absorber's natural motion on a fixed conductor.
   std::vector<std::complex<double>> uncontrolled_zeros() const {
     const auto& modes = conductor.modes;
     const auto& absorber = conductor.absorber;
@@ -290,11 +289,10 @@ struct ConductorOverBand {
   }
 };
 
-/// The D that minimises the largest amplitude ratio to no control over a band, for a given P, for a
-/// conductor by its modes; see `minimax_amplitude` of a plant.
+/// The D that minimises the largest amplitude ratio (with control to without) over a band, for a
+/// given P and a conductor by its modes; see `minimax_amplitude` of a plant.
 /// @param conductor          conductor with all its poles
-/// @param options            options within their ranges; the reference of the ratios is not
-///                 used
+/// @param options            options within their ranges; `relative_to_true_force` is not used
 /// @param proportional_gain  P (N/m), finite
 /// @param band               Hz, 0 < lower < upper ≤ 1/(2τ)
 /// @throws InvalidParameter where an argument is outside its admissible range

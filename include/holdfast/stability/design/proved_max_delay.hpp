@@ -23,7 +23,7 @@ struct ProvedPeriodWalk {
 /// below the shortest period, and nothing is refuted beyond T.
 /// @param poles              poles as for EnclosedResponse
 /// @param proportional_gain  P (N/m)
-/// @param line               line along which the period varies
+/// @param line               samplings along which the period varies
 /// @param walk               range and steps
 /// @param gains_at           period → open intervals of D that stabilise by computation in doubles
 /// @param watch              called for each step; an exception from it ends the work

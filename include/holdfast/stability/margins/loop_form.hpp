@@ -87,7 +87,7 @@ auto loop_of(const Plant& plant, const Sampling<double>& sampling) {
   }
 }
 
-/// The plant in the form of any order: for two masses their `linear_plant`, whose loop may have a
+/// The plant itself if it has ports; for two masses their `linear_plant`, whose loop may have a
 /// delay of many samples.
 template <class Plant>
 decltype(auto) with_ports(const Plant& plant) {
@@ -111,7 +111,7 @@ auto continuous_roots(const Plant& plant, const PdGains<double>& gains) {
   }
 }
 
-/// The period 2π/|s| of the slowest mode of the plant without control, from the least |s| > 0 (s).
+/// The period 2π/|s| (s) of the plant's slowest mode without control, |s| > 0 being the least.
 template <class Plant>
 double slowest_mode_period(const Plant& plant) {
   double slowest = std::numeric_limits<double>::infinity();

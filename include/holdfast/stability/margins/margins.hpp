@@ -30,7 +30,7 @@ enum class MarginOutcome {
   not_stable,  ///< a root is on the unit circle or outside: every end is `undefined`
 };
 
-/// The end of the stable range of a quantity in one direction.
+/// The kind of end of the stable range of a quantity in one direction.
 enum class MarginEndOutcome {
   undefined,      ///< the loop is not stable: the numbers are NaN
   boundary,       ///< a root reaches the unit circle at `position`
@@ -79,8 +79,8 @@ struct MarginSearch {
 
 namespace detail {
 
-/// The share of a position that may remain unproved before a boundary of τ or δ: an earlier
-/// boundary can be within it, and nowhere else.
+/// The share of a position, next to a boundary of τ or δ, over which stability may remain unproved.
+/// An earlier boundary could be only there.
 constexpr double smallest_step = 1e-6;
 /// The delay in samples beyond δ, at which the walk towards longer delays ends.
 constexpr double most_delays = 10.0;
@@ -233,13 +233,11 @@ inline void validate(const MarginSearch& search) {
 /// The distances of D, P, τ and δ, one quantity at a time, from the boundary of stability.
 ///
 /// For D and P: the stable interval around the value, from all crossings of the unit circle
-/// (`circle_crossings`). For τ and δ: stepwise from the value outwards, with a proof that all
-/// roots are inside the unit circle all over the step (`MovingSpectrum`). So no boundary is passed
-/// over; the one that stops the proof is found by a bracketing root finder on ρ − 1. Below a
-/// millionth of τ the continuous loop decides alone; for τ → ∞ stability may be proved
-/// (`SlowSamplingBound`).
-/// @tparam Plant    two masses, with periods in closed form, or a plant of any order with ports;
-///                `validate` checks it
+/// (`circle_crossings`). For τ and δ: stepwise from the value outwards, with a proof that all roots
+/// are inside the unit circle over the whole step (`MovingSpectrum`). So no boundary is missed. The
+/// boundary that stops the proof is found by a bracketing root finder on ρ − 1. Below a millionth
+/// of τ the continuous loop decides alone; for τ → ∞ stability may be proved (`SlowSamplingBound`).
+/// @tparam Plant    two masses, or a plant of any order with ports; `validate` checks it
 /// @param plant     plant within its ranges
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ, of a plant with ports 0 … 1000 τ
 /// @param gains     P (N/m) and D (N s/m), finite
@@ -274,12 +272,12 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
           detail::delay_margin(general, sampling, gains, search)};
 }
 
-/// The margins of the two masses' loop as a whole: of its gain, its phase and a further delay.
+/// The margins of a loop as a whole: the gain factor, the phase and the further delay it allows.
 ///
-/// The characteristic polynomial is a + x b, where x = 1 is a common factor of both gains. So the
-/// loop opened at the drive is L = −b/a, and its roots are where L = 1.
+/// The characteristic polynomial is a + x b, x being a common factor of both gains, 1 in the loop.
+/// So the loop opened at the drive is L = −b/a, and its roots are where L = 1.
 struct LoopMargins {
-  MarginOutcome outcome;  ///< whether the loop is stable; else all below but ρ is NaN
+  MarginOutcome outcome;  ///< whether the loop is stable; if not, all but 1 − ρ is NaN
   double unit_circle;     ///< 1 − ρ, not positive where the loop is not stable
   double largest_factor =
       std::nan("");  ///< largest factor x > 1 of both gains with stability; ∞ without an end
@@ -316,12 +314,11 @@ Scalar phase_margin(const Polynomial<Scalar, 5>& constant_part,
 
 }  // namespace detail
 
-/// The margins of the loop as a whole.
+/// The gain factor, the phase and the further delay that the loop of two masses allows.
 ///
 /// Gain: the stable interval of a common factor of both gains, from all crossings of the circle
-/// (`stable_intervals`). Phase: all crossovers |L| = 1, roots of one polynomial. Delay: as
-/// `stability_margins` of a plant of any order, proved stretch by stretch, up to ten samples and
-/// more.
+/// (`stable_intervals`). Phase: all crossovers |L| = 1, roots of one polynomial. Delay: proved
+/// stretch by stretch as by `stability_margins`, up to ten samples beyond δ.
 /// @tparam Plant    two masses
 /// @param plant     plant within its ranges
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ

@@ -101,8 +101,8 @@ struct ModalMargins {
     return beyond_search(inside, value);
   }
 
-  /// The end between a stable position and an unstable one beyond it.
-  /// @param of_period  the quantity is τ, with δ/τ constant; else δ
+  /// The end of the stable range between a stable position and an unstable one beyond it.
+  /// @param of_period  whether the quantity is τ, with δ/τ constant, and not δ
   MarginEnd between(Scalar inside, Scalar outside, bool of_period) const {
     const Scalar value = of_period ? sampling.period : sampling.processing_delay;
     return walk(
@@ -137,7 +137,7 @@ struct ModalMargins {
     return modal_response<Scalar>(poles, other).with_sensor(has_velocity_sensor);
   }
 
-  /// The response whose G_v is P G_z + D G_v of the loop.
+  /// The response with the loop's P G_z + D G_v as its G_v: its D is a factor of both gains.
   Response loop_response() const {
     const Scalar p = gains.proportional, d = gains.differential;
     if (!has_velocity_sensor)
@@ -184,7 +184,7 @@ struct ModalMargins {
 /// @param poles     all `plant_poles`; they must outlive the call
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @param gains     P (N/m) and D (N s/m), finite
-/// @param search    limits of the walks, for τ downwards too
+/// @param search    only `longest_period_ratio` is used; it limits the walk of τ both ways
 /// @param has_velocity_sensor  false: D multiplies the backward difference of the readings
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
@@ -209,9 +209,9 @@ StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
           margins.of_delay()};
 }
 
-/// The end of the margin of τ (with δ/τ constant) or of δ between a position up to which the loop
-/// is stable and an unstable one beyond, as `proved_margins` finds them.
-/// With `of_period` it is the margin of τ; the velocity is measured.
+/// The end of the margin of τ (`of_period`, with δ/τ constant) or else of δ, with measured
+/// velocity. It lies between a position up to which the loop is stable and an unstable one beyond,
+/// such as `proved_margins` finds.
 template <class Scalar = double>
 MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                            const Sampling<detail::Undeduced<Scalar>>& sampling,
@@ -222,7 +222,8 @@ MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                                                                             of_period);
 }
 
-/// The margins of such a loop as a whole, with δ walked; arguments as above.
+/// The gain factor, the phase and the further delay that a loop given by the poles of its plant
+/// allows. δ is walked by an eighth of a sample. Arguments as of `modal_stability_margins`.
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
 LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,

@@ -20,8 +20,8 @@ namespace holdfast {
 
 /// The reason for the end of a proof in one direction.
 enum class ProofStop {
-  at_end,     ///< it reached its end, or an unstable loop was found beyond
-  work,       ///< its steps were used up
+  at_end,  ///< the proof reached its limit, or an unstable loop was found beyond its last position
+  work,    ///< the proof used up its steps
   undecided,  ///< a root is too near the circle for enclosures to separate it
 };
 
@@ -48,7 +48,8 @@ struct ProvedMarginsOptions {
   int most_steps = 20000;    ///< number of steps in each direction after which the walk ends
 };
 
-/// The margins of `StabilityMargins` as theorems on the loop of the given decimals.
+/// The margins of `StabilityMargins`, proved in interval arithmetic for the loop whose parameters
+/// are exactly the given decimal numbers.
 struct ProvedMargins {
   ProvedStability stability = ProvedStability::undecided;  ///< verdict on the loop itself
   ProvedMargin differential_gain;                          ///< D (N s/m)
@@ -68,7 +69,7 @@ inline bool is_off_circle(CircleArcs& arcs, const GainBox& box) {
   return arcs.meeting(box, arcs.all()).empty();
 }
 
-/// The common verdict on the loops of a box.
+/// The verdict proved for all loops of a box.
 inline ProvedStability stability_of(CircleArcs& arcs, const GainBox& box) {
   if (!is_off_circle(arcs, box)) return ProvedStability::undecided;
   const auto outside = arcs.roots_outside(middle_of(box));
@@ -108,8 +109,8 @@ struct SamplingPath {
 };
 
 /// Walks along a path from a value with a proved stable loop, as long as no root meets the circle:
-/// roots move continuously, so that none gets outside. At its end it searches for an unstable loop
-/// beyond.
+/// roots move continuously, so that none gets outside. If the walk ends before `limit` with steps
+/// left, an unstable loop is sought beyond its end.
 /// @param watch  called for each step; an exception from it ends the work
 template <class Path, class Watch>
 ProvedMarginEnd walked_end(const Path& path, double value, double limit,
@@ -145,8 +146,8 @@ ProvedMarginEnd walked_end(const Path& path, double value, double limit,
   return end;
 }
 
-/// The intended end of a walk: slightly beyond the boundary found in doubles, or, without one, the
-/// end of that search.
+/// The intended end of a walk: slightly beyond the boundary found in doubles. Without a boundary it
+/// is where the search in doubles ended, or `otherwise` if that position is not finite.
 inline double limit_beyond(const MarginEnd& end, double value, double otherwise) {
   if (end.outcome == MarginEndOutcome::boundary) return value + 1.1 * (end.position - value);
   if (end.outcome == MarginEndOutcome::undefined) return value;
@@ -227,10 +228,10 @@ struct MarginProver {
 
 }  // namespace detail
 
-/// Proves by how much D, P, τ and δ, one at a time, may change before the loop of the given
-/// decimals loses its stability. Every position in the margin is proved, so that no unstable window
-/// is missed: the loop is stable at the value (`CircleArcs::roots_outside`), and on each step of
-/// the walk, an interval of positions in enclosures, no root meets the unit circle.
+/// Proves by how much D, P, τ and δ, one at a time, may change before the loop loses its stability.
+/// Its parameters are exactly the given decimal numbers. No unstable window is missed: the loop is
+/// stable at the value (`CircleArcs::roots_outside`), and on each step of the walk, an interval of
+/// positions in enclosures, no root meets the unit circle.
 /// @param poles       poles of `enclosed_poles`
 /// @param sampling    τ and δ as for EnclosedResponse
 /// @param gains       P (N/m) and D (N s/m), finite
@@ -248,7 +249,7 @@ ProvedMargins proved_margins(const std::vector<EnclosedPole>& poles,
 }
 
 /// Proves the margins of τ and δ only, for a loop known to be stable; D, P and the loop itself are
-/// not examined. The arguments are those above.
+/// not examined. The arguments are those of `proved_margins`.
 /// @throws InvalidParameter where sampling or gains are not admissible
 template <class Watch>
 ProvedMargins proved_sampling_margins(const std::vector<EnclosedPole>& poles,

@@ -38,8 +38,7 @@ Scalar loop_excess(const SampledLoop<Scalar>& loop, const PdGains<Undeduced<Scal
   return loop_polynomial(loop).excess(gains);
 }
 
-/// The roots of a loop of any order as μ = λ − 1, so that no digits are lost with fast
-/// sampling.
+/// The roots of a loop of any order as μ = λ − 1, to lose no digits with fast sampling.
 template <class Scalar>
 Vector<std::complex<Scalar>, Eigen::Dynamic> roots_from_one(const LoopMap<Scalar>& map,
                                                             const PdGains<Scalar>& gains) {
@@ -105,12 +104,12 @@ class SamplingFamily {
     return detail::loop_map_keeping<Plant, double>(plant_, at(position), held_);
   }
 
-  /// The derivative of τ along the path.
+  /// The derivative of τ with respect to the position.
   double period_rate() const { return fixed_period_ > 0.0 ? 0.0 : 1.0; }
   /// The derivative of k τ − δ, the time in a sample during which a new command acts.
   double action_rate() const { return fixed_period_ > 0.0 ? -1.0 : held_ - delay_fraction_; }
 
-  /// The Taylor series of the closed map within `radius` (s) of a centre, x in units of the radius.
+  /// The Taylor series of the closed map within `radius` (s) of a centre, in x = deviation/radius.
   ///
   /// With h = k τ − δ and the rates τ′ and h′ along the path, the rows of the state are
   ///
@@ -150,8 +149,8 @@ class SamplingFamily {
     return result;
   }
 
-  /// The Taylor series of the command's input column s within `radius` (s) of a centre, as `moving`
-  /// of the map: for k = 1 by Γ₀, whose derivatives are A^{j−1} h′ʲ e^{Ah} b.
+  /// The Taylor series of the command's input column s within `radius` (s) of a centre. For k = 1 s
+  /// is Γ₀, whose derivatives are A^{j−1} h′ʲ e^{Ah} b; else s is constant.
   MovingVector moving_command(const LoopMap<double>& map, double radius) const {
     // The map of unit feedback from one more row, of which s is the column: its bound holds for s.
     const Eigen::Index size = map.size(), n = size - map.held_commands;

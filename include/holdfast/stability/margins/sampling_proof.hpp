@@ -25,14 +25,14 @@ inline Enclosure decimals_between(double from, double to) {
 
 }  // namespace detail
 
-/// A line in the samplings of one loop along which a position (s) varies: τ with δ/τ constant, or δ
-/// with τ constant, as long as the number of delayed commands is constant.
+/// A one-parameter set of samplings of a loop. The parameter, called position (s), is τ with δ/τ
+/// constant or δ with τ constant; the number of delayed commands is constant.
 struct EnclosedSamplings {
   Enclosure fixed_period;  ///< τ (s) where δ varies, else 0
   Enclosure last_share;    ///< φ − (k − 1) for δ = φ τ where τ varies, within 0 … 1
   int commands = 1;        ///< number k of delayed commands
 
-  /// The line of τ through a given sampling, see EnclosedSampling::of.
+  /// The line of τ through a given sampling (see EnclosedSampling::of).
   static EnclosedSamplings of_period(const Sampling<double>& sampling) {
     const int commands = held_commands(sampling);
     const Enclosure share =
@@ -46,12 +46,12 @@ struct EnclosedSamplings {
     return {Enclosure::of_decimal(period), 0.0, commands};
   }
 
-  /// An enclosure of all samplings at some positions.
+  /// An enclosure of the samplings at all the given positions.
   EnclosedSampling over(const Enclosure& positions) const {
     if (!moves_period()) return EnclosedSampling::of_delay(fixed_period, positions, commands);
     return {positions, last_share * positions, (Enclosure(1.0) - last_share) * positions, commands};
   }
-  /// The doubles nearest to τ and δ at a position.
+  /// The sampling in doubles at a position, from the middles of the enclosures.
   Sampling<double> next_to(double position) const {
     if (!moves_period()) return {fixed_period.middle(), std::max(position, 0.0)};
     return {position, (commands - 1 + last_share.middle()) * position};
@@ -96,7 +96,7 @@ template <class Scalar>
 class SamplingProof {
  public:
   /// @param poles  poles as for EnclosedResponse
-  /// @param gains  P and D of the given decimals
+  /// @param gains  P (N/m) and D (N s/m), exactly the given decimal numbers
   /// @param line   line of samplings that segments are taken from
   SamplingProof(const std::vector<EnclosedPole>& poles, const PdGains<double>& gains,
                 EnclosedSamplings line)
@@ -141,16 +141,16 @@ class SamplingProof {
   struct Motion {
     ComplexEnclosure s, reading;  // (P + D s) r/s
   };
-  /// The two terms of a pole in q as functions of the position: of the previous and last command.
+  /// The term of one pole in q over a segment: its parts by the previous and by the last command.
   struct Part {
     EnclosedSpiral pole;  // e^{sτ}
     EnclosedCurve past, present;
 
-    /// The numerator over λ − e^{sτ}.
+    /// The term's numerator over λ − e^{sτ}, at λ on a node.
     EnclosedCurve over(const EnclosedCurve& node) const { return present * node + past; }
   };
 
-  /// The midpoints of a pole's term at a node z, with their derivatives.
+  /// The midpoints of a pole's term at a node z, and their derivatives along the segment.
   struct PartInDoubles {
     std::complex<double> pole, pole_moves, present, over, over_moves;
 
@@ -162,7 +162,7 @@ class SamplingProof {
           over_moves(part.present.slope().middle() * z + part.past.slope().middle()) {}
   };
 
-  /// @param reach  half length ϱ (s)
+  /// The terms of all poles over a segment. @param reach  half length ϱ of the segment (s)
   std::vector<Part> parts_at(const Enclosure& position, const Enclosure& reach) const {
     const auto period = line_.period_at(position), present = line_.present_at(position);
     std::vector<Part> parts;
@@ -177,8 +177,8 @@ class SamplingProof {
 
   static ComplexEnclosure exact(const std::complex<double>& z) { return {z, 0.0}; }
 
-  /// Nodes near the roots, those near poles first and in the order of the poles; empty where the
-  /// roots are not found. The proof is valid for any nodes.
+  /// Nodes near the roots. The first are those near poles, in the order of the poles. Empty where
+  /// the roots are not found. The proof is valid for any nodes.
   Nodes nodes_at(double position, const std::vector<Part>& parts) const {
     using Complex = std::complex<double>;
     const Sampling<double> sampling = line_.next_to(position);
@@ -195,8 +195,8 @@ class SamplingProof {
     return nodes;
   }
 
-  /// The rate at which root i turns and grows: σ of G(z e^{σt}; t) = 0, in doubles. Near pole i, G
-  /// = (z − e_i) q with that pole's own term separated; for the other roots G = q.
+  /// The rate σ at which root i moves along the segment, z e^{σt}: from G(z e^{σt}; t) = 0, in
+  /// doubles. For the root near pole i G = (z − e_i) q, finite at the pole; for the others G = q.
   std::complex<double> rate_of(std::size_t i, const std::complex<double>& z,
                                const std::vector<Part>& parts) const {
     using Complex = std::complex<double>;
@@ -234,7 +234,7 @@ class SamplingProof {
     bool is_near(double room) const {
       return std::abs(away) < std::min(room, std::max(2.5 * std::abs(drift), 1e-3 * room));
     }
-    /// The unit vector across the drift and inwards from a point; without a drift arbitrary.
+    /// The unit vector across `drift` that points inwards from a point; arbitrary without a drift.
     std::complex<double> aside_from(const std::complex<double>& point, std::size_t i) const {
       if (!(std::abs(drift) > 0.0)) return std::polar(1.0, static_cast<double>(i));
       const std::complex<double> across = drift / std::abs(drift) * std::complex<double>(0.0, 1.0);
@@ -242,8 +242,8 @@ class SamplingProof {
     }
   };
 
-  /// Moves nodes apart, by little beside their distance from the circle, that would meet each other
-  /// (like roots that meet on the real line) or another node's pole.
+  /// Moves nodes apart that would meet on the segment, as roots do that meet on the real line, and
+  /// nodes away from poles of others. The shift is small beside a node's distance from the circle.
   static void make_room(Nodes& nodes, const std::vector<Part>& parts) {
     const auto room_of = [](const EnclosedSpiral& node) {
       return 0.3 * (1.0 - std::abs(node.start().middle()));
@@ -349,7 +349,7 @@ class SamplingProof {
   std::vector<ModalResponse<double>::Residue> residues_;
 };
 
-// Beside the class, so that who links holdfast::compiled is spared it.
+// Outside the class: code in a class is compiled again in every file that uses it.
 
 template <class Scalar>
 auto SamplingProof<Scalar>::nodes_over(double from, double to) const -> std::vector<Node> {

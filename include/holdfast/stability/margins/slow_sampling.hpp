@@ -17,8 +17,8 @@
 
 namespace holdfast {
 
-/// A bound on the loop's return ratio that falls as the sampling period grows; it gives a period
-/// from which on the sampled loop is stable for all longer ones.
+/// A bound on the loop's return ratio that falls as the sampling period grows. It gives a period
+/// beyond which the sampled loop is stable at every period.
 ///
 /// With the plant's poles s_i = −a_i + iω_i, K (sI − A)⁻¹ b = n(s)/p(s), c_i = n(s_i)/(s_i
 /// p′(s_i)), g = K A⁻¹ b = −n(0)/p(0) = Σ c_i, φ = δ/τ and e_i = e^{s_i τ}, the loop's return ratio
@@ -36,7 +36,7 @@ namespace holdfast {
 /// further whole samples divide L by powers of λ, which does not change the bound.
 class SlowSamplingBound {
  public:
-  /// @tparam Plant          any order; without a bound for multiple poles
+  /// @tparam Plant          plant of any order; with multiple poles there is no bound
   /// @param plant           plant within its ranges, which are not checked here
   /// @param gains           P (N/m) and D (N s/m), finite
   /// @param delay_fraction  φ, 0 … 1, constant while τ varies
@@ -63,7 +63,7 @@ class SlowSamplingBound {
     return bound;
   }
 
-  /// A period (s) beyond which every loop is stable; infinite where the bound gives none.
+  /// A period (s) such that the loop is stable at every longer one; infinite where none is known.
   double certain_from() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto [slowest, fastest] = std::minmax_element(decay_.begin(), decay_.end());

@@ -9,8 +9,8 @@
 
 namespace holdfast {
 
-/// The variable x of a polynomial, which determines the stable region of its roots: each variable
-/// is a type of its own.
+/// The variable x of a polynomial, on which the stable region of its roots depends. Polynomials in
+/// different variables are different types.
 enum class PolynomialVariable {
   half_plane,    ///< s, or w of `in_half_plane`: Re x < 0
   about_one,     ///< λ − 1: |1 + x| < 1
@@ -71,7 +71,7 @@ const HalfPlanePolynomial<Scalar, Degree>& in_half_plane(
   return polynomial;
 }
 
-/// Characteristic polynomial of the continuous loop without delay, degree 4 in s:
+/// The characteristic polynomial of the continuous loop without delay, degree 4 in s:
 ///
 ///     det(sI − A − bK) = det(sI − A) − P [1 0 0 0] adj(sI − A) b − D [0 1 0 0] adj(sI − A) b
 ///
@@ -96,7 +96,7 @@ AffinePolynomial<Scalar, 4> characteristic_polynomial(const Plant<Scalar>& plant
 
 namespace detail {
 
-/// det(λI − S) of the sampled loop in powers of μ = λ − centre, with λ Γ₀ + Γ₁ = μ Γ₀ + c Γ₀ + Γ₁.
+/// The polynomial det(λI − S) in powers of μ = λ − c, with λ Γ₀ + Γ₁ = μ Γ₀ + (c Γ₀ + Γ₁).
 /// @param centre  centre c, 1 or 0
 template <class Scalar>
 AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial_about(
@@ -122,8 +122,7 @@ AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial_about(
 
 }  // namespace detail
 
-/// Characteristic polynomial det(λI − S) of the sampled loop, degree 5, written in powers of μ = λ
-/// − 1.
+/// The characteristic polynomial det(λI − S) of the sampled loop, degree 5, in powers of μ = λ − 1.
 ///
 /// Elimination of the stored force u_{j−1} gives
 ///

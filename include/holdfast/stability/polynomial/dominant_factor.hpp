@@ -48,9 +48,9 @@ struct QuadraticFactor {
 /// dominant root: the sampled loop without processing delay has it, any other polynomial is
 /// multiplied by λ (`with_root_at_zero`).
 ///
-/// Work per call and iteration: 5 Degree multiply-adds and a division; 45 more for the test. Error
-/// of the radius: 2e−13 relative where two roots have moduli within it, otherwise round-off times
-/// the condition of the dominant root. Source: L. Bairstow, 1914.
+/// Work per call and iteration: 5 Degree multiply-adds and a division; 45 more for the test.
+/// Relative error of the radius: 2e−13 where two moduli are closer than that, otherwise round-off
+/// times the condition of the dominant root. Source: L. Bairstow, 1914.
 template <class Scalar, int Degree>
 class DominantFactor {
  public:
@@ -104,7 +104,7 @@ class DominantFactor {
     return settled;
   }
 
-  /// Restarts the lanes that did not converge from the previous factor: where cells are far apart
+  /// Restarts from the previous factor the lanes that did not converge: where cells are far apart,
   /// extrapolation may increase the error.
   void start_nearby(const Polynomial<Scalar, Degree>& polynomial, Factor& factor,
                     Quotient& quotient, Mask<Scalar>& settled) const {
@@ -128,7 +128,7 @@ class DominantFactor {
     return {at(&Factor::linear), at(&Factor::constant)};
   }
 
-  /// Performs one Newton step; true where it was small enough to be the last one.
+  /// Performs one Newton step. @return true where it was small enough to be the last one
   static Mask<Scalar> improve(const Polynomial<Scalar, Degree>& a, Factor& factor,
                               Quotient& quotient) {
     using std::abs;
@@ -149,7 +149,7 @@ class DominantFactor {
     return u_settled & v_settled;
   }
 
-  /// Divides: b_k = a_k − U b_{k+1} − V b_{k+2}; quotient b_n … b₂, remainder b₁ (μ + U) + b₀.
+  /// Divides a: b_k = a_k − U b_{k+1} − V b_{k+2}; quotient b_n … b₂, remainder b₁ (μ + U) + b₀.
   static void divide(const Polynomial<Scalar, Degree>& a, const Scalar& u, const Scalar& v,
                      Polynomial<Scalar, Degree>& b) {
     b[Degree] = a[Degree];

@@ -18,12 +18,12 @@ namespace holdfast {
 /// The polynomial det(λI − S) in powers of λ − 1 where the plant moves little between samples, and
 /// in powers of λ where its motion decays almost completely within a sample.
 ///
-/// In the first case the roots are close to λ = 1, in the second to λ = 0; about that centre
-/// round-off does not hide their distance. Radii too are stored as their offset from it.
+/// In the first case the roots are close to λ = 1, in the second to λ = 0. Powers of λ − centre
+/// keep the digits of these distances. Radii too are stored as offsets from the centre.
 template <class Scalar>
 struct LoopPolynomial {
   Scalar centre;  ///< 1 or 0
-  /// Monic, in powers of λ − centre.
+  /// The monic polynomial in powers of λ − centre, affine in the gains.
   AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial;
 
   /// The scale of the roots' distances from the centre, for tolerances.
@@ -50,7 +50,7 @@ struct LoopPolynomial {
     return (centre - Scalar(1)) + radius_offset(gains);
   }
 
-  /// The polynomial in λ′ = λ/r, in powers of λ′ − 1; it is stable where all |λ| < r.
+  /// The polynomial of λ′ = λ/r in powers of λ′ − 1; it is stable where all |λ| < r.
   /// @param offset  r − centre, above −centre
   AffinePolynomial<Scalar, 5> at_radius(const Scalar& offset) const {
     const Scalar radius = centre + offset;

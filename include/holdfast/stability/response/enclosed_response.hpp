@@ -27,19 +27,19 @@ struct EnclosedCommandResponse {
   EnclosedExpansion velocity;      ///< F_v (m/(N s))
 };
 
-/// The times for which the commands of a sample act, for one sampling or enclosing a range of them.
+/// Times in a sample during which the commands act, for one sampling or for all in a range.
 struct EnclosedSampling {
   Enclosure period;   ///< τ (s)
-  Enclosure past;     ///< δ − (k − 1) τ (s), of the previous command
-  Enclosure present;  ///< k τ − δ (s), of the last command
+  Enclosure past;     ///< δ − (k − 1) τ (s), action time of the previous command
+  Enclosure present;  ///< k τ − δ (s), action time of the last command
   int commands;       ///< number k of delayed commands
 
   /// Sets all four members, in this order.
   EnclosedSampling(Enclosure of_period, Enclosure of_past, Enclosure of_present, int on_their_way)
       : period(of_period), past(of_past), present(of_present), commands(on_their_way) {}
 
-  /// @param sampling  the decimals nearest to τ > 0 and δ ≥ 0, δ ≤ 1000 τ; a δ that exceeds a whole
-  ///                  number of samples by less than 10⁻¹² of itself counts as that number
+  /// Encloses τ (s) > 0 and δ (s), 0 … 1000 τ, with all decimals rounded to them. A δ that exceeds
+  /// a whole number of samples by less than 10⁻¹² of itself counts as that number.
   /// @throws InvalidParameter where the sampling is not admissible
   static EnclosedSampling of(const Sampling<double>& sampling) {
     require_positive("sampling period tau", sampling.period, "s");
@@ -65,8 +65,8 @@ struct EnclosedSampling {
 ///
 ///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ),   F(λ) = λᵏ G(λ) = Σ (a_j λ + b_j)/(λ − e^{s_j τ})
 ///
-/// with k, a_j and b_j as there. A pair of poles forms one real quotient n(λ)/g(λ) of degree 2,
-/// with the exact remainder after the first two terms about λ
+/// with k, a_j and b_j as in `ModalResponse`. A pair of poles forms one real quotient n(λ)/g(λ) of
+/// degree 2, with the exact remainder after the first two terms about λ
 ///
 ///     f(λ + w) − f − f′ w = w² (n₂ − f g₂ − f′ g′ − f′ g₂ w)/g(λ + w)
 ///
@@ -156,7 +156,7 @@ class EnclosedResponse {
     }
   };
 
-  /// The denominator g and its derivative about a point.
+  /// A point λ with the denominator g and its derivative there, and a bound of g about it.
   struct Around {
     const ComplexEnclosure& lambda;
     ComplexEnclosure inverse_divisor, divisor_slope;

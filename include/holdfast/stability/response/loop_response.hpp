@@ -23,8 +23,9 @@ struct CommandResponse {
 ///     G_z(λ) = h_z (λI − S₀)⁻¹ s,   G_v(λ) = h_v (λI − S₀)⁻¹ s
 ///
 /// from the command to the quantities that P and D multiply; the characteristic equation of the
-/// loop is 1 − P G_z(λ) − D G_v(λ) = 0. S₀ − I is brought to Hessenberg form once, H = Qᵀ(S₀ − I)Q;
-/// a value costs the elimination of one subdiagonal, about 4 n² complex multiply-adds, n = N + k.
+/// loop is 1 − P G_z(λ) − D G_v(λ) = 0. S₀ − I, of size n = N + k, is brought to Hessenberg form H
+/// = Qᵀ(S₀ − I)Q once. A value costs the elimination of one subdiagonal, about 4 n² complex
+/// multiply-adds.
 /// Source: A. J. Laub, Efficient multivariable frequency response computations, IEEE TAC 26 (1981).
 template <class Scalar>
 class LoopResponse {

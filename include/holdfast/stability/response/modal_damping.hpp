@@ -22,8 +22,8 @@ namespace holdfast {
 struct ModeDamping {
   double angular_frequency;   ///< ω_n (rad/s) of the bare conductor
   double bare;                ///< ζ_n without absorber
-  std::complex<double> root;  ///< s (1/s) of the loop's root that belongs to the mode; NaN: lost
-  double first_order;         ///< ζ_n with the first-order contribution of a light device
+  std::complex<double> root;  ///< the loop's root s (1/s) of the mode; NaN where none was found
+  double first_order;         ///< ζ_n by the first-order law for a light device
 
   /// The damping ratio −Re s/|s|; negative where the mode grows.
   double damping() const { return -root.real() / std::abs(root); }
@@ -31,8 +31,8 @@ struct ModeDamping {
 
 namespace detail {
 
-/// The eigenvalue s of the plant, in its response, that is nearest to a value computed otherwise.
-/// @return NaN without a close one
+/// The eigenvalue s (1/s) nearest to an approximate one, from the increments e^{sτ} − 1 of all.
+/// @return NaN where no increment is within 10⁻⁶
 inline std::complex<double> matched_pole(const std::vector<std::complex<double>>& increments,
                                          const std::complex<double>& s, double period) {
   const std::complex<double> mu = complex_expm1(s * period);
@@ -47,12 +47,12 @@ inline std::complex<double> matched_pole(const std::vector<std::complex<double>>
 
 /// The damping of each mode of a conductor with the absorber and its computer. The bare mode is
 /// continued to a root of the sampled loop as first the absorber and then the gains grow from zero
-/// to their values; s = ln λ/τ without the ambiguity of the logarithm. The first-order law for a
-/// light device is given too.
+/// to their values; so the branch of the logarithm in s = ln λ/τ is known. The first-order law for
+/// a light device is given too.
 ///
-/// The continuation is no proof: where two roots meet on their way, their assignment is arbitrary,
-/// and where the steps become too small the damping is NaN. Work: some hundred values of the
-/// transfer functions per mode.
+/// The continuation is no proof. Where two roots meet on their way, it is arbitrary which mode each
+/// is assigned to. Where the steps become too small, the damping is NaN. Work: some hundred values
+/// of the transfer functions per mode.
 /// @param modes     modes of the bare conductor at the absorber's place
 /// @param absorber  absorber with its clamp
 /// @param sampling  τ and δ

@@ -23,10 +23,10 @@
 namespace holdfast {
 
 /// The zero-order-hold transfer functions of `LoopResponse` as sums over the plant's eigenvalues
-/// s_k: with k delayed commands and δ′ the delay within a sample,
+/// s_j with residues γ_j β_j; k commands are delayed, and δ′ is the delay within a sample:
 ///
-///     G(λ) = λ^{1−k} Σ (a_k + b_k/λ) / (λ − e^{s_k τ}),
-///     a_k = γ_k β_k (e^{s_k(τ−δ′)} − 1)/s_k,   b_k = γ_k β_k e^{s_k(τ−δ′)} (e^{s_k δ′} − 1)/s_k
+///     G(λ) = λ^{1−k} Σ (a_j + b_j/λ) / (λ − e^{s_j τ}),
+///     a_j = γ_j β_j (e^{s_j(τ−δ′)} − 1)/s_j,   b_j = γ_j β_j e^{s_j(τ−δ′)} (e^{s_j δ′} − 1)/s_j
 ///
 /// A value costs 10 N complex operations where LoopResponse takes 4 N². No power of λ is formed, so
 /// that hundreds of modes retain nine digits and more. Where eigenvalues (nearly) coincide, like
@@ -37,12 +37,12 @@ class ModalResponse {
   using Complex = std::complex<Scalar>;  ///< type of λ and of the responses
 
   /// @param plant     plant of any order
-  /// @param sampling  τ > 0 and δ ≥ 0, which may exceed τ by up to 1000 samples
+  /// @param sampling  τ (s) > 0 and δ (s), 0 … 1000 τ
   /// @throws InvalidParameter where the sampling is not admissible or the state matrix not finite
   template <class Plant>
   ModalResponse(const Plant& plant, const Sampling<Scalar>& sampling);
 
-  /// A pole s_k with its residues γ_k β_k for the quantities that P and D multiply.
+  /// A pole s_j with its residues γ_j β_j for the quantities that P and D multiply.
   struct Residue {
     Complex s;             ///< 1/s
     Complex displacement;  ///< m/(N s)
@@ -50,7 +50,7 @@ class ModalResponse {
   };
 
   /// @param residues  residues of all eigenvalues of a plant
-  /// @param sampling  sampling as above
+  /// @param sampling  τ (s) > 0 and δ (s), 0 … 1000 τ
   /// @throws InvalidParameter where the sampling is not admissible
   ModalResponse(const std::vector<Residue>& residues, const Sampling<Scalar>& sampling)
       : ModalResponse(sampling) {
@@ -71,7 +71,7 @@ class ModalResponse {
     return at_distance_from_one(circle_increment(angle));
   }
 
-  /// The response G(rλ) of a loop whose roots are those of this one divided by r.
+  /// The response G(rλ) of a loop whose roots are those of this loop divided by r.
   /// @param offset  r − 1, above −1
   /// @return nothing where LoopResponse is used
   std::optional<ModalResponse> at_radius(const Scalar& offset) const {
@@ -99,8 +99,8 @@ class ModalResponse {
     return scaled;
   }
 
-  /// The filter w(λ) = constant + change (1 − 1/λ) of the displacement readings whose output D
-  /// multiplies: G_v = w(λ) G_z; 1/s, or N/m where it replaces both gains.
+  /// The filter w(λ) = constant + change (1 − 1/λ) of the displacement readings, G_v = w(λ) G_z,
+  /// whose output D multiplies. Its two numbers are in 1/s, or in N/m where it replaces both gains.
   using Weight = typename PoleSum<Scalar>::Weight;
 
   /// The response of a computer without a velocity sensor.
@@ -112,13 +112,13 @@ class ModalResponse {
   }
 
   /// The response where D multiplies the backward difference of the readings, G_v = (1 − 1/λ)
-  /// G_z/τ, unless there is a velocity sensor.
+  /// G_z/τ; this response itself where there is a sensor `of_velocity`.
   ModalResponse with_sensor(bool of_velocity) const {
     if (of_velocity) return *this;
     return with_velocity_from_displacement({Scalar(0), Scalar(1) / period_});
   }
 
-  /// The increments e^{s_k τ} − 1 of the plant's eigenvalues.
+  /// The increments e^{s_j τ} − 1 of the plant's eigenvalues.
   std::vector<Complex> pole_increments() const {
     std::vector<Complex> increments;
     for (const Pole& pole : poles_.all()) increments.push_back(pole.increment);
@@ -156,17 +156,17 @@ class ModalResponse {
  private:
   struct Pole {
     Complex increment;                         // e^{s τ} − 1
-    Complex displacement, velocity;            // a_k
-    Complex past_displacement, past_velocity;  // b_k
+    Complex displacement, velocity;            // a_j
+    Complex past_displacement, past_velocity;  // b_j
   };
 
-  /// The sums Σ a_k/(λ − e_k) for z and for v.
+  /// The sums Σ a_j/(λ − e_j) for z and for v.
   struct Sums {
     Complex z{0}, v{0};
   };
 
-  /// Poles, of which no e^{iθ} is as far as those that fill up the last vector of the processor.
-  /// A late command's residues b join the a: (b/λ)/(λ − e) = (b/e)/(λ − e) − (b/e)/λ.
+  /// The poles in SIMD vectors; the last vector is filled up with λ = −7, far from the unit circle.
+  /// A late command's residues b are joined to a: (b/λ)/(λ − e) = (b/e)/(λ − e) − (b/e)/λ.
   struct Poles : detail::ComplexRows<Scalar, 3> {
     std::vector<Pole> late;        // with their b, hardly anything being left after a sample
     Complex past_z{0}, past_v{0};  // −Σ b/e of all others
@@ -186,7 +186,7 @@ class ModalResponse {
         this->push_back({of.increment, of.displacement + of_z, of.velocity + of_v});
       }
     }
-    /// The late ones last, as `pole_sum_roots` leaves the roots of those that have died out.
+    /// All poles, the `late` ones last; `pole_sum_roots` too puts roots that have died out last.
     std::vector<Pole> all() const {
       std::vector<Pole> poles;
       for (std::size_t k = 0; k < this->size(); ++k) {
@@ -262,14 +262,14 @@ class ModalResponse {
   Scalar radius_{1};              // r of G(rλ)
 };
 
-/// The response about one place for many values there: the nearest poles one by one, the sum of all
-/// others by its Taylor series, to the accuracy of the sums. The nearest are 3 √N of N poles, so
-/// that values at 30 angles per pole cost N^{3/2} operations together, not N².
+/// The response at many λ near one place. The terms of the nearest poles are computed one by one,
+/// the sum of all others by its Taylor series, with the accuracy of the sums. The nearest are 3 √N
+/// of N poles, so that values at 30 angles per pole cost N^{3/2} operations together, not N².
 template <class Scalar>
 class ModalResponse<Scalar>::Nearby {
  public:
   /// @param response  the response, which must outlive this object
-  /// @param centre    offset μ of the place
+  /// @param centre    offset μ = λ − 1 of the place
   Nearby(const ModalResponse& response, const Complex& centre)
       : response_(response), centre_(centre) {
     const std::vector<Pole> all = response.poles_.all();
@@ -288,7 +288,7 @@ class ModalResponse<Scalar>::Nearby {
       k < count ? near_.add(*poles[k].second) : add_far(*poles[k].second);
   }
 
-  /// Whether the series is valid at μ: within an eighth of the distance to its nearest pole.
+  /// Whether the series holds at μ: within 1/8 of its centre's distance to the nearest pole in it.
   bool holds(const Complex& mu) const { return std::abs(mu - centre_) <= reach_ / Scalar(8); }
 
   /// The responses G_z and G_v at μ.
@@ -367,7 +367,7 @@ ModalResponse<Scalar> modal_response(const std::vector<PlantPole>& poles,
 
 /// The response of a conductor by its modes with the absorber and the loop's hardware: from their
 /// poles, or, where those are not all separated, from the eigenvalues of the plant.
-/// @tparam Scalar    double, as above
+/// @tparam Scalar    double
 /// @param conductor  conductor with all its poles, or without poles
 /// @param sampling   τ and δ
 /// @throws InvalidParameter where conductor, absorber, hardware or sampling are not admissible
@@ -392,8 +392,8 @@ ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduc
 }
 
 /// All roots λ of the loop 1 = P G_z(λ) + D G_v(λ), by `pole_sum_roots`: as many as the plant has
-/// states and delayed commands. A velocity by difference adds the previous reading, and a root;
-/// with D = 0 that root is 0 and left out.
+/// states and delayed commands. A velocity by difference adds a state, the previous reading, and a
+/// root; with D = 0 this root is 0 and left out.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P and D
 /// @param enough    accuracy, see `pole_sum_roots`

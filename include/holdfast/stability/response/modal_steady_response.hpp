@@ -15,8 +15,9 @@
 
 namespace holdfast {
 
-/// The amplitude |z| / F_m (m/N) of a conductor by its modes with the absorber, without control,
-/// under the true force F_m cos ωt at the absorber's place: |H′/(1 + H′K_p)| at s = iω (unchecked).
+/// The amplitude |z| / F_m (m/N) of a conductor by its modes at the absorber's place, without
+/// control. The true force F_m cos ωt acts there, not held over samples. The amplitude is the
+/// modulus of `place_receptance` at s = iω; the arguments are not checked.
 /// @param conductor          conductor, with its poles where devices are on the span
 /// @param angular_frequency  ω (rad/s), > 0
 inline double true_amplitude_per_force(const ConductorWithAbsorber& conductor,
@@ -26,8 +27,7 @@ inline double true_amplitude_per_force(const ConductorWithAbsorber& conductor,
 
 namespace detail {
 
-/// The `steady_response` of a conductor with all its poles and a measured velocity
-/// (unchecked).
+/// The `steady_response` of a conductor with all its poles and a measured velocity (unchecked).
 template <class Scalar>
 SteadyResponse<Scalar> steady_response_by_poles(const ConductorWithAbsorber& conductor,
                                                 const Sampling<double>& sampling, ForceHold hold,
@@ -67,10 +67,10 @@ SteadyResponse<Scalar> steady_response_by_poles(const ConductorWithAbsorber& con
 
 /// The steady response of the loop of a conductor by its modes to a force at the absorber's place,
 /// as `steady_response` of `linear_plant`, in N operations.
-/// @param conductor          conductor with all its poles, or without; the plant is used where
-///                   there are none, or where one belongs to the hardware
+/// @param conductor          conductor with all its poles; its `linear_plant` is used where they
+///                           are missing or `with_hardware` gives none
 /// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
-/// @param hold               how the excitation enters a sample
+/// @param hold               hold of the excitation over a sample
 /// @param angular_frequency  ω (rad/s), > 0
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>

@@ -37,16 +37,14 @@ struct LoopPhasors {
   std::complex<Scalar> force_conductor;       ///< f_c (m/N): z per excitation
 };
 
-/// The responses of a sampled loop to unit forces at ω, one a column of Y:
+/// The responses of a sampled loop to unit forces at ω, one in each column of Y:
 ///
 ///     (λI − S₀) Y = [s, g],   λ = e^{iωτ}
 ///
-/// with the input column s of the command and the phasor g of the excitation, which moves no
-/// command. For two masses the stored command is eliminated: S₀ = A_d and s = Γ₀ + Γ₁/λ.
-/// @tparam Loop              `SampledLoop` of the two masses, or `LoopMap` of any order, whose
-/// gains
-///                           do not matter
-/// @param loop               the loop
+/// with the input column s of the command and the phasor g of the excitation, which acts on no
+/// stored command. For two masses that command is eliminated: S₀ = A_d and s = Γ₀ + Γ₁/λ.
+/// @tparam Loop              `SampledLoop` of the two masses, or `LoopMap` of any order
+/// @param loop               the loop; its gains are not used
 /// @param input              `harmonic_input` of the same loop and ω
 /// @param angular_frequency  ω (rad/s), > 0
 /// @throws InvalidParameter where the input has another size than the loop
@@ -138,7 +136,7 @@ class SteadyResponse {
     require_positive("angular frequency", static_cast<double>(angular_frequency), "rad/s");
   }
 
-  /// Constructs it from the responses to unit forces.
+  /// Constructs the response from its phasors for unit forces.
   explicit SteadyResponse(const LoopPhasors<Scalar>& phasors)
       : phasors_(phasors),
         reference_(std::abs(phasors.force_conductor)),
@@ -148,7 +146,7 @@ class SteadyResponse {
         differential_slope_(phasors.control_conductor * phasors.force_velocity -
                             phasors.force_conductor * phasors.control_velocity) {}
 
-  /// The amplitude |Z₁| / F_m (m/N) with the given gains.
+  /// The conductor's amplitude |Z| / F_m (m/N) with the given gains.
   Scalar amplitude_per_force(const PdGains<Scalar>& gains) const {
     return std::abs(without_differential(gains.proportional) +
                     gains.differential * differential_slope_) /
@@ -156,7 +154,7 @@ class SteadyResponse {
                     gains.differential * phasors_.control_velocity);
   }
 
-  /// The amplitude |Z₁| / F_m without control (m/N), with the same hold of the force.
+  /// The conductor's amplitude |Z| / F_m (m/N) without control, with the same hold of the force.
   Scalar uncontrolled_amplitude_per_force() const { return std::abs(phasors_.force_conductor); }
 
   /// This response with ratios relative to another amplitude without control, for example under the
@@ -182,7 +180,7 @@ class SteadyResponse {
     return SteadyResponse(phasors).relative_to(reference_);
   }
 
-  /// The amplitude relative to no control; below 1 the control attenuates.
+  /// The amplitude over the reference amplitude without control; below 1 the control attenuates.
   Scalar ratio_to_uncontrolled(const PdGains<Scalar>& gains) const {
     return amplitude_per_force(gains) / reference_;
   }
@@ -259,7 +257,7 @@ class SteadyResponse {
 /// loop's map.
 /// @param plant              plant of any order; its ports define measurement and conductor
 /// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
-/// @param hold               how the excitation enters a sample
+/// @param hold               hold of the excitation over a sample
 /// @param angular_frequency  ω (rad/s), > 0
 /// @throws InvalidParameter where an argument is outside its range
 template <class Plant>
@@ -278,9 +276,9 @@ SteadyResponse<double> steady_response(const Plant& plant, const Sampling<double
   return of(loop_map(plant, sampling));
 }
 
-/// The amplitude |Z| / F_m (m/N) of the plant without control under the true force F_m cos ωt, |h
-/// (iωI − A)⁻¹ c|, independent of any hold of the force.
-/// @param plant              plant of any order; only if asymptotically stable is the motion steady
+/// The amplitude |Z| / F_m (m/N) of the plant without control under the true, not held force F_m
+/// cos ωt: |h (iωI − A)⁻¹ c|, h being the row of the conductor's displacement, c the force's input.
+/// @param plant              plant of any order; the motion is steady only if the plant is stable
 /// @param angular_frequency  ω (rad/s), > 0
 /// @throws InvalidParameter where ω is outside its range
 template <class Plant>
@@ -293,7 +291,7 @@ double true_amplitude_per_force(const Plant& plant, double angular_frequency) {
 
 namespace detail {
 
-/// The steady response of a plant's loop, relative to the reference in the options.
+/// The steady response of a plant's loop; ratios refer to the true or to the held force.
 template <class Plant, class Loop>
 SteadyResponse<double> response_of_loop(const Plant& plant, const Loop& loop, ForceHold hold,
                                         double angular_frequency, bool relative_to_true_force) {

@@ -57,7 +57,7 @@ void require_followable(const Case& the_case, const CableDecayOptions& options) 
   if (periods <= most_periods) return;
   throw NoAnswer("a decay over " + format_rounded(options.duration) + " s has " +
                  format_rounded(periods) + " periods of the cable (" + format_rounded(lowest) +
-                 " Hz), more than are followed; its length is given, or six periods of "
+                 " Hz), more than the limit of 100000: give a shorter --duration, or a higher "
                  "reduction.first_frequency");
 }
 
@@ -71,9 +71,9 @@ CableDecay decay_of(const CableElements& cable, const CableDecayOptions& options
     case cvode::LoadRemovalOutcome::slack:
       throw WrongInput("after " + force + " is removed the cable goes slack within " +
                        format_rounded(removal.last_time) +
-                       " s, and its model ends: take a smaller force");
+                       " s, where the model no longer holds: take a smaller force");
     case cvode::LoadRemovalOutcome::no_equilibrium:
-      throw NoAnswer("under " + force + " no static equilibrium of the elements was found");
+      throw NoAnswer("under " + force + " no equilibrium was found: take a smaller force");
     case cvode::LoadRemovalOutcome::integration_failed:
       throw NoAnswer("the integrator CVODE failed at t = " + format_number(removal.last_time) +
                      " s of the decay: " + one_line(removal.words));

@@ -27,7 +27,7 @@ fit::DecayFit fit_record(const DecayRecord& record, const TwoMass<double>& plant
                          const fit::DecayFitOptions& options) {
   fit::DecayFit found = fit::fit_decay(record, plant, options);
   if (found.outcome == fit::FitOutcome::no_minimum)
-    throw NoAnswer("the fit found no minimum: the record does not determine what is asked for");
+    throw NoAnswer("the fit found no minimum: the record does not determine the fitted parameters");
   return found;
 }
 
@@ -108,7 +108,7 @@ AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoMass<doub
   const std::optional<DampingReading>& whole = histories.back();
   const bool by_peak = peak && peak->misfit <= largest_misfit;
   if (!by_peak && !whole)
-    throw NoAnswer("the decay of the continuous cable does not determine the absorber's damping");
+    throw NoAnswer("the cable's decay does not determine plant.absorber_damping: set that key");
   const DampingReading& taken = by_peak ? *peak : *whole;
   AbsorberDampingFit found{
       by_peak ? fit::DecayTarget::first_peak_and_period : fit::DecayTarget::time_history,
@@ -130,12 +130,11 @@ std::string misfit_warning(const AbsorberDampingFit& found) {
   const TwoMass<double>& plant = found.fit.minima.front().plant;
   const double critical = 2.0 * std::sqrt(plant.absorber_stiffness * plant.absorber_mass);
   const std::string overdamped =
-      plant.absorber_damping > critical
-          ? ", with more than critical damping, so that this absorber hardly swings by itself"
-          : "";
-  return "no absorber_damping makes the two-mass plant meet the first peak and period of the "
-         "continuous cable's decay; the one found misses its course by " +
-         format_number(std::round(found.history_misfit * 100.0)) + " % of the start" + overdamped;
+      plant.absorber_damping > critical ? "; it is above critical: the absorber hardly swings" : "";
+  return "no absorber_damping gives the two-mass plant the first peak and period of the continuous "
+         "cable's decay; with the fitted one the two decays differ by " +
+         format_number(std::round(found.history_misfit * 100.0)) +
+         " % of the initial displacement" + overdamped;
 }
 
 }  // namespace holdfast::program

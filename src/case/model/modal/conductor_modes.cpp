@@ -129,7 +129,7 @@ ConductorModes all_modes_of_cable(const Case& the_case, int apart, int bars) {
   // One of two steps makes a mode, the other one a bundle.
   CablePlaceModes found = chain_modes_of(the_case, bars, std::min(2 * apart, 2 * (bars - 1)));
   if (found.outcome != EquilibriumOutcome::converged)
-    throw NoAnswer("no equilibrium was found of the cable with the absorber's weight");
+    throw NoAnswer("no static equilibrium of the cable was found: check [conductor], [absorber]");
   return damped(the_case, std::move(found.modes), found.apart, bars);
 }
 
@@ -224,8 +224,8 @@ ConductorModes conductor_modes_of(const Case& the_case) {
   }
   ConductorModes found = all_modes_of_cable(the_case, modes + 10, bars_of(the_case, modes + 10));
   if (found.apart < modes)
-    throw NoAnswer(std::to_string(found.bars) + " bars of the cable have only " +
-                   std::to_string(found.apart) + " modes that move the absorber's place");
+    throw NoAnswer("the cable in " + std::to_string(found.bars) + " bars has only " +
+                   std::to_string(found.apart) + " modes moving the absorber: lower plant.modes");
   found.modes.resize(static_cast<std::size_t>(modes));
   found.apart = modes;
   return found;

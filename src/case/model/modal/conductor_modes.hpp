@@ -36,8 +36,8 @@ ConductorModes conductor_modes_of(const Case& the_case);
 /// All modes of the conductor, about so many of them kept apart.
 ConductorModes all_conductor_modes_of(const Case& the_case, int apart);
 
-/// The same conductor with half as many kept apart, of a cable also by fewer bars: how far an
-/// answer depends on them.
+/// Modes of the same conductor with half as many kept apart, of a cable also by fewer bars: how far
+/// an answer depends on them.
 ConductorModes coarser_modes_of(const Case& the_case, const ConductorModes& conductor);
 
 /// All modes of the string by which its stability is judged: kept apart up to twice the sampling

@@ -26,8 +26,7 @@ void require_absorber(const Case& the_case) {
   const auto place = the_case.places.find("plant.absorber_mass");
   const bool in_file = place != the_case.places.end() && place->second.rfind("--set", 0) != 0;
   throw WrongInput((in_file ? place->second + ": " : "") +
-                   "plant.absorber_mass = 0: there is no absorber on the conductor, which this "
-                   "asks about");
+                   "plant.absorber_mass = 0: this job needs an absorber on the conductor");
 }
 
 Absorber<double> absorber_of(const Case& the_case) {
@@ -115,7 +114,7 @@ auto with_law_of(const Case& the_case, bool controlled, const Visit& visit) {
 
 ConductorWithAbsorber conductor_with_absorber_of(const Case& the_case) {
   if (has_own_plant(the_case))
-    throw WrongInput("this is of conductor and absorber, not of a plant of your own");
+    throw WrongInput("this job needs a conductor with absorber, not a plant of your own");
   ConductorWithAbsorber conductor = conductor_by(the_case, conductor_modes_of(the_case));
   if (conductor.poles.empty())
     throw NoAnswer(
@@ -137,7 +136,7 @@ std::vector<PlantPole> loop_poles_of(const Case& the_case) {
 LinearPlant<double> modal_plant_of(const Case& the_case) {
   if (has_own_plant(the_case)) return with_hardware(*the_case.own->plant, hardware_of(the_case));
   if (!the_case.devices.empty())
-    throw NoAnswer("conductor and absorber as matrices know no devices: take the devices away");
+    throw NoAnswer("this job cannot include devices: remove the [[device]] tables");
   return linear_plant(ConductorWithAbsorber{
       conductor_modes_of(the_case).modes, absorber_of(the_case), {}, hardware_of(the_case)});
 }
@@ -208,9 +207,9 @@ std::string judged_otherwise(const Case& the_case) {
   if (!has_chosen_modes(the_case)) return "";
   const JudgedLoop loop = judged_loop_of(the_case);
   if (loop.is_stable(gains_of(the_case))) return "";
-  return "by " + std::to_string(loop.modes) + " modes of the conductor, up to " +
-         format_rounded(loop.highest) + " Hz, the loop is unstable, though by the " +
-         std::to_string(conductor_modes_of(the_case).apart) + " that it is computed with it is not";
+  return "with " + std::to_string(loop.modes) + " modes of the conductor, up to " +
+         format_rounded(loop.highest) + " Hz, the loop is unstable, yet stable with the " +
+         std::to_string(conductor_modes_of(the_case).apart) + " modes used here";
 }
 
 namespace {
@@ -250,7 +249,7 @@ ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
                                                      const MotionChoice& choice) {
   if (is_infinite(the_case) && !(the_case.absorber.clamp_mass > 0.0))
     throw WrongInput(
-        "a string without ends has no inertia of its own: this needs absorber.clamp_mass > 0");
+        "a string without ends has no inertia of its own: give absorber.clamp_mass > 0");
   const ImplementedLoop loop = implemented_loop_of(the_case, choice.switching);
   const Sampling<double>& sampling = loop.digital.sampling;
   ImplementedLoopOf<ControlledPlant> own{

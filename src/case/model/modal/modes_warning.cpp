@@ -37,12 +37,12 @@ std::string idle_keys_warning(const Case& the_case) {
   add((masses || endless) && the_case.conductor.damping != "chosen", "conductor.damping");
   add((masses || endless) && std::isfinite(the_case.plant.modes), "plant.modes");
   if (names.empty()) return "";
-  const char* const who = masses    ? "the two masses do"
-                          : endless ? "the string without ends does"
-                          : string  ? "the string does"
-                                    : "the cable does";
+  const char* const who = masses    ? "the two masses"
+                          : endless ? "the string without ends"
+                          : string  ? "the string"
+                                    : "the cable";
   const char* const other = plane && !cable && !of_modes && !bends ? "\"cable\"" : "\"string\"";
-  return names + ": " + who + " not depend on it; plant.model = " + other + " does";
+  return names + ": not used by " + who + "; used with plant.model = " + other;
 }
 
 /// Words for the modes that are kept apart, and that the force is faster than they.
@@ -55,7 +55,7 @@ KeptModes kept_modes(const Case& the_case, const ConductorModes& conductor) {
   const double force = effective_excitation(the_case).frequency;
   return {std::to_string(conductor.apart) + " modes of the conductor, up to " +
               format_rounded(end) + " Hz, ",
-          force > end ? "; the force, " + format_rounded(force) + " Hz, is faster than they" : ""};
+          force > end ? "; the force, " + format_rounded(force) + " Hz, is faster than these" : ""};
 }
 
 /// Warning of faster modes in bundles.
@@ -68,10 +68,10 @@ std::string bundles_warning(const Case& the_case, const ConductorModes& conducto
   const KeptModes kept = kept_modes(the_case, conductor);
   if (returned < 0.05 && (kept.faster.empty() || is_cable(the_case))) return "";
   return kept.words +
-         "are kept apart and the faster ones bundled, as if their waves did not come back" +
+         "are computed singly, faster ones in bundles, as if their waves did not come back" +
          (returned < 0.05 ? ""
                           : "; with the case's damping up to " + format_rounded(100.0 * returned) +
-                                " % of such a wave does") +
+                                " % of such a wave comes back") +
          kept.faster;
 }
 
@@ -87,10 +87,10 @@ std::string cut_warning(const Case& the_case, const ConductorModes& conductor) {
   if (cut_mass < 0.02 * felt_mass && conductor.highest_frequency() > half_rate &&
       kept.faster.empty())
     return "";
-  return kept.words + "are kept and the faster ones left out: the drive feels that as " +
+  return kept.words + "are kept and the faster ones left out, which acts like " +
          format_rounded(1e3 * cut_mass) +
-         " g more at the clamp, and gains may look stable far beyond where they are; without "
-         "plant.modes all modes count" +
+         " g more at the clamp: gains may look stable far beyond the true limit; leave plant.modes "
+         "out to include all modes" +
          kept.faster;
 }
 
@@ -101,25 +101,24 @@ std::string modes_warning(const Case& the_case) {
   if (std::isfinite(the_case.control.drive_damping) &&
       !std::isfinite(the_case.control.drive_bandwidth))
     said += (said.empty() ? "" : "; ") +
-            std::string("control.drive_damping: without control.drive_bandwidth no drive lags");
+            std::string("control.drive_damping: not used without control.drive_bandwidth");
   if (is_two_masses(the_case) || is_infinite(the_case)) return said;
   const ConductorModes conductor = conductor_modes_of(the_case);
   const auto warning = std::isfinite(the_case.plant.modes) ? cut_warning : bundles_warning;
   for (const std::string& more :
-       {warning(the_case, conductor),
-        lacks_bars(the_case)
-            ? std::to_string(conductor.bars) +
-                  " bars are too few for the waves at half the sampling rate: what "
-                  "is said of gains is not converged"
-            : ""})
+       {warning(the_case, conductor), lacks_bars(the_case)
+                                          ? std::to_string(conductor.bars) +
+                                                " bars are too few for the waves at half the "
+                                                "sampling rate: results for gains are not converged"
+                                          : ""})
     said += (said.empty() || more.empty() ? "" : "; ") + more;
   return said;
 }
 
 std::string drift_warning(const Case& the_case) {
   if (!is_infinite(the_case)) return "";
-  return "nothing brings the mean of a motion of a string without ends back: its largest "
-         "displacement counts where it drifted to as it began; response tells the amplitude alone";
+  return "nothing brings a string without ends back to its mean position: its largest displacement "
+         "includes the drift of the start; holdfast response gives the amplitude without it";
 }
 
 std::string dense_work_warning(const Case& the_case, Switching switching) {
@@ -129,8 +128,8 @@ std::string dense_work_warning(const Case& the_case, Switching switching) {
   constexpr std::size_t soon = 50;
   if (modes <= soon) return "";
   return std::to_string(modes) +
-         " modes and bundles take part, and the work grows with their third power: this takes "
-         "minutes; plant.modes = 40 takes seconds, but cuts the faster modes off";
+         " modes and bundles are computed, which takes minutes, as the work grows with their third "
+         "power; plant.modes = 40 takes seconds, but leaves the faster modes out";
 }
 
 }  // namespace holdfast::program

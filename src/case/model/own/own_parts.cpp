@@ -22,8 +22,8 @@ void require_consistent_plant(const Case& the_case) {
   validate(*the_case.own->plant);
   if (the_case.control.proportional_gain_tuned)
     throw WrongInput(
-        "control.proportional_gain = \"tuned\": Eq. 6 is of an absorber's mass and spring, and the "
-        "plant is one of your own; give a number");
+        "control.proportional_gain = \"tuned\": Eq. 6 needs an absorber's mass and spring, which a "
+        "plant of your own does not tell; give a number");
   for (const auto& [key, place] : the_case.places) require_counts(the_case, key, place + ": ");
 }
 
@@ -31,11 +31,11 @@ void require_consistent_controller(const Case& the_case) {
   const auto& control = the_case.control;
   if (control.processing_delay > control.sampling_period)
     throw WrongInput(
-        "control.processing_delay exceeds control.sampling_period: a controller of your own keeps "
-        "commands that come samples later itself");
+        "control.processing_delay exceeds control.sampling_period: a controller of your own must "
+        "delay commands by whole samples itself; lower control.processing_delay");
   for (const char* key : {"control.displacement_quantum", "control.velocity_quantum",
                           "control.velocity", "control.largest_force"})
-    refuse_key(the_case, key, "a controller of your own rounds and limits by itself");
+    refuse_key(the_case, key, "remove it: a controller of your own does this itself");
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ void require_counts(const Case& the_case, std::string_view key, const std::strin
        {"plant.", "conductor.", "absorber.", "reduction.", "device.", "initial."})
     if (key.rfind(table, 0) == 0)
       throw WrongInput(place + std::string(key) +
-                       " does not count: the plant is one of your own, with its own state");
+                       " has no effect: the plant is your own, with its own state; remove the key");
 }
 
 void require_consistent(const Case& the_case) {
@@ -65,8 +65,8 @@ std::vector<PlantPole> poles_of(const LinearPlant<double>& plant) {
   const EigenBasis<double> basis(plant.state_matrix());
   if (!basis.is_sound())
     throw NoAnswer(
-        "two natural motions of the plant coincide too nearly to be told apart: change one of them "
-        "by a thousandth");
+        "two natural motions of the plant coincide too nearly to be told apart: change a number "
+        "of the plant by a thousandth");
   const auto beta = basis.coordinates(plant.control_input());
   const auto of_z = basis.readings(plant.connections.measured_displacement);
   const auto of_v = basis.readings(plant.connections.measured_velocity);
@@ -81,8 +81,8 @@ std::vector<PlantPole> poles_of(const LinearPlant<double>& plant) {
   }
   if (apart > 1e-9 * size)
     throw NoAnswer(
-        "margins and designs need a velocity that is the rate of the displacement, and this plant "
-        "measures another: leave its velocity output away");
+        "margins and designs need a measured velocity that is the derivative of the measured "
+        "displacement, but this plant measures another: remove the plant's velocity output");
   return poles;
 }
 

@@ -28,15 +28,15 @@ struct Places {
 void require_loop(const Case& the_case) {
   if (is_cable(the_case))
     throw WrongInput(
-        "[[device]] on plant.model = \"cable\": devices beside the absorber are computed on the "
-        "taut string alone; set plant.model=string, from which a span with so many half-waves "
-        "does not differ");
+        "[[device]] on plant.model = \"cable\": devices beside the absorber are computed only on "
+        "the taut string: set plant.model=string; with many half-waves on the span both models "
+        "agree");
   for (const case_tables::Device& device : the_case.devices)
     if (device.table)
-      throw WrongInput("a measured impedance (" + device.file +
-                       ") is known at steady vibrations alone, and whether the computer's loop is "
-                       "stable beside it is not computed: give that device by its masses and "
-                       "frequencies (kind = \"stockbridge\")");
+      throw WrongInput(
+          "a measured impedance (" + device.file +
+          ") holds only for steady vibration, so the stability of the computer's loop cannot be "
+          "computed: give that device by its masses and frequencies (kind = \"stockbridge\")");
 }
 
 std::vector<double> numbers_of(const Case& the_case, const ConductorModes& conductor,

@@ -46,10 +46,10 @@ std::string absent_absorber_note(const Case& the_case) {
   const bool has_gains = control.proportional_gain_tuned || control.proportional_gain != 0.0 ||
                          control.differential_gain != 0.0;
   if (the_case.stands_alone && !has_absorber(the_case) && has_gains)
-    return "the gains of [control] drive nothing: the case gives no absorber (absorber.mass, kg)";
+    return "the gains of [control] need an absorber: give absorber.mass (kg)";
   if (has_active_absorber(the_case) || !has_absorber(the_case)) return "";
-  return "the built-in absorber and its computer are of another cable and do not count here: give "
-         "[absorber], plant.absorber_mass or [control] to have one";
+  return "the built-in absorber and its computer belong to another cable and are left out: give "
+         "[absorber], plant.absorber_mass or [control] to include an absorber";
 }
 
 LumpedDevice lumped_device_of(const case_tables::Device& device) {
@@ -117,21 +117,19 @@ void require_measured(const Case& the_case, double lowest, double highest) {
     const double first = device.table->frequency.front();
     const double last = device.table->frequency.back();
     if (lowest >= first && highest <= last) continue;
-    throw WrongInput("device " + std::to_string(k + 1) + ": " + device.file +
-                     " has its impedance from " + format_number(first) + " to " +
-                     format_number(last) + " Hz, and " + format_number(lowest) + " to " +
-                     format_number(highest) +
-                     " Hz are asked for: give --frequency within what was measured");
+    throw WrongInput("device " + std::to_string(k + 1) + ": " + device.file + " covers " +
+                     format_number(first) + " to " + format_number(last) + " Hz, but " +
+                     format_number(lowest) + " to " + format_number(highest) +
+                     " Hz are asked for: give --frequency within the measured range");
   }
 }
 
 void require_diameter(const Case& the_case, const std::string& job) {
   if (std::isfinite(the_case.conductor.diameter)) return;
-  throw MissingKeys(
-      job +
-      " needs the conductor's outside diameter, by which the wind sheds its vortices: "
-      "give conductor.diameter (m), or conductor.name of one in the library (holdfast "
-      "conductors --find TEXT)");
+  throw MissingKeys(job +
+                    " needs the conductor's outside diameter, which sets the frequency of the "
+                    "vortices: give conductor.diameter (m), or conductor.name from the library "
+                    "(holdfast conductors --find TEXT)");
 }
 
 std::vector<LossLaw> loss_laws_of(const Case& the_case) {
@@ -178,8 +176,8 @@ std::vector<WindHours> wind_hours_of(const Case& the_case, double lowest, double
   if (!rows.empty()) return rows;
   if (!std::isfinite(site.weibull_scale))
     throw WrongInput(
-        "the case says nothing of the wind of its site: give [site] with weibull_scale (m/s) and "
-        "weibull_shape, or with speeds (m/s) and hours (a year at each)");
+        "the case does not describe the wind at its site: give [site] with weibull_scale (m/s) and "
+        "weibull_shape, or with speeds (m/s) and hours (per year, of each speed)");
   constexpr double step = 0.05;
   const int steps = std::max(1, static_cast<int>(std::ceil((highest - lowest) / step)));
   return weibull_hours(site.weibull_scale, site.weibull_shape, lowest, highest, steps);

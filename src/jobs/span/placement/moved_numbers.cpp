@@ -115,10 +115,10 @@ std::vector<MovedNumber> moved_numbers(const Case& the_case, const PlacementQues
     numbers.push_back(moved_position(the_case, question, speed / highest, speed / lowest));
   add_strength(numbers, the_case, question.device, lowest, highest);
   if (numbers.empty())
-    throw WrongInput("nothing of device " + std::to_string(question.device) + ", a " +
+    throw WrongInput("device " + std::to_string(question.device) + ", a " +
                      the_case.devices[question.device - 1].kind +
-                     ", may move: its data are the maker's, and --keep position keeps it where "
-                     "it is");
+                     ", has nothing to vary: the maker fixes its data, and --keep position "
+                     "its place; leave --keep out");
   return numbers;
 }
 

@@ -135,8 +135,8 @@ class AbsorberPlacement {
         },
         effort.runs);
     if (placed.found.values.empty())
-      throw NoAnswer("no gains were found, not even 0, with which the loop is stable at --margin " +
-                     format_rounded(question_.margin));
+      throw NoAnswer("no gains, not even 0, keep the loop stable with --margin " +
+                     format_rounded(question_.margin) + ": give a smaller --margin");
     placed.the_case = with_values(variant, placed.numbers, placed.found.values);
     const bool own_is_stable = stable.is_stable(program::gains_of(variant));
     placed.before = own_is_stable ? levels_.value_of(worst_of(levels_.of(variant))) : std::nan("");
@@ -184,7 +184,7 @@ PlacedDevice placed_passively(const Case& the_case, const PlacementQuestion& que
       },
       4);
   if (placed.found.values.empty())
-    throw NoAnswer("with none of the places and strengths that were tried does the span rest");
+    throw NoAnswer("the span is unstable at rest with every place and strength that was tried");
   placed.the_case = with_values(the_case, placed.numbers, placed.found.values);
   placed.before = levels.value_of(worst_of(levels.of(the_case)));
   constexpr double more = 1.01;
@@ -221,10 +221,10 @@ std::string bound_warning(const MovedNumber& number, placement::PlacementBound m
   if (met == placement::PlacementBound::none) return "";
   const bool is_lower = met == placement::PlacementBound::lower;
   const double bound = is_lower ? number.value.lower : number.value.upper;
-  return number.quantity + " ends at the " + (is_lower ? "lower" : "upper") +
-         " bound of what was searched, " + format_rounded(number.sign * bound) +
+  return number.quantity + " lies at the " + (is_lower ? "lower" : "upper") +
+         " bound of the search, " + format_rounded(number.sign * bound) +
          (number.unit.empty() ? "" : " " + number.unit) +
-         (number.quantity == "position" ? " from the support" : "") + ": beyond it may be better";
+         (number.quantity == "position" ? " from the support" : "") + ": better may lie beyond";
 }
 
 /// That the computer does not see the whole band.
@@ -235,8 +235,8 @@ std::string sampling_warning(const Case& the_case, const PlacementQuestion& ques
   if (!question.is_absorber() || question.goal == PlacementGoal::modes || highest < half_rate)
     return "";
   return "from " + format_rounded(half_rate) +
-         " Hz on, half the sampling rate, the samples do not show the vibration, and what the "
-         "drive does to it is not what is told";
+         " Hz on, half the sampling rate, the samples do not show the vibration, and the results "
+         "for the drive do not hold";
 }
 
 }  // namespace
@@ -246,17 +246,17 @@ std::vector<std::string> placement_warnings(const PlacedDevice& placed,
   std::vector<std::string> warnings;
   if (std::isnan(placed.before) && question.is_absorber())
     warnings.emplace_back(
-        "with the gains of the case the loop is unstable on this span: the number before is none");
+        "with the case's gains the loop is unstable on this span: the _before row is left out");
   if (question.is_absorber() && !std::isfinite(placed.the_case.conductor.diameter))
     warnings.emplace_back(
-        "what the drive has to do is not told: how far the wind moves the conductor follows from "
-        "conductor.diameter, which the case does not give");
-  if (!placed.is_better) warnings.emplace_back("nothing better was found than what the case has");
+        "force, stroke and power of the drive are left out: give conductor.diameter, which decides "
+        "how far the wind moves the conductor");
+  if (!placed.is_better) warnings.emplace_back("nothing better than the case was found");
   for (std::size_t k = 0; k < placed.numbers.size(); ++k)
     warnings.push_back(bound_warning(placed.numbers[k], placed.found.bounds[k]));
   if (placed.is_at_limit_of_rest)
     warnings.emplace_back(
-        "the negative stiffness ends where a tenth more would push the conductor away from its "
+        "the negative stiffness is at its limit: a tenth more would make the conductor unstable at "
         "rest");
   warnings.push_back(placed.range_note);
   warnings.push_back(sampling_warning(placed.the_case, question));

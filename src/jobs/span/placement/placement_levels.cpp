@@ -96,12 +96,12 @@ std::string PlacementLevels::range_note(const Case& variant, double frequency) c
   if (question_.goal != PlacementGoal::strain) return "";
   switch (AeolianBalance(variant, true).largest(frequency).amplitude.range) {
     case BalanceRange::below:
-      return "with the answer the vibration is smaller everywhere in the band than the law of the "
-             "wind was measured for, a hundredth of the diameter, which stands for it: other "
-             "places and strengths may do as well";
+      return "with the answer the vibration is below the measured range of the law of the wind in "
+             "the whole band, and the lower end of that range is used, a hundredth of the "
+             "diameter: other places and strengths may do as well";
     case BalanceRange::above:
-      return "even with the answer the worst vibration is larger than the law of the wind was "
-             "measured for, whose largest amplitude stands for it";
+      return "even with the answer the worst vibration is above the measured range of the law of "
+             "the wind, and the upper end of that range is used";
     default:
       return "";
   }
