@@ -72,7 +72,7 @@ void rows(const LoopChart& chart, bool radius) {
   std::vector<std::uint8_t> flags(side * tile);
   std::vector<double> radii(side * tile);
   for (std::int64_t k = 0; k < side; k += tile) {
-    kernel->fill(k, std::min(tile, side - k), flags.data(), radii.data());
+    kernel(k, std::min(tile, side - k), flags.data(), radii.data());
     sink = flags[0] + radii[0];
   }
 }

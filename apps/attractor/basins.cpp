@@ -28,6 +28,7 @@ constexpr double most_states = 1e7;
 struct PropagatorOnPacks {
   MotionKernel kernel;
 
+  // NOLINTNEXTLINE(readability-make-member-function-const): the kernel has a state of its own
   void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
            const AttractorSet<IdealLoop<double>>& set) {
     kernel(motions, count, samples,

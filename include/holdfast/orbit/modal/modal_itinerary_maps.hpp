@@ -215,13 +215,12 @@ std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itiner
   const Eigen::Index order = flow.order(), count = std::min(order, leading + beside);
   const auto shown = std::min(count, leading);
   if (blocks.size() == 1) {
-    constexpr double of_rounding = 1e-9;
     std::vector<Multiplier> found;
     for (const std::complex<double>& value : eigenvalues(blocks.front()))
       found.push_back({std::log(std::abs(value)), std::arg(value)});
     std::sort(found.begin(), found.end(), Multiplier::is_larger);
     found.resize(static_cast<std::size_t>(shown));
-    if (found.back().log_modulus > std::log(of_rounding * blocks.front().norm())) return found;
+    if (found.back().log_modulus > std::log(1e-9 * blocks.front().norm())) return found;
   }
   const auto most = std::max(most_turns * itinerary.size(), most_samples);
   auto basis = detail::generic_columns<Eigen::MatrixXd>(order, count);
