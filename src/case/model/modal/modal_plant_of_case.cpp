@@ -150,10 +150,12 @@ std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>
   return largest_loop_root(command_response_of(the_case), gains);
 }
 
+/// Modes kept apart, with which all modes of a conductor count.
+constexpr int enough = 60;
+
 bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {
   Case changed = the_case;
   changed.absorber.clamp_mass = clamp_mass;
-  constexpr int enough = 60;
   const ModalResponse<double> response =
       response_of(changed, all_conductor_modes_of(changed, enough));
   return loop_excess_or_turn(response, gains_of(changed)) < 0.0;
@@ -167,12 +169,10 @@ OtherModes other_modes_of(const Case& the_case) {
   };
   const ConductorModes kept = conductor_modes_of(the_case);
   if (std::isfinite(the_case.plant.modes))
-    return {circle_by(all_conductor_modes_of(the_case, std::max(kept.apart, 60))),
+    return {circle_by(all_conductor_modes_of(the_case, std::max(kept.apart, enough))),
             "with all modes"};
-  ConductorModes other = coarser_modes_of(the_case, kept);
-  if (has_chosen_modes(the_case))
-    if (ConductorModes judged = judged_modes_of(the_case); judged.apart > kept.apart)
-      other = std::move(judged);
+  ConductorModes other = has_chosen_modes(the_case) ? judged_modes_of(the_case) : kept;
+  if (other.apart == kept.apart) other = coarser_modes_of(the_case, kept);
   const std::string fewer_bars =
       is_cable(the_case) ? " and " + std::to_string(other.bars) + " bars" : "";
   return {circle_by(other), "with " + std::to_string(other.apart) + " modes kept apart" +
