@@ -13,7 +13,6 @@
 #include "io/file/whole_file.hpp"
 #include "jobs/job_texts.hpp"
 #include "jobs/support.hpp"
-#include "process/group/process_group.hpp"
 #include "process/worker_threads.hpp"
 #include "report/page/report.hpp"
 
@@ -37,10 +36,7 @@ std::vector<std::pair<std::string, std::string>> given_options(const CLI::App& o
 }
 
 /// More threads than cores gain nothing, and oneTBB warns of them on standard error.
-int at_most_cores(int threads) {
-  const auto cores = static_cast<int>(own_cores().cores.size());
-  return cores > 0 ? std::min(threads, cores) : threads;
-}
+int at_most_cores(int threads) { return std::min(threads, worker_threads(0)); }
 
 /// Checks one number: finite, from `lowest` to `highest`.
 CLI::Validator number_from(double lowest, double highest) {
@@ -230,8 +226,7 @@ JobContext Job::context(const std::optional<std::string>& case_file, bool needs_
   context.threads = at_most_cores(common_->threads.value_or(0));
   context.on_packs = is_told("on_packs", false);
   context.instructions = chosen_instruction_set(common_->instructions);
-  if (!common_->ticking)
-    common_->ticking.emplace(context.job, mpi_launch().rank == 0 && progress_wanted(context));
+  if (!common_->ticking) common_->ticking.emplace(context.job, progress_wanted(context));
   return context;
 }
 

@@ -144,7 +144,8 @@ void fill_part(const StoreFolder& store, StorePart part, double chunk_seconds) {
   };
   JobContext context;
   context.quiet = true;
-  fill_store(context, store, *single_process(), 1, {"sweep, cells", compute, nullptr, false, part});
+  context.threads = 1;
+  fill_store(context, store, {"sweep, cells", compute, nullptr, false, part});
 }
 
 ChunkCalls calls_of_chunk(const fs::path& folder) {

@@ -73,23 +73,6 @@ function(holdfast_use_zstd target)
   target_link_libraries(${target} PRIVATE ${HOLDFAST_ZSTD_LIBRARY})
 endfunction()
 
-# Sweeps over many machines. Without MPI the sources of src/process/mpi are left out.
-function(holdfast_use_mpi target)
-  if(NOT HOLDFAST_WITH_MPI)
-    return()
-  endif()
-  set(MPI_CXX_SKIP_MPICXX ON)
-  find_package(MPI QUIET COMPONENTS CXX)
-  if(NOT MPI_CXX_FOUND)
-    holdfast_report_missing("sweeps over many machines" "MPI" libopenmpi-dev)
-    return()
-  endif()
-  file(GLOB mpi_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/process/mpi/*.cpp)
-  target_sources(${target} PRIVATE ${mpi_sources})
-  target_compile_definitions(${target} PUBLIC HOLDFAST_HAS_MPI)
-  target_link_libraries(${target} PRIVATE MPI::MPI_CXX)
-endfunction()
-
 # The loops on packs are compiled as the build type says; the rest, which prepares and writes, is no
 # faster beyond -O2.
 function(holdfast_compile_quickly target)
@@ -107,7 +90,7 @@ endfunction()
 function(holdfast_add_program)
   find_package(Threads REQUIRED)
   file(GLOB_RECURSE library_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
-  list(FILTER library_sources EXCLUDE REGEX "/src/(process/mpi|kernels/wide)/[^/]*$")
+  list(FILTER library_sources EXCLUDE REGEX "/src/kernels/wide/[^/]*$")
   set(loops_on_packs ${PROJECT_SOURCE_DIR}/src/kernels/baseline.cpp)
   list(REMOVE_ITEM library_sources ${loops_on_packs})
   holdfast_join_sources(holdfast_program 8 library_sources)
@@ -145,7 +128,6 @@ function(holdfast_add_program)
 
   holdfast_use_netcdf(holdfast_program)
   holdfast_use_zstd(holdfast_program)
-  holdfast_use_mpi(holdfast_program)
   holdfast_use_kernels(holdfast_program)  # last of what is linked
 
   holdfast_compile_quickly(holdfast_program)

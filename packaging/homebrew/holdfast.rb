@@ -22,7 +22,7 @@ class Holdfast < Formula
 
   def install
     system "cmake", "-S", ".", "-B", "build", "-G", "Ninja",
-           "-DHOLDFAST_BUILD_TESTS=OFF", "-DHOLDFAST_JOIN_SOURCES=ON", "-DHOLDFAST_WITH_MPI=OFF",
+           "-DHOLDFAST_BUILD_TESTS=OFF", "-DHOLDFAST_JOIN_SOURCES=ON",
            *std_cmake_args
     system "cmake", "--build", "build"
     system "cmake", "--install", "build"

@@ -28,18 +28,6 @@ struct OutputError : Refusal {
   using Refusal::Refusal;
 };
 
-/// Another process of the same computation has told why it ends; this one ends with the same code
-/// and in silence.
-class ReportedElsewhere : public std::exception {
- public:
-  explicit ReportedElsewhere(int exit_code) : exit_code_(exit_code) {}
-  int exit_code() const { return exit_code_; }
-  const char* what() const noexcept override { return "reported by another process"; }
-
- private:
-  int exit_code_;
-};
-
 /// The system's words for one of its error numbers: "No space left on device".
 std::string system_words(int error);
 

@@ -2,40 +2,23 @@
 
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <holdfast/core/errors.hpp>
 #include <new>
 #include <string_view>
-#include <thread>
 
 #include "host/job_host.hpp"
 #include "process/errors.hpp"
-#include "process/group/process_group.hpp"
 #include "process/interrupt.hpp"
 #include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
 
-/// Whether the first of the processes that a launcher started together tells of a wrong input that
-/// all of them were given. The launcher ends the others when it has, and would end it too if one of
-/// them exited before: hence they wait. Where nothing ends them the input is wrong here alone.
-bool first_process_reports() {
-  if (mpi_launch().rank == 0) return false;
-  const auto patience_ends = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-  while (!interrupted() && std::chrono::steady_clock::now() < patience_ends)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  return interrupted();
-}
-
-/// Message of an exception; nothing where another process has told it.
 std::string message_of(const std::exception_ptr& fault) {
   try {
     std::rethrow_exception(fault);
-  } catch (const ReportedElsewhere&) {
-    return "";
   } catch (const Interrupted& stopped) {
     return stopped.what();
   } catch (const Refusal& refusal) {
@@ -49,13 +32,6 @@ std::string message_of(const std::exception_ptr& fault) {
   } catch (...) {
     return "unexpected failure";
   }
-}
-
-/// Says what there is to say of an exception that ends the program with that code.
-void tell(const std::exception_ptr& fault, int code) {
-  const std::string message = message_of(fault);
-  const bool known = message.empty() || (code == exit_code::wrong_input && first_process_reports());
-  if (!known) report_error(message);
 }
 
 /// For where there is no memory for the words either.
@@ -104,8 +80,6 @@ void report_warning(const std::string& message, bool quiet) {
 int exit_code_of(const std::exception_ptr& fault) {
   try {
     std::rethrow_exception(fault);
-  } catch (const ReportedElsewhere& reported) {
-    return reported.exit_code();
   } catch (const Interrupted&) {
     return exit_code::interrupted;
   } catch (const WrongInput&) {
@@ -124,13 +98,12 @@ int run_guarded(const std::function<int()>& work) {
     return work();
   } catch (...) {
     const std::exception_ptr fault = std::current_exception();
-    const int code = exit_code_of(fault);
     try {
-      tell(fault, code);
+      report_error(message_of(fault));
     } catch (...) {
       tell_lack_of_memory();
     }
-    return code;
+    return exit_code_of(fault);
   }
 }
 

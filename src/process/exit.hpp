@@ -14,13 +14,12 @@ inline constexpr int wrong_input = 2;
 inline constexpr int interrupted = 130;
 }  // namespace exit_code
 
-/// The code of an exception: WrongInput, holdfast::InvalidParameter 2; Interrupted 130; that of
-/// ReportedElsewhere; anything else 1.
+/// The code of an exception: WrongInput, holdfast::InvalidParameter 2; Interrupted 130; anything
+/// else 1.
 int exit_code_of(const std::exception_ptr& fault);
 
 /// Runs the program's work and gives its exit code. An exception becomes one line on standard
-/// error that begins with `holdfast: `, but for ReportedElsewhere, and its exit_code_of(). Of the
-/// processes that an MPI launcher started together, the first tells what is wrong with the input.
+/// error that begins with `holdfast: `, and its exit_code_of().
 int run_guarded(const std::function<int()>& work);
 
 /// Writes `holdfast: ` and the message on one line of standard error; the host of a job gets it as

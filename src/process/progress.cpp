@@ -130,8 +130,6 @@ Progress::~Progress() {
 
 void Progress::skip(std::uint64_t steps) { skipped_ += steps; }
 
-void Progress::set_elsewhere(std::uint64_t steps) { elsewhere_ = steps; }
-
 void Progress::advance(std::uint64_t steps, std::uint64_t samples) {
   done_ += steps;
   samples_ += samples;
@@ -147,12 +145,9 @@ void Progress::advance(std::uint64_t steps, std::uint64_t samples) {
 }
 
 std::string Progress::status() const {
-  const std::uint64_t skipped = skipped_, here = done_, elsewhere = elsewhere_;
-  ProgressCount count{std::min(skipped + here + elsewhere, total_), total_, skipped};
-  // Samples are known of this process alone; the others take as many a step.
-  if (here > 0)
-    count.samples = static_cast<double>(samples_.load()) *
-                    (static_cast<double>(count.done - skipped) / static_cast<double>(here));
+  const std::uint64_t skipped = skipped_;
+  const ProgressCount count{std::min(skipped + done_, total_), total_, skipped,
+                            static_cast<double>(samples_.load())};
   return progress_text(label_, count, std::chrono::duration<double>(Clock::now() - start_).count());
 }
 

@@ -67,8 +67,6 @@ class Progress {
   void advance(std::uint64_t steps = 1, std::uint64_t samples = 0);
   /// Counts steps that were done by an earlier run.
   void skip(std::uint64_t steps);
-  /// How many steps other processes have done so far.
-  void set_elsewhere(std::uint64_t steps);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -82,9 +80,8 @@ class Progress {
   bool enabled_;
   bool on_terminal_;
   Clock::time_point start_;
-  std::atomic<std::uint64_t> done_{0};  // here
+  std::atomic<std::uint64_t> done_{0};
   std::atomic<std::uint64_t> skipped_{0};
-  std::atomic<std::uint64_t> elsewhere_{0};
   std::atomic<std::uint64_t> samples_{0};
   std::atomic<std::int64_t> next_draw_{0};  // ms after start
 };

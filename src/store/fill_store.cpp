@@ -57,16 +57,14 @@ class ChunkUnderWay {
 /// One process at work on a store.
 class StoreFilling {
  public:
-  StoreFilling(const JobContext& context, const StoreFolder& store, ProcessGroup& group,
-               const ChunkWork& work)
+  StoreFilling(const JobContext& context, const StoreFolder& store, const ChunkWork& work)
       : context_(context),
         store_(store),
-        group_(group),
         work_(work),
         tickets_((store.grid().chunks() - work.part.number) / work.part.of + 1),
-        first_ticket_(common_first_ticket()),
+        first_ticket_(first_ticket()),
         progress_(static_cast<std::uint64_t>(store.grid().cells() / work.part.of), work.steps,
-                  group.rank() == 0 && progress_wanted(context)) {}
+                  progress_wanted(context)) {}
 
   void run(int threads) {
     std::atomic<bool> stop{false};
@@ -74,7 +72,7 @@ class StoreFilling {
       try {
         take_chunks(stop);
       } catch (...) {
-        if (!stop.exchange(true)) give_up_tickets();
+        stop = true;
         throw;
       }
     });
@@ -83,24 +81,14 @@ class StoreFilling {
  private:
   /// The first process goes in order; one that joins later begins elsewhere, so that they rarely
   /// meet.
-  std::int64_t common_first_ticket() {
-    const bool begun = group_.rank() == 0 && store_.has(chunk_of(0));
-    const std::uint64_t chosen =
-        begun ? number_of_this_process() % static_cast<std::uint64_t>(tickets_) : 0;
-    return std::stoll(group_.exchange(std::to_string(chosen)).front());
+  std::int64_t first_ticket() const {
+    if (!store_.has(chunk_of(0))) return 0;
+    return static_cast<std::int64_t>(number_of_this_process() %
+                                     static_cast<std::uint64_t>(tickets_));
   }
 
   std::int64_t chunk_of(std::int64_t ticket) const {
     return work_.part.number - 1 + ticket * work_.part.of;
-  }
-
-  /// The other processes need not go on.
-  void give_up_tickets() noexcept {
-    try {
-      group_.take_tickets(tickets_);
-    } catch (...) {
-      // They go on in vain; the fault that brought us here is the one to be told.
-    }
   }
 
   /// Work of one thread: the next chunk, until there is none; then what others have not done.
@@ -109,11 +97,10 @@ class StoreFilling {
     ChunkUnderWay under_way;
     while (!stop) {
       throw_if_interrupted();
-      const std::int64_t ticket = group_.take_tickets(1);
+      const std::int64_t ticket = taken_++;
       if (ticket >= tickets_) break;
       const std::int64_t chunk = chunk_of((first_ticket_ + ticket) % tickets_);
       if (!see_to(chunk, false, under_way)) elsewhere.push_back(chunk);
-      show_others();
     }
     under_way.finish();  // others may wait for it
     while (!stop && !elsewhere.empty()) see_to_others(elsewhere, under_way);
@@ -151,7 +138,6 @@ class StoreFilling {
         [this, chunk, claim = std::move(claim), result = work_.compute(chunk)]() mutable {
           store_.put(chunk, result.values);
           claim.reset();  // the chunk is there
-          ++seen_;
           progress_.advance(static_cast<std::uint64_t>(store_.grid().cells_of(chunk)),
                             static_cast<std::uint64_t>(result.samples));
         });
@@ -171,38 +157,26 @@ class StoreFilling {
   }
 
   bool count_found(std::int64_t chunk) {
-    ++seen_;
     if (work_.found) work_.found(chunk);
     progress_.skip(static_cast<std::uint64_t>(store_.grid().cells_of(chunk)));
     return true;
   }
 
-  /// Shows the chunks handed out that were not seen here.
-  void show_others() {
-    if (group_.rank() != 0 || group_.size() == 1) return;
-    const std::int64_t taken = std::min(group_.take_tickets(0), tickets_);
-    const std::int64_t others = std::max(taken - seen_, std::int64_t{0});
-    progress_.set_elsewhere(static_cast<std::uint64_t>(
-        std::min(others * store_.grid().cells_of_file(), store_.grid().cells())));
-  }
-
   const JobContext& context_;
   const StoreFolder& store_;
-  ProcessGroup& group_;
   const ChunkWork& work_;
   JobHost* host_ = JobHost::current();
   mutable std::mutex telling_;
   std::int64_t tickets_;  // one a chunk of the part
   std::int64_t first_ticket_;
+  std::atomic<std::int64_t> taken_{0};
   Progress progress_;
-  std::atomic<std::int64_t> seen_{0};  // chunks done or found here
 };
 
 }  // namespace
 
-void fill_store(const JobContext& context, const StoreFolder& store, ProcessGroup& group,
-                int threads, const ChunkWork& work) {
-  StoreFilling(context, store, group, work).run(threads);
+void fill_store(const JobContext& context, const StoreFolder& store, const ChunkWork& work) {
+  StoreFilling(context, store, work).run(worker_threads(context.threads));
 }
 
 void report_kept_chunks(const StoreFolder& store, const std::string& how_to_go_on) noexcept {
@@ -218,19 +192,11 @@ void report_kept_chunks(const StoreFolder& store, const std::string& how_to_go_o
 
 void fill_store(const JobContext& context, const StoreDescription& description,
                 const ChunkWork& work) {
-  const std::unique_ptr<ProcessGroup> group = join_process_group();
-  std::optional<StoreFolder> store;
-  make_collective_call(*group, [&] {
-    if (group->rank() == 0) store = StoreFolder::enter(*context.output, description);
-  });
-  make_collective_call(*group, [&] {
-    if (!store) store = StoreFolder::enter(*context.output, description);
-  });
+  const StoreFolder store = StoreFolder::enter(*context.output, description);
   try {
-    const int threads = worker_threads(context.threads, *group);
-    make_collective_call(*group, [&] { fill_store(context, *store, *group, threads, work); });
+    fill_store(context, store, work);
   } catch (...) {
-    if (group->rank() == 0) report_kept_chunks(*store, "repeat the same command to continue");
+    report_kept_chunks(store, "repeat the same command to continue");
     throw;
   }
 }

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "case/job_context.hpp"
-#include "process/group/process_group.hpp"
 #include "store/store_folder.hpp"
 
 namespace holdfast::program {
@@ -32,18 +31,17 @@ struct ChunkWork {
   StorePart part = {};  ///< the others are left
 };
 
-/// Computes what a store lacks. The threads of all processes of the group take one chunk after the
-/// other; so do other processes that fill the same store by themselves: none takes what a living
-/// one has, and at the end each waits for what the others have, or does what they leave. All chunks
-/// of the part are there when it returns.
+/// Computes what a store lacks. Its threads take one chunk after the other, and so do those of
+/// other processes that fill the same store: none takes what a living one has, and at the end each
+/// waits for what the others have, or does what they leave. All chunks of the part are there when
+/// it returns.
 ///
 /// Throws Interrupted, what a computation throws, and what StoreFolder::put() throws; every
 /// finished chunk stays.
-void fill_store(const JobContext& context, const StoreFolder& store, ProcessGroup& group,
-                int threads, const ChunkWork& work);
+void fill_store(const JobContext& context, const StoreFolder& store, const ChunkWork& work);
 
-/// Fills the store on the threads of the context, by this process and whatever its launcher started
-/// beside it. Says on standard error how much is kept where it does not end.
+/// Makes or enters the store and fills it. Says on standard error how much is kept where it does
+/// not end.
 void fill_store(const JobContext& context, const StoreDescription& description,
                 const ChunkWork& work);
 

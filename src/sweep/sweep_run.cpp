@@ -7,7 +7,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "case/model/conditioning.hpp"
@@ -19,8 +18,6 @@
 #include "output/table.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
-#include "process/group/process_group.hpp"
-#include "process/worker_threads.hpp"
 #include "store/stored_grid.hpp"
 #include "store/work_store.hpp"
 #include "text/text.hpp"
@@ -75,19 +72,6 @@ class SweepFaults {
       if (found.without_motion++ == 0) found.first = first_cell + static_cast<std::int64_t>(i);
     }
     add(found);
-  }
-
-  /// Brings those of all processes together.
-  void share(ProcessGroup& group) {
-    std::ostringstream own;
-    own << all_.diverging << ' ' << all_.without_motion << ' ' << all_.chaotic << ' ' << all_.first;
-    all_ = {};
-    for (const std::string& text : group.exchange(own.str())) {
-      std::istringstream numbers(text);
-      FaultCounts found;
-      numbers >> found.diverging >> found.without_motion >> found.chaotic >> found.first;
-      add(found);
-    }
   }
 
   /// For a warning; empty where there are none.
@@ -187,24 +171,20 @@ StorePart part_of(const SweepPlan& plan, const std::string& text) {
   return {static_cast<std::int64_t>(number), static_cast<std::int64_t>(of)};
 }
 
-/// One sweep in one of the processes that work on it.
+/// One sweep, which other processes may work on too.
 class SweepRun {
  public:
   SweepRun(const JobContext& context, const SweepOptions& options)
       : plan_(context, options),
         part_(part_of(plan_, options.part)),
-        named_(has_named_output(context)),
-        group_(join_process_group()) {}
+        named_(has_named_output(context)) {}
 
   void run() {
-    const int threads = worker_threads(context().threads, *group_);
-    agree_on_instructions();
-    make_collective_call(*group_, [this] { begin(); });
-    make_collective_call(*group_, [this] { join(); });
+    choose_instructions();
+    begin();
     try {
-      make_collective_call(*group_, [&] { fill(threads); });
-      faults_.share(*group_);
-      make_collective_call(*group_, [this] { conclude(); });
+      fill();
+      conclude();
     } catch (...) {
       leave();
       throw;
@@ -213,33 +193,22 @@ class SweepRun {
 
  private:
   const JobContext& context() const { return plan_.context(); }
-  bool is_first() const { return group_->rank() == 0; }
   bool is_to_stay() const { return is_store_name(context().output); }
   const StoreFolder& store() const { return work_ ? work_->store() : *store_; }
 
-  /// All processes compute alike: with the set that was asked for, else with that of the store
-  /// which is gone on with where all have it, else with the smallest of theirs.
-  void agree_on_instructions() {
-    const bool looks = is_first() && named_ && (plan_.options().resume || is_to_stay());
-    // On it the last digits in a store depend.
-    std::string recorded;
-    if (looks)
-      if (const auto there = store_in(store_folder(context(), named_)))
-        if (there->plan.count("--instructions") > 0) recorded = there->plan.at("--instructions");
-    const auto texts =
-        group_->exchange(std::string(name_of(context().instructions)) + " " + recorded);
-    if (plan_.options().instructions_given) return;
-    InstructionSet smallest = context().instructions;
-    for (const std::string& text : texts)
-      smallest = std::min(smallest, instruction_set_named(text.substr(0, text.find(' '))));
-    const std::string of_store = texts.front().substr(texts.front().find(' ') + 1);
+  /// The set that was asked for; else that of the store which is gone on with, where this processor
+  /// has it.
+  void choose_instructions() {
+    if (plan_.options().instructions_given || !named_ || !(plan_.options().resume || is_to_stay()))
+      return;
+    const auto there = store_in(store_folder(context(), named_));
+    if (!there || there->plan.count("--instructions") == 0) return;
     for (const InstructionSet set : available_instruction_sets())
-      if (set <= smallest && name_of(set) == of_store) return plan_.use(set);
-    plan_.use(smallest);
+      if (set <= context().instructions && name_of(set) == there->plan.at("--instructions"))
+        return plan_.use(set);
   }
 
   void begin() {
-    if (!is_first()) return;
     if (is_to_stay()) {
       store_ = StoreFolder::enter(*context().output, plan_.store());
       return;
@@ -257,16 +226,7 @@ class SweepRun {
     }
   }
 
-  void join() {
-    if (is_first()) return;
-    const fs::path folder = store_folder(context(), named_);
-    if (!store_in(folder))
-      throw WrongInput("no store in " + folder.string() +
-                       "; all processes must share one file system");
-    store_ = StoreFolder::enter(folder, plan_.store());
-  }
-
-  void fill(int threads) {
+  void fill() {
     const ChunkGrid& grid = plan_.grid();
     const std::size_t outcome = column_of(store().description(), SweepMetric::outcome);
     const bool judges = plan_.wants(SweepMetric::verdict);
@@ -284,12 +244,11 @@ class SweepRun {
       if (!outcomes || !verdicts) refuse_chunk(store(), chunk);
       faults_.add(grid.first_cell(chunk), *outcomes, *verdicts);
     };
-    fill_store(context(), store(), *group_, threads,
-               {"sweep, cells", compute, found, plan_.options().resume, part_});
+    fill_store(context(), store(), {"sweep, cells", compute, found, plan_.options().resume, part_});
   }
 
   void conclude() {
-    if (!is_first() || part_.of > 1) return;  // the others may not be there yet
+    if (part_.of > 1) return;  // the others may not be there yet
     if (work_) {
       if (!output_) output_.emplace(context(), plan_.layout());
       append_stored(store(), *output_);
@@ -304,7 +263,6 @@ class SweepRun {
 
   /// After a fault: says how to go on, or removes what cannot be gone on with.
   void leave() noexcept {
-    if (!is_first()) return;
     if (named_)
       return report_kept_chunks(store(), std::string("repeat the same command") +
                                              (work_ ? " with --resume" : "") + " to continue");
@@ -318,9 +276,8 @@ class SweepRun {
   SweepPlan plan_;
   StorePart part_;
   bool named_;  // the output is a file, and the work store stays beside it for --resume
-  std::unique_ptr<ProcessGroup> group_;
   std::optional<GridOutput> output_;
-  std::optional<StoreFolder> store_;  // one that stays, or that the first process has made
+  std::optional<StoreFolder> store_;  // one that stays
   std::optional<WorkStore> work_;
   SweepFaults faults_;
 };
@@ -330,16 +287,11 @@ class SweepRun {
 void write_sweep(const JobContext& context, const SweepOptions& options) {
   if (options.resume && !has_named_output(context))
     throw WrongInput("--resume needs the --output of the earlier run, which names its results");
-  if (mpi_launch().size > 1 && !has_named_output(context))
-    throw WrongInput(
-        "a sweep on several processes needs --output FILE: the processes exchange their results in "
-        "a folder beside it");
   SweepRun(context, options).run();
 }
 
 void write_sweep_size(const JobContext& context, const SweepOptions& options) {
   const SweepPlan plan(context, options);
-  if (mpi_launch().rank > 0) return;
   JobContext to_screen = plan.context();
   to_screen.output.reset();  // the file is for the result
   Table table(to_screen, columns_of("sweep size"));

@@ -22,8 +22,6 @@ void expect_every_figure_as_table_and_picture(const fs::path& report) {
       "fig12a", "fig12b",  "fig12c",           "fig13a",       "fig13b", "table2a",   "table2b",
       "orbits", "section", "diagram-backlash", "diagram-gain", "basins", "amplitudes"};
   figures.insert(figures.end(), {"success-delay-backlash", "success-frequency-delay"});
-  figures.insert(figures.end(),
-                 {"switching-phases", "switching-laws", "switching-delay", "switching-backlash"});
   if (program::has_sundials()) figures.insert(figures.end(), {"fig02b", "fig02c", "fig02d"});
   for (const std::string& figure : figures) {
     const std::string picture = read_text(report / "pictures" / (figure + ".svg"));
@@ -209,32 +207,6 @@ void expect_maps_to_name_every_mark(const fs::path& report) {
   EXPECT_EQ(count_of(page, "Nothing excites"), 0U);
 }
 
-/// The part about switching: its sentence, and what the table of the paper's loops says of the
-/// motion with the longest period, beside the figures' tables.
-void expect_how_much_the_switching_matters(const fs::path& report) {
-  const std::string page = read_text(report / "report.html");
-  const std::string part = part_between(page, "<h2 id=\"switching\">", "<h2>Figures</h2>");
-  expect_holds(part, {"For this case the sampled switching changes the steady amplitude by",
-                      "where the drive switches at samples", "where it switches exactly",
-                      "231 forcing periods (23.1 s)", "11 forcing periods (1.1 s)",
-                      "With exact switching 7 of the 7 motions have the shortest period"});
-  const auto paper = program::read_csv(report / "data/switching-paper.csv");
-  ASSERT_EQ(paper.rows(), 21U);
-  for (std::size_t row = 0; row < paper.rows(); ++row) {
-    const bool exact = paper.text(row, "switching") == "exact";
-    EXPECT_EQ(paper.number(row, "stick_phases_per_half_cycle") > 0.9, exact) << "row " << row;
-    EXPECT_GE(paper.number(row, "largest_z1_m"), paper.number(row, "largest_sampled_z1_m"));
-  }
-  const auto laws = program::read_csv(report / "data/switching-law-motions.csv");
-  std::vector<double> of_play;  // exactly taken, three laws are one
-  for (std::size_t row = 0; row < laws.rows(); ++row) {
-    const std::string& law = laws.text(row, "law");
-    if (laws.text(row, "switching") == "exact" && law != "dead_zone" && law != "none")
-      of_play.push_back(laws.number(row, "largest_z1_m"));
-  }
-  EXPECT_EQ(of_play, std::vector<double>(3, of_play.at(0)));
-}
-
 // One report for all that is to be seen in it: it takes seconds.
 TEST(PaperReport, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   const TemporaryFolder folder;
@@ -250,7 +222,6 @@ TEST(PaperReport, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   expect_the_motions_without_backlash_keep_the_limit(report);
   expect_cells_without_motion_to_have_their_reasons(report);
   expect_maps_to_name_every_mark(report);
-  expect_how_much_the_switching_matters(report);
 }
 
 /// The report of a case, in a folder of its own.
@@ -278,9 +249,8 @@ TEST_F(Report, OfAnotherCaseShowsItsOwnFigures) {
             "Report: " + (place() / "report.html").string() + "\n");
   const std::string page = read_text(place() / "report.html");
   expect_holds(page, {"<title>A controlled cable: 10 Hz, τ = 5 ms, r₀ = 0.5 mm</title>",
-                      "id=\"stability\"", "How much the sampled switching matters"});
+                      "id=\"stability\""});
   EXPECT_EQ(page.find("The paper and this program"), std::string::npos);
-  EXPECT_EQ(page.find("switching-paper"), std::string::npos);
   EXPECT_EQ(count_of(page, "<tr class=\"motion\">"), 1U);
   expect_holds(motion_named(page, "this case"),
                {"τ = 5 ms, r₀ = 0.5 mm", "Certified orbit", "forcing period",
@@ -300,8 +270,7 @@ TEST_F(Report, BeginsSweepsAnewThatAnInterruptedOneHasLeft) {
 }
 
 TEST_F(Report, OfACableThatNothingExcitesSaysThatItDoesNotVibrate) {
-  expect_holds(page_of("--set excitation.amplitude=0"),
-               {"Nothing excites this cable", "This cable comes to rest with either switching"});
+  expect_holds(page_of("--set excitation.amplitude=0"), {"Nothing excites this cable"});
   for (const std::string figure : {"success-delay-backlash", "success-frequency-delay"})
     EXPECT_EQ(count_of(picture(figure), "no vibration"), 2U) << figure;
 }
@@ -309,20 +278,18 @@ TEST_F(Report, OfACableThatNothingExcitesSaysThatItDoesNotVibrate) {
 TEST_F(Report, OfADivergingCaseSaysSoInThePage) {
   const std::string page =
       page_of("--set control.sampling_period=0.011 --set control.processing_delay=0.011");
-  expect_holds(page, {"No picture: the motion diverges",
-                      "For this case the motion with switching at samples is: diverges"});
+  expect_holds(page, {"No picture: the motion diverges"});
   expect_holds(motion_named(page, "this case"), {"<td class=\"verdict\">diverges</td>",
                                                  "left all bounds", "holdfast verdict --set"});
 }
 
-TEST_F(Report, OnTheConductorShowsItsModesAndNoStudyOfTwoMasses) {
+TEST_F(Report, OnTheConductorShowsItsModes) {
   const std::string string =
       "--set plant.model=string --set plant.modes=3 --set control.differential_gain=-2";
   const std::string page = page_of(string);
   expect_holds(page, {"Damping of the conductor&#39;s modes", "two masses and the cable",
                       "Does this hold on the cable?"});
   EXPECT_EQ(page.find("No picture"), std::string::npos);
-  EXPECT_EQ(page.find("How much the sampled switching matters"), std::string::npos);
   EXPECT_EQ(read_text(place() / "data/modal-damping-control.csv"),
             run_holdfast("modal-damping --count 40 --quiet " + string).output);
 }

@@ -27,7 +27,6 @@ not_run=(
   'apt *|installs packages'
   'sudo apt*|installs packages'
   'holdfast explore *|its page is built apart: tests/explorer'
-  'mpirun *|tests/mpi runs the program under mpirun'
 )
 # Case files that the pages name as the reader's own, and what stands in for them.
 placeholders=(

@@ -22,9 +22,6 @@
 #ifdef HOLDFAST_HAS_NETCDF
 #include <netcdf_meta.h>
 #endif
-#ifdef HOLDFAST_HAS_MPI
-#include <mpi.h>
-#endif
 #ifdef HOLDFAST_HAS_ZSTD
 #include <zstd.h>
 #endif
@@ -68,13 +65,6 @@ std::vector<Dependency> dependencies() {
 #ifdef TBB_VERSION_MAJOR
   all.push_back(
       {"oneTBB", dotted(TBB_VERSION_MAJOR, TBB_VERSION_MINOR, TBB_VERSION_PATCH), "Apache-2.0"});
-#endif
-#if defined(HOLDFAST_HAS_MPI) && defined(OMPI_MAJOR_VERSION)
-  all.push_back({"Open MPI", dotted(OMPI_MAJOR_VERSION, OMPI_MINOR_VERSION, OMPI_RELEASE_VERSION),
-                 "BSD-3-Clause"});
-#elif defined(HOLDFAST_HAS_MPI)
-  all.push_back(
-      {"MPI", std::to_string(MPI_VERSION) + "." + std::to_string(MPI_SUBVERSION), "NOASSERTION"});
 #endif
 #ifdef HOLDFAST_HAS_SUNDIALS
   all.push_back({"SUNDIALS", SUNDIALS_VERSION, "BSD-3-Clause"});

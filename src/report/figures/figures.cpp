@@ -86,8 +86,8 @@ Values settling_panel(const std::string& duration) {
 }
 
 /// Values that the texts leave open of a figure with these axes.
-Values values_of(const MapAxis& x, const MapAxis& y, const std::vector<Values>& panels,
-                 Values values) {
+Values values_of_chart(const MapAxis& x, const MapAxis& y, const std::vector<Values>& panels,
+                       Values values) {
   values.emplace_back("panels", std::to_string(panels.size()));
   return joined(joined(std::move(values), values_of("x", x, "$1")), values_of("y", y, "$2"));
 }
@@ -101,10 +101,10 @@ Figure delay_backlash_figure(const Case& the_case, bool builtin) {
                         {"quick", quick},
                         {"moves", rests ? "@at rest@" : ""},
                         {"seen", builtin ? "@seen in delay-backlash@" : ""}};
-  return listed_figures(
-             "delay-backlash",
-             values_of(period_axis(the_case, 0.005, 0.4), backlash_axis(the_case), panels, words),
-             panels)
+  return listed_figures("delay-backlash",
+                        values_of_chart(period_axis(the_case, 0.005, 0.4), backlash_axis(the_case),
+                                        panels, words),
+                        panels)
       .front();
 }
 
@@ -134,9 +134,9 @@ Figure frequency_delay_figure(const Case& the_case, bool builtin) {
                         {"delayed", delayed ? "@same delay@" : ""},
                         {"seen", builtin ? "@seen in frequency-delay@" : ""}};
   Figure figure =
-      listed_figures("frequency-delay",
-                     values_of(frequency_axis(the_case, lowest, highest), period, panels, words),
-                     panels)
+      listed_figures(
+          "frequency-delay",
+          values_of_chart(frequency_axis(the_case, lowest, highest), period, panels, words), panels)
           .front();
   figure.tables.push_back(
       {figure.name + "-limit", words_of("max-delay --criterion attenuates --frequency " +

@@ -12,14 +12,15 @@
 #include "case/model/plant_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "holdfast/control/gains.hpp"
+#include "holdfast/motion/instant.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "jobs/design/gain_margins.hpp"
+#include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/cell_motion.hpp"
 #include "process/interrupt.hpp"
 #include "report/page/html.hpp"
-#include "report/switching/switching_study.hpp"
 #include "text/text.hpp"
 
 namespace holdfast::program {
@@ -366,9 +367,23 @@ std::string play_text(const Question& question, const std::vector<double>& width
   return page_text(name, values);
 }
 
+/// Twice the largest |z₂ − z₁| (m) of the steady motion without control: a play as wide swallows
+/// it.
+double steady_swing_without_control(const Case& the_case) {
+  const double duration = duration_of(the_case);
+  double largest = 0.0;
+  for (CaseMotion motion(motion_without_control(the_case, duration)); motion.time() < duration;
+       motion.advance()) {
+    const EventSample sample = motion.sense();
+    if (not_before(motion.time(), 0.5 * duration))
+      largest = std::max(largest, std::abs(relative_displacement(sample.state)));
+  }
+  return 2.0 * largest;
+}
+
 /// The play that swallows the whole motion without control, and some half as much again.
 double widest_play(const Case& the_case) {
-  const double swing = swing_without_control(the_case, duration_of(the_case));
+  const double swing = steady_swing_without_control(the_case);
   if (!(swing > 0.0 && std::isfinite(swing))) return 1e-3;
   const double per_unit = std::pow(10.0, 1.0 - std::floor(std::log10(swing)));
   return std::ceil(1.5 * swing * per_unit) / per_unit;

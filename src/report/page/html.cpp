@@ -9,6 +9,18 @@ namespace holdfast::program {
 
 namespace {
 
+/// A table that scrolls by itself where it is wider than the page.
+/// @param rows  HTML
+std::string html_table(const std::vector<std::string>& headings, const std::string& rows) {
+  std::string html, all;
+  for (const std::string& heading : headings) {
+    html += "<th scope=\"col\">" + escaped(heading) + "</th>";
+    all += (all.empty() ? "" : ", ") + escaped(heading);
+  }
+  const std::string name = page_text("table named", {{"headings", all}});
+  return page_text("table", {{"name", name}, {"headings", html}, {"rows", rows}});
+}
+
 std::string comparison_part(const std::vector<Comparison>& comparisons) {
   if (comparisons.empty()) return "";
   std::string rows;
@@ -97,6 +109,12 @@ std::string figure_html(const DrawnFigure& drawn) {
                               {"files", links_to_files(drawn)}});
 }
 
+std::string figures_html(const std::vector<DrawnFigure>& figures) {
+  std::string html;
+  for (const DrawnFigure& drawn : figures) html += figure_html(drawn);
+  return html;
+}
+
 /// Links to figures, folded up.
 std::string list_of_figures(const std::vector<DrawnFigure>& figures) {
   std::string links;
@@ -131,28 +149,6 @@ std::string page_text(const std::string& name, const Values& values) {
   return text_of(texts[name], values);
 }
 
-std::string figures_html(const std::vector<DrawnFigure>& figures) {
-  std::string html;
-  for (const DrawnFigure& drawn : figures) html += figure_html(drawn);
-  return html;
-}
-
-std::string html_row(const std::vector<std::string>& cells) {
-  std::string html = "<tr>";
-  for (const std::string& cell : cells) html += "<td>" + cell + "</td>";
-  return html + "</tr>\n";
-}
-
-std::string html_table(const std::vector<std::string>& headings, const std::string& rows) {
-  std::string html, all;
-  for (const std::string& heading : headings) {
-    html += "<th scope=\"col\">" + escaped(heading) + "</th>";
-    all += (all.empty() ? "" : ", ") + escaped(heading);
-  }
-  const std::string name = page_text("table named", {{"headings", all}});
-  return page_text("table", {{"name", name}, {"headings", html}, {"rows", rows}});
-}
-
 std::string escaped(const std::string& text) {
   std::string result = replaced(text, "&", "&amp;");
   for (const auto& [character, entity] :
@@ -172,13 +168,11 @@ std::string html_of(const Page& page) {
                {"introduction", page.introduction},
                {"to explorer", link_to("explorer", page.explored)},
                {"to motions", link_to("motions", !page.motions.empty())},
-               {"to switching", link_to("switching", !page.switching.empty())},
                {"to comparison", link_to("comparison", !page.comparisons.empty())},
                {"answers", answers_part(page)},
                {"list of figures", list_of_figures(page.figures)},
                {"figures", figures_html(page.figures)},
                {"motions", motions_part(page)},
-               {"switching", page.switching},
                {"comparison", comparison_part(page.comparisons)},
                {"case", page_text("case", {{"case", escaped(page.case_text)}})},
                {"foot", page_text("foot", {{"script", only_text(page_script_texts, "script")}})}});

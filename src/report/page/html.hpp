@@ -28,7 +28,6 @@ struct Page {
   std::vector<Answer> answers;              ///< what a designer asks
   std::vector<Comparison> comparisons;      ///< may be empty
   std::vector<MotionRow> motions;
-  std::string switching;  ///< HTML: how much the sampled switching matters
   std::vector<DrawnFigure> figures;
 };
 
@@ -37,16 +36,6 @@ std::string html_of(const Page& page);
 
 /// The text of texts/page.toml, which is compiled in, with its values.
 std::string page_text(const std::string& name, const Values& values = {});
-
-/// Figures, each with its caption, its tables and the commands that make them.
-std::string figures_html(const std::vector<DrawnFigure>& figures);
-
-/// A row of a table. @param cells  HTML
-std::string html_row(const std::vector<std::string>& cells);
-
-/// A table that scrolls by itself where it is wider than the page.
-/// @param rows  HTML, of html_row()
-std::string html_table(const std::vector<std::string>& headings, const std::string& rows);
 
 /// Text with &, <, > and quotes escaped.
 std::string escaped(const std::string& text);

@@ -13,7 +13,6 @@
 #include "io/file/own_folder.hpp"
 #include "output/metadata.hpp"
 #include "process/errors.hpp"
-#include "process/group/process_group.hpp"
 #include "report/figures/figure.hpp"
 #include "store/work_store.hpp"
 #include "text/text.hpp"
@@ -276,8 +275,6 @@ bool has_picture(const std::string& job) {
 }
 
 void write_picture(const PictureRequest& request, const CommandRunner& run) {
-  if (mpi_launch().size > 1)
-    throw WrongInput("pictures need a single process: start one, or write .csv");
   OutputFile picture(request.context.output);
   std::unique_ptr<OutputFile> metadata;
   if (picture.is_file()) metadata = std::make_unique<OutputFile>(metadata_path(picture.target()));

@@ -14,6 +14,7 @@
 #include "case/model/span/span_of_case.hpp"
 #include "explorer/explorer_page.hpp"
 #include "io/file/output.hpp"
+#include "jobs/motion/cell_motion.hpp"
 #include "jobs/span/span_words.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
@@ -22,8 +23,6 @@
 #include "report/figures/figure.hpp"
 #include "report/page/answers.hpp"
 #include "report/page/html.hpp"
-#include "report/switching/switching_page.hpp"
-#include "report/switching/switching_study.hpp"
 #include "store/work_store.hpp"
 #include "text/text.hpp"
 
@@ -86,12 +85,6 @@ class ReportWork {
     return with_picture(std::move(drawn));
   }
 
-  /// A figure whose tables the report has written itself, unless there is a reason not to.
-  DrawnFigure drawn(DrawnFigure own) const {
-    own.commands = {shell_text({"report"}, page.case_arguments) + " --output ."};
-    return with_picture(std::move(own));
-  }
-
   void add_figures(const std::vector<Figure>& figures, Progress& progress) {
     for (const Figure& figure : figures) {
       throw_if_interrupted();
@@ -145,9 +138,11 @@ class ReportWork {
 };
 
 /// The unit of the case's displacements. Refuses loops that are too stiff.
-LengthUnit unit_of(const Case& the_case) {
+LengthUnit unit_of(const JobContext& context) {
+  const Case& the_case = context.case_data;
   const double duration = std::min(20.0, end_of_force(the_case));
-  return length_unit_for(amplitude_without_control(the_case, duration));
+  const MovingLoop alone = motion_without_control(the_case, duration);
+  return length_unit_for(metrics_of({alone}, duration, context.instructions).front().steady_peak);
 }
 
 std::string name_of_case(const JobContext& context, const char* builtin) {
@@ -181,12 +176,6 @@ std::string introduction_of_span(const Case& the_case) {
       {{"lowest", rounded(axis.min, 3)}, {"highest", rounded(axis.max, 3)}, {"speeds", speeds}});
 }
 
-std::string switching_part(const JobContext& context, bool builtin, const ReportWork& work) {
-  SwitchingPage page = make_switching_page(context, builtin);
-  for (DrawnFigure& figure : page.figures) figure = work.drawn(std::move(figure));
-  return html_of(page);
-}
-
 }  // namespace
 
 void write_report(const JobContext& context, const Arguments& case_arguments,
@@ -195,7 +184,7 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   require_loop_keys(the_case);
   excitation_of(the_case);
   const bool builtin = case_to_toml(the_case) == case_to_toml(load_case({}, {}));
-  ReportWork work(context, case_arguments, run, unit_of(the_case));
+  ReportWork work(context, case_arguments, run, unit_of(context));
   const std::vector<Figure> figures = figures_of(the_case, builtin);
 
   Page& page = work.page;
@@ -207,12 +196,8 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   if (builtin) page.comparisons = compare_with_paper();
   page.motions =
       builtin ? paper_motions(the_case) : std::vector<MotionRow>{motion_of_the_case(the_case)};
-  Progress progress(figures.size() + 2, "report", progress_wanted(context));
+  Progress progress(figures.size() + 1, "report", progress_wanted(context));
   answer(context, [&](const Answer& known) { page.answers.push_back(known); });
-  progress.advance();
-  // The study of switching is of two masses, which it runs by the thousand.
-  if (is_of_masses(motion_kind_of(the_case, Switching::exact)))
-    page.switching = switching_part(context, builtin, work);
   progress.advance();
   work.add_figures(figures, progress);
   work.finish();

@@ -12,10 +12,9 @@ namespace holdfast::program {
 /// Writes the report of a case into the folder `context.output`: data/*.csv with metadata,
 /// pictures/*.svg with their gnuplot scripts, and report.html with everything in it.
 ///
-/// Every table but those of the part about switching is made by a command line of the program
-/// itself, and the page shows it. The built-in case gets the paper's figures and the comparison
-/// with its numbers, any other case its own figures; one on the conductor itself, or of a loop as
-/// it is built, those that there are for it.
+/// Every table is made by a command line of the program, which the page shows. The built-in case
+/// gets the paper's figures and the comparison with its numbers, any other case its own figures;
+/// one on the conductor itself, or of a loop as it is built, those that there are for it.
 /// @param case_arguments  the `--case` and `--set` options that made the case
 /// Throws WrongInput when the folder cannot be made. A figure whose motion has no answer says so in
 /// the page.
@@ -46,7 +45,7 @@ bool has_picture(const std::string& job);
 /// and beside it FILE-metadata.json: version, job, options and the full case. Both appear whole or
 /// not at all; the same question gives the same bytes.
 /// Throws WrongInput where these options make a table without a picture, or one of a single value
-/// along an axis, and of several processes under MPI; NoAnswer where gnuplot is missing;
+/// along an axis; NoAnswer where gnuplot is missing;
 /// OutputError where it fails; and what the job throws.
 void write_picture(const PictureRequest& request, const CommandRunner& run);
 

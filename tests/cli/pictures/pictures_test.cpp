@@ -176,17 +176,6 @@ TEST(Pictures, AreRefusedWhereATableHasNone) {
   }
 }
 
-TEST(Pictures, AreNotDrawnBySeveralProcesses) {
-  const TemporaryFolder folder;
-  setenv("PMI_SIZE", "2", 1);
-  setenv("PMI_RANK", "0", 1);
-  const Outcome outcome = draw("sweep --axis backlash.width=0:1:3", folder / "a.svg");
-  unsetenv("PMI_SIZE");
-  unsetenv("PMI_RANK");
-  EXPECT_EQ(outcome.exit_code, 2) << outcome.errors;
-  EXPECT_EQ(entries_of(folder.path()), 0U);
-}
-
 /// What a killed picture left goes with the next one; what somebody else has put there, and what a
 /// link points to, stays.
 TEST(Pictures, WhatAKilledOneLeftGoesAndAUsersFilesStay) {

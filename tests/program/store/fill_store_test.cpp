@@ -34,7 +34,8 @@ struct CountedWork {
 void fill(const StoreFolder& store, const ChunkWork& work, int threads) {
   JobContext context;
   context.quiet = true;
-  fill_store(context, store, *single_process(), threads, work);
+  context.threads = threads;
+  fill_store(context, store, work);
 }
 
 void expect_complete(const StoreFolder& store) {
