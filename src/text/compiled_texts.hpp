@@ -10,7 +10,7 @@ namespace holdfast::program {
 
 /// The files of texts/ (TOML), as they were when the program was built.
 extern const std::string_view figures_texts, page_texts, page_style_texts, page_script_texts,
-    comparison_texts, program_texts, support_texts;
+    program_texts, support_texts;
 
 /// The text of a node that is one; its values take the place of @KEY@.
 template <class Node>

@@ -90,14 +90,6 @@ void expect_nothing_loaded_from_elsewhere(const fs::path& report) {
                       "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'"});
 }
 
-void expect_verdicts_with_reasons_where_they_differ(const fs::path& report) {
-  const std::string page = read_text(report / "report.html");
-  EXPECT_GE(count_of(page, "<td class=\"agrees\">"), 25U);
-  const std::size_t differing = count_of(page, "<td class=\"differs\">");
-  EXPECT_GE(differing, 1U);
-  EXPECT_EQ(differing, count_of(page, "<td class=\"differs\">differs: "));
-}
-
 /// The part of the page between a text and the next one after it; empty where the first is not.
 std::string part_between(const std::string& page, const std::string& from, const std::string& to) {
   const std::size_t begin = page.find(from);
@@ -208,7 +200,7 @@ void expect_maps_to_name_every_mark(const fs::path& report) {
 }
 
 // One report for all that is to be seen in it: it takes seconds.
-TEST(PaperReport, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
+TEST(PaperReport, OfTheBuiltInCaseIsWholeAndSelfContained) {
   const TemporaryFolder folder;
   const fs::path report = folder / "report";
   printed_by("report --output '" + report.string() + "'");
@@ -217,7 +209,6 @@ TEST(PaperReport, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   EXPECT_LE(fs::file_size(report / "report.html"), 3000000U);
   expect_no_partial_file_and_metadata_beside_every_table(report);
   expect_nothing_loaded_from_elsewhere(report);
-  expect_verdicts_with_reasons_where_they_differ(report);
   expect_what_the_motions_are(report);
   expect_the_motions_without_backlash_keep_the_limit(report);
   expect_cells_without_motion_to_have_their_reasons(report);
@@ -250,7 +241,6 @@ TEST_F(Report, OfAnotherCaseShowsItsOwnFigures) {
   const std::string page = read_text(place() / "report.html");
   expect_holds(page, {"<title>A controlled cable: 10 Hz, τ = 5 ms, r₀ = 0.5 mm</title>",
                       "id=\"stability\""});
-  EXPECT_EQ(page.find("The paper and this program"), std::string::npos);
   EXPECT_EQ(count_of(page, "<tr class=\"motion\">"), 1U);
   expect_holds(motion_named(page, "this case"),
                {"τ = 5 ms, r₀ = 0.5 mm", "Certified orbit", "forcing period",

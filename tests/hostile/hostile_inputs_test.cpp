@@ -13,6 +13,7 @@
 #include "cli/sweep/stopped_sweep.hpp"
 #include "hostile/hostile_scene.hpp"
 #include "hostile/hostile_texts.hpp"
+#include "jobs/support.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -25,66 +26,47 @@ std::optional<std::uint64_t> number_from_environment(const char* name) {
 
 // ---- what is asked ---------------------------------------------------------------------------
 
-/// Jobs that are done at once, whatever the case is.
-const std::vector<std::string> quick_jobs = {
-    "case",
-    "case --check case.toml",
-    "reduce",
-    "statics --force -1:1:3 --elements 8",
-    "modes --count 2 --elements 8",
-    "fit --data decay.csv",
-    "stability --p -600:0:3 --d -20:0:3 --radius",
-    "stability --axis plant.absorber_mass=0.1:0.2:2 --axis control.differential_gain=-9:0:2",
-    "stability --continuous --p -600:0:3 --d -20:0:3",
-    "boundary --p -600:0",
-    "boundary --regions",
-    "boundary --features",
-    "boundary --stable-interval",
-    "response --p -600:0:3 --d -20:0:3",
-    "design",
-    "design --frequency 5:10:2",
-    "design --band 9:11",
-    "design --both-gains",
-    "margins",
-    "sensitivity",
-    "sensitivity --tuned",
-    "max-delay --frequency 5:10:2",
-    "completion bash",
-    "manual",
-    "case --init new.toml"};
+/// The questions of texts/support.toml: of the linear loop, which is done at once whatever the case
+/// is, or those whose work depends on the case: how many samples, forcing periods, swings.
+std::vector<std::string> questions(bool of_motion) {
+  const std::vector<std::string> linear = {"stability", "boundary", "response",
+                                           "design",    "margins",  "sensitivity"};
+  std::vector<std::string> found = {"case",
+                                    "case --check case.toml",
+                                    "reduce",
+                                    "statics --force -1:1:3 --elements 8",
+                                    "modes --count 2 --elements 8",
+                                    "fit --data decay.csv",
+                                    "completion bash",
+                                    "manual",
+                                    "case --init new.toml"};
+  if (of_motion)
+    found = {"orbit --max-period 100 --certificate", "lyapunov --duration 0.1 --history",
+             "decay --duration 0.1 --elements 8 --absorber spring",
+             "peaks --force 0.1:0.4:2 --elements 8 --duration 0.1", "report --output report"};
+  for (const program::SupportCell& cell : program::support_cells()) {
+    const std::string& question = cell.question;
+    const std::string job = question.substr(0, question.find(' '));
+    const bool is_quick = std::count(linear.begin(), linear.end(), job) > 0 &&
+                          question.find("--prove") == std::string::npos;
+    if (is_quick != of_motion && question != found.back()) found.push_back(question);
+  }
+  return found;
+}
 
-/// Jobs whose work depends on the case: how many samples, forcing periods, swings of the cable.
-const std::vector<std::string> motion_jobs = {
-    "simulate --duration 0.1",
-    "simulate --duration 0.1 --switching exact",
-    "simulate --duration 0.1 --kick 0.05:0.001 --from 0.02",
-    "spectrum --duration 0.5",
-    "deviation --duration 0.1",
-    "coverage --durations 0.1,0.2",
-    "verdict --max-period 100",
-    "orbit --max-period 100",
-    "orbit --max-period 100 --certificate",
-    "orbit --max-period 100 --follow backlash.width=0:0.001",
-    "orbit --max-period 100 --switching exact",
-    "basins --axis initial.z1=0:0.001:2 --axis initial.z2=0:0.001:2 --max-period 100",
-    "diagram --axis backlash.width=0:0.001:2 --transient 0.1 --strobes 2",
-    "section --duration 0.2 --from 0.1",
-    "lyapunov --duration 0.1",
-    "lyapunov --duration 0.1 --largest",
-    "lyapunov --duration 0.1 --history",
-    "sweep --axis backlash.width=0:0.001:2 --duration 0.1",
-    "sweep --axis control.sampling_period=0.001:0.002:2 --duration 0.1 --metric verdict",
-    "sweep --axis excitation.frequency=5:10:2 --best-gain --duration 0.5",
-    "decay --duration 0.1 --elements 8",
-    "decay --duration 0.1 --elements 8 --absorber spring",
-    "peaks --force 0.1:0.4:2 --elements 8 --duration 0.1",
-    "answers",
-    "report --output report"};
+const std::vector<std::string>& quick_jobs() {
+  static const std::vector<std::string> all = questions(false);
+  return all;
+}
+const std::vector<std::string>& motion_jobs() {
+  static const std::vector<std::string> all = questions(true);
+  return all;
+}
 
 HostileInput some_job(Random& random) {
   const bool motion = happens(random, 0.4);
   HostileInput input;
-  input.words = words_of(one_of(random, motion ? motion_jobs : quick_jobs));
+  input.words = words_of(one_of(random, motion ? motion_jobs() : quick_jobs()));
   input.may_take_long = motion;
   return input;
 }
@@ -303,7 +285,7 @@ HostileInput hostile_record(Random& random) {
             "absorber_damping,conductor_stiffness",
             "fit --data record.csv --plain --parameters absorber_damping,absorber_stiffness"}));
   } else {
-    input.words = words_of(one_of(random, motion_jobs));
+    input.words = words_of(one_of(random, motion_jobs()));
     input.words.insert(input.words.end(), {"--set", "excitation.record=record.csv"});
     if (happens(random, 0.5))
       input.words.insert(input.words.end(), {"--set", "excitation.record_interpolation=held"});

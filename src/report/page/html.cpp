@@ -21,25 +21,6 @@ std::string html_table(const std::vector<std::string>& headings, const std::stri
   return page_text("table", {{"name", name}, {"headings", html}, {"rows", rows}});
 }
 
-std::string comparison_part(const std::vector<Comparison>& comparisons) {
-  if (comparisons.empty()) return "";
-  std::string rows;
-  for (const Comparison& row : comparisons)
-    rows += page_text("comparison row", {{"quantity", escaped(row.quantity)},
-                                         {"paper", escaped(row.paper)},
-                                         {"ours", escaped(row.ours)},
-                                         {"reading", escaped(row.reading)},
-                                         {"verdict", row.agrees ? "agrees" : "differs"},
-                                         {"why", row.why.empty() ? "" : ": " + escaped(row.why)}});
-  const auto agreeing = std::count_if(comparisons.begin(), comparisons.end(),
-                                      [](const Comparison& row) { return row.agrees; });
-  return page_text(
-      "comparison",
-      {{"agreeing", std::to_string(agreeing)},
-       {"all", std::to_string(comparisons.size())},
-       {"table", html_table({"quantity", "paper", "ours", "reading", "verdict"}, rows)}});
-}
-
 std::string motions_part(const Page& page) {
   if (page.motions.empty()) return "";
   std::string rows;
@@ -168,12 +149,10 @@ std::string html_of(const Page& page) {
                {"introduction", page.introduction},
                {"to explorer", link_to("explorer", page.explored)},
                {"to motions", link_to("motions", !page.motions.empty())},
-               {"to comparison", link_to("comparison", !page.comparisons.empty())},
                {"answers", answers_part(page)},
                {"list of figures", list_of_figures(page.figures)},
                {"figures", figures_html(page.figures)},
                {"motions", motions_part(page)},
-               {"comparison", comparison_part(page.comparisons)},
                {"case", page_text("case", {{"case", escaped(page.case_text)}})},
                {"foot", page_text("foot", {{"script", only_text(page_script_texts, "script")}})}});
 }

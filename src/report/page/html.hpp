@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "report/comparison/comparison.hpp"
 #include "report/figures/figure.hpp"
 #include "report/page/answers.hpp"
 #include "report/picture/picture_panels.hpp"
@@ -26,7 +25,6 @@ struct Page {
   std::string case_text;                    ///< the full case as TOML
   bool explored = false;                    ///< explorer.html lies beside the page
   std::vector<Answer> answers;              ///< what a designer asks
-  std::vector<Comparison> comparisons;      ///< may be empty
   std::vector<MotionRow> motions;
   std::vector<DrawnFigure> figures;
 };

@@ -193,7 +193,6 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   if (page.explored)
     write_explorer_page(*context.output / "explorer.html", the_case, context.case_source);
   page.introduction = page_text(builtin ? "introduction of paper" : "introduction of case");
-  if (builtin) page.comparisons = compare_with_paper();
   page.motions =
       builtin ? paper_motions(the_case) : std::vector<MotionRow>{motion_of_the_case(the_case)};
   Progress progress(figures.size() + 1, "report", progress_wanted(context));

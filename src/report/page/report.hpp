@@ -13,8 +13,8 @@ namespace holdfast::program {
 /// pictures/*.svg with their gnuplot scripts, and report.html with everything in it.
 ///
 /// Every table is made by a command line of the program, which the page shows. The built-in case
-/// gets the paper's figures and the comparison with its numbers, any other case its own figures;
-/// one on the conductor itself, or of a loop as it is built, those that there are for it.
+/// gets the paper's figures, any other case its own; one on the conductor itself, or of a loop as
+/// it is built, those that there are for it.
 /// @param case_arguments  the `--case` and `--set` options that made the case
 /// Throws WrongInput when the folder cannot be made. A figure whose motion has no answer says so in
 /// the page.
