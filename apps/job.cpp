@@ -1,6 +1,7 @@
 #include "job.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "case/device/impedance_table.hpp"
 #include "case/model/cable_of_case.hpp"
@@ -11,6 +12,7 @@
 #include "case/plausibility/doubts.hpp"
 #include "host/job_host.hpp"
 #include "io/file/whole_file.hpp"
+#include "jobs/family/family.hpp"
 #include "jobs/job_texts.hpp"
 #include "jobs/support.hpp"
 #include "process/worker_threads.hpp"
@@ -120,6 +122,10 @@ Job::Job(CLI::App& program, const std::string& name)
   add("--threads", common_->threads);
   add("--instructions", common_->instructions);
   options_->option_defaults()->group("Options");
+  if (job_texts()["worst"][name].is_array()) {
+    add("--family", common_->family);
+    add("--draws", common_->draws);
+  }
   if (is_told("writes_cells", false)) add("--zarr-format", common_->zarr_format);
 }
 
@@ -234,7 +240,38 @@ void Job::does(const std::function<void()>& work) const {
   options_->final_callback([job = *this, work] {
     const std::optional<std::string>& output = job.common_->output;
     const bool drawn = output && is_picture_name(*output) && has_picture(job.options_->get_name());
-    drawn ? job.draw() : work();
+    drawn ? job.draw() : job.common_->family && !job.has("--prove") ? job.answer_family() : work();
+  });
+}
+
+/// Asks the job of each member of the family, in memory.
+void Job::answer_family() const {
+  const JobContext whole = context();
+  std::vector<std::string> arguments = {whole.job};
+  for (const CLI::Option* option : options_->get_options()) {
+    const std::string name = option->get_name();
+    const bool of_all = name == "--family" || name == "--draws" || name == "--help" ||
+                        name == "--case" || name == "--set" || name == "--output";
+    if (of_all) continue;
+    for (const std::string& text : option->results()) arguments.push_back(name + "=" + text);
+  }
+  std::set<std::string> said;
+  write_worst_of_family(whole, common_->draws, [&](const FamilyMember& member) {
+    JobHost host;
+    host.source = std::make_shared<CaseSource>(whole.case_source);
+    for (const auto& [key, value] : member.values)
+      host.source->overrides.push_back(key + "=" + format_number(value));
+    try {
+      const HostScope here(host);
+      do_job(arguments);
+    } catch (const NoAnswer& none) {
+      throw NoAnswer(member.text() + ": " + none.what());
+    } catch (const WrongInput& wrong) {
+      throw WrongInput(member.text() + ": " + wrong.what());
+    }
+    for (const std::string& warning : host.warnings)
+      if (said.insert(warning).second) report_warning(warning, whole.quiet);
+    return std::move(host.tables.front());
   });
 }
 

@@ -48,7 +48,10 @@ class Job {
   CLI::Option* add(const std::string& name, Switching& switching) const;
 
   /// Whether the command line has the option.
-  bool has(const std::string& name) const { return options_->count(name) > 0; }
+  bool has(const std::string& name) const {
+    const CLI::Option* option = options_->get_option_no_throw(name);
+    return option != nullptr && option->count() > 0;
+  }
 
   /// Checked case, output and the options that were given; call once the command line is read.
   /// A plant that the case does not give is reduced from its conductor, unless the job does
@@ -72,6 +75,8 @@ class Job {
     bool quiet = false;
     bool progress = false;
     bool yes = false;
+    bool family = false;
+    int draws = 100;
     int zarr_format = 3;
     std::optional<int> threads;      // none, 0: all
     std::string instructions;        // empty: the best that the processor has
@@ -83,6 +88,7 @@ class Job {
   std::string require_supported(const JobContext& context) const;
   void examine_for_this(JobContext& context, bool needs_plant) const;
   void draw() const;
+  void answer_family() const;
   CLI::Option* told(CLI::Option* option) const;
   bool is_told(const std::string& fact, bool otherwise) const;
 
@@ -124,12 +130,12 @@ int run_program(int argument_count, char** arguments);
 
 /// Each adds one job to the program, in the order of `holdfast --help`.
 using AddJob = void(CLI::App& program);
-AddJob add_case, add_conductors, add_reduce, add_statics, add_modes, add_decay, add_peaks, add_fit,
-    add_stability, add_boundary, add_response, add_design, add_margins, add_modal_damping,
-    add_sensitivity, add_max_delay, add_simulate, add_spectrum, add_deviation, add_coverage,
-    add_verdict, add_orbit, add_basins, add_diagram, add_section, add_lyapunov, add_sweep,
-    add_convert, add_absorption, add_aeolian, add_fatigue, add_place, add_answers, add_report,
-    add_explore;
+AddJob add_case, add_conductors, add_reduce, add_sag_tension, add_statics, add_modes, add_decay,
+    add_peaks, add_fit, add_stability, add_boundary, add_response, add_design, add_margins,
+    add_modal_damping, add_sensitivity, add_max_delay, add_simulate, add_spectrum, add_deviation,
+    add_coverage, add_verdict, add_orbit, add_basins, add_diagram, add_section, add_lyapunov,
+    add_sweep, add_convert, add_absorption, add_aeolian, add_fatigue, add_place, add_answers,
+    add_report, add_explore;
 
 /// Heading of the help where the options stand that every job has.
 namespace question {

@@ -33,13 +33,14 @@ void add_texts(CLI::App& program) {
 
 void add_jobs(CLI::App& program) {
   for (AddJob* add :
-       {add_case,      add_conductors, add_reduce,   add_statics,       add_modes,
-        add_decay,     add_peaks,      add_fit,      add_stability,     add_boundary,
-        add_response,  add_design,     add_margins,  add_modal_damping, add_sensitivity,
-        add_max_delay, add_simulate,   add_spectrum, add_deviation,     add_coverage,
-        add_verdict,   add_orbit,      add_basins,   add_diagram,       add_section,
-        add_lyapunov,  add_sweep,      add_convert,  add_absorption,    add_aeolian,
-        add_fatigue,   add_place,      add_answers,  add_report,        add_explore})
+       {add_case,        add_conductors, add_reduce,   add_sag_tension, add_statics,
+        add_modes,       add_decay,      add_peaks,    add_fit,         add_stability,
+        add_boundary,    add_response,   add_design,   add_margins,     add_modal_damping,
+        add_sensitivity, add_max_delay,  add_simulate, add_spectrum,    add_deviation,
+        add_coverage,    add_verdict,    add_orbit,    add_basins,      add_diagram,
+        add_section,     add_lyapunov,   add_sweep,    add_convert,     add_absorption,
+        add_aeolian,     add_fatigue,    add_place,    add_answers,     add_report,
+        add_explore})
     add(program);
   add_texts(program);
 }

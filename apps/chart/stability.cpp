@@ -10,6 +10,8 @@
 #include "jobs/charts/chart_rows.hpp"
 #include "jobs/charts/names.hpp"
 #include "jobs/charts/proved_poles.hpp"
+#include "jobs/family/family.hpp"
+#include "jobs/family/family_proof.hpp"
 #include "report/figures/figure.hpp"
 
 namespace holdfast::program {
@@ -21,7 +23,7 @@ LoopParameter parameter_of(const std::string& key) {
     if (key == name) return parameter;
     known += (known.empty() ? "" : ", ") + std::string(name);
   }
-  throw WrongInput("--axis: stability does not depend on " + key + "; give one of " + known);
+  throw WrongInput("stability of two masses does not depend on " + key + "; give one of " + known);
 }
 
 /// An axis whose two ends the key admits.
@@ -86,8 +88,10 @@ struct StabilityQuestion {
     job.add("--prove", prove);
     job.add("--undecided", undecided);
   }
-  void run(const JobContext& context) const {
+  void run(const Job& job) const {
+    const JobContext context = job.context();
     if (undecided && !prove) throw WrongInput("--undecided needs a proved chart: give --prove");
+    if (prove && job.has("--family")) return prove_whole_family(context);
     if (prove) return prove_gains(context);
     axes.empty() ? run_over_gains(context) : run_over_axes(context);
   }
@@ -104,6 +108,7 @@ struct StabilityQuestion {
   void run_over_gains(const JobContext& context) const;
   void run_over_axes(const JobContext& context) const;
   void prove_gains(const JobContext& context) const;
+  void prove_whole_family(const JobContext& context) const;
 };
 
 void StabilityQuestion::run_over_gains(const JobContext& context) const {
@@ -152,6 +157,16 @@ void StabilityQuestion::prove_gains(const JobContext& context) const {
     report_warning(format_rounded(left) + " of the area is undecided, more than the " +
                        format_rounded(share) + " allowed: give a larger --undecided",
                    context.quiet);
+}
+
+void StabilityQuestion::prove_whole_family(const JobContext& context) const {
+  if (context.case_data.uncertain.empty())
+    family_members(context.case_data, 2);  // says what to give
+  Table table(context, columns_of("proved family"));
+  const FamilyProof proof = family_proof_of(context.case_data, [] { throw_if_interrupted(); });
+  table.row(name_in(proved_names, proof.verdict), proof.stable_share, proof.undecided_share,
+            static_cast<std::int64_t>(proof.parts), proof.worst_member);
+  table.commit();
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "holdfast/math/enclosure/enclosed_angle.hpp"
 #include "holdfast/math/enclosure/enclosed_exponential.hpp"
 #include "holdfast/math/enclosure/enclosed_norm.hpp"
+#include "holdfast/math/enclosure/enclosed_slope.hpp"
 #include "holdfast/math/enclosure/enclosure.hpp"
 #include "holdfast/math/enclosure/positive_definite.hpp"
 #include "holdfast/math/linalg/balancing.hpp"

@@ -50,6 +50,11 @@ bool has_absorber(const Case& the_case) {
   return the_case.plant.absorber_mass > 0.0 || has_own_plant(the_case);
 }
 
+bool has_stringing(const Case& the_case) {
+  const case_tables::Stringing& s = the_case.stringing;
+  return !std::isnan(s.temperature) || !std::isnan(s.tension) || !std::isnan(s.sag);
+}
+
 bool has_site(const Case& the_case) {
   const auto said = [](const case_tables::Site& site) {
     return std::tie(site.speeds, site.hours, site.weibull_scale, site.weibull_shape,

@@ -41,8 +41,28 @@ struct Conductor {
   double outer_wire_diameter = std::numeric_limits<double>::infinity();
   double outer_wire_modulus = std::numeric_limits<double>::infinity();
   double layers = std::numeric_limits<double>::infinity();  // whole
+  double thermal_expansion = std::numeric_limits<double>::infinity();
   std::string damping = "chosen";  // by the plant: ratio of the string, Rayleigh's of the cable
   std::array<double, 2> rayleigh_frequencies{2.0, 7.0};  // Hz
+};
+
+/// How the span was strung, which its tension at other temperatures follows from.
+struct Stringing {
+  double temperature = absent;  // °C
+  double tension = absent;      // horizontal
+  double sag = absent;          // or its sag
+  std::string state = "final";
+  double ruling_span = std::numeric_limits<double>::infinity();  // infinity: "span"
+};
+
+/// The weather that a strung span meets.
+struct Weather {
+  double temperature = std::numeric_limits<double>::infinity();  // °C; infinity: "stringing"
+  std::vector<double> temperatures;                              // °C, of a year
+  double ice = 0.0;                                              // radial
+  double ice_density = 900.0;
+  double wind_pressure = 0.0;
+  double load_temperature = 0.0;  // °C, at which ice and that wind come
 };
 
 struct Absorber {
@@ -137,6 +157,16 @@ struct Device {
   std::shared_ptr<const ImpedanceTable> table;
 };
 
+/// A range that a number of the case is uncertain in.
+struct Uncertain {
+  enum class Form { interval, relative, absolute };
+
+  std::string key;  // "conductor.tension"
+  Form form;
+  double below;  // lowest end; or how much less, of the value or in the key's unit
+  double above;
+};
+
 /// The wind where the line stands, over a year.
 struct Site {
   std::vector<double> speeds;  // m/s, ascending; empty: by Weibull's law, or not known
@@ -159,6 +189,8 @@ struct Initial {
 /// Everything that a case file says, in SI units. load_case() makes one that is checked.
 struct Case {
   case_tables::Conductor conductor;
+  case_tables::Stringing stringing;
+  case_tables::Weather weather;
   case_tables::Absorber absorber;
   case_tables::Reduction reduction;
   case_tables::Plant plant;
@@ -170,6 +202,7 @@ struct Case {
   std::vector<case_tables::Device> devices;
   case_tables::Site site;
   case_tables::Initial initial;
+  std::vector<case_tables::Uncertain> uncertain;
 
   // Record of excitation.record; null where it is "". CaseSource::attach_record() reads it.
   std::shared_ptr<const RecordedForce> force_record;
@@ -206,6 +239,9 @@ bool has_hardware(const Case& the_case);
 
 /// Whether an absorber hangs on the conductor; without one its devices are alone.
 bool has_absorber(const Case& the_case);
+
+/// Whether anything is said of how the span was strung.
+bool has_stringing(const Case& the_case);
 
 /// Whether anything is said of the site.
 bool has_site(const Case& the_case);

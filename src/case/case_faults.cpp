@@ -6,6 +6,7 @@
 
 #include "case/device/device_keys.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/model/stringing_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "holdfast/control/late_controller.hpp"
 #include "process/errors.hpp"
@@ -193,9 +194,10 @@ CaseFault conductor_fault(const Case& the_case) {
 }
 
 CaseFault first_fault(const Case& the_case) {
-  for (const auto find : {control_fault, jitter_fault, contact_fault, tension_fault,
-                          impossible_fault, conductor_fault, reduction_fault, force_fault,
-                          noise_fault, modes_fault, absorber_fault, devices_fault, speeds_fault}) {
+  for (const auto find :
+       {control_fault, jitter_fault, contact_fault, tension_fault, stringing_fault,
+        impossible_fault, conductor_fault, reduction_fault, force_fault, noise_fault, modes_fault,
+        absorber_fault, devices_fault, speeds_fault}) {
     CaseFault fault = find(the_case);
     if (!fault.message.empty()) return fault;
   }

@@ -10,6 +10,7 @@
 #include "case/model/cable_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "case/toml_values.hpp"
+#include "case/uncertain.hpp"
 #include "io/file/whole_file.hpp"
 #include "process/errors.hpp"
 #include "text/text.hpp"
@@ -43,6 +44,10 @@ bool is_case_table(std::string_view name) {
 }
 
 constexpr std::string_view device_table = "device";
+constexpr std::string_view uncertain_table = "uncertain";
+constexpr std::string_view of_uncertain = "uncertain.";
+
+bool is_uncertain(std::string_view name) { return name.rfind(of_uncertain, 0) == 0; }
 
 std::string in_brackets(const std::string& table, bool is_list) {
   return is_list ? "[[" + table + "]]" : "[" + table + "]";
@@ -75,6 +80,7 @@ class CaseReader {
   void set(const std::string& name, const toml::node& node, const std::string& place, Layer layer);
   void set_value(const CaseKey& key, const toml::node& node, const std::string& place);
   void set_device(const DeviceKeyName& name, const toml::node& node, const std::string& place);
+  void set_uncertain(const std::string& key, const toml::node& node, const std::string& place);
   void begin_wind(const std::string& place, Layer layer);
   void begin_devices(const toml::node& list, const std::string& name, Layer layer);
   void begin_device(const std::string& place, Layer layer);
@@ -114,6 +120,14 @@ std::string no_device(const DeviceKeyName& name, std::size_t devices) {
 
 void require_value(std::string_view value, const std::string& place) {
   if (value.empty()) throw WrongInput(place + ": expected key=value");
+}
+
+/// A list, or a text with or without quotes.
+toml::table uncertain_override(std::string_view value, const std::string& place) {
+  require_value(value, place);
+  if (value.front() == '[' || value.front() == '"')
+    return parse_override_value(*find_case_key("site.speeds"), value, place);
+  return toml::table{{"value", std::string(value)}};
 }
 
 toml::table case_override(const std::string& name, std::string_view value,
@@ -196,6 +210,10 @@ std::vector<Entry> CaseReader::entries(const toml::table& root, const std::strin
         append("device." + std::to_string(++number), *device.as_table());
       continue;
     }
+    if (table == uncertain_table && node.is_table()) {
+      append(table, *node.as_table());
+      continue;
+    }
     const bool is_list = node.is_array_of_tables() && !is_case_table(table);
     const toml::table* keys = node.as_table();
     if (keys == nullptr && !is_list) {
@@ -220,8 +238,9 @@ void CaseReader::read_override(const std::string& text) {
   if (is_case_table(name))
     throw WrongInput(place + ": [" + name + "] is a table; set one of its keys, " + name + ".KEY");
   const bool is_device = is_like_device(name);
-  const toml::table parsed = is_device ? device_override(name, value, place, case_.devices.size())
-                                       : case_override(name, value, place);
+  const toml::table parsed = is_uncertain(name) ? uncertain_override(value, place)
+                             : is_device ? device_override(name, value, place, case_.devices.size())
+                                         : case_override(name, value, place);
   if (name.rfind("wind.", 0) == 0) begin_wind(place, Layer::override);
   if (is_device && device_key_name(name)->number > case_.devices.size())
     begin_device(place, Layer::override);
@@ -231,6 +250,7 @@ void CaseReader::read_override(const std::string& text) {
 
 void CaseReader::set(const std::string& name, const toml::node& node, const std::string& place,
                      Layer layer) {
+  if (is_uncertain(name)) return set_uncertain(name.substr(of_uncertain.size()), node, place);
   const auto of_device = device_key_name(name);
   const CaseKey* key = of_device ? nullptr : find_case_key(name);
   if (of_device)
@@ -246,7 +266,8 @@ void CaseReader::set(const std::string& name, const toml::node& node, const std:
   if (key == nullptr || key->beyond_two_masses) return;
   const std::string table = key->table();
   case_.plant_given |= table == "plant";
-  case_.conductor_given |= table == "conductor" || table == "absorber" || table == "reduction";
+  case_.conductor_given |= table == "conductor" || table == "absorber" || table == "reduction" ||
+                           table == "stringing" || table == "weather";
 }
 
 void CaseReader::set_value(const CaseKey& key, const toml::node& node, const std::string& place) {
@@ -264,6 +285,19 @@ void CaseReader::set_device(const DeviceKeyName& name, const toml::node& node,
   const DeviceKey* key = find_device_key(name.key);
   if (key == nullptr) throw WrongInput(place + ": " + unknown_device_key(name));
   read_value(*key, key->place(case_.devices[name.number - 1]), node, place, folder_);
+}
+
+void CaseReader::set_uncertain(const std::string& key, const toml::node& node,
+                               const std::string& place) {
+  if (node.is_table())
+    throw WrongInput(place + ": write the key in quotes: \"" + key + ".KEY\" = [lowest, highest]");
+  auto& all = case_.uncertain;
+  const auto same =
+      std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.key == key; });
+  if (same == all.end())
+    all.push_back(read_uncertain(key, node, place));
+  else
+    *same = read_uncertain(key, node, place);
 }
 
 void CaseReader::begin_wind(const std::string& place, Layer layer) {
@@ -422,6 +456,7 @@ Case CaseReader::finish(const std::vector<std::string>& overrides) {
   settle_wind(case_);
   check_wind();
   check_devices();
+  settle_tension(case_);
   if (!given_by_user("conductor.sag")) settle_sag(case_);
   settle_own();
   settle_frequencies();

@@ -21,6 +21,11 @@ constexpr AdmissibleRange some_modes{1.0, 1000.0, false, false, true};
 constexpr AdmissibleRange some_layers{1.0, 5.0, false, false, true};
 constexpr AdmissibleRange up_to_one{0.0, 1.0};
 constexpr AdmissibleRange wind_speeds{0.0, 150.0, true};  // the strongest gust on record had 113
+constexpr AdmissibleRange temperatures{-273.15, 1000.0, true};
+constexpr AdmissibleRange ices{0.0, 0.2};
+constexpr AdmissibleRange ice_densities{100.0, 1000.0};
+constexpr AdmissibleRange wind_pressures{0.0, 2e4};  // 180 m/s
+constexpr AdmissibleRange expansions{0.0, 1e-3};
 constexpr AdmissibleRange hours_of_year{0.0, 8784.0};
 /// Whole numbers that a double tells apart.
 constexpr AdmissibleRange seed{0.0, 9007199254740992.0, false, false, true};
@@ -110,11 +115,37 @@ const std::vector<CaseKey> listed_keys = {
     beyond_two_masses(or_word("unknown", number(KEY(conductor, layers), "", some_layers,
                                                 "of aluminium wires, which decide how many "
                                                 "vibrations they bear"))),
+    beyond_two_masses(
+        or_word("unknown", number(KEY(conductor, thermal_expansion), "1/K", expansions,
+                                  "of its length with the temperature; of a named "
+                                  "conductor its wires tell it"))),
     beyond_two_masses(word(KEY(conductor, damping), {"chosen", "ratio", "rayleigh"},
                            "of the modes: damping_ratio of each, or Rayleigh's; \"chosen\": ratio "
                            "of the string, Rayleigh's of the cable")),
     beyond_two_masses(key(ValueKind::interval, KEY(conductor, rayleigh_frequencies), "Hz", positive,
                           "the two at which Rayleigh's damping is damping_ratio")),
+
+    number(KEY(stringing, temperature), "degC", temperatures,
+           "of the conductor when its tension or sag was read"),
+    number(KEY(stringing, tension), "N", positive, "horizontal tension then"),
+    number(KEY(stringing, sag), "m", positive, "or sag then, at mid-span"),
+    word(
+        KEY(stringing, state), {"final", "initial"},
+        "whether it was read, and the span is, after years of creep and the heaviest load, or new"),
+    or_word("span", number(KEY(stringing, ruling_span), "m", positive,
+                           "of a line whose insulators swing, which the tension follows")),
+
+    or_word("stringing", number(KEY(weather, temperature), "degC", temperatures,
+                                "of the conductor for every job; \"stringing\": the one at which "
+                                "it was strung")),
+    key(ValueKind::numbers, KEY(weather, temperatures), "degC", temperatures,
+        "of the conductor over a year"),
+    number(KEY(weather, ice), "m", ices, "radial thickness of the ice that the span has borne"),
+    number(KEY(weather, ice_density), "kg/m3", ice_densities, "of the ice"),
+    number(KEY(weather, wind_pressure), "Pa", wind_pressures,
+           "of the wind that comes with the ice, on conductor and ice"),
+    number(KEY(weather, load_temperature), "degC", temperatures,
+           "of the conductor under ice and wind"),
 
     number(KEY(absorber, mass), "kg", positive, "mass of the absorber"),
     number(KEY(absorber, position), "m", positive,

@@ -198,6 +198,7 @@ void set_case_value(Case& the_case, std::string_view name, double value) {
   }
   require_in_force(the_case, key);
   *key.number(the_case) = value + 0.0;  // a negative zero is zero
+  settle_tension(the_case);
   if (key.name == "conductor.tension") settle_sag(the_case);
   if (key.name == "conductor.diameter") settle_wind(the_case);
   if (key.tuned != nullptr) *key.tuned(the_case) = false;

@@ -125,6 +125,10 @@ CaseFault first_fault(const Case& the_case);
 /// The part of it that is about [conductor] and [absorber].
 CaseFault conductor_fault(const Case& the_case);
 
+/// Gives the conductor the tension that [stringing] leaves at weather.temperature, and its sag,
+/// where it was strung. Throws WrongInput where it would break.
+void settle_tension(Case& the_case);
+
 /// Gives the conductor the sag that its tension leaves, where it has a tension.
 void settle_sag(Case& the_case);
 

@@ -5,6 +5,7 @@
 #include "case/case_file.hpp"
 #include "case/needed.hpp"
 #include "case/toml_values.hpp"
+#include "case/uncertain.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -24,6 +25,12 @@ nlohmann::ordered_json json_of_key(const CaseKey& key, Case& the_case) {
 /// [site] where nothing is said of it.
 bool is_in_force(const CaseKey& key, const Case& the_case) {
   if (key.table() == "site") return has_site(the_case);
+  if (key.table() == "stringing" || key.table() == "weather") {
+    if (!has_stringing(the_case)) return false;
+  } else if (has_stringing(the_case) &&
+             (key.name == "conductor.tension" || key.name == "conductor.sag")) {
+    return false;  // they follow from it
+  }
   if (is_absent(the_case, key)) return false;
   // Keys that a plant of the user's own replaces are no part of the case.
   if (has_own_plant(the_case))
@@ -117,7 +124,10 @@ std::string written_case(Case the_case, const char* head, const StandingOf& stan
     text += (stands == Standing::comment ? "# " : "") +
             toml_line(key, key.short_name(), text_of_key(key, the_case));
   }
-  return text + devices_to_toml(the_case.devices);
+  text += devices_to_toml(the_case.devices);
+  if (!the_case.uncertain.empty()) text += "\n[uncertain]\n";
+  for (const case_tables::Uncertain& one : the_case.uncertain) text += uncertain_to_toml(one);
+  return text;
 }
 
 }  // namespace

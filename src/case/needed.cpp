@@ -15,8 +15,9 @@ struct Instead {
   const char* other;
 };
 
-constexpr std::array<Instead, 6> others = {{
+constexpr std::array<Instead, 7> others = {{
     {"conductor.sag", "conductor.tension (N)"},
+    {"stringing.tension", "stringing.sag (m)"},
     {"excitation.frequency", "[wind]"},
     {"absorber.mass", "plant.absorber_mass (kg)"},
     {"plant.absorber_mass", "absorber.mass (kg)"},

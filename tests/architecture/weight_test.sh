@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # What the house weighs: weight_test.sh SOURCE_FOLDER [BUDGETS]
 #
-# weight.txt has the most lines of C++ that each room may have, and what the whole may. A budget only falls: who
-# passes one removes something first, and where a room is 5 % below its own it says that the budget comes down.
+# weight.txt has the most lines of C++ that each room may have, and what the whole may. The whole only falls: a room may
+# take what others have given up in the same change, and where one is 5 % below its own its budget comes down.
 set -euo pipefail
 source=$1 budgets=${2:-$(dirname "$0")/weight.txt}
 failures=0

@@ -75,6 +75,7 @@ p sweep --axis backlash.width=0:0.001:5 --duration 0.5 --threads 2 --output swee
 t sweep --axis backlash.width=0:0.001:5 --axis initial.z1=0:0.001:9 --duration 0.5 --threads 3 --chunk 4 --output sweep.zarr
 t stability --p -600:0:70 --d -20:0:5 --radius --threads 3 --output chart.zarr
 f convert sweep.zarr of-store.csv
+a sag-tension --set conductor.name=Drake --set conductor.span=300 --set stringing.temperature=15 --set stringing.tension=28e3
 a statics --force -1:1:3 --elements 8
 a modes --count 2 --elements 8
 p decay --duration 0.1 --elements 8

@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "holdfast/core/types.hpp"
 #include "text/compiled_texts.hpp"
 #include "text/names.hpp"
 #include "text/text.hpp"
@@ -32,6 +33,39 @@ void require_memory_to_parse() {
   if (*std::max_element(memory.begin(), memory.end()) != ' ') throw std::bad_alloc();
 }
 
+struct WireMaterial {
+  std::string_view name;
+  double modulus;    // Pa
+  double expansion;  // 1/K; IEC 61597 and IEC 61232
+  bool is_steel;
+};
+constexpr std::array<WireMaterial, 5> wire_materials = {{
+    {" steel ", 200e9, 11.5e-6, true},
+    {" aluminium ", 69e9, 23e-6, false},
+    {" alloy 6201 ", 69e9, 23e-6, false},
+    {" clad steel 20 % ", 162e9, 13e-6, true},
+    {" clad steel 27 % ", 140e9, 13.4e-6, true},
+}};
+
+/// Wires from a text such as "7 steel 3.454 mm, 26 aluminium 4.442 mm", from the core outwards.
+void add_wires(LibraryConductor& conductor, const std::string& text) {
+  const bool has_aluminium = text.find(" a") != std::string::npos;
+  for (const std::string_view part : split(text, ',')) {
+    const std::string_view words = trimmed(part);
+    const std::size_t blank = words.find(' ');
+    for (const WireMaterial& material : wire_materials) {
+      if (words.substr(blank, material.name.size()) != material.name) continue;
+      const std::string_view size = words.substr(blank + material.name.size());
+      const int count = static_cast<int>(parse_number(words.substr(0, blank)).value());
+      const double diameter = 1e-3 * parse_number(size.substr(0, size.find(' '))).value();
+      LibraryWires& wires = material.is_steel && has_aluminium ? conductor.core : conductor.outer;
+      wires.count += count;
+      wires.stiffness += count * material.modulus * 0.25 * pi<double> * diameter * diameter;
+      wires.expansion = material.expansion;
+    }
+  }
+}
+
 std::vector<LibraryConductor> parsed_library() {
   require_memory_to_parse();
   std::vector<LibraryConductor> library;
@@ -39,12 +73,21 @@ std::vector<LibraryConductor> parsed_library() {
   for (const toml::node& node : *parsed["conductor"].as_array()) {
     const toml::table& one = *node.as_table();
     const auto number = [&](const char* key) { return one[key].value<double>().value(); };
-    library.push_back({text_of(one["name"]), text_of(one["kind"]), number("mass_per_length"),
-                       number("diameter"), number("area"), number("rated_strength"),
-                       number("youngs_modulus"), number("outer_wire_diameter"),
-                       number("outer_wire_modulus"), number("minimum_bending_stiffness"),
+    library.push_back({text_of(one["name"]),
+                       text_of(one["kind"]),
+                       number("mass_per_length"),
+                       number("diameter"),
+                       number("area"),
+                       number("rated_strength"),
+                       number("youngs_modulus"),
+                       number("outer_wire_diameter"),
+                       number("outer_wire_modulus"),
+                       number("minimum_bending_stiffness"),
                        one["layers"].value_or(std::numeric_limits<double>::infinity()),
-                       text_of(one["source"])});
+                       text_of(one["source"]),
+                       {},
+                       {}});
+    add_wires(library.back(), text_of(one["wires"]));
   }
   return library;
 }

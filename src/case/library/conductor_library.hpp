@@ -7,6 +7,13 @@
 
 namespace holdfast::program {
 
+/// Wires of a conductor that are of one material, or of alike ones.
+struct LibraryWires {
+  int count = 0;
+  double stiffness = 0.0;  // sum of E A (N), each as a straight wire
+  double expansion = 0.0;  // 1/K
+};
+
 /// A conductor of data/conductors.toml, which is compiled in; SI units.
 struct LibraryConductor {
   std::string name, kind;  // "Drake", "ACSR"
@@ -15,6 +22,7 @@ struct LibraryConductor {
   double minimum_bending_stiffness;  // each wire bends by itself
   double layers;                     // of aluminium wires; infinity: none
   std::string source;
+  LibraryWires outer, core;  // a core of steel under aluminium; else all wires are outer ones
 };
 
 /// All of them, by kind and then by area.

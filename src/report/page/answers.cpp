@@ -17,8 +17,10 @@
 #include "holdfast/stability/margins/margins.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "jobs/design/gain_margins.hpp"
+#include "jobs/family/family_proof.hpp"
 #include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/cell_motion.hpp"
+#include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "report/page/html.hpp"
 #include "text/text.hpp"
@@ -412,6 +414,22 @@ Answer what_motion(const MotionRow& row) {
           row.rests_on, row.arguments};
 }
 
+/// Whether all that [uncertain] allows is stable, by a proof where there can be one.
+Answer does_it_hold_for_all(const Case& the_case) {
+  Answer answer = asked("family");
+  try {
+    const FamilyProof proof = family_proof_of(the_case, [] { throw_if_interrupted(); });
+    const char* const name = proof.verdict == ProvedStability::stable     ? "family stable"
+                             : proof.verdict == ProvedStability::unstable ? "family unstable"
+                                                                          : "family undecided";
+    answer.answer = page_text(name, {{"member", replaced(proof.worst_member, ";", ", ")},
+                                     {"share", percent(proof.undecided_share)}});
+  } catch (const WrongInput& refusal) {
+    answer.answer = page_text("family not proved", {{"why", refusal.what()}});
+  }
+  return answer;
+}
+
 }  // namespace
 
 Answer asked(const std::string& name, const Values& values) {
@@ -433,6 +451,7 @@ void answer(const JobContext& context, const std::function<void(const Answer&)>&
   throw_if_interrupted();
   take(how_much_play(question));
   take(what_motion(question.motion));
+  if (!the_case.uncertain.empty()) take(does_it_hold_for_all(the_case));
   if (!is_cable(the_case)) take(does_it_hold_on_the_cable(the_case));
 }
 

@@ -1,6 +1,7 @@
 #include "case/case_keys.hpp"
 
 #include "case/case_file.hpp"
+#include "case/needed.hpp"
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
 #include "support/testing.hpp"
@@ -83,7 +84,9 @@ TEST(CaseKeys, EachNumberIsRefusedOutsideItsRangeAndSetInside) {
       } else {
         const Case before = the_case;
         EXPECT_THROW(set_case_value(the_case, key.name, value), WrongInput) << key.name;
-        EXPECT_EQ(case_value(the_case, key.name), case_value(before, key.name)) << key.name;
+        if (!is_absent(before, key)) {
+          EXPECT_EQ(case_value(the_case, key.name), case_value(before, key.name)) << key.name;
+        }
         ++refused;
       }
     }

@@ -34,3 +34,7 @@ inline bool holds(const std::string& text, const std::string& part) {
 }
 
 }  // namespace holdfast::tests
+
+namespace holdfast::program {
+using tests::from_text, tests::holds, tests::message_of, tests::override_refusal, tests::refusal;
+}  // namespace holdfast::program

@@ -14,11 +14,6 @@
 namespace holdfast::program {
 namespace {
 
-using tests::from_text;
-using tests::holds;
-using tests::message_of;
-using tests::refusal;
-
 /// A span on which a conductor hangs as it does on a line.
 std::string span_of(const LibraryConductor& one) {
   return "[conductor]\nname = \"" + one.name +

@@ -13,11 +13,6 @@
 namespace holdfast::program {
 namespace {
 
-using tests::from_text;
-using tests::holds;
-using tests::message_of;
-using tests::override_refusal;
-using tests::refusal;
 using tests::TemporaryFolder;
 using tests::write_text;
 

@@ -12,11 +12,6 @@
 namespace holdfast::program {
 namespace {
 
-using tests::from_text;
-using tests::holds;
-using tests::message_of;
-using tests::refusal;
-
 /// A ground wire, of which a user of a taut string knows this.
 const std::string ground_wire = "[conductor]\nmass_per_length = 0.4\nspan = 300\ntension = 6000\n";
 const std::string whole_plant =

@@ -8,8 +8,6 @@
 namespace holdfast::program {
 namespace {
 
-using tests::holds;
-
 using Words = std::vector<std::string>;
 
 /// ACSR Cardinal on 400 m.

@@ -9,8 +9,6 @@
 namespace holdfast::program {
 namespace {
 
-using tests::holds;
-
 /// What there is to say of the plant of a case file.
 std::string said_of(const std::string& text) {
   Case the_case = load_case_text(text, "case.toml", {});

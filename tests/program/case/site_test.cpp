@@ -6,11 +6,6 @@
 namespace holdfast::program {
 namespace {
 
-using tests::from_text;
-using tests::holds;
-using tests::override_refusal;
-using tests::refusal;
-
 using Numbers = std::vector<double>;
 
 TEST(Site, IsReadAsSpeedsWithTheirHoursOrByWeibullsLaw) {

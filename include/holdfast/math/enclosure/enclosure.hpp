@@ -55,6 +55,10 @@ class Enclosure {
     if (nearest == 0.0) return {};
     return {detail::rounded_down(nearest), detail::rounded_up(nearest)};
   }
+  /// The interval of all decimals whose nearest double is one of two doubles or lies between them.
+  static Enclosure of_decimals(double from, double to) {
+    return {of_decimal(from).lower(), of_decimal(to).upper()};
+  }
   /// The interval (−∞, ∞).
   static Enclosure unknown() {
     Enclosure all;

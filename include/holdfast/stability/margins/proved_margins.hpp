@@ -86,7 +86,7 @@ struct GainPath {
   bool keeps_stability(double from, double to) const { return is_off_circle(arcs, box(from, to)); }
   ProvedStability at(double position) const { return stability_of(arcs, box(position, position)); }
   GainBox box(double from, double to) const {
-    const Enclosure moved = decimals_between(from, to);
+    const Enclosure moved = Enclosure::of_decimals(from, to);
     if (free == FreeGain::differential)
       return box_of(Enclosure::of_decimal(gains.proportional), moved);
     return box_of(moved, Enclosure::of_decimal(gains.differential));

@@ -16,15 +16,6 @@
 
 namespace holdfast {
 
-namespace detail {
-
-/// The interval of all decimals whose nearest double is one of two doubles or lies between them.
-inline Enclosure decimals_between(double from, double to) {
-  return {Enclosure::of_decimal(from).lower(), Enclosure::of_decimal(to).upper()};
-}
-
-}  // namespace detail
-
 /// A one-parameter set of samplings of a loop. The parameter, called position (s), is τ with δ/τ
 /// constant or δ with τ constant; the number of delayed commands is constant.
 struct EnclosedSamplings {
@@ -353,7 +344,7 @@ class SamplingProof {
 
 template <class Scalar>
 auto SamplingProof<Scalar>::nodes_over(double from, double to) const -> std::vector<Node> {
-  const Enclosure stretch = detail::decimals_between(from, to);
+  const Enclosure stretch = Enclosure::of_decimals(from, to);
   const std::vector<Part> parts = parts_at(stretch.middle(), stretch.radius());
   Nodes nodes = nodes_at(stretch.middle(), parts);
   if (nodes.empty()) return {};

@@ -1,0 +1,497 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/math/enclosure/enclosed_angle.hpp"
+#include "holdfast/math/enclosure/enclosed_slope.hpp"
+#include "holdfast/stability/chart/loop_chart.hpp"
+#include "holdfast/stability/chart/proved_chart.hpp"
+
+namespace holdfast {
+
+/// A closed box of loops: each of their N parameters between two numbers, which may be equal.
+template <std::size_t N>
+struct ParameterBox {
+  std::array<double, N> lowest;   ///< lower ends
+  std::array<double, N> highest;  ///< upper ends, ≥ the lower ones
+
+  /// The middle, which is a loop of the box.
+  std::array<double, N> middle() const {
+    std::array<double, N> middle;
+    for (std::size_t k = 0; k < N; ++k)
+      middle[k] = std::clamp(0.5 * lowest[k] + 0.5 * highest[k], lowest[k], highest[k]);
+    return middle;
+  }
+};
+
+/// What is proved of all loops in a box.
+template <std::size_t N>
+struct ProvedFamily {
+  double stable_share = 0.0;                           ///< of the box's volume, proved stable
+  double undecided_share = 0.0;                        ///< of it, not decided
+  std::optional<std::array<double, N>> unstable_loop;  ///< a loop of the box, proved unstable
+  std::size_t parts = 0;                               ///< boxes that were looked at
+
+  /// stable: every loop; unstable: not every loop; or undecided.
+  ProvedStability verdict() const {
+    if (unstable_loop) return ProvedStability::unstable;
+    return undecided_share > 0.0 ? ProvedStability::undecided : ProvedStability::stable;
+  }
+};
+
+/// Limits of the search of `prove_family`.
+struct FamilyLimits {
+  std::size_t parts = 100'000;  ///< most boxes that are looked at
+};
+
+namespace detail {
+
+/// A complex number by both parts.
+template <class Number>
+struct Parts {
+  Number real, imag;
+};
+
+/// The product of two complex numbers.
+template <class Number>
+Parts<Number> operator*(const Parts<Number>& a, const Parts<Number>& b) {
+  return {a.real * b.real - a.imag * b.imag, a.real * b.imag + a.imag * b.real};
+}
+
+/// A sum that is linear in the gains: P times one number and D times another.
+struct AliasSum {
+  Parts<Enclosure> proportional, differential;
+
+  /// Adds U G for the angle θ + 2πn, where U = 2 sin(θ/2)/(ωτ) e^{−i(θ/2 + ωδ)}.
+  /// @param twice     2 sin(θ/2)
+  /// @param omega     ω (rad/s)
+  /// @param response  G(iω) (m/N)
+  void add(const Enclosure& twice, const Enclosure& angle, const Enclosure& phase,
+           const Enclosure& omega, const Parts<Enclosure>& response) {
+    const Enclosure size = twice / angle;
+    const Parts<Enclosure> part =
+        Parts<Enclosure>{size * cos(phase), -(size * sin(phase))} * response;
+    proportional.real += part.real;
+    proportional.imag += part.imag;
+    differential.real -= omega * part.imag;
+    differential.imag += omega * part.real;
+  }
+  /// Adds an error of modulus up to `of_differential` for each N s/m of D.
+  void widen(const Enclosure& of_differential, const Enclosure& slowest) {
+    const auto widened = [](Parts<Enclosure>& z, double error) {
+      z.real += Enclosure(-error, error);
+      z.imag += Enclosure(-error, error);
+    };
+    widened(differential, of_differential.magnitude());
+    widened(proportional, (of_differential / slowest).magnitude());
+  }
+};
+
+/// The sum P A_P + D A_D over all other frequencies ω_n = (θ + 2πn)/τ that the samples do not tell
+/// from ω, n ≠ 0, of U_n (P + iω_n D) G(iω_n).
+///
+/// For n beyond the N terms that are added |G| ≤ g/ω², and Σ_{n > N} (n − 1/2)⁻² ≤ 1/N.
+/// @param response  ω (rad/s) → G(iω) (m/N)
+/// @param bound     least ω → g (m rad²/(N s²)), not positive: none is known
+template <class Response, class Bound>
+AliasSum alias_sum(const Enclosure& theta, const Enclosure& period, const Enclosure& delay,
+                   const Response& response, const Bound& bound) {
+  const int terms = theta.upper() > 0.5 ? 40 : 6;  // at slow angles all of it is small
+  const Enclosure turn = Enclosure(2.0) * pi<Enclosure>;
+  const Enclosure twice = Enclosure(2.0) * sin(theta * Enclosure(0.5));
+  AliasSum sum;
+  for (int n = -terms; n <= terms; ++n) {
+    if (n == 0) continue;
+    const Enclosure angle = theta + turn * Enclosure(static_cast<double>(n));
+    const Enclosure omega = angle / period;
+    sum.add(twice, angle, theta * Enclosure(0.5) + angle * (delay / period), omega,
+            response(omega));
+  }
+  const Enclosure slowest = turn * Enclosure(terms + 0.5) / Enclosure(period.upper());
+  const Enclosure g = bound(slowest);
+  sum.widen(g.is_positive() ? Enclosure(2.0 * twice.magnitude() / terms) * g * period / square(turn)
+                            : Enclosure::unknown(),
+            slowest);
+  return sum;
+}
+
+/// A parameter that is no single number in a box.
+struct MovingParameter {
+  std::size_t number;  ///< which LoopParameter
+  double reach;        ///< upper bound of its distance from the box's middle
+};
+
+/// A complex number of which both parts are functions.
+inline Parts<Enclosure> values_of(const Parts<EnclosedSlope>& z) {
+  return {z.real.value, z.imag.value};
+}
+inline Parts<Enclosure> slopes_of(const Parts<EnclosedSlope>& z) {
+  return {z.real.slope, z.imag.slope};
+}
+
+/// An angle on the unit circle and the frequency that it is of a loop with the period τ.
+template <class Number>
+struct CircleAngle {
+  Number theta;  ///< θ = ωτ
+  Number omega;  ///< ω (rad/s)
+};
+
+/// The angles of loops with different periods at v, 0 ≤ v ≤ π. Slow ones are of the same frequency,
+/// where natural frequencies lie; fast ones of the same angle, so that v = π is θ = π of all loops:
+///
+///     ω = (1 − w) v/τ₀ + w v/τ,   w = v²/π²
+inline CircleAngle<EnclosedSlope> angle_at(const EnclosedSlope& v, const EnclosedSlope& period,
+                                           double middle_period) {
+  const EnclosedSlope rate(Enclosure(1.0) / Enclosure(middle_period), Enclosure());
+  const EnclosedSlope w =
+      v * v * EnclosedSlope(Enclosure(1.0) / square(pi<Enclosure>), Enclosure());
+  const EnclosedSlope rest = EnclosedSlope(1.0) - w;
+  return {v * (rest * (period * rate) + w), v * (rest * rate + w / period)};
+}
+
+/// Whether no loop of a box has a root e^{iθ} on an arc |v − v₀| ≤ h.
+///
+/// A root there is a zero of F = Δ(iω) (1 − P G_z − D G_v), which is the base function less Δ A.
+/// All its values are within
+///
+///     F(x⁰, v₀) + Σ_k ∂F/∂x_k (x_k − x⁰_k) + ∂F/∂v (v − v₀) − Δ A
+///
+/// with the derivatives of the base function over box and arc. They keep off 0 where for some u
+/// Re(ū F(x⁰, v₀)) is more than all other terms can take away. Roots that move along the circle
+/// cost nothing: u is at a right angle to that.
+template <class Loop>
+class ArcExclusion {
+ public:
+  static constexpr std::size_t parameters = Loop::parameters;
+  template <class Number>
+  using Parameters = std::array<Number, parameters>;
+
+  ArcExclusion(const Loop& loop, const ParameterBox<parameters>& box)
+      : loop_(loop), middle_loop_(box.middle()) {
+    for (std::size_t k = 0; k < parameters; ++k) {
+      // A fixed parameter stands for all decimals that round to it.
+      over_box_[k].value = Enclosure::of_decimals(box.lowest[k], box.highest[k]);
+      const bool is_fixed = box.lowest[k] == box.highest[k];
+      at_middle_[k].value = is_fixed ? over_box_[k].value : Enclosure(middle_loop_[k]);
+      all_[k] = over_box_[k].value;
+      if (!is_fixed)
+        moving_.push_back({k, (over_box_[k].value - Enclosure(middle_loop_[k])).magnitude()});
+    }
+  }
+
+  bool holds(double v, double half) {
+    place(v, half);
+    if (holds_along(middle_, half) || holds_along(turn_ * middle_of(rate_), half)) return true;
+    return std::any_of(slopes_.begin(), slopes_.end(), [&](const Parts<Enclosure>& slope) {
+      return holds_along(turn_ * middle_of(slope), half);
+    });
+  }
+
+  /// The parameter that takes most of the margin of the last arc away.
+  std::size_t heaviest() const {
+    std::size_t heaviest = 0;
+    double most = -1.0;
+    for (std::size_t k = 0; k < slopes_.size(); ++k) {
+      const double taken = weight(slopes_[k]) * moving_[k].reach;
+      if (!(taken > most)) continue;
+      most = taken;
+      heaviest = moving_[k].number;
+    }
+    return heaviest;
+  }
+
+  /// The corner of the box whose value at the last angle is nearest to 0, by the slopes.
+  Parameters<double> nearest_corner(const ParameterBox<parameters>& box) const {
+    Parameters<double> corner = middle_loop_;
+    for (std::size_t k = 0; k < slopes_.size(); ++k) {
+      const std::size_t number = moving_[k].number;
+      const bool falls = std::real(std::conj(middle_) * middle_of(slopes_[k])) < 0.0;
+      corner[number] = falls ? box.highest[number] : box.lowest[number];
+    }
+    return corner;
+  }
+
+ private:
+  using Complex = std::complex<double>;
+  static constexpr Complex turn_ = {0.0, 1.0};
+
+  static Complex middle_of(const Parts<Enclosure>& z) { return {z.real.middle(), z.imag.middle()}; }
+  static double weight(const Parts<Enclosure>& z) {
+    return std::max(z.real.magnitude(), z.imag.magnitude());
+  }
+  /// Re(ū z).
+  static Enclosure along(const Complex& u, const Parts<Enclosure>& z) {
+    return Enclosure(u.real()) * z.real + Enclosure(u.imag()) * z.imag;
+  }
+
+  void place(double v, double half) {
+    const Enclosure arc = Enclosure(v) + Enclosure(-half, half);
+    const double period = middle_loop_[Loop::period];
+    const int near = loop_.near(middle_loop_, v / period);
+    const auto base = [&](const Parameters<EnclosedSlope>& x, const EnclosedSlope& at) {
+      return loop_.base(x, angle_at(at, x[Loop::period], period), near);
+    };
+    value_ = values_of(base(at_middle_, {Enclosure(v), 0.0}));
+    slopes_.clear();
+    for (const MovingParameter& moving : moving_) {
+      over_box_[moving.number].slope = 1.0;
+      slopes_.push_back(slopes_of(base(over_box_, {arc, 0.0})));
+      over_box_[moving.number].slope = 0.0;
+    }
+    rate_ = slopes_of(base(over_box_, {arc, 1.0}));
+    const auto all = angle_at({arc, 0.0}, over_box_[Loop::period], period);
+    take_aliases({all.theta.value, all.omega.value}, near);
+    middle_ = middle_of(value_);
+  }
+
+  /// The value gets Δ A at the middle's gains, the slopes along the gains their parts of it.
+  void take_aliases(const CircleAngle<Enclosure>& at, int near) {
+    const AliasSum sum = loop_.aliases(all_, at.theta);
+    const Parts<Enclosure> factor = loop_.factor(all_, at.omega, near);
+    const Parts<Enclosure> by_p = factor * sum.proportional, by_d = factor * sum.differential;
+    const auto take = [](Parts<Enclosure>& from, const Parts<Enclosure>& part,
+                         const Enclosure& times) {
+      from.real -= times * part.real;
+      from.imag -= times * part.imag;
+    };
+    take(value_, by_p, at_middle_[Loop::gain_p].value);
+    take(value_, by_d, at_middle_[Loop::gain_d].value);
+    for (std::size_t k = 0; k < moving_.size(); ++k) {
+      if (moving_[k].number == Loop::gain_p) take(slopes_[k], by_p, Enclosure(1.0));
+      if (moving_[k].number == Loop::gain_d) take(slopes_[k], by_d, Enclosure(1.0));
+    }
+  }
+
+  /// At a right angle to what moves the values most, or towards the middle's.
+  bool holds_along(Complex u, double half) {
+    const double size = std::abs(u);
+    if (!(size > 0.0 && std::isfinite(size))) return false;
+    u /= size;
+    if (std::real(std::conj(u) * middle_) < 0.0) u = -u;
+    Enclosure left = along(u, value_);
+    for (std::size_t k = 0; k < slopes_.size(); ++k)
+      left -= Enclosure(along(u, slopes_[k]).magnitude()) * Enclosure(moving_[k].reach);
+    return (left - Enclosure(along(u, rate_).magnitude()) * Enclosure(half)).is_positive();
+  }
+
+  const Loop& loop_;
+  Parameters<double> middle_loop_;
+  Parameters<EnclosedSlope> at_middle_, over_box_;
+  Parameters<Enclosure> all_;
+  std::vector<MovingParameter> moving_;
+  Parts<Enclosure> value_;                // F(x⁰, v₀), Δ A over box and arc
+  Complex middle_;                        // about that
+  std::vector<Parts<Enclosure>> slopes_;  // ∂F/∂x_k over box and arc
+  Parts<Enclosure> rate_;                 // ∂F/∂v, likewise
+};
+
+/// A verdict on a box; where it is unstable, a loop that is; else the parameter to divide it at.
+template <std::size_t N>
+struct LoopVerdict {
+  ProvedStability stability;
+  std::array<double, N> loop;
+  std::size_t heaviest;
+};
+
+/// The verdict on a box: unstable where its middle is, or the corner that comes nearest to a root
+/// on the circle; stable where the middle is, and no loop has a root on the circle, so that none
+/// has crossed it.
+template <class Loop, std::size_t N>
+LoopVerdict<N> judged(const Loop& loop, const ParameterBox<N>& box) {
+  const std::array<double, N> middle = box.middle();
+  const ProvedStability of_middle = loop.verdict_on(middle);
+  if (of_middle == ProvedStability::unstable) return {of_middle, middle, 0};
+  ArcExclusion<Loop> exclusion(loop, box);
+  constexpr std::size_t most_arcs = 20000;
+  constexpr double whole = 0.5 * pi<double>, wider = 1.0 + 1e-12;
+  // Depth first, so that an arc that fails is found soon; ends beyond do no harm.
+  std::vector<std::pair<double, double>> arcs = {{whole, whole * wider}};
+  for (std::size_t count = 0; !arcs.empty(); ++count) {
+    const auto [angle, half] = arcs.back();
+    arcs.pop_back();
+    if (exclusion.holds(angle, half)) continue;
+    if (count > most_arcs || !exclusion.holds(angle, 0.0)) {
+      const std::array<double, N> corner = exclusion.nearest_corner(box);
+      if (loop.verdict_on(corner) == ProvedStability::unstable)
+        return {ProvedStability::unstable, corner, 0};
+      return {ProvedStability::undecided, middle, exclusion.heaviest()};
+    }
+    arcs.emplace_back(angle + 0.5 * half, 0.5 * half * wider);
+    arcs.emplace_back(angle - 0.5 * half, 0.5 * half * wider);
+  }
+  return {of_middle, middle, exclusion.heaviest()};
+}
+
+/// A box that is to be decided, and its share of the whole.
+template <std::size_t N>
+struct LoopPart {
+  ParameterBox<N> box;
+  double share;
+};
+
+/// The two halves of a box along a parameter; none where no double lies between its ends.
+template <std::size_t N>
+std::vector<ParameterBox<N>> halves_of(const ParameterBox<N>& box, std::size_t along) {
+  const double cut = 0.5 * box.lowest[along] + 0.5 * box.highest[along];
+  if (!(box.lowest[along] < cut && cut < box.highest[along])) return {};
+  std::vector<ParameterBox<N>> halves(2, box);
+  halves[0].highest[along] = cut;
+  halves[1].lowest[along] = cut;
+  return halves;
+}
+
+}  // namespace detail
+
+/// Proves that every loop of a box is stable, or finds one that is not.
+///
+/// The box is halved where it is not decided, along the parameter that moves the loop's function
+/// most. What is proved holds for all decimals that round to the box's ends.
+/// @param loop    what the parameters are of: TwoMassFamily, StringFamily
+/// @param limits  of the search
+/// @param go_on   () → void, called before each part; may throw
+/// @throws InvalidParameter where a loop of the box is not admissible
+/// Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009;
+/// J. Ackermann, Robust Control, Springer 1993, for the exclusion of zero.
+template <class Loop, class GoOn>
+ProvedFamily<Loop::parameters> prove_family(const Loop& loop,
+                                            const ParameterBox<Loop::parameters>& box,
+                                            const FamilyLimits& limits, const GoOn& go_on) {
+  constexpr std::size_t n = Loop::parameters;
+  for (std::size_t k = 0; k < n; ++k)
+    if (!(box.lowest[k] <= box.highest[k]))
+      throw InvalidParameter("upper end of a parameter", box.highest[k], "",
+                             "at least the lower end");
+  loop.validate(box);
+  ProvedFamily<n> family;
+  std::vector<detail::LoopPart<n>> open = {{box, 1.0}};
+  while (!open.empty()) {
+    go_on();
+    const detail::LoopPart<n> part = std::move(open.back());
+    open.pop_back();
+    if (family.parts++ >= limits.parts) {
+      family.undecided_share += part.share;
+      continue;
+    }
+    const detail::LoopVerdict<n> verdict = detail::judged(loop, part.box);
+    if (verdict.stability == ProvedStability::unstable) {
+      family.unstable_loop = verdict.loop;
+      for (const detail::LoopPart<n>& rest : open) family.undecided_share += rest.share;
+      family.undecided_share += part.share;
+      return family;
+    }
+    if (verdict.stability == ProvedStability::stable) {
+      family.stable_share += part.share;
+      continue;
+    }
+    const auto halves = detail::halves_of(part.box, verdict.heaviest);
+    if (halves.empty()) family.undecided_share += part.share;
+    for (const ParameterBox<n>& half : halves) open.push_back({half, 0.5 * part.share});
+  }
+  return family;
+}
+
+/// The sampled loops of two masses. Their parameters are those of LoopParameter, in its order.
+struct TwoMassFamily {
+  static constexpr std::size_t parameters = 10;  ///< m₁, k₁, c₁, m₂, k₂, c₂, τ, δ, P, D
+  static constexpr std::size_t period = 6;       ///< place of τ
+  static constexpr std::size_t gain_p = 8;       ///< place of P
+  static constexpr std::size_t gain_d = 9;       ///< place of D
+  /// A number for each parameter.
+  template <class Number>
+  using Parameters = std::array<Number, parameters>;
+  using Box = ParameterBox<parameters>;  ///< closed box of such loops
+
+  /// The parameters of a loop, whose delay is at most a sample.
+  static Parameters<double> of(OperatingPoint point) {
+    Parameters<double> all;
+    for (std::size_t k = 0; k < parameters; ++k)
+      all[k] = value_of(point, static_cast<LoopParameter>(k));
+    return all;
+  }
+  /// The loop of such parameters.
+  static OperatingPoint point_of(const Parameters<double>& all) {
+    OperatingPoint point{};
+    for (std::size_t k = 0; k < parameters; ++k)
+      value_of(point, static_cast<LoopParameter>(k)) = all[k];
+    return point;
+  }
+
+  /// The characteristic polynomial of the plant at s = iω,
+  ///
+  ///     Δ(s) = (m₁ s² + (c₁ + c₂) s + k₁ + k₂)(m₂ s² + c₂ s + k₂) − (c₂ s + k₂)²
+  template <class Number>
+  static detail::Parts<Number> plant(const Parameters<Number>& x, const Number& omega) {
+    const auto& [m1, k1, c1, m2, k2, c2, period, delay, p, d] = x;
+    const Number square = omega * omega;
+    const Number cubic = m1 * c2 + m2 * (c1 + c2), quadratic = m1 * k2 + m2 * (k1 + k2) + c1 * c2;
+    return {(m1 * m2 * square - quadratic) * square + k1 * k2,
+            omega * (c1 * k2 + c2 * k1 - cubic * square)};
+  }
+
+  /// The part of F that repeats at no other frequency, θ = ωτ,
+  ///
+  ///     Δ(iω) + (P + iωD) m₂ ω² sinc(θ/2) e^{−iθ(δ/τ + 1/2)}
+  static detail::Parts<EnclosedSlope> base(const Parameters<EnclosedSlope>& x,
+                                           const detail::CircleAngle<EnclosedSlope>& at, int) {
+    const auto& [theta, omega] = at;
+    const auto& [m1, k1, c1, m2, k2, c2, period, delay, p, d] = x;
+    const detail::Parts<EnclosedSlope> own = plant(x, omega);
+    const EnclosedSlope phase = theta * (delay / period + EnclosedSlope(0.5));
+    const EnclosedSlope c = cos(phase), s = sin(phase), rate = omega * d;
+    const EnclosedSlope size = m2 * (omega * omega) * sinc(theta * EnclosedSlope(0.5));
+    return {own.real + size * (p * c + rate * s), own.imag + size * (rate * c - p * s)};
+  }
+
+  /// The factor Δ(iω) of the sum over the other frequencies.
+  static detail::Parts<Enclosure> factor(const Parameters<Enclosure>& x, const Enclosure& omega,
+                                         int) {
+    return plant<Enclosure>(x, omega);
+  }
+
+  /// That sum; G = −m₂ ω²/Δ, g = m₂/(m₁ m₂ − a₂/ω²), a₂ being the coefficient of −ω² in Δ.
+  static detail::AliasSum aliases(const Parameters<Enclosure>& x, const Enclosure& theta) {
+    const auto response = [&](const Enclosure& at) -> detail::Parts<Enclosure> {
+      const detail::Parts<Enclosure> own = plant<Enclosure>(x, at);
+      const Enclosure size = -(x[3] * square(at)) / (square(own.real) + square(own.imag));
+      return {size * own.real, -(size * own.imag)};
+    };
+    const auto bound = [&](const Enclosure& slowest) {
+      const auto& [m1, k1, c1, m2, k2, c2, period, delay, p, d] = x;
+      const Enclosure quadratic = m1 * k2 + m2 * (k1 + k2) + c1 * c2;
+      const Enclosure left = m1 * m2 - quadratic / square(slowest);
+      return left.is_positive() ? m2 / left : Enclosure(-1.0);
+    };
+    return detail::alias_sum(theta, x[6], x[7], response, bound);
+  }
+
+  /// Nothing: F needs no factor near a natural frequency.
+  static int near(const Parameters<double>&, double) { return 0; }
+
+  /// The verdict on one loop, by Hurwitz's conditions.
+  static ProvedStability verdict_on(const Parameters<double>& all) {
+    const OperatingPoint x = point_of(all);
+    return gain_box_proof(x.plant, x.sampling)(
+        {x.gains.proportional, x.gains.proportional, x.gains.differential, x.gains.differential});
+  }
+
+  /// @throws InvalidParameter where a loop of the box is not admissible
+  static void validate(const Box& box) {
+    const OperatingPoint lowest = point_of(box.lowest), highest = point_of(box.highest);
+    for (const OperatingPoint& point : {lowest, highest}) {
+      holdfast::validate(point.plant);
+      holdfast::validate(point.gains);
+    }
+    holdfast::validate(Sampling<double>{lowest.sampling.period, highest.sampling.processing_delay});
+  }
+};
+
+}  // namespace holdfast
