@@ -29,14 +29,18 @@ struct SagTensionQuestion {
     if (temperature.empty() && !of_year.empty()) return of_year;
     const Axis axis = parse_axis("--temperature", temperature.empty() ? "-20:80:11" : temperature);
     std::vector<double> all;
-    for (std::int64_t k = 0; k < axis.count; ++k) all.push_back(axis.at(k));
+    const CaseKey& key = *find_case_key("weather.temperature");
+    for (std::int64_t k = 0; k < axis.count; ++k) {
+      all.push_back(axis.at(k));
+      if (!key.range.contains(all.back()))
+        throw WrongInput("--temperature: admissible is " + key.range.in_words(key.unit));
+    }
     return all;
   }
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
     const StrungSpan span = strung_span_of(the_case);
-    if (!conductor_curves_of(the_case).creeps) report_warning(no_creep_note, context.quiet);
     Table table(context, columns_of("sag-tension"));
     const auto row = [&](const SpanWeather& weather, double ice, double wind_pressure) {
       const SpanTension found = tension_in(the_case, span, weather, initial);
@@ -51,6 +55,7 @@ struct SagTensionQuestion {
     for (const double at : temperatures(the_case)) row(bare_weather_of(the_case, at), 0.0, 0.0);
     const case_tables::Weather& load = the_case.weather;
     if (has_load(the_case)) row(loaded_weather_of(the_case), load.ice, load.wind_pressure);
+    if (!conductor_curves_of(the_case).creeps) report_warning(no_creep_note, context.quiet);
     table.commit();
   }
 

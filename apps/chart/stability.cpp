@@ -163,7 +163,7 @@ void StabilityQuestion::prove_whole_family(const JobContext& context) const {
   if (context.case_data.uncertain.empty())
     family_members(context.case_data, 2);  // says what to give
   Table table(context, columns_of("proved family"));
-  const FamilyProof proof = family_proof_of(context.case_data, [] { throw_if_interrupted(); });
+  const FamilyProof proof = family_proof_of(context);
   table.row(name_in(proved_names, proof.verdict), proof.stable_share, proof.undecided_share,
             static_cast<std::int64_t>(proof.parts), proof.worst_member);
   table.commit();

@@ -122,14 +122,6 @@ void require_value(std::string_view value, const std::string& place) {
   if (value.empty()) throw WrongInput(place + ": expected key=value");
 }
 
-/// A list, or a text with or without quotes.
-toml::table uncertain_override(std::string_view value, const std::string& place) {
-  require_value(value, place);
-  if (value.front() == '[' || value.front() == '"')
-    return parse_override_value(*find_case_key("site.speeds"), value, place);
-  return toml::table{{"value", std::string(value)}};
-}
-
 toml::table case_override(const std::string& name, std::string_view value,
                           const std::string& place) {
   const CaseKey* key = find_case_key(name);

@@ -22,6 +22,7 @@ constexpr AdmissibleRange some_layers{1.0, 5.0, false, false, true};
 constexpr AdmissibleRange up_to_one{0.0, 1.0};
 constexpr AdmissibleRange wind_speeds{0.0, 150.0, true};  // the strongest gust on record had 113
 constexpr AdmissibleRange temperatures{-273.15, 1000.0, true};
+constexpr AdmissibleRange ruling_spans{1.0, 1e4};
 constexpr AdmissibleRange ices{0.0, 0.2};
 constexpr AdmissibleRange ice_densities{100.0, 1000.0};
 constexpr AdmissibleRange wind_pressures{0.0, 2e4};  // 180 m/s
@@ -132,7 +133,7 @@ const std::vector<CaseKey> listed_keys = {
     word(
         KEY(stringing, state), {"final", "initial"},
         "whether it was read, and the span is, after years of creep and the heaviest load, or new"),
-    or_word("span", number(KEY(stringing, ruling_span), "m", positive,
+    or_word("span", number(KEY(stringing, ruling_span), "m", ruling_spans,
                            "of a line whose insulators swing, which the tension follows")),
 
     or_word("stringing", number(KEY(weather, temperature), "degC", temperatures,

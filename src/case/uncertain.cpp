@@ -12,6 +12,7 @@
 namespace holdfast::program {
 namespace {
 
+/// What a value may be.
 constexpr const char* forms = "[lowest, highest], \"± 5 %\" or \"± 0.001\"";
 
 /// What stands behind a sign of "more or less"; nothing where there is none.
@@ -53,6 +54,17 @@ case_tables::Uncertain read_uncertain(const std::string& key, const toml::node& 
   return {key, case_tables::Uncertain::Form::absolute, *value, *value};
 }
 
+toml::table uncertain_override(std::string_view value, const std::string& place) {
+  if (value.empty() || (value.front() != '[' && value.front() != '"'))
+    return toml::table{{"value", std::string(value)}};
+  try {
+    return toml::parse("value = " + std::string(value));
+  } catch (const toml::parse_error&) {
+    throw WrongInput(place + ": must be " + forms +
+                     "; a unit stands in quotes: [\"1 ms\", \"2 ms\"]");
+  }
+}
+
 std::vector<UncertainRange> uncertain_ranges(const Case& the_case) {
   using Form = case_tables::Uncertain::Form;
   std::vector<UncertainRange> ranges;
@@ -67,6 +79,9 @@ std::vector<UncertainRange> uncertain_ranges(const Case& the_case) {
       range.lowest = value - one.below * scale;
       range.highest = value + one.above * scale;
     }
+    if (!(range.lowest < range.highest))
+      throw WrongInput("uncertain." + one.key +
+                       ": a share of 0 is no range: give [lowest, highest]");
     const CaseKey& key = *find_case_key(one.key);
     for (const double end : {range.lowest, range.highest})
       if (!key.range.contains(end))

@@ -25,6 +25,10 @@ std::vector<UncertainRange> uncertain_ranges(const Case& the_case);
 case_tables::Uncertain read_uncertain(const std::string& key, const toml::node& node,
                                       const std::string& place);
 
+/// The value of an override, under "value": a list, or a text with or without quotes. Throws
+/// WrongInput, which begins with the place.
+toml::table uncertain_override(std::string_view value, const std::string& place);
+
 /// As a file would have it.
 std::string uncertain_to_toml(const case_tables::Uncertain& uncertain);
 

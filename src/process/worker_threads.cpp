@@ -17,7 +17,12 @@ int worker_threads(int requested) {
          set.size() < 64) {
     set.resize(2 * set.size());
   }
-  return std::max(1, CPU_COUNT_S(set.size() * sizeof(cpu_set_t), set.data()));
+  // Counted one by one, since a module for browsers has no CPU_COUNT_S.
+  const std::size_t bytes = set.size() * sizeof(cpu_set_t);
+  int cores = 0;
+  for (std::size_t core = 0; core < 8 * bytes; ++core)
+    cores += CPU_ISSET_S(core, bytes, set.data()) ? 1 : 0;
+  return std::max(1, cores);
 }
 
 }  // namespace holdfast::program

@@ -42,13 +42,13 @@ void expect_function_of(const Loop& loop, const typename Loop::template Paramete
   typename Loop::template Parameters<EnclosedSlope> x;
   typename Loop::template Parameters<Enclosure> all;
   for (std::size_t k = 0; k < values.size(); ++k) x[k].value = all[k] = Enclosure(values[k]);
-  const Enclosure omega = Enclosure(theta) / all[Loop::period];
+  const Enclosure omega = Enclosure(theta) / all[Loop::place_of_period];
   const int near = loop.near(values, omega.middle());
   const auto base = loop.base(x, {EnclosedSlope(theta), {omega, Enclosure()}}, near);
   const detail::AliasSum sum = loop.aliases(all, Enclosure(theta));
   const auto factor = loop.factor(all, omega, near);
   const auto by_p = factor * sum.proportional, by_d = factor * sum.differential;
-  const Enclosure p = all[Loop::gain_p], d = all[Loop::gain_d];
+  const Enclosure p = all[Loop::place_of_p], d = all[Loop::place_of_d];
   const Enclosure real = base.real.value - p * by_p.real - d * by_d.real;
   const Enclosure imag = base.imag.value - p * by_p.imag - d * by_d.imag;
   const auto response = LoopResponse<double>(map).at_angle(theta);
@@ -59,7 +59,7 @@ void expect_function_of(const Loop& loop, const typename Loop::template Paramete
   for (const auto& [found, exact] : {std::pair{real, wanted.real()}, {imag, wanted.imag()}}) {
     EXPECT_LE(found.lower(), exact + rounding) << theta;
     EXPECT_GE(found.upper(), exact - rounding) << theta;
-    EXPECT_LE(found.radius(), 0.2 * std::abs(wanted) + rounding) << theta;
+    EXPECT_LE(found.radius(), 0.03 * std::abs(own) + rounding) << theta;
   }
 }
 

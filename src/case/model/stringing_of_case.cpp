@@ -123,10 +123,12 @@ SpanTension tension_in(const Case& the_case, const StrungSpan& span, const SpanW
     throw WrongInput("[stringing]: " + state + " the tension would be " +
                      format_rounded(tension.support) +
                      " N, beyond conductor.rated_strength = " + format_rounded(strength) + " N");
+  if (!(tension.core_share >= 0.0))
+    throw WrongInput("[stringing]: " + state + " no tension balances the conductor");
   if (!tension.within_curves)
     throw WrongInput("[stringing]: " + state + " the conductor would be stretched by " +
                      format_rounded(tension.strain) +
-                     " of its length, farther than its stress-strain curves reach");
+                     " of its length, beyond what its stress-strain law holds for");
   return tension;
 }
 
@@ -154,6 +156,11 @@ CaseFault stringing_fault(const Case& the_case) {
             "stringing.sag (m)"};
   if (s.sag >= 0.5 * the_case.conductor.span)
     return {{"stringing.sag"}, "stringing.sag must be below half of conductor.span"};
+  const double strain = s.tension / (the_case.conductor.youngs_modulus * the_case.conductor.area);
+  if (strain > 0.02)
+    return {{"stringing.tension"},
+            "stringing.tension would stretch the conductor by " + format_rounded(strain) +
+                " of its length; admissible is at most 0.02"};
   if (needs_change_of_state(the_case) && !has_expansion(the_case))
     return {{"weather.temperature", "stringing.temperature"},
             "[stringing] needs conductor.thermal_expansion (1/K) for another temperature; "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "holdfast/stability/chart/proved_family.hpp"
 #include "holdfast/stability/chart/proved_string_family.hpp"
 #include "jobs/charts/names.hpp"
+#include "output/row_blocks.hpp"
 #include "process/errors.hpp"
 #include "text/text.hpp"
 
@@ -94,7 +96,9 @@ class FamilyBox {
     if (key == "absorber.mass") key = "plant.absorber_mass";
     for (std::size_t k = 0; k < N; ++k)
       if (key == keys_[k]) return k;
-    std::string known;
+    // Two masses have no tension.
+    const bool is_string = std::string_view(keys_.front()) == string_keys.front();
+    std::string known(is_string ? temperature_key : "");
     for (const char* name : keys_) known += (known.empty() ? "" : ", ") + std::string(name);
     throw WrongInput("uncertain." + range.key + ": --prove takes ranges of " + known +
                      "; --family alone takes any");
@@ -106,15 +110,61 @@ class FamilyBox {
   ParameterBox<N> box_;
 };
 
-template <class Family>
-FamilyProof proof_of(const Family& family, const FamilyBox<Family::parameters>& box,
-                     const std::function<void()>& go_on) {
-  const auto proof = prove_family(family, box.box(), {}, go_on);
-  return {proof.verdict(), proof.stable_share, proof.undecided_share, proof.parts,
-          proof.unstable_loop ? box.text_of(*proof.unstable_loop) : ""};
+/// Slice i of a box along its first parameter, the tension or m₁, on which natural frequencies
+/// depend; where that is one number, along the one whose range is widest for its size.
+template <std::size_t N>
+ParameterBox<N> slice_of(const ParameterBox<N>& box, int i, int slices) {
+  const auto width = [&](std::size_t k) {
+    const double size = std::max(std::abs(box.lowest[k]), std::abs(box.highest[k]));
+    return size > 0.0 ? (box.highest[k] - box.lowest[k]) / size : 0.0;
+  };
+  std::size_t widest = 0;
+  for (std::size_t k = 1; k < N && !(width(0) > 0.0); ++k)
+    if (width(k) > width(widest)) widest = k;
+  const auto end = [&](int at) {
+    const double share = static_cast<double>(at) / slices;
+    return at == slices ? box.highest[widest]
+                        : (1.0 - share) * box.lowest[widest] + share * box.highest[widest];
+  };
+  ParameterBox<N> slice = box;
+  slice.lowest[widest] = end(i);
+  slice.highest[widest] = end(i + 1);
+  return slice;
 }
 
-FamilyProof proof_of_string(const Case& the_case, const std::function<void()>& go_on) {
+/// The slices of a box, side by side: the same on any number of threads.
+template <class Family>
+FamilyProof proof_of(const JobContext& context, const Family& family,
+                     const FamilyBox<Family::parameters>& box) {
+  constexpr std::size_t period = Family::place_of_period, delay = period + 1;
+  if (box.box().highest[delay] > box.box().lowest[period])
+    throw WrongInput(
+        "--family --prove: the longest control.processing_delay of the family must not exceed its "
+        "shortest control.sampling_period");
+  constexpr int slices = 8;
+  std::array<ProvedFamily<Family::parameters>, slices> proofs;
+  side_by_side(context, "stability, slices", slices, [&](std::int64_t i) {
+    const int number = static_cast<int>(i);
+    const FamilyLimits limits{FamilyLimits{}.parts / slices};
+    proofs[static_cast<std::size_t>(i)] = prove_family(family, slice_of(box.box(), number, slices),
+                                                       limits, [] { throw_if_interrupted(); });
+  });
+  FamilyProof whole{ProvedStability::stable, 0.0, 0.0, 0, ""};
+  for (const auto& proof : proofs) {
+    whole.stable_share += proof.stable_share / slices;
+    whole.undecided_share += proof.undecided_share / slices;
+    whole.parts += proof.parts;
+    if (proof.unstable_loop && whole.worst_member.empty())
+      whole.worst_member = box.text_of(*proof.unstable_loop);
+  }
+  whole.verdict = !whole.worst_member.empty()   ? ProvedStability::unstable
+                  : whole.undecided_share > 0.0 ? ProvedStability::undecided
+                                                : ProvedStability::stable;
+  return whole;
+}
+
+FamilyProof proof_of_string(const JobContext& context) {
+  const Case& the_case = context.case_data;
   if (!std::isfinite(the_case.plant.modes))
     throw WrongInput(
         "--family --prove on a string is of the modes that plant.modes tells: give --set "
@@ -131,25 +181,25 @@ FamilyProof proof_of_string(const Case& the_case, const std::function<void()>& g
        the_case.absorber.clamp_mass, plant.absorber_mass, plant.absorber_stiffness,
        plant.absorber_damping, sampling.period, sampling.processing_delay, gains.proportional,
        gains.differential});
-  return proof_of(family, box, go_on);
+  return proof_of(context, family, box);
 }
 
 }  // namespace
 
-FamilyProof family_proof_of(const Case& the_case, const std::function<void()>& go_on) {
+FamilyProof family_proof_of(const JobContext& context) {
+  const Case& the_case = context.case_data;
   const bool is_ideal = has_ideal_computer(the_case) && !has_hardware(the_case) &&
                         the_case.devices.empty() && !has_own_plant(the_case);
   const bool is_prompt = the_case.control.processing_delay <= the_case.control.sampling_period;
   if (is_ideal && is_prompt && is_two_masses(the_case)) {
     const OperatingPoint own{plant_of(the_case), sampling_of(the_case), gains_of(the_case)};
     return proof_of(
-        TwoMassFamily(),
-        FamilyBox<TwoMassFamily::parameters>(the_case, two_mass_keys(), TwoMassFamily::of(own)),
-        go_on);
+        context, TwoMassFamily(),
+        FamilyBox<TwoMassFamily::parameters>(the_case, two_mass_keys(), TwoMassFamily::of(own)));
   }
   if (is_ideal && is_prompt && !is_cable(the_case) && !is_infinite(the_case) &&
       the_case.conductor.damping != "rayleigh")
-    return proof_of_string(the_case, go_on);
+    return proof_of_string(context);
   throw WrongInput(
       "--family --prove is of two masses, or of plant.model = \"string\" with one damping ratio, "
       "under an ideal computer without filter, lag and devices, the delay at most a sample; "

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 
-#include "case/case.hpp"
+#include "case/job_context.hpp"
 #include "holdfast/stability/chart/proved_chart.hpp"
 
 namespace holdfast::program {
@@ -20,8 +19,8 @@ struct FamilyProof {
 /// Proves that every member of [uncertain] is stable, or finds one that is not: of two masses, or
 /// of a taut string with plant.modes modes of one damping ratio, under an ideal computer with a
 /// delay of at most a sample. Along weather.temperature the tension is that of the change of state.
-/// @param go_on  called before each part; may throw
-/// Throws WrongInput for another loop, and for a key that has no range there.
-FamilyProof family_proof_of(const Case& the_case, const std::function<void()>& go_on);
+/// On the threads of the context. Throws Interrupted, and WrongInput for another loop, and for a
+/// key that has no range there.
+FamilyProof family_proof_of(const JobContext& context);
 
 }  // namespace holdfast::program

@@ -415,10 +415,10 @@ Answer what_motion(const MotionRow& row) {
 }
 
 /// Whether all that [uncertain] allows is stable, by a proof where there can be one.
-Answer does_it_hold_for_all(const Case& the_case) {
+Answer does_it_hold_for_all(const JobContext& context) {
   Answer answer = asked("family");
   try {
-    const FamilyProof proof = family_proof_of(the_case, [] { throw_if_interrupted(); });
+    const FamilyProof proof = family_proof_of(context);
     const char* const name = proof.verdict == ProvedStability::stable     ? "family stable"
                              : proof.verdict == ProvedStability::unstable ? "family unstable"
                                                                           : "family undecided";
@@ -451,7 +451,7 @@ void answer(const JobContext& context, const std::function<void(const Answer&)>&
   throw_if_interrupted();
   take(how_much_play(question));
   take(what_motion(question.motion));
-  if (!the_case.uncertain.empty()) take(does_it_hold_for_all(the_case));
+  if (!the_case.uncertain.empty()) take(does_it_hold_for_all(context));
   if (!is_cable(the_case)) take(does_it_hold_on_the_cable(the_case));
 }
 

@@ -67,7 +67,7 @@ inline EnclosedSlope sin(const EnclosedSlope& f) { return {sin(f.value), cos(f.v
 inline EnclosedSlope sinc(const EnclosedSlope& f) {
   if (!(f.value.magnitude() < 2.4)) return {Enclosure::unknown(), Enclosure::unknown()};
   const Enclosure squared = square(f.value);
-  const Enclosure bend(1.0 - squared.upper() / 10.0 * (1.0 + 0x1p-50), 1.0);
+  const Enclosure bend((Enclosure(1.0) - squared / Enclosure(10.0)).lower(), 1.0);
   return {detail::nested_series(squared, 2.0), -(f.value / Enclosure(3.0) * bend * f.slope)};
 }
 

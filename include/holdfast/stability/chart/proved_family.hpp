@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -50,7 +51,7 @@ struct ProvedFamily {
 
 /// Limits of the search of `prove_family`.
 struct FamilyLimits {
-  std::size_t parts = 100'000;  ///< most boxes that are looked at
+  std::size_t parts = 4000;  ///< most boxes that are looked at
 };
 
 namespace detail {
@@ -85,42 +86,71 @@ struct AliasSum {
     differential.real -= omega * part.imag;
     differential.imag += omega * part.real;
   }
-  /// Adds an error of modulus up to `of_differential` for each N s/m of D.
-  void widen(const Enclosure& of_differential, const Enclosure& slowest) {
+  /// Adds errors of these moduli, for each N s/m of D and N/m of P.
+  void widen(const Enclosure& of_differential, const Enclosure& of_proportional) {
     const auto widened = [](Parts<Enclosure>& z, double error) {
       z.real += Enclosure(-error, error);
       z.imag += Enclosure(-error, error);
     };
     widened(differential, of_differential.magnitude());
-    widened(proportional, (of_differential / slowest).magnitude());
+    widened(proportional, of_proportional.magnitude());
   }
+};
+
+/// What is known of G(iω) for all ω from some on: |G| ≤ g/ω², and |G + μ/ω²| ≤ h/ω³.
+struct ResponseBounds {
+  Enclosure g;   ///< not positive: nothing is known
+  Enclosure mu;  ///< what a short force moves at once (1/kg)
+  Enclosure h;   ///< m rad³/(N s³)
 };
 
 /// The sum P A_P + D A_D over all other frequencies ω_n = (θ + 2πn)/τ that the samples do not tell
 /// from ω, n ≠ 0, of U_n (P + iω_n D) G(iω_n).
 ///
-/// For n beyond the N terms that are added |G| ≤ g/ω², and Σ_{n > N} (n − 1/2)⁻² ≤ 1/N.
+/// For n beyond the N terms that are added |ω_n| τ ≥ 2π (n − t), t = θ/2π < 1, and Σ_{n > N}
+/// (n − t)^{−k} ≤ (N + 1/2 − t)^{1 − k}/(k − 1), since the sum is one by midpoints. At fast angles
+/// −μ/ω² is summed in closed form: with x = δ/τ
+///
+///     Σ e^{−i(θ + 2πn)x}/(θ + 2πn)² = (1 − x + x e^{−iθ})/(4 sin²(θ/2)),   0 ≤ x ≤ 1.
+///
 /// @param response  ω (rad/s) → G(iω) (m/N)
-/// @param bound     least ω → g (m rad²/(N s²)), not positive: none is known
-template <class Response, class Bound>
+/// @param bounds    least ω → ResponseBounds
+template <class Response, class Bounds>
 AliasSum alias_sum(const Enclosure& theta, const Enclosure& period, const Enclosure& delay,
-                   const Response& response, const Bound& bound) {
-  const int terms = theta.upper() > 0.5 ? 40 : 6;  // at slow angles all of it is small
-  const Enclosure turn = Enclosure(2.0) * pi<Enclosure>;
-  const Enclosure twice = Enclosure(2.0) * sin(theta * Enclosure(0.5));
+                   const Response& response, const Bounds& bounds) {
+  const bool is_fast = theta.lower() > 0.5;  // at slow angles all of it is small
+  const int terms = theta.upper() > 0.5 ? 40 : 6;
+  const Enclosure turn = Enclosure(2.0) * pi<Enclosure>, half = theta * Enclosure(0.5);
+  const Enclosure twice = Enclosure(2.0) * sin(half), share = delay / period;
   AliasSum sum;
+  // Σ e^{−i(θ + 2πn)x}/(θ + 2πn)² of what is not added below.
+  const Enclosure all = Enclosure(1.0) / square(twice);
+  Parts<Enclosure> left{all * (Enclosure(1.0) - share + share * cos(theta)),
+                        -(all * share * sin(theta))};
   for (int n = -terms; n <= terms; ++n) {
-    if (n == 0) continue;
     const Enclosure angle = theta + turn * Enclosure(static_cast<double>(n));
+    const Enclosure lag = angle * share, weight = Enclosure(1.0) / square(angle);
+    left.real -= weight * cos(lag);
+    left.imag += weight * sin(lag);
     const Enclosure omega = angle / period;
-    sum.add(twice, angle, theta * Enclosure(0.5) + angle * (delay / period), omega,
-            response(omega));
+    if (n != 0) sum.add(twice, angle, half + lag, omega, response(omega));
   }
-  const Enclosure slowest = turn * Enclosure(terms + 0.5) / Enclosure(period.upper());
-  const Enclosure g = bound(slowest);
-  sum.widen(g.is_positive() ? Enclosure(2.0 * twice.magnitude() / terms) * g * period / square(turn)
-                            : Enclosure::unknown(),
-            slowest);
+  const Enclosure turns = Enclosure(theta.magnitude()) / turn;
+  const Enclosure gap = Enclosure(terms + 0.5) - turns;
+  const Enclosure slowest = turn * (Enclosure(terms + 1.0) - turns) / Enclosure(period.upper());
+  const ResponseBounds known = bounds(slowest);
+  const Enclosure size = Enclosure(2.0) * Enclosure(twice.magnitude()) * period / square(turn);
+  const bool is_known = known.g.is_positive() && (Enclosure(1.0) - turns).is_positive();
+  Enclosure rest = is_known ? size * known.g / gap : Enclosure::unknown();
+  if (is_known && is_fast) {
+    const Parts<Enclosure> lead = Parts<Enclosure>{-(twice * period * known.mu * sin(half)),
+                                                   -(twice * period * known.mu * cos(half))} *
+                                  left;
+    sum.differential = {sum.differential.real + lead.real, sum.differential.imag + lead.imag};
+    sum.widen(size * known.h * period / (turn * Enclosure(2.0) * square(gap)), rest / slowest);
+    return sum;
+  }
+  sum.widen(rest, rest / slowest);
   return sum;
 }
 
@@ -188,8 +218,9 @@ class ArcExclusion {
     }
   }
 
-  bool holds(double v, double half) {
-    place(v, half);
+  bool holds(const Enclosure& arc) {
+    const double half = arc.radius();
+    place(arc);
     if (holds_along(middle_, half) || holds_along(turn_ * middle_of(rate_), half)) return true;
     return std::any_of(slopes_.begin(), slopes_.end(), [&](const Parts<Enclosure>& slope) {
       return holds_along(turn_ * middle_of(slope), half);
@@ -233,12 +264,12 @@ class ArcExclusion {
     return Enclosure(u.real()) * z.real + Enclosure(u.imag()) * z.imag;
   }
 
-  void place(double v, double half) {
-    const Enclosure arc = Enclosure(v) + Enclosure(-half, half);
-    const double period = middle_loop_[Loop::period];
+  void place(const Enclosure& arc) {
+    const double v = arc.middle();
+    const double period = middle_loop_[Loop::place_of_period];
     const int near = loop_.near(middle_loop_, v / period);
     const auto base = [&](const Parameters<EnclosedSlope>& x, const EnclosedSlope& at) {
-      return loop_.base(x, angle_at(at, x[Loop::period], period), near);
+      return loop_.base(x, angle_at(at, x[Loop::place_of_period], period), near);
     };
     value_ = values_of(base(at_middle_, {Enclosure(v), 0.0}));
     slopes_.clear();
@@ -248,7 +279,7 @@ class ArcExclusion {
       over_box_[moving.number].slope = 0.0;
     }
     rate_ = slopes_of(base(over_box_, {arc, 1.0}));
-    const auto all = angle_at({arc, 0.0}, over_box_[Loop::period], period);
+    const auto all = angle_at({arc, 0.0}, over_box_[Loop::place_of_period], period);
     take_aliases({all.theta.value, all.omega.value}, near);
     middle_ = middle_of(value_);
   }
@@ -263,11 +294,11 @@ class ArcExclusion {
       from.real -= times * part.real;
       from.imag -= times * part.imag;
     };
-    take(value_, by_p, at_middle_[Loop::gain_p].value);
-    take(value_, by_d, at_middle_[Loop::gain_d].value);
+    take(value_, by_p, at_middle_[Loop::place_of_p].value);
+    take(value_, by_d, at_middle_[Loop::place_of_d].value);
     for (std::size_t k = 0; k < moving_.size(); ++k) {
-      if (moving_[k].number == Loop::gain_p) take(slopes_[k], by_p, Enclosure(1.0));
-      if (moving_[k].number == Loop::gain_d) take(slopes_[k], by_d, Enclosure(1.0));
+      if (moving_[k].number == Loop::place_of_p) take(slopes_[k], by_p, Enclosure(1.0));
+      if (moving_[k].number == Loop::place_of_d) take(slopes_[k], by_d, Enclosure(1.0));
     }
   }
 
@@ -311,22 +342,23 @@ LoopVerdict<N> judged(const Loop& loop, const ParameterBox<N>& box) {
   const ProvedStability of_middle = loop.verdict_on(middle);
   if (of_middle == ProvedStability::unstable) return {of_middle, middle, 0};
   ArcExclusion<Loop> exclusion(loop, box);
-  constexpr std::size_t most_arcs = 20000;
-  constexpr double whole = 0.5 * pi<double>, wider = 1.0 + 1e-12;
-  // Depth first, so that an arc that fails is found soon; ends beyond do no harm.
-  std::vector<std::pair<double, double>> arcs = {{whole, whole * wider}};
+  constexpr std::size_t most_arcs = 4000;
+  // From v = π k w to π (k + 1) w, k and the width w being exact. Depth first, so that an arc that
+  // fails is found soon.
+  std::vector<std::pair<double, double>> arcs = {{0.0, 1.0}};
   for (std::size_t count = 0; !arcs.empty(); ++count) {
-    const auto [angle, half] = arcs.back();
+    const auto [number, width] = arcs.back();
     arcs.pop_back();
-    if (exclusion.holds(angle, half)) continue;
-    if (count > most_arcs || !exclusion.holds(angle, 0.0)) {
+    const Enclosure arc = pi<Enclosure> * Enclosure(number * width, number * width + width);
+    if (exclusion.holds(arc)) continue;
+    if (count > most_arcs || width < 0x1p-40 || !exclusion.holds(Enclosure(arc.middle()))) {
       const std::array<double, N> corner = exclusion.nearest_corner(box);
       if (loop.verdict_on(corner) == ProvedStability::unstable)
         return {ProvedStability::unstable, corner, 0};
       return {ProvedStability::undecided, middle, exclusion.heaviest()};
     }
-    arcs.emplace_back(angle + 0.5 * half, 0.5 * half * wider);
-    arcs.emplace_back(angle - 0.5 * half, 0.5 * half * wider);
+    arcs.emplace_back(2.0 * number + 1.0, 0.5 * width);
+    arcs.emplace_back(2.0 * number, 0.5 * width);
   }
   return {of_middle, middle, exclusion.heaviest()};
 }
@@ -372,11 +404,12 @@ ProvedFamily<Loop::parameters> prove_family(const Loop& loop,
                              "at least the lower end");
   loop.validate(box);
   ProvedFamily<n> family;
-  std::vector<detail::LoopPart<n>> open = {{box, 1.0}};
+  // The largest first, so that a region of unstable loops is met soon.
+  std::deque<detail::LoopPart<n>> open = {{box, 1.0}};
   while (!open.empty()) {
     go_on();
-    const detail::LoopPart<n> part = std::move(open.back());
-    open.pop_back();
+    const detail::LoopPart<n> part = open.front();
+    open.pop_front();
     if (family.parts++ >= limits.parts) {
       family.undecided_share += part.share;
       continue;
@@ -402,9 +435,9 @@ ProvedFamily<Loop::parameters> prove_family(const Loop& loop,
 /// The sampled loops of two masses. Their parameters are those of LoopParameter, in its order.
 struct TwoMassFamily {
   static constexpr std::size_t parameters = 10;  ///< m₁, k₁, c₁, m₂, k₂, c₂, τ, δ, P, D
-  static constexpr std::size_t period = 6;       ///< place of τ
-  static constexpr std::size_t gain_p = 8;       ///< place of P
-  static constexpr std::size_t gain_d = 9;       ///< place of D
+  static constexpr std::size_t place_of_period = 6;  ///< place of τ
+  static constexpr std::size_t place_of_p = 8;       ///< place of P
+  static constexpr std::size_t place_of_d = 9;       ///< place of D
   /// A number for each parameter.
   template <class Number>
   using Parameters = std::array<Number, parameters>;
@@ -457,20 +490,25 @@ struct TwoMassFamily {
     return plant<Enclosure>(x, omega);
   }
 
-  /// That sum; G = −m₂ ω²/Δ, g = m₂/(m₁ m₂ − a₂/ω²), a₂ being the coefficient of −ω² in Δ.
+  /// That sum; G = −m₂ ω²/Δ. With Δ = m₁m₂ω⁴ − i a₃ω³ − a₂ω² + i a₁ω + k₁k₂ and e = m₁m₂ − a₂/ω²
+  ///
+  ///     g = m₂/e,   μ = 1/m₁,   h = (a₃ + a₂/ω + a₁/ω² + k₁k₂/ω³)/(m₁ e).
   static detail::AliasSum aliases(const Parameters<Enclosure>& x, const Enclosure& theta) {
     const auto response = [&](const Enclosure& at) -> detail::Parts<Enclosure> {
       const detail::Parts<Enclosure> own = plant<Enclosure>(x, at);
       const Enclosure size = -(x[3] * square(at)) / (square(own.real) + square(own.imag));
       return {size * own.real, -(size * own.imag)};
     };
-    const auto bound = [&](const Enclosure& slowest) {
+    const auto bounds = [&](const Enclosure& slowest) -> detail::ResponseBounds {
       const auto& [m1, k1, c1, m2, k2, c2, period, delay, p, d] = x;
+      const Enclosure cubic = m1 * c2 + m2 * (c1 + c2);
       const Enclosure quadratic = m1 * k2 + m2 * (k1 + k2) + c1 * c2;
-      const Enclosure left = m1 * m2 - quadratic / square(slowest);
-      return left.is_positive() ? m2 / left : Enclosure(-1.0);
+      const Enclosure least = m1 * m2 - quadratic / square(slowest);
+      if (!least.is_positive()) return {Enclosure(-1.0), Enclosure(), Enclosure()};
+      const Enclosure slower = quadratic + (c1 * k2 + c2 * k1 + k1 * k2 / slowest) / slowest;
+      return {m2 / least, Enclosure(1.0) / m1, (cubic + slower / slowest) / (m1 * least)};
     };
-    return detail::alias_sum(theta, x[6], x[7], response, bound);
+    return detail::alias_sum(theta, x[6], x[7], response, bounds);
   }
 
   /// Nothing: F needs no factor near a natural frequency.

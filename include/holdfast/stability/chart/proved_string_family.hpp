@@ -44,10 +44,10 @@ enum class StringParameter {
 ///     F = q (d_m + M_c s² S) + m₂ s² S (κ − (P + sD) U₀) − (q (d_m + M_c s² S) + m₂ s² S κ) A.
 class StringFamily {
  public:
-  static constexpr std::size_t parameters = 11;  ///< those of StringParameter, in its order
-  static constexpr std::size_t period = 7;       ///< place of τ
-  static constexpr std::size_t gain_p = 9;       ///< place of P
-  static constexpr std::size_t gain_d = 10;      ///< place of D
+  static constexpr std::size_t parameters = 11;      ///< those of StringParameter, in its order
+  static constexpr std::size_t place_of_period = 7;  ///< place of τ
+  static constexpr std::size_t place_of_p = 9;       ///< place of P
+  static constexpr std::size_t place_of_d = 10;      ///< place of D
   /// A number for each parameter.
   template <class Number>
   using Parameters = std::array<Number, parameters>;
@@ -65,11 +65,13 @@ class StringFamily {
     require_non_negative("bending stiffness EI", bending_stiffness, "N m^2");
     require_within("number of modes", modes, "", 1, 1000);
     const Enclosure length = Enclosure::of_decimal(span);
+    // The family holds its modes as they are rounded too, for the verdict on its middle.
+    const Enclosure rounded(1.0 - 1e-12, 1.0 + 1e-12), error(-2e-12, 2e-12);
     for (int n = 1; n <= modes; ++n) {
       const Enclosure waves = Enclosure(static_cast<double>(n)) * pi<Enclosure> / length;
-      squared_waves_.push_back(square(waves));
-      shares_.push_back(Enclosure(2.0) * square(sin(waves * Enclosure::of_decimal(place))) /
-                        length);
+      const Enclosure shape = sin(waves * Enclosure::of_decimal(place)) + error;
+      squared_waves_.push_back(square(waves) * rounded);
+      shares_.push_back(Enclosure(2.0) * square(shape) / length * rounded);
     }
   }
 
@@ -101,27 +103,39 @@ class StringFamily {
     return at(x, omega, near).own;
   }
 
-  /// That sum; G = m₂ s² H/(q (1 + M_c s² H) + m₂ s² H κ). Where ω is beyond all ω_n, |H| ≤ η/ω²,
-  /// and the clamp only makes 1/H + M_c s² larger, so that
+  /// That sum; G = m₂ s² H/(q (1 + M_c s² H) + m₂ s² H κ). Where ω is beyond all ω_n, s² H has a
+  /// positive real part, so that the clamp makes |1 + M_c s² H| no smaller than 1. With η₀ = Σ h_n,
+  /// |H| ≤ η/ω², |H + η₀/ω²| ≤ ε/ω³ and |κ| ≤ ω r, r = k₂/ω + c₂,
   ///
-  ///     1/g = (1 − k₂/(m₂ω²))/η − k₂/ω² − c₂/ω,   η = Σ h_n/(1 − ω_N²/ω²)
+  ///     g = m₂ η/e,   e = m₂ − k₂/ω² − m₂ η r/ω,   μ = η₀/(1 + M_c η₀)
+  ///     h = (m₂ ε (1 + μ M_c) + r η₀ (1 + μ m₂) + μ r (M_c + m₂) ε/ω)/e.
   detail::AliasSum aliases(const Parameters<Enclosure>& x, const Enclosure& theta) const {
     const auto response = [&](const Enclosure& there) -> detail::Parts<Enclosure> {
       const Near<Enclosure> here = at(x, there, modes_ - 1);
       const Enclosure norm = square(here.own.real) + square(here.own.imag);
       return detail::Parts<Enclosure>{here.own.real / norm, -(here.own.imag / norm)} * here.reach;
     };
-    const auto bound = [&](const Enclosure& slowest) {
-      Enclosure mobility;
-      for (const Enclosure& share : shares_) mobility += share / x[1];
-      const Enclosure gap = Enclosure(1.0) - squared_frequency(x, modes_ - 1) / square(slowest);
-      if (!gap.is_positive()) return Enclosure(-1.0);
-      const Enclosure inverse =
-          (Enclosure(1.0) - x[5] / (x[4] * square(slowest))) * gap / mobility -
-          x[5] / square(slowest) - x[6] / slowest;
-      return inverse.is_positive() ? Enclosure(1.0) / inverse : Enclosure(-1.0);
+    const auto bounds = [&](const Enclosure& slowest) -> detail::ResponseBounds {
+      const Enclosure one(1.0), clamp = x[3], mass = x[4];
+      const Enclosure gap = one - squared_frequency(x, modes_ - 1) / square(slowest);
+      if (!gap.is_positive()) return {Enclosure(-1.0), Enclosure(), Enclosure()};
+      Enclosure mobility, error;  // η₀, ε
+      for (int n = 0; n < modes_; ++n) {
+        const Enclosure share = shares_[static_cast<std::size_t>(n)] / x[1];
+        const Enclosure own = squared_frequency(x, n);
+        mobility += share;
+        error += share * (own / slowest + Enclosure(2.0) * x[2] * sqrt(own)) / gap;
+      }
+      const Enclosure link = x[5] / slowest + x[6], eta = mobility / gap;
+      const Enclosure least = mass - x[5] / square(slowest) - mass * eta * link / slowest;
+      if (!least.is_positive()) return {Enclosure(-1.0), Enclosure(), Enclosure()};
+      const Enclosure mu = mobility / (one + clamp * mobility);
+      const Enclosure deviation = mass * error * (one + mu * clamp) +
+                                  link * mobility * (one + mu * mass) +
+                                  mu * link * (clamp + mass) * error / slowest;
+      return {mass * eta / least, mu, deviation / least};
     };
-    return detail::alias_sum(theta, x[7], x[8], response, bound);
+    return detail::alias_sum(theta, x[7], x[8], response, bounds);
   }
 
   /// The verdict on one loop: its plant's poles are enclosed, and F's turns about 0 counted.
