@@ -44,16 +44,6 @@ constexpr Named<ProvedStability> proved_names[] = {{ProvedStability::stable, "st
                                                    {ProvedStability::unstable, "unstable"},
                                                    {ProvedStability::undecided, "undecided"}};
 
-/// The chart by a proof of one box.
-template <class Proof>
-ProvedChart chart_by(const Proof& proof, const GainGrid& grid, double undecided) {
-  const auto decide = [&](const GainBox& box) {
-    throw_if_interrupted();
-    return proof(box);
-  };
-  return proved_chart(decide, grid, undecided);
-}
-
 ProvedChart modal_chart_of(const Case& the_case, const GainGrid& grid, double undecided) {
   const EnclosedResponse response(proved_poles_of(the_case), sampling_of(the_case));
   return proved_chart(response, grid, undecided, [] { throw_if_interrupted(); });
@@ -65,9 +55,12 @@ ProvedChart modal_chart_of(const Case& the_case, const GainGrid& grid, double un
 ProvedChart proved_stability_of(const Case& the_case, const GainGrid& grid, bool continuous,
                                 double undecided) {
   if (!has_closed_forms(the_case)) return modal_chart_of(the_case, grid, undecided);
-  const TwoMass<double> plant = plant_of(the_case);
-  if (continuous) return chart_by(gain_box_proof(plant), grid, undecided);
-  return chart_by(gain_box_proof(plant, sampling_of(the_case)), grid, undecided);
+  const auto chart_by = [&](const auto& proof) {
+    const auto decide = [&](const GainBox& box) { return throw_if_interrupted(), proof(box); };
+    return proved_chart(decide, grid, undecided);
+  };
+  if (continuous) return chart_by(gain_box_proof(plant_of(the_case)));
+  return chart_by(gain_box_proof(plant_of(the_case), sampling_of(the_case)));
 }
 
 struct StabilityQuestion {
@@ -91,7 +84,7 @@ struct StabilityQuestion {
   void run(const Job& job) const {
     const JobContext context = job.context();
     if (undecided && !prove) throw WrongInput("--undecided needs a proved chart: give --prove");
-    if (prove && job.has("--family")) return prove_whole_family(context);
+    if (prove && job.has("--family")) return prove_whole_family(job, context);
     if (prove) return prove_gains(context);
     axes.empty() ? run_over_gains(context) : run_over_axes(context);
   }
@@ -108,7 +101,7 @@ struct StabilityQuestion {
   void run_over_gains(const JobContext& context) const;
   void run_over_axes(const JobContext& context) const;
   void prove_gains(const JobContext& context) const;
-  void prove_whole_family(const JobContext& context) const;
+  static void prove_whole_family(const Job& job, const JobContext& context);
 };
 
 void StabilityQuestion::run_over_gains(const JobContext& context) const {
@@ -159,7 +152,12 @@ void StabilityQuestion::prove_gains(const JobContext& context) const {
                    context.quiet);
 }
 
-void StabilityQuestion::prove_whole_family(const JobContext& context) const {
+void StabilityQuestion::prove_whole_family(const Job& job, const JobContext& context) {
+  for (const char* other : {"--p", "--d", "--continuous", "--undecided", "--draws"})
+    if (job.has(other))
+      throw WrongInput(std::string(other) +
+                       ": --family --prove is of each member, sampled, at its "
+                       "own gains, whose ranges may stand in [uncertain]");
   if (context.case_data.uncertain.empty())
     family_members(context.case_data, 2);  // says what to give
   Table table(context, columns_of("proved family"));

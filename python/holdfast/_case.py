@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 #: Whose result is cells over axes, which a store can hold.
 _JOBS_OF_CELLS = ("stability", "response", "basins", "sweep")
+_JOBS_OF_FAMILIES = ("stability", "boundary", "response", "margins", "max-delay", "modal-damping")
 #: Of [excitation], where a force of the user's own takes its place.
 _WITHOUT_FORCE = ("amplitude=0.0", "harmonics=[]", "noise_rms=0.0", 'record=""')
 
@@ -54,8 +55,10 @@ class Case:
     :class:`Table` and takes besides its own the keywords ``threads`` (0: all), ``instructions``
     (``"baseline"``, ``"avx2"``, ``"avx512"``), ``progress`` (True: tqdm where it is installed, or a
     callable ``(done, total)``), ``output`` (a file of the program's instead; then nothing is returned)
-    and ``yes`` (gigabytes of rows are meant); those with ``store`` also ``zarr_format`` (2 or 3). What
-    holds for the program holds here: ``holdfast JOB --help`` explains each option further.
+    and ``yes`` (gigabytes of rows are meant); those with ``store`` also ``zarr_format`` (2 or 3). Chart,
+    boundary, response, margins, max_delay and modal_damping take ``family`` (True: the worst over
+    ``[uncertain]``) and ``draws``. What holds for the program holds here: ``holdfast JOB --help`` explains
+    each option further.
 
     :param source: a case file, a dict of its tables (nested or with dotted keys), another case; None:
         the built-in case. A file or dict that gives the conductor's name, mass, span, tension or sag,
@@ -207,6 +210,7 @@ class Case:
         how = dict(how)
         progress = how.pop("progress", None)
         common = ("threads", "instructions", "output", "yes") + (("zarr_format",) if job in _JOBS_OF_CELLS else ())
+        common += ("family", "draws") if job in _JOBS_OF_FAMILIES else ()
         given = {name: how.pop(name, None) for name in common}
         _refuse_unknown(how)
         given["threads"] = _options.threads_of(given["threads"])
@@ -244,6 +248,17 @@ class Case:
         :param force: (min, max, count), N
         """
         return self._run("statics", _axis("force", force), how)
+
+    def sag_tension(self, temperature: Range = None, *, initial: bool = False, **how: Unpack[How]) -> Table:
+        """Tension and sag of the strung span over temperature, and under its heaviest load. Columns ``state,
+        temperature_C, ice_m, wind_pressure_Pa, tension_N, horizontal_tension_N, sag_m, core_share,
+        first_frequency_Hz``.
+
+        :param temperature: (min, max, count), °C
+        :param initial: of the new span, before creep and the heaviest load
+        """
+        words = [*_axis("temperature", temperature), *_options.arguments({"initial": initial})]
+        return self._run("sag-tension", words, how)
 
     def modes(self, count: Optional[int] = None, *, elements: Optional[int] = None, **how: Unpack[How]) -> Table:
         """Natural frequencies (Hz) of the bare conductor in its plane: Irvine and Caughey, and finite
@@ -359,7 +374,7 @@ class Case:
         :param store: a folder ``NAME.zarr``, which the cells are written to as they come, and which is
             returned then; one that is there already is gone on with
         """
-        if not (continuous or axes or store or "output" in how):
+        if not (continuous or axes or store or "output" in how or "family" in how):
             return self._chart(p, d, radius, how)
         words = _options.arguments({"continuous": continuous, "radius": radius})
         words += _options.axes_texts(axes, 2) if axes else _axis("p", p) + _axis("d", d)
@@ -387,6 +402,13 @@ class Case:
         """
         words = ["--prove", *_options.arguments({"continuous": continuous, "undecided": undecided})]
         return self._run("stability", words + _axis("p", p) + _axis("d", d), how)
+
+    def proved_family(self, **how: Unpack[How]) -> Table:
+        """Whether interval arithmetic proves that every member of the family of ``[uncertain]`` is stable at its
+        own gains, or that one is not. Columns ``proved`` (stable, unstable, undecided), ``stable_share``,
+        ``undecided_share``, ``parts``, ``worst_member``.
+        """
+        return self._run("stability", ["--family", "--prove"], how)
 
     def _chart(self, p: Range, d: Range, radius: bool, how: dict[str, Any]) -> Table:
         """A chart over gains, whose cells the kernels write where they stay."""
@@ -436,7 +458,9 @@ class Case:
         words += [f"--d={_options.list_text(d, 'd')}"] if d is not None else []
         return self._run("boundary", words, how)
 
-    def gain_regions(self, p: Interval = None, d: Interval = None, *, continuous: bool = False, **how: Unpack[How]) -> Table:
+    def gain_regions(
+        self, p: Interval = None, d: Interval = None, *, continuous: bool = False, **how: Unpack[How]
+    ) -> Table:
         """The regions of a window of P and D with equally many unstable roots, the stable ones first: their
         areas, a point inside, their extents.
 
@@ -519,7 +543,13 @@ class Case:
         return self._run("modal-damping", _options.arguments({"count": count, "no_control": no_control}), how)
 
     def place_strength(
-        self, device: int = 1, *, position: Range = None, damping: Range = None, count: Optional[int] = None, **how: Unpack[How]
+        self,
+        device: int = 1,
+        *,
+        position: Range = None,
+        damping: Range = None,
+        count: Optional[int] = None,
+        **how: Unpack[How],
     ) -> Table:
         """The least damping ratio of the modes with a [[device]] elsewhere and of another strength.
 
@@ -538,7 +568,12 @@ class Case:
         return self._run("sensitivity", _options.arguments({"tuned": tuned}), how)
 
     def max_delay(
-        self, frequency: Range = None, *, criterion: Optional[Literal["stable", "attenuates"]] = None, prove: bool = False, **how: Unpack[How]
+        self,
+        frequency: Range = None,
+        *,
+        criterion: Optional[Literal["stable", "attenuates"]] = None,
+        prove: bool = False,
+        **how: Unpack[How],
     ) -> Table:
         """Largest sampling period (s) at which some D stabilises the loop (``criterion="stable"``) or beats no
         control (``"attenuates"``), P tuned to each frequency. Columns ``frequency_Hz, proportional_gain,
@@ -792,7 +827,9 @@ class Case:
             how,
         )
 
-    def verdict(self, max_period: Optional[int] = None, *, switching: Optional[Switching] = None, **how: Unpack[How]) -> Table:
+    def verdict(
+        self, max_period: Optional[int] = None, *, switching: Optional[Switching] = None, **how: Unpack[How]
+    ) -> Table:
         """What the motion is: periodic, quasi-periodic, chaotic, …, and what that rests on; one row."""
         return self._run("verdict", _options.arguments({"max_period": max_period, "switching": switching}), how)
 
@@ -946,7 +983,12 @@ class Case:
     # -- span and wind ------------------------------------------------------------------------------
 
     def absorption(
-        self, frequency: Range = None, *, end: Optional[Literal["left", "right"]] = None, no_control: bool = False, **how: Unpack[How]
+        self,
+        frequency: Range = None,
+        *,
+        end: Optional[Literal["left", "right"]] = None,
+        no_control: bool = False,
+        **how: Unpack[How],
     ) -> Table:
         """What the devices at an end of the span do to the waves that come to it. Columns ``frequency_Hz``,
         real and imaginary part of the impedance (N s/m), ``reflection, absorbed_fraction,

@@ -72,6 +72,14 @@ class Case:
         ...
 
     @overload
+    def sag_tension(self, temperature: Range=None, *, initial: bool=False, **how: Unpack[How]) -> Table:
+        ...
+
+    @overload
+    def sag_tension(self, temperature: Range=None, *, output: Path, initial: bool=False, **how: Unpack[How]) -> None:
+        ...
+
+    @overload
     def modes(self, count: Optional[int]=None, *, elements: Optional[int]=None, **how: Unpack[How]) -> Table:
         ...
 
@@ -121,6 +129,14 @@ class Case:
 
     @overload
     def proved_chart(self, p: Range=(-1000.0, 200.0, 121), d: Range=(-40.0, 20.0, 121), *, output: Path, continuous: bool=False, undecided: float=0.001, **how: Unpack[How]) -> None:
+        ...
+
+    @overload
+    def proved_family(self, **how: Unpack[How]) -> Table:
+        ...
+
+    @overload
+    def proved_family(self, *, output: Path, **how: Unpack[How]) -> None:
         ...
 
     @overload

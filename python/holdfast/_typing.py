@@ -24,6 +24,8 @@ class How(TypedDict, total=False):
     instructions: Literal["baseline", "avx2", "avx512"]
     progress: Union[bool, Callable[[int, int], Any]]
     yes: bool
+    family: bool
+    draws: int
 
 
 class CellsHow(How, total=False):

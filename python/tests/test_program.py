@@ -104,20 +104,21 @@ SAME = [
     (["orbit", "--trace"], lambda case: case.orbit(trace=True)),
     (
         ["orbit", "--map=backlash.width=0.0004:0.0006", "--map=control.differential_gain=-14:-12"],
-        lambda case: case.orbit_borders(
-            {"backlash.width": (0.0004, 0.0006), "control.differential_gain": (-14, -12)}
-        ),
+        lambda case: case.orbit_borders({"backlash.width": (0.0004, 0.0006), "control.differential_gain": (-14, -12)}),
     ),
     (
         ["basins", "--map", "backlash.width=0.001:0.002:2", "--map", "control.sampling_period=0.01:0.011:2"],
-        lambda case: case.motions(
-            {"backlash.width": (0.001, 0.002, 2), "control.sampling_period": (0.01, 0.011, 2)}
-        ),
+        lambda case: case.motions({"backlash.width": (0.001, 0.002, 2), "control.sampling_period": (0.01, 0.011, 2)}),
     ),
     (
         [
-            "basins", "--along", "backlash.width=0.001:0.002:2",
-            "--axis", "initial.z1=0.0:0.005:2", "--axis", "initial.z2=0.0:0.005:2",
+            "basins",
+            "--along",
+            "backlash.width=0.001:0.002:2",
+            "--axis",
+            "initial.z1=0.0:0.005:2",
+            "--axis",
+            "initial.z2=0.0:0.005:2",
         ],
         lambda case: case.basins_along(
             "backlash.width", (0.001, 0.002, 2), {"initial.z1": (0.0, 0.005, 2), "initial.z2": (0.0, 0.005, 2)}
@@ -209,3 +210,43 @@ def test_job_on_a_span(program, words, question, tmp_path):
         '[conductor]\nname = "Drake"\nspan = 300.0\nsag = 6.0\ndamping_ratio = 0.001\n\n[[device]]\nkind = "dashpot"\nposition = 1.5\ndamping = 300.0\n'
     )
     compare(program, [*words, "--case", str(file)], lambda: question(case))
+
+
+STRUNG = {
+    "conductor.name": "Drake",
+    "conductor.span": 213.36,
+    "stringing.temperature": 15.6,
+    "stringing.tension": 27997.0,
+    "stringing.state": "initial",
+    "weather.ice": 0.0127,
+    "weather.wind_pressure": 190.0,
+    "weather.load_temperature": -17.8,
+}
+UNCERTAIN = {"uncertain.plant.absorber_damping": "± 20 %", "uncertain.control.sampling_period": [0.001, 0.0012]}
+GAINS = ["--p=-400:0:3", "--d=-30:0:3"]
+OVER = ((-400.0, 0.0, 3), (-30.0, 0.0, 3))
+OF_MANY = [
+    (
+        STRUNG,
+        ["sag-tension", "--temperature=-20:90:5", "--initial"],
+        lambda case: case.sag_tension((-20, 90, 5), initial=True),
+    ),
+    (
+        UNCERTAIN,
+        ["stability", *GAINS, "--family", "--draws", "20"],
+        lambda case: case.chart(*OVER, family=True, draws=20),
+    ),
+    (UNCERTAIN, ["stability", "--family", "--prove"], lambda case: case.proved_family()),
+    (UNCERTAIN, ["boundary", "--stable-interval", "--family"], lambda case: case.stable_intervals(family=True)),
+    (UNCERTAIN, ["margins", "--family"], lambda case: case.margins(family=True)),
+]
+
+
+@pytest.mark.parametrize("values, words, question", OF_MANY, ids=[" ".join(words) for _, words, _ in OF_MANY])
+def test_job_on_many_states(program, values, words, question):
+    assert_same(question(holdfast.Case(values)), program([*words, *settings(values)]))
+
+
+def test_family_of_a_job_without_one():
+    with pytest.raises(TypeError, match="family"):
+        holdfast.Case().orbit(family=True)

@@ -127,8 +127,7 @@ def _printed(title: str) -> tuple[tuple[str, str], ...]:
     """What the paper prints about the figure; nothing about those that are not in it."""
     wanted = _places(title)
     wanted |= {(number, "") for number, _ in wanted}
-    rows = [row[:2] for row in _file("comparison.toml").values()]
-    fits = [row for row in rows if _places(row[0]) & wanted and "@" not in row[0] + row[1]]
+    fits = [row for row in _file("printed.toml")["values"] if _places(row[0]) & wanted]
     return tuple((what.split(": ", 1)[1], value) for what, value in fits)
 
 

@@ -54,16 +54,16 @@ TEST(Family, HasTheMiddleTheCornersAndALatinHypercubeOfItsBox) {
 TEST(Family, RefusesRangesThatNoCaseHas) {
   EXPECT_TRUE(holds(override_refusal({"uncertain.absorber.masss=± 5 %"}), "did you mean"));
   EXPECT_TRUE(holds(override_refusal({"uncertain.plant.model=± 5 %"}), "only a number"));
-  EXPECT_TRUE(
-      holds(override_refusal({"uncertain.absorber.mass=[2, 1]"}), "must be [lowest, highest]"));
-  EXPECT_TRUE(
-      holds(override_refusal({"uncertain.absorber.mass=5 %"}), "must be [lowest, highest]"));
+  for (const std::string wrong : {"[2, 1]", "5 %"})
+    EXPECT_TRUE(holds(override_refusal({"uncertain.absorber.mass=" + wrong}), "[lowest, highest]"));
   EXPECT_TRUE(
       holds(override_refusal({"uncertain.absorber.mass=± 2 mm"}), "not a unit of this key"));
   EXPECT_THROW(uncertain_ranges(load_case(std::nullopt, {"uncertain.absorber.mass=± 120 %"})),
                WrongInput);
   EXPECT_THROW(answer_of({"margins", "--family"}, "", {}), WrongInput);
   EXPECT_THROW(answer_of({"boundary", "--family"}, "", box), WrongInput);
+  for (const char* other : {"--p=-4:0:3", "--d=-3:0:3", "--continuous", "--draws=9"})
+    EXPECT_THROW(answer_of({"stability", "--family", "--prove", other}, "", box), WrongInput);
   EXPECT_TRUE(
       holds(tests::refusal("[uncertain]\nabsorber.mass = [1, 2]\n"), "write the key in quotes"));
 }
