@@ -5,7 +5,6 @@
 #include "holdfast/cable/bar_chain.hpp"
 #include "holdfast/cable/cable_place_modes.hpp"
 #include "holdfast/cable/chain_modes.hpp"
-#include "holdfast/cable/change_of_state.hpp"
 #include "holdfast/cable/conductor.hpp"
 #include "holdfast/cable/elements.hpp"
 #include "holdfast/cable/hanging_cable.hpp"

@@ -63,11 +63,11 @@ inline const std::vector<JobToTry> jobs_with_table = {
     {"aeolian --frequency 5:20:4" + line_with_dashpot,
      "aeolian --quiet --yes --frequency 3:150:10000000" + line_with_dashpot},
     {"fatigue" + line_with_dashpot, ""},
-    {"place --quiet --for damping --frequency 5:10:3 --set device.1.kind=dashpot"
-     " --set device.1.position=0.5 --set device.1.damping=1",
-     "place --quiet --modes 1:1000 --set device.1.kind=dashpot"
-     " --set device.1.position=0.5 --set device.1.damping=1",
-     true},
+    {"place --quiet --for damping --frequency 5:10:3" + line_with_dashpot,
+     "place --quiet --modes 1:1000" + line_with_dashpot, true},
+    {"sag-tension --set conductor.name=Drake --set conductor.span=300 --set stringing.tension=28e3"
+     " --set stringing.temperature=15",
+     ""},
     {"answers", "answers --set excitation.frequency=10.0001"},
 };
 
