@@ -36,10 +36,10 @@ inline WireCurves linear_wires(double modulus, double expansion) {
   return {{0.0, modulus}, {0.0, modulus}, modulus, expansion};
 }
 
-/// Stress–strain curves of a conductor: outer wires, which conduct, and a core, which may be none.
+/// Stress–strain curves of a conductor.
 struct ConductorCurves {
-  WireCurves outer;
-  WireCurves core;
+  WireCurves outer;                     ///< which conduct
+  WireCurves core;                      ///< may be none
   double reference_temperature = 20.0;  ///< °C, at which both are unstressed together
   double largest_strain = 0.01;         ///< up to which the curves hold
   bool creeps = false;                  ///< initial and creep curves differ
@@ -118,6 +118,7 @@ class StrungSpan {
   /// @param curves  of the conductor
   /// @param area    A (m²), > 0
   /// @param span    L (m), > 0; of several spans with swinging insulators the ruling span
+  /// @param stringing  the reading, and what the span has borne
   /// @throws InvalidParameter naming what is out of range
   StrungSpan(const ConductorCurves& curves, double area, double span, const Stringing& stringing)
       : curves_(curves), area_(area), span_(span) {

@@ -388,6 +388,7 @@ std::vector<ParameterBox<N>> halves_of(const ParameterBox<N>& box, std::size_t a
 /// The box is halved where it is not decided, along the parameter that moves the loop's function
 /// most. What is proved holds for all decimals that round to the box's ends.
 /// @param loop    what the parameters are of: TwoMassFamily, StringFamily
+/// @param box     of the parameters
 /// @param limits  of the search
 /// @param go_on   () → void, called before each part; may throw
 /// @throws InvalidParameter where a loop of the box is not admissible
