@@ -50,7 +50,7 @@ struct SagTensionQuestion {
                 found.support, found.horizontal, found.sag, found.core_share,
                 first_frequency(the_case, found.horizontal, c.mass_per_length + ice_mass));
     };
-    // What would break under its load is refused as such.
+    // A span that would break under its load is refused as such.
     if (has_load(the_case)) tension_in(the_case, span, loaded_weather_of(the_case), initial);
     for (const double at : temperatures(the_case)) row(bare_weather_of(the_case, at), 0.0, 0.0);
     const case_tables::Weather& load = the_case.weather;

@@ -1116,7 +1116,7 @@ def _made(text: Optional[str], name: str, tables: Mapping[str, Any], plant: Opti
 
 
 #: Of a case, beside those that the built-in one has.
-_FURTHER_TABLES = ("device", "site", "wind")
+_FURTHER_TABLES = ("device", "site", "stringing", "uncertain", "weather", "wind")
 
 
 def _require_tables(*given: Mapping[str, Any]) -> None:

@@ -44,11 +44,15 @@ def key_texts(tables: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
             raise TypeError(f"a key of a case is a text, not {name!r}")
         if name == "device":
             continue
-        if isinstance(value, Mapping):
-            for key, inner in value.items():
-                yield f"{name}.{key}", inner
-        else:
-            yield name, value
+        yield from _keys_within(name, value)
+
+
+def _keys_within(name: str, value: Any) -> Iterator[tuple[str, Any]]:
+    if not isinstance(value, Mapping):
+        yield name, value
+        return
+    for key, inner in value.items():
+        yield from _keys_within(f"{name}.{key}", inner)
 
 
 def overrides(tables: Mapping[str, Any]) -> list[str]:
@@ -71,6 +75,7 @@ def tables_text(tables: Mapping[str, Any]) -> str:
         table, dot, short = key.partition(".")
         if not dot:
             raise ValueError(f"{key}: a key of a case is TABLE.KEY, such as control.sampling_period")
+        short = f'"{short}"' if "." in short else short  # of [uncertain]
         by_table.setdefault(table, []).append(f"{short} = {value_text(value, key)}")
     text = "".join(f"[{table}]\n" + "\n".join(lines) + "\n" for table, lines in by_table.items())
     return text + "".join(device_text(device) for device in _devices(tables))

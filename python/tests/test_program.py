@@ -250,3 +250,11 @@ def test_job_on_many_states(program, values, words, question):
 def test_family_of_a_job_without_one():
     with pytest.raises(TypeError, match="family"):
         holdfast.Case().orbit(family=True)
+
+
+def test_ranges_nested_dotted_and_as_keywords(program):
+    nested = {"uncertain": {"plant": {"absorber_damping": "± 20 %"}, "control.sampling_period": [0.001, 0.0012]}}
+    expected = program(["margins", "--family", *settings(UNCERTAIN)])
+    again = holdfast.Case.from_toml(holdfast.Case(UNCERTAIN).to_toml())
+    for case in (holdfast.Case(nested), holdfast.Case(**nested), holdfast.Case().with_(nested), again):
+        assert_same(case.margins(family=True), expected)

@@ -12,10 +12,10 @@
 namespace holdfast::program {
 namespace {
 
-/// What a value may be.
+/// The forms that a range may have.
 constexpr const char* forms = "[lowest, highest], \"± 5 %\" or \"± 0.001\"";
 
-/// What stands behind a sign of "more or less"; nothing where there is none.
+/// The text behind a sign of "more or less"; nothing where there is none.
 std::optional<std::string_view> behind_sign(std::string_view text) {
   for (const std::string_view sign : {"\u00b1", "+-", "+/-"})
     if (text.substr(0, sign.size()) == sign) return trimmed(text.substr(sign.size()));

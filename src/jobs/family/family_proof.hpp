@@ -8,7 +8,7 @@
 
 namespace holdfast::program {
 
-/// What is proved of all members of a case's family.
+/// The proof about all members of a case's family.
 struct FamilyProof {
   ProvedStability verdict;
   double stable_share, undecided_share;  // of the box's volume

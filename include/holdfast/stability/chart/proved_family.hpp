@@ -34,7 +34,7 @@ struct ParameterBox {
   }
 };
 
-/// What is proved of all loops in a box.
+/// The proof about all loops in a box.
 template <std::size_t N>
 struct ProvedFamily {
   double stable_share = 0.0;                           ///< of the box's volume, proved stable
@@ -97,7 +97,7 @@ struct AliasSum {
   }
 };
 
-/// What is known of G(iω) for all ω from some on: |G| ≤ g/ω², and |G + μ/ω²| ≤ h/ω³.
+/// Bounds of G(iω) for all ω from some on: |G| ≤ g/ω², and |G + μ/ω²| ≤ h/ω³.
 struct ResponseBounds {
   Enclosure g;   ///< not positive: nothing is known
   Enclosure mu;  ///< what a short force moves at once (1/kg)
