@@ -21,7 +21,7 @@ struct FamilyMember {
 
 /// Members of a case's family: the middle of its box, its corners where these are few, and further
 /// ones by a Latin hypercube; of a single range, values equally far apart, both ends among them.
-/// The same for the same case and number.
+/// Every call gives the same ones for the same case and number.
 /// @param draws  of them in all, at least 2
 /// Throws WrongInput for a case without [uncertain], and what uncertain_ranges() throws.
 std::vector<FamilyMember> family_members(const Case& the_case, int draws);

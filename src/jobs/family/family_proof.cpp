@@ -17,9 +17,9 @@
 #include "holdfast/stability/chart/proved_family.hpp"
 #include "holdfast/stability/chart/proved_string_family.hpp"
 #include "jobs/charts/names.hpp"
+#include "jobs/family/family.hpp"
 #include "output/row_blocks.hpp"
 #include "process/errors.hpp"
-#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -78,14 +78,14 @@ class FamilyBox {
 
   /// "control.sampling_period=0.001;…" of the uncertain keys.
   std::string text_of(const std::array<double, N>& loop) const {
-    std::string text;
+    FamilyMember member;
     for (const UncertainRange& range : ranges_) {
       double value = loop[number_of(range)];
       if (is_temperature(range))
         value = temperature_of(the_case_, value, range.lowest, range.highest);
-      text += (text.empty() ? "" : ";") + range.key + "=" + format_number(value);
+      member.values.emplace_back(range.key, value);
     }
-    return text;
+    return member.text();
   }
 
  private:
