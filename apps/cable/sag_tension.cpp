@@ -1,4 +1,5 @@
 #include "case/axes/axis.hpp"
+#include "case/case_keys.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/stringing_of_case.hpp"
 #include "holdfast/cable/modes.hpp"
@@ -27,14 +28,11 @@ struct SagTensionQuestion {
   std::vector<double> temperatures(const Case& the_case) const {
     const std::vector<double>& of_year = the_case.weather.temperatures;
     if (temperature.empty() && !of_year.empty()) return of_year;
-    const Axis axis = parse_axis("--temperature", temperature.empty() ? "-20:80:11" : temperature);
+    const std::string range = temperature.empty() ? "-20:80:11" : temperature;
+    const Axis axis = parse_axis("--temperature", range);
+    require_admissible("--temperature " + range, "weather.temperature", axis.min, axis.max);
     std::vector<double> all;
-    const CaseKey& key = *find_case_key("weather.temperature");
-    for (std::int64_t k = 0; k < axis.count; ++k) {
-      all.push_back(axis.at(k));
-      if (!key.range.contains(all.back()))
-        throw WrongInput("--temperature: admissible is " + key.range.in_words(key.unit));
-    }
+    for (std::int64_t k = 0; k < axis.count; ++k) all.push_back(axis.at(k));
     return all;
   }
 

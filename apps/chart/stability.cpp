@@ -30,12 +30,7 @@ LoopParameter parameter_of(const std::string& key) {
 KeyAxis admissible_axis(const std::string& text) {
   KeyAxis axis = parse_key_axis("--axis", text);
   parameter_of(axis.key);
-  const CaseKey& key = *find_case_key(axis.key);
-  for (const double end : {axis.axis.min, axis.axis.max}) {
-    if (!key.range.contains(end)) {
-      throw WrongInput("--axis " + text + ": " + axis.key + " must be " + key.admissible());
-    }
-  }
+  require_admissible("--axis " + text, axis.key, axis.axis.min, axis.axis.max);
   return axis;
 }
 

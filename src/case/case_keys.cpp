@@ -190,6 +190,12 @@ void require_in_force(const Case& the_case, const CaseKey& key) {
     throw WrongInput(key.name + ": the case has [wind], which replaces this key");
 }
 
+void require_admissible(const std::string& option, std::string_view key, double min, double max) {
+  const CaseKey& known = number_key_named(key);
+  if (!known.range.contains(min) || !known.range.contains(max))
+    throw WrongInput(option + ": " + known.name + " must be " + known.admissible());
+}
+
 void set_case_value(Case& the_case, std::string_view name, double value) {
   const CaseKey& key = number_key_named(name);
   if (!key.range.contains(value)) {

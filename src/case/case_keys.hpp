@@ -100,6 +100,10 @@ std::string unknown_key(std::string_view name);
 /// place of.
 void require_in_force(const Case& the_case, const CaseKey& key);
 
+/// Throws WrongInput for an axis over a key, from min to max, whose ends the key does not admit.
+/// @param option  with its text, which the error begins with: "--map plant.absorber_mass=-1:1:3"
+void require_admissible(const std::string& option, std::string_view key, double min, double max);
+
 /// The case with one number changed, checked. Throws as set_case_value() and check_case().
 Case case_with(Case the_case, std::string_view name, double value);
 

@@ -193,11 +193,7 @@ FollowedKey followed_key(const Case& the_case, const std::string& option, const 
         option + " " + key +
         ": expected control.proportional_gain, differential_gain or processing_delay, a key "
         "of [plant], backlash.width or excitation.amplitude");
-  const CaseKey& known = *find_case_key(key);
-  for (const double end : {range.min, range.max}) {
-    if (!known.range.contains(end))
-      throw WrongInput(option + " " + text + ": " + key + " must be " + known.admissible());
-  }
+  require_admissible(option + " " + text, key, range.min, range.max);
   if (!(range.min <= value && value <= range.max))
     throw WrongInput(option + " " + text + ": the case's " + key + " = " + format_number(value) +
                      " must lie in the range");

@@ -47,10 +47,7 @@ struct MapGrid {
 KeyAxis map_axis(const Case& the_case, const std::string& text) {
   KeyAxis axis = parse_key_axis("--map", text);
   case_value(the_case, axis.key);  // throws where there is no such number
-  const CaseKey& known = *find_case_key(axis.key);
-  for (const double end : {axis.axis.min, axis.axis.max})
-    if (!known.range.contains(end))
-      throw WrongInput("--map " + text + ": " + axis.key + " must be " + known.admissible());
+  require_admissible("--map " + text, axis.key, axis.axis.min, axis.axis.max);
   return axis;
 }
 
