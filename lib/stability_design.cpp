@@ -5,7 +5,6 @@
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_amplitude_gains.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
-#include "holdfast/stability/design/minimum_radius_gains.hpp"
 #include "holdfast/stability/design/modal_design.hpp"
 
 namespace holdfast {
@@ -16,7 +15,6 @@ template MinimumAmplitude minimum_amplitude(const TwoMass<double>&, const Amplit
 template MinimaxAmplitude minimax_amplitude(const TwoMass<double>&, const AmplitudeOptions&, double,
                                             const FrequencyBand&);
 template MinimumRadius minimum_radius(const SampledLoop<double>&, double, double);
-template MinimumRadiusGains minimum_radius_gains(const SampledLoop<double>&);
 template MaxDelay max_sampling_period(const LinearPlant<double>&, const MaxDelayOptions&);
 template MinimumAmplitude minimum_amplitude(const LinearPlant<double>&, const AmplitudeOptions&,
                                             double, double);

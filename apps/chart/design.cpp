@@ -7,7 +7,6 @@
 #include "holdfast/stability/design/minimax_amplitude.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
-#include "holdfast/stability/design/minimum_radius_gains.hpp"
 #include "job.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "jobs/design/gain_margins.hpp"
@@ -145,25 +144,11 @@ void write_band_gain(const JobContext& context, const Range& band,
   table.commit();
 }
 
-/// The P and D of least spectral radius.
-void write_fastest_pair(const JobContext& context) {
-  const auto answer = minimum_radius_gains(loop_of(context.case_data));
-  if (answer.outcome == MinimumRadiusGainsOutcome::idle)
-    report_warning("many pairs P, D are equally fast: that with P = 0 is given", context.quiet);
-  if (answer.outcome == MinimumRadiusGainsOutcome::open)
-    report_warning("the search ended unfinished: better gains may exist", context.quiet);
-  Table table(context, columns_of("best pair"));
-  const GainMargins margins = gain_margins(LinearLoop(context.case_data), answer.gains);
-  table.row(answer.gains.proportional, answer.gains.differential, answer.radius, answer.lower_bound,
-            margins.gain_decibels, margins.phase_degrees, margins.delay);
-  table.commit();
-}
-
 struct DesignQuestion {
   std::string frequency;
   std::string band;
   std::optional<double> largest_radius, margin;
-  bool both_gains = false, least_radius = false;
+  bool both_gains = false;
 
   void add_to(const Job& job) {
     job.add("--frequency", frequency);
@@ -171,11 +156,9 @@ struct DesignQuestion {
     job.add("--largest-radius", largest_radius);
     job.add("--margin", margin);
     job.add("--both-gains", both_gains);
-    job.add("--least-radius", least_radius);
   }
 
   void run(const JobContext& context) const {
-    if (least_radius) return write_fastest_pair(context);
     const AmplitudeOptions options =
         amplitude_options_of(context.case_data, largest_radius, margin);
     if (!band.empty()) return write_band_gain(context, parse_range("--band", band), options);

@@ -26,7 +26,6 @@
 #include "holdfast/stability/design/minimax_amplitude.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
-#include "holdfast/stability/design/minimum_radius_gains.hpp"
 #include "holdfast/stability/design/modal_design.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
 #include "holdfast/stability/margins/margins.hpp"

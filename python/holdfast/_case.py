@@ -505,7 +505,6 @@ class Case:
         *,
         band: Interval = None,
         both_gains: bool = False,
-        least_radius: bool = False,
         largest_radius: Optional[float] = None,
         margin: Optional[float] = None,
         **how: Unpack[How],
@@ -516,13 +515,11 @@ class Case:
         :param frequency: Hz; (min, max, count)
         :param band: (min, max), Hz: instead one D for all frequencies, of least largest amplitude
         :param both_gains: instead the P and D of least amplitude
-        :param least_radius: instead the P and D of least spectral radius, of two masses
         :param largest_radius: spectral radius to stay below
         :param margin: what of the way from the boundary of stability D must keep; 0.5 unless given
         """
         words = _axis("frequency", frequency) + _interval("band", band)
-        flags = {"both_gains": both_gains, "least_radius": least_radius}
-        words += _options.arguments({**flags, "largest_radius": largest_radius, "margin": margin})
+        words += _options.arguments({"both_gains": both_gains, "largest_radius": largest_radius, "margin": margin})
         return self._run("design", words, how)
 
     def margins(self, *, prove: bool = False, **how: Unpack[How]) -> Table:

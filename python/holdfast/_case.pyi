@@ -184,11 +184,11 @@ class Case:
         ...
 
     @overload
-    def design(self, frequency: Range=None, *, band: Interval=None, both_gains: bool=False, least_radius: bool=False, largest_radius: Optional[float]=None, margin: Optional[float]=None, **how: Unpack[How]) -> Table:
+    def design(self, frequency: Range=None, *, band: Interval=None, both_gains: bool=False, largest_radius: Optional[float]=None, margin: Optional[float]=None, **how: Unpack[How]) -> Table:
         ...
 
     @overload
-    def design(self, frequency: Range=None, *, output: Path, band: Interval=None, both_gains: bool=False, least_radius: bool=False, largest_radius: Optional[float]=None, margin: Optional[float]=None, **how: Unpack[How]) -> None:
+    def design(self, frequency: Range=None, *, output: Path, band: Interval=None, both_gains: bool=False, largest_radius: Optional[float]=None, margin: Optional[float]=None, **how: Unpack[How]) -> None:
         ...
 
     @overload

@@ -94,7 +94,6 @@ SAME = [
     (["design"], lambda case: case.design()),
     (["design", "--frequency", "5:15:3"], lambda case: case.design((5, 15, 3))),
     (["design", "--both-gains"], lambda case: case.design(both_gains=True)),
-    (["design", "--least-radius"], lambda case: case.design(least_radius=True)),
     (["max-delay", "--frequency", "5:15:3"], lambda case: case.max_delay((5, 15, 3))),
     (["sensitivity"], lambda case: case.sensitivity()),
     (["spectrum", "--duration", "4"], lambda case: case.spectrum(4)),

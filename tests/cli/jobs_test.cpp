@@ -30,9 +30,6 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
             "worst_frequency_Hz,attenuation_dB,lower_bound,"
             "spectral_radius,gain_margin_dB,phase_margin_deg,delay_margin_s");
   EXPECT_EQ(header_of("design --both-gains"), header_of("design"));
-  EXPECT_EQ(header_of("design --least-radius"),
-            "proportional_gain,differential_gain,spectral_radius,lower_bound,"
-            "gain_margin_dB,phase_margin_deg,delay_margin_s");
   EXPECT_EQ(header_of("margins"),
             "quantity,unit,value,side,outcome,position,distance,curve,frequency_Hz");
   EXPECT_EQ(header_of("sensitivity"),

@@ -2,8 +2,10 @@
 // double and in long double, over the cases of Kollár 2022 (Figs. 3–5).
 
 #include "holdfast/control/gains.hpp"
+#include "holdfast/stability/boundary/boundary_features.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
-#include "holdfast/stability/design/minimum_radius_gains.hpp"
+#include "holdfast/stability/design/minimum_radius.hpp"
+#include "holdfast/stability/design/modal_design.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "support/digits.hpp"
 
@@ -186,9 +188,12 @@ TEST_F(LoopDigits, WhereTwoRootsMeetAreAtLeastHalfAsMany) {
   // of an error: √(1000 ε/2) is what theory promises of the radius at the very same gains.
   for (const SamplingCase& which : samplings) {
     LoopInputs x = loop_inputs(which.period, which.delay, 0.0);
-    const PdGains<double> gains = minimum_radius_gains(sampled_of(x)).gains;
-    x[8] = gains.proportional;
-    x[9] = gains.differential;
+    const auto least_at = [&](double p) { return minimum_radius(sampled_of(x), p); };
+    detail::narrow_to_best(-800.0, 800.0, 80, [&](double left, double right) {
+      x[8] = left;
+      return least_at(left).radius < least_at(right).radius;
+    });
+    x[9] = least_at(x[8]).differential_gain;
     const auto radius = [](const auto& v) {
       return spectral_radius(sampled_of(v).engaged_map(loop_of(v).gains));
     };

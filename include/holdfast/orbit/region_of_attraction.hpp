@@ -87,8 +87,9 @@ template <class Scalar>
 class SampledDeviations {
  public:
   using Columns = Matrix<Scalar, 6>;               ///< six deviations e
-  using Row = RowVector<Scalar, 6>;                ///< one number for each deviation
   using Deviations = Eigen::Matrix<Scalar, 5, 6>;  ///< deviations of z̃ without the gaps
+  using Readings = Eigen::Matrix<Scalar, 2, 6>;    ///< a row for each reading
+  static constexpr int block = 1;                  ///< most samples between two take_readings()
 
   SampledDeviations(const IdealLoop<Scalar>& loop, const ItineraryMaps<Scalar>& maps) {
     const Vector<Scalar, 5> weights = deviation_weights(loop).template head<5>();
@@ -102,8 +103,12 @@ class SampledDeviations {
   Eigen::Index order() const { return 5; }
   void begin(const Deviations& deviations) { deviations_ = deviations; }
   const Deviations& columns() const { return deviations_; }
-  Row relative_displacement() const { return relative_[0] * deviations_; }
-  Row relative_velocity() const { return relative_[1] * deviations_; }
+  void read_displacement() { readings_.row(read_++) = relative_[0] * deviations_; }
+  void read_velocity() { readings_.row(read_++) = relative_[1] * deviations_; }
+  const Readings& take_readings() {
+    read_ = 0;
+    return readings_;
+  }
   void advance(bool engaged) { deviations_ = maps_[engaged ? 1 : 0] * deviations_; }
 
  private:
@@ -112,16 +117,18 @@ class SampledDeviations {
   std::array<Matrix<Scalar, 5>, 2> maps_;
   std::array<Read, 2> relative_;  // Δz and Δż
   Deviations deviations_ = Deviations::Zero();
+  Readings readings_;
+  int read_ = 0;
 };
 
 /// The flow of deviations e = [e_x; e_gap], in metres, along an orbit.
 /// @tparam Deviations  SampledDeviations or ModalDeviations: order(), begin(columns), columns(),
-///                     relative_displacement(), relative_velocity(), advance(engaged)
+///                     read_displacement(), read_velocity(), take_readings(), advance(engaged)
 template <class Deviations>
 class DeviationFlow {
  public:
   using Columns = typename Deviations::Columns;
-  using Row = typename Deviations::Row;
+  using Row = Eigen::Matrix<typename Columns::Scalar, 1, Columns::ColsAtCompileTime>;
 
   DeviationFlow(const Deviations& deviations, double width, const PeriodicOrbit& orbit)
       : deviations_(deviations),
@@ -143,25 +150,21 @@ class DeviationFlow {
   /// The bounds for a deviation over the next `samples` samples.
   DeviationSegment next(std::int64_t samples) {
     DeviationSegment segment;
-    segment.growth = follow(unit(), samples, segment).norm();
+    segment.growth = follow(unit(), samples, &segment).norm();
     return segment;
   }
 
   /// The flow matrix Φ over the next `samples` samples.
-  Columns over(std::int64_t samples) {
-    DeviationSegment segment;
-    return follow(unit(), samples, segment);
-  }
+  Columns over(std::int64_t samples) { return follow(unit(), samples, nullptr); }
 
   /// Propagates some deviations over the next `samples` samples.
-  /// @param segment  its radius is lowered to the least norm at which a decision may change
-  Columns follow(const Columns& deviations, std::int64_t samples, DeviationSegment& segment) {
+  /// @param segment  if given, its radius is lowered to the least norm at which a decision may
+  ///                 change
+  Columns follow(const Columns& deviations, std::int64_t samples, DeviationSegment* segment) {
     deviations_.begin(deviations.topRows(deviations.rows() - 1));
     gap_ = deviations.row(deviations.rows() - 1);
-    for (std::int64_t k = 0; k < samples; ++k) {
-      take_sample(segment);
-      if (++sample_ == distances_.size()) sample_ = 0;
-    }
+    for (std::int64_t k = 0; k < samples; k += Deviations::block)
+      take_block(std::min<std::int64_t>(Deviations::block, samples - k), segment);
     Columns all(order(), gap_.size());
     all << deviations_.columns(), gap_;
     return all;
@@ -177,23 +180,40 @@ class DeviationFlow {
 
   Columns unit() const { return Columns::Identity(order(), order()); }
 
-  void take_sample(DeviationSegment& segment) {
-    const ContactDecision& decision = pattern_.decisions[sample_];
-    const auto limit = [&](const Row& row, double distance) {
-      segment.radius = std::min(segment.radius, distance / row.norm());
+  void take_block(std::int64_t samples, DeviationSegment* segment) {
+    const auto moves = [&](std::int64_t k) -> const ContactDecision& {
+      return pattern_.decisions[(sample_ + static_cast<std::size_t>(k)) % distances_.size()];
     };
-    if (decision.velocity_sign != 0)
-      limit(deviations_.relative_velocity(), distances_[sample_].velocity);
-    const Row displacement = deviations_.relative_displacement();
-    if (decision.was_inside)
-      limit(stays_inside_ ? displacement : Row(displacement - gap_),
-            distances_[sample_].displacement);
-    if (!decision.was_inside && !decision.engaged) {
-      gap_ = displacement;
-    } else if (decision.engaged || stays_inside_) {
-      gap_.setZero();
+    const auto reads_velocity = [&](const ContactDecision& of) {
+      return segment && of.velocity_sign != 0;
+    };
+    const auto reads_displacement = [&](const ContactDecision& of) {
+      return of.was_inside ? segment != nullptr : !of.engaged;
+    };
+    for (std::int64_t k = 0; k < samples; ++k) {
+      if (reads_velocity(moves(k))) deviations_.read_velocity();
+      if (reads_displacement(moves(k))) deviations_.read_displacement();
+      deviations_.advance(moves(k).engaged);
     }
-    deviations_.advance(decision.engaged);
+    const typename Deviations::Readings& readings = deviations_.take_readings();
+    Eigen::Index row = 0;
+    const auto limit = [&](const Row& deviation, double distance) {
+      segment->radius = std::min(segment->radius, distance / deviation.norm());
+    };
+    for (; samples > 0; --samples) {
+      const ContactDecision& decision = moves(0);
+      const Distances& distance = distances_[sample_];
+      if (reads_velocity(decision)) limit(readings.row(row++), distance.velocity);
+      const Row displacement = reads_displacement(decision) ? Row(readings.row(row++)) : gap_;
+      if (segment && decision.was_inside)
+        limit(stays_inside_ ? displacement : Row(displacement - gap_), distance.displacement);
+      if (decision.engaged || stays_inside_) {
+        gap_.setZero();
+      } else if (!decision.was_inside) {
+        gap_ = displacement;
+      }
+      if (++sample_ == distances_.size()) sample_ = 0;
+    }
   }
 
   Deviations deviations_;

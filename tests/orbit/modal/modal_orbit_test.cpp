@@ -196,6 +196,37 @@ TEST(ModalAttraction, MotionsInItKeepTheContactsAndComeNearer) {
   }
 }
 
+/// Of blocks of samples, against one sample after another.
+TEST(ModalDeviations, AdvanceByBlocksAsBySamples) {
+  const ModalLoop loop = loop_of(5, {0.005, 0.001}, -4.0, 5e-4, ForceHold::sampled);
+  ModalDeviations blocks(NaturalMotions(loop, plant_poles(loop.modes, loop.absorber)), loop.gains);
+  ModalDeviations samples = blocks;
+  Eigen::MatrixXd now = Eigen::MatrixXd::Identity(blocks.order(), blocks.order());
+  Random random(4301);
+  for (int begun = 0; begun < 200; begun += ModalDeviations::block) {
+    std::vector<Eigen::MatrixXd> read;
+    for (int j = 0; j < ModalDeviations::block; ++j) {
+      const bool engaged = random.index(3) > 0;
+      samples.begin(now);
+      for (ModalDeviations* deviations : {&blocks, &samples}) {
+        if (j % 3 == 0) deviations->read_velocity();
+        if (j % 5 == 0) deviations->read_displacement();
+        if (deviations == &samples) read.push_back(samples.take_readings());
+        deviations->advance(engaged);
+      }
+      now = samples.columns();
+    }
+    const Eigen::MatrixXd together = blocks.take_readings();
+    Eigen::Index row = 0;
+    for (const Eigen::MatrixXd& one : read) {
+      EXPECT_LT((together.middleRows(row, one.rows()) - one).norm(), 1e-12 * together.norm());
+      row += one.rows();
+    }
+    EXPECT_EQ(row, together.rows());
+    EXPECT_LT((blocks.columns() - now).norm(), 1e-12 * now.norm());
+  }
+}
+
 /// Of a period that contracts to nothing, against blocks of eight samples of all deviations.
 TEST(ModalOrbit, LongPeriodsKeepTheDigitsOfTheirMultipliers) {
   for (const double frequency : {10.0, 10.01, 10.001}) {
@@ -210,6 +241,7 @@ TEST(ModalOrbit, LongPeriodsKeepTheDigitsOfTheirMultipliers) {
     flow.begin(unit);
     for (std::size_t j = 0; j < orbit.itinerary.size(); ++j) {
       flow.advance(orbit.itinerary[j] != 0);
+      flow.end_block();
       if ((j + 1) % 8 != 0 && j + 1 != orbit.itinerary.size()) continue;
       blocks.push_back(flow.columns());
       flow.begin(unit);

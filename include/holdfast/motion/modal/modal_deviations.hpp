@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstddef>
+#include <vector>
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/types.hpp"
@@ -17,11 +19,17 @@ namespace holdfast {
 ///
 /// The coordinates are [Re ξ; Im ξ of the pairs; u_{j−1}] in metres. A natural motion is measured
 /// by its share of the conductor's displacement at the absorber, a force by the displacement that
-/// it causes in a sampling period. Work per sample: 16 multiply-adds per natural motion and column.
+/// it causes in a sampling period.
+///
+/// They advance by blocks of samples: each force and reading in a block is a row times the
+/// deviations at its start, so that a block of many deviations takes two products of matrices.
+/// Work per sample, of m coordinates: up to 2 m multiply-adds per deviation, m per reading of each
+/// deviation, and 60 m.
 class ModalDeviations {
  public:
   using Columns = Eigen::MatrixXd;  ///< order() × the number of deviations
-  using Row = Eigen::RowVectorXd;   ///< one number for each deviation
+  using Readings = Columns;         ///< a row for each reading, a number for each deviation
+  static constexpr int block = 64;  ///< most samples between two calls of take_readings()
 
   /// Constructs the deviations as unit vectors.
   /// @param motions  natural motions of the loop
@@ -29,21 +37,32 @@ class ModalDeviations {
   ModalDeviations(const NaturalMotions& motions, const PdGains<double>& gains)
       : count_(static_cast<Eigen::Index>(motions.size())),
         pairs_(static_cast<Eigen::Index>(motions.pairs())),
-        units_(count_ + pairs_ + 1) {
-    for (Part* part : {&decay_, &present_, &past_, &command_, &relative_z_, &relative_v_})
-      part->resize(count_);
+        units_(count_ + pairs_ + 1),
+        decay_(count_, block + 1),
+        past_(count_, block),
+        answers_(Columns::Zero(order(), block)),
+        commands_(block, order()),
+        readings_(2 * block, order()) {
+    Eigen::VectorXcd command(count_), relative_z(count_), relative_v(count_);
     double push = 0.0, largest = 0.0;
     for (Eigen::Index k = 0; k < count_; ++k) {
       const NaturalMotion& of = motions[static_cast<std::size_t>(k)];
       largest = std::max(largest, std::abs(of.z));
       push += std::abs(of.z) * (std::abs(of.present) + std::abs(of.past));
-      decay_.set(k, of.decay);
-      present_.set(k, of.present);
-      past_.set(k, of.past);
-      command_.set(k, gains.proportional * of.z + gains.differential * of.v);
-      relative_z_.set(k, of.z2 - of.z);
-      relative_v_.set(k, of.v2 - of.v);
+      command[k] = gains.proportional * of.z + gains.differential * of.v;
+      relative_z[k] = of.z2 - of.z;
+      relative_v[k] = of.v2 - of.v;
+      decay_(k, 0) = 1.0;
+      for (Eigen::Index j = 0; j < block; ++j) {
+        decay_(k, j + 1) = of.decay * decay_(k, j);
+        past_(k, j) = of.past * decay_(k, j);
+        const std::complex<double> answer =
+            of.present * decay_(k, j) + (j > 0 ? past_(k, j - 1) : 0.0);
+        answers_(k, j) = answer.real();
+        if (k < pairs_) answers_(count_ + k, j) = answer.imag();
+      }
     }
+    answers_(order() - 1, 0) = 1.0;
     // A motion with a node at the absorber would have an infinite unit without this bound.
     const double least = largest > 0.0 ? 1e-12 * largest : 1.0;
     for (Eigen::Index k = 0; k < count_; ++k) {
@@ -51,7 +70,10 @@ class ModalDeviations {
       units_[k] = 1.0 / std::max(shown, least);
     }
     units_.segment(count_, pairs_) = units_.head(pairs_);
-    units_[count_ + pairs_] = push > 0.0 ? 1.0 / push : 1.0;
+    units_[order() - 1] = push > 0.0 ? 1.0 / push : 1.0;
+    command_ = sensor(command);
+    relative_z_ = sensor(relative_z);
+    relative_v_ = sensor(relative_v);
     begin(Columns::Identity(order(), order()));
   }
 
@@ -62,64 +84,102 @@ class ModalDeviations {
 
   /// Restarts from given deviations, in metres.
   void begin(const Columns& deviations) {
-    const Columns raw = units_.asDiagonal() * deviations;
-    re_ = raw.topRows(count_);
-    im_ = Columns::Zero(count_, raw.cols());
-    im_.topRows(pairs_) = raw.middleRows(count_, pairs_);
-    force_ = raw.row(count_ + pairs_);
+    start_ = units_.asDiagonal() * deviations;
+    taken_ = read_ = 0;
+    commanded_.clear();
   }
 
   /// The deviations, in metres.
-  Columns columns() const {
-    Columns all(order(), force_.size());
-    all << re_, im_.topRows(pairs_), force_;
-    return units_.cwiseInverse().asDiagonal() * all;
+  Columns columns() {
+    end_block();
+    return units_.cwiseInverse().asDiagonal() * start_;
   }
 
-  /// Deviations of Δz (m), each in its column.
-  Row relative_displacement() const { return read(relative_z_); }
-  /// Deviations of Δż (m/s).
-  Row relative_velocity() const { return read(relative_v_); }
+  /// Reads the deviations of Δz (m) at the present sample, at most once.
+  void read_displacement() { readings_.row(read_++) = reading(relative_z_); }
+  /// Reads the deviations of Δż (m/s) at the present sample, at most once.
+  void read_velocity() { readings_.row(read_++) = reading(relative_v_); }
+  /// The readings since the last call, in their order.
+  Readings take_readings() {
+    const Readings all = readings_.topRows(read_) * start_;
+    read_ = 0;
+    if (taken_ == block) end_block();
+    return all;
+  }
 
   /// Advances over one sampling period; `engaged`: whether the drive transmits the new command.
   void advance(bool engaged) {
-    for (Eigen::Index j = 0; j < force_.size(); ++j) {
-      auto re = re_.col(j), im = im_.col(j);
-      const double force = engaged ? command_.re.dot(re) - command_.im.dot(im) : 0.0;
-      // All terms in one pass: their matrices one by one would not stay in the processor's cache.
-      for (Eigen::Index k = 0; k < count_; ++k) {
-        const double real = re[k], imag = im[k];
-        re[k] = decay_.re[k] * real - decay_.im[k] * imag + present_.re[k] * force +
-                past_.re[k] * force_[j];
-        im[k] = decay_.re[k] * imag + decay_.im[k] * real + present_.im[k] * force +
-                past_.im[k] * force_[j];
-      }
-      force_[j] = force;
+    if (engaged) {
+      commands_.row(static_cast<Eigen::Index>(commanded_.size())) = reading(command_);
+      commanded_.push_back(taken_);
     }
+    if (++taken_ == block && read_ == 0) end_block();
+  }
+
+  /// Begins a block at the present sample. Deviations that shrink much within a block lose their
+  /// digits, which are those of its start.
+  void end_block() {
+    if (taken_ == 0) return;
+    const auto commands = static_cast<Eigen::Index>(commanded_.size());
+    const Columns forces = commands_.topRows(commands) * start_;
+    Columns answers(order(), commands);
+    for (Eigen::Index i = 0; i < commands; ++i)
+      answers.col(i) = answers_.col(taken_ - 1 - commanded_[static_cast<std::size_t>(i)]);
+    const Eigen::ArrayXd turn = decay_.col(taken_).real(), lift = decay_.col(taken_).imag(),
+                         real = past_.col(taken_ - 1).real(), imag = past_.col(taken_ - 1).imag();
+    Eigen::ArrayXd before(pairs_);
+    for (Eigen::Index j = 0; j < start_.cols(); ++j) {
+      auto re = start_.col(j).head(count_).array();
+      auto im = start_.col(j).segment(count_, pairs_).array();
+      double& force = start_(order() - 1, j);
+      before = re.head(pairs_);
+      re = turn * re + real * force;
+      re.head(pairs_) -= lift.head(pairs_) * im;
+      im = turn.head(pairs_) * im + lift.head(pairs_) * before + imag.head(pairs_) * force;
+      force = 0.0;
+    }
+    start_.noalias() += answers * forces;
+    taken_ = 0;
+    commanded_.clear();
   }
 
  private:
-  /// A complex number for each natural motion.
-  struct Part {
-    Eigen::VectorXd re, im;
-    void resize(Eigen::Index count) {
-      re.resize(count);
-      im.resize(count);
-    }
-    void set(Eigen::Index k, const std::complex<double>& value) {
-      re[k] = value.real();
-      im[k] = value.imag();
-    }
+  /// The weights of Σ Re(w ξ) after 0, 1, … samples: of the coordinates at the start of the block,
+  /// a row each, and of a command 1, 2, … samples earlier.
+  struct Sensor {
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> of_start;
+    Eigen::VectorXd of_command;
   };
 
-  /// The sum Σ Re(w ξ) over the natural motions, for every deviation; w are the weights.
-  Row read(const Part& w) const { return w.re.transpose() * re_ - w.im.transpose() * im_; }
+  Sensor sensor(const Eigen::VectorXcd& weights) const {
+    Sensor of{Columns::Zero(block, order()), Eigen::VectorXd(block)};
+    for (Eigen::Index j = 0; j < block; ++j) {
+      const Eigen::VectorXcd here = weights.cwiseProduct(decay_.col(j));
+      of.of_start.row(j) << here.real().transpose(), -here.head(pairs_).imag().transpose(),
+          j > 0 ? weights.cwiseProduct(past_.col(j - 1)).sum().real() : 0.0;
+      of.of_command[j] = weights.real().dot(answers_.col(j).head(count_)) -
+                         weights.head(pairs_).imag().dot(answers_.col(j).segment(count_, pairs_));
+    }
+    return of;
+  }
+
+  Eigen::RowVectorXd reading(const Sensor& of) const {
+    Eigen::RowVectorXd row = of.of_start.row(taken_);
+    for (std::size_t i = 0; i < commanded_.size(); ++i)
+      row +=
+          of.of_command[taken_ - 1 - commanded_[i]] * commands_.row(static_cast<Eigen::Index>(i));
+    return row;
+  }
 
   Eigen::Index count_, pairs_;
   Eigen::VectorXd units_;
-  Part decay_, present_, past_, command_, relative_z_, relative_v_;
-  Columns re_, im_;
-  Row force_;
+  Eigen::MatrixXcd decay_, past_;  // e^{jsτ} and γ₁ e^{jsτ}
+  Columns answers_;  // change of the coordinates 1, 2, … samples after a unit command
+  Sensor command_, relative_z_, relative_v_;
+  Columns start_;               // raw deviations at the start of the block
+  int taken_, read_;            // samples and readings since
+  std::vector<int> commanded_;  // samples with a command
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> commands_, readings_;
 };
 
 }  // namespace holdfast

@@ -72,7 +72,7 @@ std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalIti
   detail::set_extent(found, orbit);
   for (std::int64_t periods = 1; periods <= 64; periods *= 2) {
     maps.look();
-    const std::optional<Eigen::MatrixXd> measure = discrete_lyapunov(power);
+    const std::optional<Eigen::MatrixXd> measure = discrete_lyapunov(power, 0.25);
     if (!measure) {
       power = Eigen::MatrixXd(power * power);
       continue;
@@ -81,7 +81,7 @@ std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalIti
     const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(flow.order(), flow.order());
     const Eigen::MatrixXd sphere = found.root.triangularView<Eigen::Upper>().solve(unit);
     detail::DeviationSegment segment;
-    Flow(flow).follow(sphere, periods * orbit.period_samples(), segment);
+    Flow(flow).follow(sphere, periods * orbit.period_samples(), &segment);
     found.radius = segment.radius;
     found.inscribed_share = 1.0 / found.root.norm();
     return found.radius > 0.0 ? std::optional(std::move(found)) : std::nullopt;
