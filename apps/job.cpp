@@ -240,8 +240,23 @@ void Job::does(const std::function<void()>& work) const {
   options_->final_callback([job = *this, work] {
     const std::optional<std::string>& output = job.common_->output;
     const bool drawn = output && is_picture_name(*output) && has_picture(job.options_->get_name());
-    drawn ? job.draw() : job.common_->family && !job.has("--prove") ? job.answer_family() : work();
+    const bool by_members = job.common_->family && !job.has("--prove") &&
+                            !job_texts()["worst"][job.options_->get_name()].as_array()->empty();
+    drawn ? job.draw() : by_members ? job.answer_family() : work();
   });
+}
+
+JobContext Job::context_with(const JobContext& whole,
+                             const std::vector<std::string>& overrides) const {
+  JobContext context = whole;
+  std::vector<std::string>& all = context.case_source.overrides;
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  context.case_data = context.case_source.load();
+  context.case_source.attach_record(context.case_data);
+  context.quiet = true;
+  examine_for_this(context, true);
+  context.quiet = whole.quiet;
+  return context;
 }
 
 /// Asks the job of each member of the family, in memory.

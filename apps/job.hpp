@@ -61,6 +61,12 @@ class Job {
   JobContext context(const std::optional<std::string>& case_file = std::nullopt,
                      bool needs_plant = true) const;
 
+  /// The members of [uncertain] that are to be drawn.
+  int draws() const { return common_->draws; }
+
+  /// A context for the case with some further overrides, "key=value".
+  JobContext context_with(const JobContext& whole, const std::vector<std::string>& overrides) const;
+
   /// The --case, --set and --instructions options as they were given, to be handed to another job.
   std::vector<std::string> case_arguments() const;
 

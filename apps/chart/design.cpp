@@ -10,6 +10,7 @@
 #include "job.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "jobs/design/gain_margins.hpp"
+#include "jobs/family/family_design.hpp"
 #include "output/row_blocks.hpp"
 #include "text/names.hpp"
 
@@ -27,15 +28,6 @@ constexpr const char* ratios_shown = "ratios refer to the true force";
 std::string no_gain_text(double proportional_gain, double largest_radius) {
   return "at P = " + format_rounded(proportional_gain) +
          " N/m no D keeps the spectral radius below " + format_rounded(largest_radius);
-}
-
-/// A gain on the boundary itself was asked for, and is none to use.
-void warn_of_edge(double spectral_radius, double sampling_period, bool quiet) {
-  if (spectral_radius > 1.0 - 1e-6 * std::min(1.0, sampling_period))
-    report_warning(
-        "without a margin the D of least amplitude lies on the boundary of stability (spectral "
-        "radius 1): give --margin 0.5 to stay away from it",
-        quiet);
 }
 
 /// Why a single row has no D of minimum amplitude.
@@ -146,9 +138,9 @@ void write_band_gain(const JobContext& context, const Range& band,
 
 struct DesignQuestion {
   std::string frequency;
-  std::string band;
-  std::optional<double> largest_radius, margin;
-  bool both_gains = false;
+  std::string band, schedule;
+  std::optional<double> largest_radius, margin, largest_ratio;
+  bool both_gains = false, prove = false;
 
   void add_to(const Job& job) {
     job.add("--frequency", frequency);
@@ -156,15 +148,46 @@ struct DesignQuestion {
     job.add("--largest-radius", largest_radius);
     job.add("--margin", margin);
     job.add("--both-gains", both_gains);
+    job.add("--largest-ratio", largest_ratio);
+    job.add("--schedule", schedule);
+    job.add("--prove", prove);
   }
 
-  void run(const JobContext& context) const {
+  void run(const Job& job) const {
+    const JobContext context = job.context();
+    if (job.has("--family")) return serve_family(job, context);
+    for (const char* of_family : {"--largest-ratio", "--schedule", "--prove", "--draws"})
+      if (job.has(of_family)) throw WrongInput(std::string(of_family) + ": give --family too");
+    if (both_gains && !band.empty())
+      throw WrongInput("--both-gains --band: of a family alone; give --family");
     const AmplitudeOptions options =
         amplitude_options_of(context.case_data, largest_radius, margin);
     if (!band.empty()) return write_band_gain(context, parse_range("--band", band), options);
     std::optional<Axis> frequencies;
     if (!frequency.empty()) frequencies = parse_axis("--frequency", frequency);
     write_best_gains(context, frequencies, options, both_gains);
+  }
+
+  /// The gains for the whole family over the band, or at the frequency of the case.
+  void serve_family(const Job& job, const JobContext& context) const {
+    if (!frequency.empty()) throw WrongInput("--frequency: of a family give --band");
+    Range range;
+    if (band.empty())
+      range.min = range.max = excitation_of(context.case_data).frequency;
+    else
+      range = parse_range("--band", band);
+    write_family_gains(context,
+                       {{range.min, range.max},
+                        largest_radius,
+                        margin,
+                        largest_ratio,
+                        both_gains,
+                        prove,
+                        schedule,
+                        job.draws()},
+                       [&](const std::vector<std::string>& overrides) {
+                         return job.context_with(context, overrides);
+                       });
   }
 };
 

@@ -34,11 +34,6 @@ KeyAxis admissible_axis(const std::string& text) {
   return axis;
 }
 
-/// The words for what is proved, in tables.
-constexpr Named<ProvedStability> proved_names[] = {{ProvedStability::stable, "stable"},
-                                                   {ProvedStability::unstable, "unstable"},
-                                                   {ProvedStability::undecided, "undecided"}};
-
 ProvedChart modal_chart_of(const Case& the_case, const GainGrid& grid, double undecided) {
   const EnclosedResponse response(proved_poles_of(the_case), sampling_of(the_case));
   return proved_chart(response, grid, undecided, [] { throw_if_interrupted(); });

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 #: Whose result is cells over axes, which a store can hold.
 _JOBS_OF_CELLS = ("stability", "response", "basins", "sweep")
-_JOBS_OF_FAMILIES = ("stability", "boundary", "response", "margins", "max-delay", "modal-damping")
+_JOBS_OF_FAMILIES = ("stability", "boundary", "response", "design", "margins", "max-delay", "modal-damping")
 #: Of [excitation], where a force of the user's own takes its place.
 _WITHOUT_FORCE = ("amplitude=0.0", "harmonics=[]", "noise_rms=0.0", 'record=""')
 
@@ -56,7 +56,7 @@ class Case:
     (``"baseline"``, ``"avx2"``, ``"avx512"``), ``progress`` (True: tqdm where it is installed, or a
     callable ``(done, total)``), ``output`` (a file of the program's instead; then nothing is returned)
     and ``yes`` (gigabytes of rows are meant); those with ``store`` also ``zarr_format`` (2 or 3). Chart,
-    boundary, response, margins, max_delay and modal_damping take ``family`` (True: the worst over
+    boundary, response, design, margins, max_delay and modal_damping take ``family`` (True: the worst over
     ``[uncertain]``) and ``draws``. What holds for the program holds here: ``holdfast JOB --help`` explains
     each option further.
 
@@ -507,6 +507,9 @@ class Case:
         both_gains: bool = False,
         largest_radius: Optional[float] = None,
         margin: Optional[float] = None,
+        largest_ratio: Optional[float] = None,
+        schedule: Optional[str] = None,
+        prove: bool = False,
         **how: Unpack[How],
     ) -> Table:
         """The best D: that of least steady amplitude and that of least spectral radius, at the case's P and
@@ -517,9 +520,13 @@ class Case:
         :param both_gains: instead the P and D of least amplitude
         :param largest_radius: spectral radius to stay below
         :param margin: what of the way from the boundary of stability D must keep; 0.5 unless given
+        :param largest_ratio: with ``family``: what may be left of the vibration without control
+        :param schedule: with ``family``: an uncertain key whose range is divided into pieces with gains of their own
+        :param prove: with ``family``: prove that every member is stable
         """
         words = _axis("frequency", frequency) + _interval("band", band)
-        words += _options.arguments({"both_gains": both_gains, "largest_radius": largest_radius, "margin": margin})
+        flags = {"both_gains": both_gains, "largest_radius": largest_radius, "margin": margin, "prove": prove}
+        words += _options.arguments({**flags, "largest_ratio": largest_ratio, "schedule": schedule})
         return self._run("design", words, how)
 
     def margins(self, *, prove: bool = False, **how: Unpack[How]) -> Table:
@@ -1007,16 +1014,6 @@ class Case:
         :param frequency: Hz; (min, max, count)
         """
         return self._run("aeolian", _axis("frequency", frequency) + _options.arguments({"no_control": no_control}), how)
-
-    def aeolian_history(
-        self, frequency: float, *, duration: Optional[float] = None, no_control: bool = False, **how: Unpack[How]
-    ) -> Table:
-        """Time history of the conductor's modes in a wind whose vortices are shed at one frequency (Hz), with a
-        wake that swings with it at every place.
-        """
-        return self._run(
-            "aeolian", _options.arguments({"history": frequency, "duration": duration, "no_control": no_control}), how
-        )
 
     def fatigue(
         self, frequency: Interval = None, *, no_control: bool = False, by_speed: bool = False, **how: Unpack[How]

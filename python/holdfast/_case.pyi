@@ -184,11 +184,11 @@ class Case:
         ...
 
     @overload
-    def design(self, frequency: Range=None, *, band: Interval=None, both_gains: bool=False, largest_radius: Optional[float]=None, margin: Optional[float]=None, **how: Unpack[How]) -> Table:
+    def design(self, frequency: Range=None, *, band: Interval=None, both_gains: bool=False, largest_radius: Optional[float]=None, margin: Optional[float]=None, largest_ratio: Optional[float]=None, schedule: Optional[str]=None, prove: bool=False, **how: Unpack[How]) -> Table:
         ...
 
     @overload
-    def design(self, frequency: Range=None, *, output: Path, band: Interval=None, both_gains: bool=False, largest_radius: Optional[float]=None, margin: Optional[float]=None, **how: Unpack[How]) -> None:
+    def design(self, frequency: Range=None, *, output: Path, band: Interval=None, both_gains: bool=False, largest_radius: Optional[float]=None, margin: Optional[float]=None, largest_ratio: Optional[float]=None, schedule: Optional[str]=None, prove: bool=False, **how: Unpack[How]) -> None:
         ...
 
     @overload
@@ -377,14 +377,6 @@ class Case:
 
     @overload
     def aeolian(self, frequency: Range=None, *, output: Path, no_control: bool=False, **how: Unpack[How]) -> None:
-        ...
-
-    @overload
-    def aeolian_history(self, frequency: float, *, duration: Optional[float]=None, no_control: bool=False, **how: Unpack[How]) -> Table:
-        ...
-
-    @overload
-    def aeolian_history(self, frequency: float, *, output: Path, duration: Optional[float]=None, no_control: bool=False, **how: Unpack[How]) -> None:
         ...
 
     @overload

@@ -1,6 +1,8 @@
 #include "case/model/linear_loop.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "case/model/loop_of_case.hpp"
@@ -13,6 +15,8 @@
 #include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/chart/circle_chart.hpp"
+#include "holdfast/stability/design/minimax_amplitude.hpp"
+#include "holdfast/stability/design/minimum_amplitude_gains.hpp"
 #include "holdfast/stability/design/modal_design.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
 #include "holdfast/stability/margins/modal_margins.hpp"
@@ -127,14 +131,72 @@ MinimumAmplitude LinearLoop::quietest(const AmplitudeOptions& options, double fr
 MinimumAmplitudeGains LinearLoop::quietest_pair(const AmplitudeOptions& options,
                                                 double frequency) const {
   require_poles();
+  return minimum_amplitude_gains(by_poles_->response(), options, frequency,
+                                 range_about_tuned(frequency), response(frequency));
+}
+
+Interval<double> LinearLoop::range_about_tuned(double frequency) const {
   const auto& plant = case_.plant;
   const double omega = 2.0 * pi<double> * frequency;
   const double tuned =
       tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, frequency);
   const double stiffness = plant.absorber_stiffness + plant.absorber_mass * omega * omega;
-  const Interval<double> range{tuned - stiffness, tuned + stiffness};
-  return minimum_amplitude_gains(by_poles_->response(), options, frequency, range,
-                                 response(frequency));
+  return {tuned - stiffness, tuned + stiffness};
+}
+
+double LinearLoop::first_frequency() const {
+  if (!closed_) return by_poles_->conductor().modes.front().angular_frequency / (2.0 * pi<double>);
+  const TwoMass<double> plant = plant_of(case_);
+  return std::sqrt(plant.conductor_stiffness / plant.conductor_mass) / (2.0 * pi<double>);
+}
+
+std::vector<Interval<double>> LinearLoop::gains_of_modulus(const AmplitudeOptions& options,
+                                                           double p) const {
+  require_poles();
+  return detail::gains_of_modulus(by_poles_->circle(), p, options);
+}
+
+MinimaxGains LinearLoop::quietest_for_all(const std::vector<LinearLoop>& loops,
+                                          const std::vector<AmplitudeOptions>& options,
+                                          const FrequencyBand& band, std::optional<double> p) {
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
+  MinimaxGains best{std::nan(""), {MinimaxOutcome::none}};
+  double least = unbounded;
+  const auto admissible = [&](double at) {
+    std::vector<Interval<double>> common{{-unbounded, unbounded}};
+    for (std::size_t k = 0; k < loops.size() && !common.empty(); ++k)
+      common = intersection(common, loops[k].gains_of_modulus(options[k], at));
+    return common;
+  };
+  const auto search = [&](auto family) {
+    const auto ask = [&](double at) {
+      const MinimaxAmplitude there = family.least(at, admissible(at), least);
+      if (there.outcome == MinimaxOutcome::none) return unbounded;
+      if (there.worst_ratio < least) {
+        least = there.worst_ratio;
+        best = {at, there};
+      }
+      return there.lower_bound;
+    };
+    if (p) return void(ask(*p));
+    detail::search_proportional_gain(
+        loops.front().range_about_tuned(0.5 * (band.lower + band.upper)), ask);
+  };
+  const bool all_closed = std::all_of(loops.begin(), loops.end(),
+                                      [](const LinearLoop& loop) { return bool(loop.closed_); });
+  std::vector<PlantOverBand<TwoMass<double>>> masses;
+  std::vector<ConductorOverBand<double>> conductors;
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    if (all_closed)
+      masses.push_back({plant_of(loops[k].case_), options[k]});
+    else
+      conductors.push_back({loops[k].by_poles_->conductor(), options[k]});
+  }
+  if (all_closed)
+    search(FamilyOverBand<PlantOverBand<TwoMass<double>>>(masses, band));
+  else
+    search(FamilyOverBand<ConductorOverBand<double>>(conductors, band));
+  return best;
 }
 
 MinimaxAmplitude LinearLoop::quietest_over(const AmplitudeOptions& options, double p,

@@ -22,6 +22,12 @@
 
 namespace holdfast::program {
 
+/// The gains that serve a band of frequencies best.
+struct MinimaxGains {
+  double proportional_gain;  ///< N/m; NaN where none is admissible
+  MinimaxAmplitude quietest;
+};
+
 /// The loop of a case without play, 1 = P G_z + D G_v, as charts, boundaries, margins, design and
 /// responses have it: filters, lags, late forces and a velocity by difference are in it; quanta,
 /// the largest force and jitter are not, which texts/support.toml tells.
@@ -61,6 +67,19 @@ class LinearLoop {
   /// The D of least largest amplitude over a band.
   MinimaxAmplitude quietest_over(const AmplitudeOptions& options, double p,
                                  const FrequencyBand& band) const;
+  /// The D that leave a modulus margin and keep a radius at P, as `quietest_pair` has them.
+  std::vector<Interval<double>> gains_of_modulus(const AmplitudeOptions& options, double p) const;
+  /// The gains of least largest amplitude over several loops and a band, or one frequency, of those
+  /// that each of them admits as `quietest_pair` does.
+  /// @param options  of each loop
+  /// @param p        none: the best P too
+  static MinimaxGains quietest_for_all(const std::vector<LinearLoop>& loops,
+                                       const std::vector<AmplitudeOptions>& options,
+                                       const FrequencyBand& band, std::optional<double> p);
+  /// The range in which P is looked for first, about that tuned to f (Hz).
+  Interval<double> range_about_tuned(double frequency) const;
+  /// The lowest natural frequency of the conductor (Hz).
+  double first_frequency() const;
   /// The D of least spectral radius at P.
   MinimumRadius fastest(double p) const;
   /// The largest sampling period, δ/τ being the question's.

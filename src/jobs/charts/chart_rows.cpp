@@ -157,6 +157,7 @@ std::vector<GridAxis> gain_axes(const GainGrid& grid) {
 }
 
 ChartRows sampled_chart(const LoopChart& chart, bool radius, InstructionSet instructions) {
+  row_length(chart.fast.values.count);  // before kernels make room for it
   const auto fill = [=, kernel = pack_kernels(instructions).chart(chart, radius)](
                         std::int64_t first, std::int64_t count, std::int64_t offset,
                         const ChartMemory& memory) {
@@ -172,6 +173,7 @@ ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool ra
                           {LoopParameter::proportional_gain, grid.proportional},
                           {LoopParameter::differential_gain, grid.differential}},
                          radius, instructions);
+  row_length(grid.differential.count);
   const LinearLoop loop(the_case);
   const auto stable = loop.stable_rows(grid.differential);
   const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
@@ -186,6 +188,7 @@ ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool ra
 }
 
 ChartRows continuous_chart(const TwoMass<double>& plant, const GainGrid& grid, bool abscissa) {
+  row_length(grid.differential.count);
   const auto abscissa_at = [plant](const PdGains<double>& gains) {
     return spectral_abscissa<double, 4>(plant.state_matrix() +
                                         plant.control_input() * gains.feedback_row());

@@ -2,6 +2,7 @@
 
 #include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
+#include "holdfast/stability/chart/proved_chart.hpp"
 #include "text/names.hpp"
 
 namespace holdfast::program {
@@ -26,5 +27,11 @@ inline constexpr Named<LoopParameter> parameter_keys[] = {
     {LoopParameter::absorber_mass, "plant.absorber_mass"},
     {LoopParameter::absorber_stiffness, "plant.absorber_stiffness"},
     {LoopParameter::absorber_damping, "plant.absorber_damping"}};
+
+/// The words for what is proved, in tables.
+inline constexpr Named<ProvedStability> proved_names[] = {
+    {ProvedStability::stable, "stable"},
+    {ProvedStability::unstable, "unstable"},
+    {ProvedStability::undecided, "undecided"}};
 
 }  // namespace holdfast::program

@@ -9,6 +9,7 @@
 #include "holdfast/stability/margins/modal_margins.hpp"
 #include "jobs/charts/proved_poles.hpp"
 #include "process/errors.hpp"
+#include "process/exit.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {
@@ -69,6 +70,14 @@ GainMargins gain_margins(const LinearLoop& loop, const PdGains<double>& gains) {
   return {1.0 - margins.unit_circle, 20.0 * std::log10(margins.largest_factor),
           margins.phase * 180.0 / pi<double>, margins.delay.distance,
           margins.delay.outcome == MarginEndOutcome::beyond_search};
+}
+
+void warn_of_edge(double spectral_radius, double sampling_period, bool quiet) {
+  if (spectral_radius > 1.0 - 1e-6 * std::min(1.0, sampling_period))
+    report_warning(
+        "without a margin the D of least amplitude lies on the boundary of stability (spectral "
+        "radius 1): give --margin 0.5 to stay away from it",
+        quiet);
 }
 
 CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains) {

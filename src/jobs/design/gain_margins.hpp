@@ -24,6 +24,9 @@ struct GainMargins {
 /// @param gains  not finite: all is NaN
 GainMargins gain_margins(const LinearLoop& loop, const PdGains<double>& gains);
 
+/// Warns of gains on the boundary of stability itself, which are none to use.
+void warn_of_edge(double spectral_radius, double sampling_period, bool quiet);
+
 /// How far P, D, τ and δ of a case may go.
 struct CaseMargins {
   StabilityMargins margins;

@@ -172,15 +172,6 @@ TEST(Span, ADamperWidensTheStableGains) {
   EXPECT_NEAR(table_of(loop + nothing).number(0, "lower") / alone, 1.0, 1e-5);
 }
 
-TEST(Span, AHistoryIsWritten) {
-  const CsvTable history =
-      table_of("aeolian --history 20 --duration 20" + drake + " --set conductor.span=60");
-  EXPECT_GT(history.rows(), 100U);
-  const double largest = largest_in(history, "displacement_m");
-  EXPECT_GT(largest, 1e-5);
-  EXPECT_LT(largest, 0.02814);
-}
-
 TEST(Span, WhatIsMissingIsNamed) {
   expect_refused("aeolian", {"conductor.diameter", "conductor.name"});
   expect_refused("fatigue" + drake, {"[site]", "weibull_scale"});

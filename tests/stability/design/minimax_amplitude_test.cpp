@@ -42,11 +42,10 @@ TEST(AmplitudeBand, FindsTheWorstFrequencyOfADenseScan) {
   for (const BandCase& c : band_cases()) {
     const bool is_light = c.plant.absorber_damping < 1.0;
     const auto loop = sampled_loop(c.plant, c.options.sampling);
-    const AmplitudeBand band(PlantOverBand<TwoMass<double>>{c.plant, c.options},
-                             c.proportional_gain, c.band);
+    const AmplitudeBand band(PlantOverBand<TwoMass<double>>{c.plant, c.options}, c.band);
     for (const double d : is_light ? std::vector<double>{-1.0, 0.3, 1.0, 2.0}
                                    : std::vector<double>{-13.0, -5.0, 1.0}) {
-      const WorstFrequency worst = band.worst(d);
+      const WorstFrequency worst = band.worst({c.proportional_gain, d});
       double scanned = 0.0;
       for (int k = 0; k <= 20000; ++k) {
         const double f = c.band.lower + (c.band.upper - c.band.lower) * k / 20000.0;

@@ -40,7 +40,7 @@ inline void validate(const FrequencyBand& band, double sampling_period) {
 /// The squared amplitude ratio (with control to without) at one frequency, as a function of D.
 struct RatioAtFrequency {
   double frequency;                   ///< Hz
-  RatioOfQuadratics<double> squared;  ///< N(D)/M(D), D in N s/m, for the band's P
+  RatioOfQuadratics<double> squared;  ///< N(D)/M(D), D in N s/m, for one P
 };
 
 /// A frequency at which the amplitude ratio is largest.
@@ -75,7 +75,7 @@ struct PlantOverBand {
   }
 };
 
-/// The amplitude with control over that without, over a band of frequencies, for a given P.
+/// The amplitude with control over that without, over a band of frequencies.
 ///
 /// The peaks of the ratio belong to roots of the loop near the unit circle, where the controlled
 /// amplitude is large, or to zeros of the uncontrolled amplitude near it. Both are known with their
@@ -86,40 +86,40 @@ template <class Model>
 class AmplitudeBand {
  public:
   /// Computes the steady response at 401 uniform frequencies and at others about the zeros.
-  /// @param model              model of the loop
-  /// @param proportional_gain  P (N/m), finite
-  /// @param band               band within its range (`validate`), which is not checked here
-  AmplitudeBand(Model model, double proportional_gain, const FrequencyBand& band)
-      : model_(std::move(model)), proportional_gain_(proportional_gain), band_(band) {
-    constexpr int uniform = 400;
+  /// @param model  model of the loop
+  /// @param band   band within its range (`validate`), which is not checked here, or one frequency
+  AmplitudeBand(Model model, const FrequencyBand& band) : model_(std::move(model)), band_(band) {
+    const int uniform = band.lower < band.upper ? 400 : 0;
     std::vector<double> frequencies;
-    for (int k = 0; k <= uniform; ++k)
+    for (int k = 0; k < uniform; ++k)
       frequencies.push_back(band.lower + (band.upper - band.lower) * k / uniform);
+    frequencies.push_back(band.upper);
     append_about(model_.uncontrolled_zeros(), frequencies);
     std::sort(frequencies.begin(), frequencies.end());
-    for (const double frequency : frequencies) grid_.push_back(at(frequency));
+    for (const double frequency : frequencies)
+      grid_.emplace_back(frequency, model_.response(2.0 * pi<double> * frequency));
   }
 
-  /// The squared ratio at one frequency (Hz) of the band.
-  RatioAtFrequency at(double frequency) const {
+  /// The squared ratio at one frequency (Hz) of the band and one P (N/m).
+  RatioAtFrequency at(double frequency, double proportional_gain) const {
     const auto response = model_.response(2.0 * pi<double> * frequency);
-    return {frequency, response.squared_ratio(proportional_gain_)};
+    return {frequency, response.squared_ratio(proportional_gain)};
   }
 
-  /// The frequency of the band with the largest ratio for a given D.
-  WorstFrequency worst(double differential_gain) const {
-    const std::vector<RatioAtFrequency> points = points_for(differential_gain);
+  /// The frequency of the band with the largest ratio.
+  WorstFrequency worst(const PdGains<double>& gains) const {
+    const std::vector<RatioAtFrequency> points = points_for(gains);
     std::vector<double> values;
     values.reserve(points.size());
-    for (const RatioAtFrequency& point : points) values.push_back(value(point, differential_gain));
+    for (const RatioAtFrequency& point : points) values.push_back(value(point, gains.differential));
     const double highest = *std::max_element(values.begin(), values.end());
     WorstFrequency worst{band_.lower, -1.0};
     for (std::size_t k = 0; k < points.size(); ++k) {
       const std::size_t left = k == 0 ? 0 : k - 1, right = std::min(k + 1, points.size() - 1);
       if (!(values[k] >= 0.5 * highest && values[k] >= values[left] && values[k] >= values[right]))
         continue;
-      const auto peak = refined(points[left].frequency, points[k].frequency,
-                                points[right].frequency, differential_gain);
+      const auto peak =
+          refined(points[left].frequency, points[k].frequency, points[right].frequency, gains);
       if (peak.ratio > worst.ratio) worst = peak;
     }
     worst.ratio = std::sqrt(worst.ratio);
@@ -133,12 +133,14 @@ class AmplitudeBand {
     return value >= 0.0 ? value : std::numeric_limits<double>::infinity();
   }
 
-  /// The grid, refined about the loop's roots for a given D.
-  std::vector<RatioAtFrequency> points_for(double differential_gain) const {
-    std::vector<RatioAtFrequency> points = grid_;
+  /// The grid, refined about the loop's roots.
+  std::vector<RatioAtFrequency> points_for(const PdGains<double>& gains) const {
+    std::vector<RatioAtFrequency> points;
+    for (const auto& [frequency, response] : grid_)
+      points.push_back({frequency, response.squared_ratio(gains.proportional)});
     std::vector<double> near_roots;
-    append_about(model_.loop_roots({proportional_gain_, differential_gain}), near_roots);
-    for (const double frequency : near_roots) points.push_back(at(frequency));
+    append_about(model_.loop_roots(gains), near_roots);
+    for (const double frequency : near_roots) points.push_back(at(frequency, gains.proportional));
     std::sort(points.begin(), points.end(),
               [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
     // Only one of two points an ulp apart is a local maximum, and looks to one side alone.
@@ -166,14 +168,17 @@ class AmplitudeBand {
   }
 
   /// The largest squared ratio between the neighbours of a point that is higher than both.
-  WorstFrequency refined(double left, double middle, double right, double differential_gain) const {
+  WorstFrequency refined(double left, double middle, double right,
+                         const PdGains<double>& gains) const {
     constexpr double golden = 0.61803398874989485;
-    WorstFrequency best{middle, value(at(middle), differential_gain)};
+    const auto value_at = [&](double frequency) {
+      return value(at(frequency, gains.proportional), gains.differential);
+    };
+    WorstFrequency best{middle, value_at(middle)};
     double low = left, high = right;
     while (high - low > 1e-9 * band_.upper) {
       const double inner = high - golden * (high - low), outer = low + golden * (high - low);
-      const double at_inner = value(at(inner), differential_gain);
-      const double at_outer = value(at(outer), differential_gain);
+      const double at_inner = value_at(inner), at_outer = value_at(outer);
       if (at_inner > best.ratio) best = {inner, at_inner};
       if (at_outer > best.ratio) best = {outer, at_outer};
       (at_inner > at_outer ? high : low) = at_inner > at_outer ? outer : inner;
@@ -182,9 +187,8 @@ class AmplitudeBand {
   }
 
   Model model_;
-  double proportional_gain_;
   FrequencyBand band_;
-  std::vector<RatioAtFrequency> grid_;
+  std::vector<std::pair<double, SteadyResponse<double>>> grid_;  // frequency, response there
 };
 
 /// The outcome of the search for one D for a whole band of frequencies.
@@ -204,6 +208,7 @@ struct MinimaxAmplitude {
   double worst_frequency = std::nan("");  ///< frequency of that ratio (Hz)
   double lower_bound = std::nan("");      ///< no admissible D has a smaller worst ratio than this
   double attenuation = std::nan("");      ///< −20 log₁₀ of `worst_ratio` (dB)
+  std::size_t worst_member = 0;           ///< the loop of that ratio, of a family
 };
 
 namespace detail {
@@ -265,50 +270,103 @@ class WorstOfFrequencies {
   std::vector<double> candidates_;
 };
 
-/// The answer of `minimax_amplitude` for any model, by exchange of frequencies.
+}  // namespace detail
+
+/// The loops of a family over one band of frequencies, for gains that are to serve all of them.
+///
+/// Exchange: the minimax over the pairs of loop and frequency collected so far is a lower bound.
+/// The worst pair for that D gives an upper bound and is added; it is kept for the next P.
+/// @tparam Model  model of each loop, see AmplitudeBand
+template <class Model>
+class FamilyOverBand {
+ public:
+  /// @param models  at least one
+  /// @param band    as for AmplitudeBand
+  FamilyOverBand(const std::vector<Model>& models, const FrequencyBand& band) {
+    for (const Model& model : models) loops_.emplace_back(model, band);
+    worst_.push_back({0, band.lower});
+    if (band.lower < band.upper) worst_.push_back({0, band.upper});
+  }
+
+  /// The D of least largest ratio over loops and band at a given P.
+  /// @param proportional_gain  P (N/m), finite
+  /// @param admissible         intervals of D (N s/m), ascending
+  /// @param enough             the search ends, not converged, once no D has a smaller ratio
+  MinimaxAmplitude least(double proportional_gain, const std::vector<Interval<double>>& admissible,
+                         double enough = std::numeric_limits<double>::infinity()) {
+    if (admissible.empty()) return {MinimaxOutcome::none};
+    detail::WorstOfFrequencies chosen(admissible);
+    for (const Worst& one : worst_)
+      chosen.add(loops_[one.loop].at(one.frequency, proportional_gain));
+    MinimaxAmplitude result{MinimaxOutcome::not_converged};
+    result.worst_ratio = std::numeric_limits<double>::infinity();
+    result.lower_bound = 0.0;
+    for (int exchange = 0; exchange < 60; ++exchange) {
+      const auto least = chosen.least();
+      result.lower_bound = std::max(result.lower_bound, least.ratio);
+      if (result.lower_bound >= enough) break;
+      const auto [worst, ratio] = worst_at({proportional_gain, least.differential_gain});
+      if (ratio < result.worst_ratio) {
+        result.differential_gain = least.differential_gain;
+        result.worst_ratio = ratio;
+        result.worst_frequency = worst.frequency;
+        result.worst_member = worst.loop;
+      }
+      if (std::abs(result.worst_ratio - result.lower_bound) <= 1e-8 * result.lower_bound) {
+        result.outcome = MinimaxOutcome::found;
+        break;
+      }
+      chosen.add(loops_[worst.loop].at(worst.frequency, proportional_gain));
+      if (worst_.size() == most_kept) worst_.erase(worst_.begin());
+      worst_.push_back(worst);
+    }
+    result.attenuation = attenuation(result.worst_ratio);
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t most_kept = 30;  // each adds its meetings with all others
+
+  struct Worst {
+    std::size_t loop;
+    double frequency;  // Hz
+  };
+
+  std::pair<Worst, double> worst_at(const PdGains<double>& gains) const {
+    std::pair<Worst, double> found{{0, 0.0}, -1.0};
+    for (std::size_t k = 0; k < loops_.size(); ++k) {
+      const WorstFrequency here = loops_[k].worst(gains);
+      if (here.ratio > found.second) found = {{k, here.frequency}, here.ratio};
+    }
+    return found;
+  }
+
+  std::vector<AmplitudeBand<Model>> loops_;
+  std::vector<Worst> worst_;
+};
+
+namespace detail {
+
+/// The answer of `minimax_amplitude` for any model.
 /// @tparam Model  model of the plant, see AmplitudeBand
 template <class Model, class Plant>
-MinimaxAmplitude exchanged(const Plant& plant, const AmplitudeOptions& options,
-                           double proportional_gain, const FrequencyBand& band) {
+MinimaxAmplitude minimax_over_band(const Plant& plant, const AmplitudeOptions& options,
+                                   double proportional_gain, const FrequencyBand& band) {
   validate(options);
   require_finite("proportional gain P", proportional_gain, "N/m");
   validate(band, options.sampling.period);
   const Model model{plant, options};
-  const auto admissible = admissible_differential_gains(model.loop, proportional_gain, options);
-  if (admissible.empty()) return {MinimaxOutcome::none};
-  const AmplitudeBand amplitudes(model, proportional_gain, band);
-  WorstOfFrequencies chosen(admissible);
-  for (const double frequency : {band.lower, band.upper}) chosen.add(amplitudes.at(frequency));
-  MinimaxAmplitude result{MinimaxOutcome::not_converged};
-  result.worst_ratio = std::numeric_limits<double>::infinity();
-  result.lower_bound = 0.0;
-  for (int exchange = 0; exchange < 60; ++exchange) {
-    const auto least = chosen.least();
-    const WorstFrequency worst = amplitudes.worst(least.differential_gain);
-    result.lower_bound = std::max(result.lower_bound, least.ratio);
-    if (worst.ratio < result.worst_ratio) {
-      result.differential_gain = least.differential_gain;
-      result.worst_ratio = worst.ratio;
-      result.worst_frequency = worst.frequency;
-    }
-    if (std::abs(result.worst_ratio - result.lower_bound) <= 1e-8 * result.lower_bound) {
-      result.outcome = MinimaxOutcome::found;
-      break;
-    }
-    chosen.add(amplitudes.at(worst.frequency));
-  }
-  result.attenuation = holdfast::attenuation(result.worst_ratio);
-  return result;
+  return FamilyOverBand<Model>({model}, band)
+      .least(proportional_gain,
+             admissible_differential_gains(model.loop, proportional_gain, options));
 }
 
 }  // namespace detail
 
 /// The D that minimises the largest amplitude ratio (with control to without) over a band, given P.
 ///
-/// Exchange of frequencies: the minimax over the frequencies collected so far is a lower bound. The
-/// worst frequency of the whole band for that D gives an upper bound and is added. The gap between
-/// the bounds is the error, except for maxima missed in the search over frequencies
-/// (`AmplitudeBand`); peaks are resolved to 1e−9 of the band.
+/// The gap between the bounds of FamilyOverBand is the error, except for maxima missed in the
+/// search over frequencies (`AmplitudeBand`); peaks are resolved to 1e−9 of the band.
 /// @tparam Plant             anything with `state_matrix()`, `control_input()` and
 ///                           `excitation_input()` that `validate` checks
 /// @param plant              plant within its ranges
@@ -320,7 +378,7 @@ template <class Plant>
 MinimaxAmplitude minimax_amplitude(const Plant& plant, const AmplitudeOptions& options,
                                    double proportional_gain, const FrequencyBand& band) {
   validate(plant);
-  return detail::exchanged<PlantOverBand<Plant>>(plant, options, proportional_gain, band);
+  return detail::minimax_over_band<PlantOverBand<Plant>>(plant, options, proportional_gain, band);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

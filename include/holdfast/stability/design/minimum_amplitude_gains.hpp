@@ -1,6 +1,10 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
@@ -21,24 +25,40 @@ struct MinimumAmplitudeGains {
 
 namespace detail {
 
-/// The D of least amplitude for a given P, of those with the modulus margin `options.margin`.
+/// The D for a given P with the modulus margin `options.margin` and the radius of the options.
 template <class Scalar>
-MinimumAmplitude quietest_at_modulus(const UnitCircleCrossings<Scalar>& circle, double p,
-                                     const AmplitudeOptions& options,
-                                     const SteadyResponse<Scalar>& response) {
-  auto admissible = ModulusLevels<Scalar>(circle, p).beyond(Scalar(options.margin));
-  if (options.largest_radius < 1.0)
-    admissible = intersection(
-        admissible,
-        differential_gains_within_radius(circle.response(), p, Scalar(options.largest_radius)));
-  return least_amplitude(response, p, admissible);
+std::vector<Interval<Scalar>> gains_of_modulus(const UnitCircleCrossings<Scalar>& circle, double p,
+                                               const AmplitudeOptions& options) {
+  const auto admissible = ModulusLevels<Scalar>(circle, p).beyond(Scalar(options.margin));
+  if (!(options.largest_radius < 1.0)) return admissible;
+  return intersection(admissible, differential_gains_within_radius(circle.response(), p,
+                                                                   Scalar(options.largest_radius)));
 }
 
-/// Whether one pair has a smaller amplitude than another.
-inline bool is_quieter(const MinimumAmplitude& one, const MinimumAmplitude& other) {
-  if (one.outcome == MinimumAmplitudeOutcome::none) return false;
-  return other.outcome == MinimumAmplitudeOutcome::none ||
-         one.ratio_to_uncontrolled < other.ratio_to_uncontrolled;
+/// Searches the P with which something is least: at 65 places of a range that is doubled while the
+/// best place is at its end, and by golden section about the best. A better P between two places
+/// may be missed.
+/// @param range     initial range of P, lower < upper, finite
+/// @param value_at  P ↦ a number; ∞: not admissible
+template <class Value>
+void search_proportional_gain(Interval<double> range, const Value& value_at) {
+  constexpr int places = 65, most_ranges = 8;
+  double step = 0.0, best = std::numeric_limits<double>::infinity(), best_p = range.lower;
+  for (int k = 0; k < most_ranges; ++k) {
+    step = (range.upper - range.lower) / (places - 1);
+    for (int i = 0; i < places; ++i) {
+      const double p = range.lower + i * step, value = value_at(p);
+      if (value < best) std::tie(best, best_p) = std::pair(value, p);
+    }
+    if (best_p > range.lower + step && best_p < range.upper - step) break;
+    const double half = 0.5 * (range.upper - range.lower);
+    range = {range.lower - half, range.upper + half};
+  }
+  if (std::isinf(best)) return;
+  narrow_to_best(best_p - step, best_p + step, 40, [&](double left, double right) {
+    const double at_left = value_at(left);
+    return at_left < value_at(right);
+  });
 }
 
 }  // namespace detail
@@ -50,9 +70,7 @@ inline bool is_quieter(const MinimumAmplitude& one, const MinimumAmplitude& othe
 /// that is, with a sensitivity of at most 1/m: m = 1/2 gives a gain margin of at least 6 dB upwards
 /// and a phase margin of at least 29°.
 ///
-/// For each P the D is exact. P is searched at 65 places of a range that is doubled while the best
-/// place is at its end, and by golden section about the best. A better P between two places may be
-/// missed: this is a search, not a proof.
+/// For each P the D is exact; over P it is a search, not a proof (`search_proportional_gain`).
 /// @param loop       loop of the plant given by its poles, with the sampling of the options
 /// @param options    options within their ranges
 /// @param frequency  f (Hz), > 0
@@ -72,27 +90,16 @@ MinimumAmplitudeGains minimum_amplitude_gains(const ModalResponse<Scalar>& loop,
     return {std::nan(""), {MinimumAmplitudeOutcome::aliased}};
   const UnitCircleCrossings<Scalar> circle(loop);
   MinimumAmplitudeGains best{std::nan(""), {MinimumAmplitudeOutcome::none}};
-  const auto ask = [&](double p) {
-    const MinimumAmplitude there = detail::quietest_at_modulus(circle, p, options, response);
-    if (detail::is_quieter(there, best.quietest)) best = {p, there};
-    return there;
-  };
-  constexpr int places = 65, most_ranges = 8;
-  double step = 0.0;
-  for (int k = 0; k < most_ranges; ++k) {
-    step = (range.upper - range.lower) / (places - 1);
-    for (int i = 0; i < places; ++i) ask(range.lower + i * step);
-    if (best.proportional_gain > range.lower + step && best.proportional_gain < range.upper - step)
-      break;
-    const double half = 0.5 * (range.upper - range.lower);
-    range = {range.lower - half, range.upper + half};
-  }
-  if (best.quietest.outcome == MinimumAmplitudeOutcome::none) return best;
-  detail::narrow_to_best(best.proportional_gain - step, best.proportional_gain + step, 40,
-                         [&](double left, double right) {
-                           const MinimumAmplitude at_left = ask(left);
-                           return detail::is_quieter(at_left, ask(right));
-                         });
+  detail::search_proportional_gain(range, [&](double p) {
+    const MinimumAmplitude there =
+        detail::least_amplitude(response, p, detail::gains_of_modulus(circle, p, options));
+    if (there.outcome == MinimumAmplitudeOutcome::none)
+      return std::numeric_limits<double>::infinity();
+    if (best.quietest.outcome == MinimumAmplitudeOutcome::none ||
+        there.ratio_to_uncontrolled < best.quietest.ratio_to_uncontrolled)
+      best = {p, there};
+    return there.ratio_to_uncontrolled;
+  });
   return best;
 }
 

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <optional>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
@@ -42,14 +45,16 @@ namespace detail {
 
 /// Narrows an interval about a minimum in it by golden section.
 /// @param left_is_better  (left, right) ↦ whether the first of two places in it is better
+/// @return the middle of what is left
 template <class Scalar, class Better>
-void narrow_to_best(Scalar lower, Scalar upper, int steps, const Better& left_is_better) {
+Scalar narrow_to_best(Scalar lower, Scalar upper, int steps, const Better& left_is_better) {
   const Scalar golden(0.3819660112501051);
   for (int k = 0; k < steps; ++k) {
     const Scalar left = lower + golden * (upper - lower), right = upper - golden * (upper - lower);
     const bool is_left = left_is_better(left, right);
     (is_left ? upper : lower) = is_left ? right : left;
   }
+  return (lower + upper) / Scalar(2);
 }
 
 /// The least ρ(P, D) − 1 over D in an interval, with that D: the best of 25 places, refined by
@@ -108,43 +113,62 @@ MinimumRadius minimum_radius(const ModalResponse<Scalar>& response, double propo
 
 namespace detail {
 
-/// The modulus margin of a loop, min |p(e^{iθ})|, p = 1 − P G_z − D G_v, as a function of D.
+/// The modulus margin of a loop, min |p(e^{iθ})|, p = 1 − P G_z − D G_v, as a function of D. At one
+/// angle |p|² is a quadratic in D; what lies between the stored angles is looked at where it
+/// decides.
 template <class Scalar>
 class ModulusLevels {
  public:
+  /// @param circle  must outlive this
   ModulusLevels(const UnitCircleCrossings<Scalar>& circle, const Scalar& proportional_gain)
-      : stable_(circle.stable_gains(FreeGain::differential, {proportional_gain, Scalar(0)})) {
-    for (const auto& place : circle.places()) {
-      const CommandResponse<Scalar> g = circle.response().at_angle(place.angle);
-      const std::complex<Scalar> rest = Scalar(1) - proportional_gain * g.displacement;
-      places_.push_back(
-          {std::norm(g.velocity), (rest * std::conj(g.velocity)).real(), std::norm(rest)});
-    }
+      : response_(circle.response()),
+        proportional_gain_(proportional_gain),
+        stable_(circle.stable_gains(FreeGain::differential, {proportional_gain, Scalar(0)})) {
+    for (const auto& place : circle.places()) places_.push_back(at(place.angle, place.g));
   }
 
-  /// The stable D with |p| > modulus at all stored angles; there |p|² is a quadratic in D.
+  /// The stable D with |p| > modulus at all angles.
   std::vector<Interval<Scalar>> beyond(const Scalar& modulus) const {
-    std::vector<Interval<Scalar>> nearer;
-    for (const Place& at : places_) {
-      const Scalar excess = at.rest - modulus * modulus;
-      const Scalar root = at.along * at.along - at.slope * excess;
-      if (!(root > Scalar(0))) continue;
-      const Scalar half = std::sqrt(root);
-      nearer.push_back({(at.along - half) / at.slope, (at.along + half) / at.slope});
-    }
-    std::sort(nearer.begin(), nearer.end(),
-              [](const auto& one, const auto& other) { return one.lower < other.lower; });
-    std::vector<Interval<Scalar>> kept;
-    for (const Interval<Scalar>& interval : stable_) {
-      Scalar from = interval.lower;
-      for (const Interval<Scalar>& gap : nearer) {
-        if (gap.lower >= interval.upper) break;
-        if (gap.lower > from) kept.push_back({from, gap.lower});
-        from = std::max(from, gap.upper);
+    std::vector<Nearer> nearer = nearer_than(modulus);
+    for (bool is_sharp = false; !is_sharp;) {
+      is_sharp = true;
+      const auto sharpen = [&](Nearer* of, bool upper) {
+        bool* const done = !of ? nullptr : upper ? &of->upper_is_sharp : &of->lower_is_sharp;
+        if (!done || *done) return;
+        const auto out = [&](const Scalar& angle) {
+          const auto there = at(angle, response_.at_angle(angle)).nearer_than(modulus);
+          const Scalar nowhere = -std::numeric_limits<Scalar>::infinity();
+          return !there ? nowhere : upper ? there->upper : -there->lower;
+        };
+        const Scalar end = out(best_about(of->place, out));
+        if (upper) of->gains.upper = std::max(of->gains.upper, end);
+        if (!upper) of->gains.lower = std::min(of->gains.lower, -end);
+        *done = true;
+        is_sharp = false;
+      };
+      std::vector<Interval<Scalar>> kept;
+      std::sort(nearer.begin(), nearer.end(), [](const auto& one, const auto& other) {
+        return one.gains.lower < other.gains.lower;
+      });
+      for (const Interval<Scalar>& interval : stable_) {
+        Scalar from = interval.lower;
+        Nearer* before = nullptr;
+        const auto keep_to = [&](const Scalar& end, Nearer* after) {
+          if (!(from < end)) return;
+          kept.push_back({from, end});
+          sharpen(before, true);
+          sharpen(after, false);
+        };
+        for (Nearer& gap : nearer) {
+          if (gap.gains.lower >= interval.upper) break;
+          keep_to(gap.gains.lower, &gap);
+          if (gap.gains.upper > from) std::tie(from, before) = std::pair(gap.gains.upper, &gap);
+        }
+        keep_to(interval.upper, nullptr);
       }
-      if (from < interval.upper) kept.push_back({from, interval.upper});
+      if (is_sharp) return kept;
     }
-    return kept;
+    return {};
   }
 
   /// A modulus margin and the D with it.
@@ -173,9 +197,61 @@ class ModulusLevels {
 
  private:
   struct Place {
-    Scalar slope, along, rest;  // |p|² = rest − 2 along D + slope D²
+    Scalar angle, slope, along, rest;  // |p|² = rest − 2 along D + slope D²
+
+    /// The D with |p| < modulus.
+    std::optional<Interval<Scalar>> nearer_than(const Scalar& modulus) const {
+      const Scalar root = along * along - slope * (rest - modulus * modulus);
+      if (!(root > Scalar(0))) return std::nullopt;
+      const Scalar half = std::sqrt(root);
+      return Interval<Scalar>{(along - half) / slope, (along + half) / slope};
+    }
+    /// The least |p|² over D.
+    Scalar floor() const { return rest - along * along / slope; }
   };
 
+  /// The D with |p| below the modulus at a place or beside it.
+  struct Nearer {
+    Interval<Scalar> gains;
+    std::size_t place;
+    bool lower_is_sharp = false, upper_is_sharp = false;
+  };
+
+  Place at(const Scalar& angle, const CommandResponse<Scalar>& g) const {
+    const std::complex<Scalar> rest = Scalar(1) - proportional_gain_ * g.displacement;
+    return {angle, std::norm(g.velocity), (rest * std::conj(g.velocity)).real(), std::norm(rest)};
+  }
+
+  /// The angle between the neighbours of a place at which something is largest.
+  template <class Value>
+  Scalar best_about(std::size_t place, const Value& value) const {
+    return narrow_to_best(
+        places_[place == 0 ? 0 : place - 1].angle,
+        places_[std::min(place + 1, places_.size() - 1)].angle, 30,
+        [&](const Scalar& left, const Scalar& right) { return value(left) > value(right); });
+  }
+
+  std::vector<Nearer> nearer_than(const Scalar& modulus) const {
+    std::vector<Nearer> nearer;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      auto gains = places_[i].nearer_than(modulus);
+      const Scalar floor = places_[i].floor();
+      if (!gains && floor < Scalar(4) * modulus * modulus && i > 0 && i + 1 < places_.size() &&
+          floor <= places_[i - 1].floor() && floor <= places_[i + 1].floor()) {
+        const auto at_angle = [&](const Scalar& angle) {
+          return at(angle, response_.at_angle(angle));
+        };
+        const Scalar least =
+            best_about(i, [&](const Scalar& angle) { return -at_angle(angle).floor(); });
+        gains = at_angle(least).nearer_than(modulus);
+      }
+      if (gains) nearer.push_back({*gains, i});
+    }
+    return nearer;
+  }
+
+  const ModalResponse<Scalar>& response_;
+  Scalar proportional_gain_;
   std::vector<Interval<Scalar>> stable_;
   std::vector<Place> places_;
 };
@@ -202,7 +278,8 @@ std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<
                                                             const AmplitudeOptions& options) {
   if (options.by_decay || !(options.margin > 0.0))
     return detail::gains_that_decay(response, proportional_gain, options);
-  const detail::ModulusLevels<Scalar> levels{UnitCircleCrossings(response), proportional_gain};
+  const UnitCircleCrossings<Scalar> circle(response);
+  const detail::ModulusLevels<Scalar> levels(circle, proportional_gain);
   const auto best = levels.largest();
   if (!(best.modulus > Scalar(0))) return {};
   const Scalar margin(options.margin);
@@ -301,7 +378,8 @@ MinimaxAmplitude modal_minimax_amplitude(const ConductorWithAbsorber& conductor,
                                          const AmplitudeOptions& options, double proportional_gain,
                                          const FrequencyBand& band) {
   validate(conductor.modes, conductor.absorber);
-  return detail::exchanged<ConductorOverBand<Scalar>>(conductor, options, proportional_gain, band);
+  return detail::minimax_over_band<ConductorOverBand<Scalar>>(conductor, options, proportional_gain,
+                                                              band);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

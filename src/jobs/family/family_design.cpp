@@ -1,0 +1,193 @@
+#include "jobs/family/family_design.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "case/model/linear_loop.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "case/uncertain.hpp"
+#include "jobs/charts/names.hpp"
+#include "jobs/columns.hpp"
+#include "jobs/design/best_gains.hpp"
+#include "jobs/design/gain_margins.hpp"
+#include "jobs/family/family_proof.hpp"
+#include "output/table.hpp"
+#include "process/errors.hpp"
+#include "process/exit.hpp"
+#include "process/interrupt.hpp"
+#include "text/text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+std::string setting(const std::string& key, double value) {
+  return key + "=" + format_number(value);
+}
+
+/// The members in the order of the schedule, with their loops.
+class DesignedFamily {
+ public:
+  DesignedFamily(const JobContext& context, const FamilyDesign& question,
+                 const ContextWith& context_with)
+      : question_(question), members_(family_members(context.case_data, question.draws)) {
+    for (const UncertainRange& range : uncertain_ranges(context.case_data)) {
+      if (range.key == "control.proportional_gain" || range.key == "control.differential_gain")
+        throw WrongInput("uncertain." + range.key + ": design --family chooses the gains itself");
+      if (range.key == question.schedule) whole_ = range;
+    }
+    if (!question.schedule.empty() && whole_.key.empty())
+      throw WrongInput("--schedule " + question.schedule + ": [uncertain] has no range of it");
+    std::stable_sort(members_.begin(), members_.end(),
+                     [this](const auto& one, const auto& other) { return at(one) < at(other); });
+    cases_.reserve(members_.size());  // loops refer to them
+    for (const FamilyMember& member : members_) {
+      std::vector<std::string> overrides;
+      for (const auto& [key, value] : member.values) overrides.push_back(setting(key, value));
+      cases_.push_back(context_with(overrides).case_data);
+      loops_.emplace_back(cases_.back());
+      options_.push_back(
+          amplitude_options_of(cases_.back(), question.largest_radius, question.margin));
+      if (question.band.lower < question.band.upper)
+        validate(question.band, options_.back().sampling.period);
+    }
+    if (!question.both_gains) p_ = gains_of(context.case_data).proportional;
+  }
+
+  /// A range of members, both counted, that a pair of gains serves.
+  struct Piece {
+    std::size_t first, last;
+    MinimaxGains gains;
+  };
+
+  /// One piece without a schedule, else the fewest.
+  std::vector<Piece> pieces() const {
+    const std::size_t last = members_.size() - 1;
+    std::vector<Piece> pieces;
+    do {
+      const std::size_t first = pieces.empty() ? 0 : pieces.back().last;
+      std::optional<Piece> longest;
+      std::size_t served = first, unserved = last + 1;
+      for (std::size_t end = last; served < last && unserved > served + 1;) {
+        if (const MinimaxGains gains = gains_for(first, end); serve(gains)) {
+          served = end;
+          longest = {first, end, gains};
+        } else {
+          unserved = end;
+          if (whole_.key.empty()) break;
+        }
+        end = (served + unserved) / 2;
+      }
+      if (!longest) throw NoAnswer(why_none(first));
+      pieces.push_back(*longest);
+    } while (pieces.back().last < last);
+    return pieces;
+  }
+
+  /// A row of the table for a piece.
+  void write(Table& table, const Piece& piece, const ContextWith& context_with,
+             double& largest_radius) const {
+    const auto& [first, last, found] = piece;
+    const auto& [p, quietest] = found;
+    const PdGains<double> gains{p, quietest.differential_gain};
+    GainMargins least = gain_margins(loops_[first], gains);
+    double lowest = unbounded, highest = 0.0;
+    for (std::size_t k = first; k <= last; ++k) {
+      const LinearLoop& loop = loops_[k];
+      const GainMargins here = gain_margins(loop, gains);
+      least.spectral_radius = std::max(least.spectral_radius, here.spectral_radius);
+      least.gain_decibels = std::min(least.gain_decibels, here.gain_decibels);
+      least.phase_degrees = std::min(least.phase_degrees, here.phase_degrees);
+      least.delay = std::min(least.delay, here.delay);
+      lowest = std::min(lowest, loop.first_frequency());
+      highest = std::max(highest, loop.first_frequency());
+    }
+    largest_radius = std::max(largest_radius, least.spectral_radius);
+    double begin = std::nan(""), end = begin;
+    if (!whole_.key.empty()) {
+      begin = first == 0 ? whole_.lowest : at(members_[first]);
+      end = last + 1 == members_.size() ? whole_.highest : at(members_[last]);
+    }
+    std::string proved = "compared";
+    if (question_.prove) {
+      std::vector<std::string> overrides = {
+          setting("control.proportional_gain", p),
+          setting("control.differential_gain", gains.differential)};
+      if (!whole_.key.empty())
+        overrides.push_back("uncertain." + whole_.key + "=[" + format_number(begin) + ", " +
+                            format_number(end) + "]");
+      proved = name_in(proved_names, family_proof_of(context_with(overrides)).verdict);
+    }
+    table.row(begin, end, lowest, highest, question_.band.lower, question_.band.upper, p,
+              gains.differential, quietest.worst_ratio, quietest.worst_frequency,
+              quietest.attenuation, quietest.lower_bound, least.spectral_radius,
+              least.gain_decibels, least.phase_degrees, least.delay, proved,
+              members_[first + quietest.worst_member].text());
+  }
+
+ private:
+  double at(const FamilyMember& member) const {
+    for (const auto& [key, value] : member.values)
+      if (key == whole_.key) return value;
+    return 0.0;
+  }
+
+  MinimaxGains gains_for(std::size_t first, std::size_t last) const {
+    throw_if_interrupted();
+    const auto from = static_cast<std::ptrdiff_t>(first),
+               to = static_cast<std::ptrdiff_t>(last) + 1;
+    return LinearLoop::quietest_for_all({loops_.begin() + from, loops_.begin() + to},
+                                        {options_.begin() + from, options_.begin() + to},
+                                        question_.band, p_);
+  }
+
+  bool serve(const MinimaxGains& gains) const {
+    return gains.quietest.outcome != MinimaxOutcome::none &&
+           gains.quietest.worst_ratio <= question_.largest_ratio.value_or(unbounded);
+  }
+
+  std::string why_none(std::size_t first) const {
+    const bool alone = !whole_.key.empty() && !serve(gains_for(first, first));
+    const std::string whom = whole_.key.empty() ? "all members of the family"
+                             : alone
+                                 ? members_[first].text()
+                                 : members_[first].text() + " and " + members_[first + 1].text();
+    std::string remedy;
+    if (p_) remedy = "; --both-gains looks for another P";
+    if (!alone)
+      remedy += whole_.key.empty() ? "; --schedule KEY divides the range of a key"
+                                   : "; more --draws make neighbours more alike";
+    return "design --family: no " +
+           std::string(p_ ? "D at the case's P" : "P and D that were tried") +
+           " keeps what is asked of margin and amplitude for " + whom + remedy;
+  }
+
+  FamilyDesign question_;
+  UncertainRange whole_{};  // of the schedule's key; "": one pair of gains
+  std::vector<FamilyMember> members_;
+  std::vector<Case> cases_;
+  std::vector<LinearLoop> loops_;
+  std::vector<AmplitudeOptions> options_;
+  std::optional<double> p_;  // none: P is looked for too
+};
+
+}  // namespace
+
+void write_family_gains(const JobContext& context, const FamilyDesign& question,
+                        const ContextWith& context_with) {
+  const DesignedFamily family(context, question, context_with);
+  Table table(context, columns_of("family gains"));
+  double largest_radius = 0.0;
+  for (const auto& piece : family.pieces())
+    family.write(table, piece, context_with, largest_radius);
+  report_warning("the gains are those that serve " + std::to_string(question.draws) +
+                     " members of the family best; nothing is proved of the amplitude between them",
+                 context.quiet);
+  warn_of_edge(largest_radius, context.case_data.control.sampling_period, context.quiet);
+  table.commit();
+}
+
+}  // namespace holdfast::program
