@@ -240,8 +240,7 @@ TEST(ModalOrbit, LongPeriodsKeepTheDigitsOfTheirMultipliers) {
     std::vector<Eigen::MatrixXd> blocks;
     flow.begin(unit);
     for (std::size_t j = 0; j < orbit.itinerary.size(); ++j) {
-      flow.advance(orbit.itinerary[j] != 0);
-      flow.end_block();
+      flow.advance(orbit.itinerary[j] != 0, 1);
       if ((j + 1) % 8 != 0 && j + 1 != orbit.itinerary.size()) continue;
       blocks.push_back(flow.columns());
       flow.begin(unit);

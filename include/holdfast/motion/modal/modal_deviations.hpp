@@ -107,40 +107,16 @@ class ModalDeviations {
     return all;
   }
 
-  /// Advances over one sampling period; `engaged`: whether the drive transmits the new command.
-  void advance(bool engaged) {
+  /// Advances over one sampling period.
+  /// @param engaged  whether the drive transmits the new command
+  /// @param most     samples of a block, 1 … 64: deviations that shrink much within one lose their
+  ///                 digits, which are those of its start
+  void advance(bool engaged, int most = block) {
     if (engaged) {
       commands_.row(static_cast<Eigen::Index>(commanded_.size())) = reading(command_);
       commanded_.push_back(taken_);
     }
-    if (++taken_ == block && read_ == 0) end_block();
-  }
-
-  /// Begins a block at the present sample. Deviations that shrink much within a block lose their
-  /// digits, which are those of its start.
-  void end_block() {
-    if (taken_ == 0) return;
-    const auto commands = static_cast<Eigen::Index>(commanded_.size());
-    const Columns forces = commands_.topRows(commands) * start_;
-    Columns answers(order(), commands);
-    for (Eigen::Index i = 0; i < commands; ++i)
-      answers.col(i) = answers_.col(taken_ - 1 - commanded_[static_cast<std::size_t>(i)]);
-    const Eigen::ArrayXd turn = decay_.col(taken_).real(), lift = decay_.col(taken_).imag(),
-                         real = past_.col(taken_ - 1).real(), imag = past_.col(taken_ - 1).imag();
-    Eigen::ArrayXd before(pairs_);
-    for (Eigen::Index j = 0; j < start_.cols(); ++j) {
-      auto re = start_.col(j).head(count_).array();
-      auto im = start_.col(j).segment(count_, pairs_).array();
-      double& force = start_(order() - 1, j);
-      before = re.head(pairs_);
-      re = turn * re + real * force;
-      re.head(pairs_) -= lift.head(pairs_) * im;
-      im = turn.head(pairs_) * im + lift.head(pairs_) * before + imag.head(pairs_) * force;
-      force = 0.0;
-    }
-    start_.noalias() += answers * forces;
-    taken_ = 0;
-    commanded_.clear();
+    if (++taken_ >= most && read_ == 0) end_block();
   }
 
  private:
@@ -169,6 +145,31 @@ class ModalDeviations {
       row +=
           of.of_command[taken_ - 1 - commanded_[i]] * commands_.row(static_cast<Eigen::Index>(i));
     return row;
+  }
+
+  void end_block() {
+    if (taken_ == 0) return;
+    const auto commands = static_cast<Eigen::Index>(commanded_.size());
+    const Columns forces = commands_.topRows(commands) * start_;
+    Columns answers(order(), commands);
+    for (Eigen::Index i = 0; i < commands; ++i)
+      answers.col(i) = answers_.col(taken_ - 1 - commanded_[static_cast<std::size_t>(i)]);
+    const Eigen::ArrayXd turn = decay_.col(taken_).real(), lift = decay_.col(taken_).imag(),
+                         real = past_.col(taken_ - 1).real(), imag = past_.col(taken_ - 1).imag();
+    Eigen::ArrayXd before(pairs_);
+    for (Eigen::Index j = 0; j < start_.cols(); ++j) {
+      auto re = start_.col(j).head(count_).array();
+      auto im = start_.col(j).segment(count_, pairs_).array();
+      double& force = start_(order() - 1, j);
+      before = re.head(pairs_);
+      re = turn * re + real * force;
+      re.head(pairs_) -= lift.head(pairs_) * im;
+      im = turn.head(pairs_) * im + lift.head(pairs_) * before + imag.head(pairs_) * force;
+      force = 0.0;
+    }
+    start_.noalias() += answers * forces;
+    taken_ = 0;
+    commanded_.clear();
   }
 
   Eigen::Index count_, pairs_;

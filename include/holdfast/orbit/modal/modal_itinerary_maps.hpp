@@ -234,8 +234,7 @@ std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itiner
     triangle = detail::ScaledTriangle<double, Eigen::Dynamic>(count);
     flow.begin(basis);
     for (std::size_t j = 0; j < itinerary.size(); ++j) {
-      flow.advance(itinerary[j] != 0);
-      flow.end_block();
+      flow.advance(itinerary[j] != 0, 1);
       if ((j + 1) % between != 0 && j + 1 != itinerary.size()) continue;
       if (j % 4096 == 0) maps.look();
       basis = flow.columns();

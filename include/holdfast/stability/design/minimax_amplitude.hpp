@@ -90,10 +90,9 @@ class AmplitudeBand {
   /// @param band   band within its range (`validate`), which is not checked here, or one frequency
   AmplitudeBand(Model model, const FrequencyBand& band) : model_(std::move(model)), band_(band) {
     const int uniform = band.lower < band.upper ? 400 : 0;
-    std::vector<double> frequencies;
-    for (int k = 0; k < uniform; ++k)
-      frequencies.push_back(band.lower + (band.upper - band.lower) * k / uniform);
-    frequencies.push_back(band.upper);
+    std::vector<double> frequencies(static_cast<std::size_t>(uniform) + 1, band.upper);
+    for (std::size_t k = 0; k + 1 < frequencies.size(); ++k)
+      frequencies[k] = band.lower + (band.upper - band.lower) * static_cast<double>(k) / uniform;
     append_about(model_.uncontrolled_zeros(), frequencies);
     std::sort(frequencies.begin(), frequencies.end());
     for (const double frequency : frequencies)

@@ -130,23 +130,9 @@ class ModulusLevels {
   /// The stable D with |p| > modulus at all angles.
   std::vector<Interval<Scalar>> beyond(const Scalar& modulus) const {
     std::vector<Nearer> nearer = nearer_than(modulus);
-    for (bool is_sharp = false; !is_sharp;) {
-      is_sharp = true;
-      const auto sharpen = [&](Nearer* of, bool upper) {
-        bool* const done = !of ? nullptr : upper ? &of->upper_is_sharp : &of->lower_is_sharp;
-        if (!done || *done) return;
-        const auto out = [&](const Scalar& angle) {
-          const auto there = at(angle, response_.at_angle(angle)).nearer_than(modulus);
-          const Scalar nowhere = -std::numeric_limits<Scalar>::infinity();
-          return !there ? nowhere : upper ? there->upper : -there->lower;
-        };
-        const Scalar end = out(best_about(of->place, out));
-        if (upper) of->gains.upper = std::max(of->gains.upper, end);
-        if (!upper) of->gains.lower = std::min(of->gains.lower, -end);
-        *done = true;
-        is_sharp = false;
-      };
+    for (;;) {
       std::vector<Interval<Scalar>> kept;
+      std::vector<std::pair<Nearer*, bool>> ends;  // of what is kept; whether the upper one of it
       std::sort(nearer.begin(), nearer.end(), [](const auto& one, const auto& other) {
         return one.gains.lower < other.gains.lower;
       });
@@ -156,8 +142,8 @@ class ModulusLevels {
         const auto keep_to = [&](const Scalar& end, Nearer* after) {
           if (!(from < end)) return;
           kept.push_back({from, end});
-          sharpen(before, true);
-          sharpen(after, false);
+          if (before) ends.emplace_back(before, true);
+          if (after) ends.emplace_back(after, false);
         };
         for (Nearer& gap : nearer) {
           if (gap.gains.lower >= interval.upper) break;
@@ -166,9 +152,11 @@ class ModulusLevels {
         }
         keep_to(interval.upper, nullptr);
       }
+      bool is_sharp = true;
+      for (const auto& [of, upper] : ends)
+        if (sharpen(*of, upper, modulus)) is_sharp = false;
       if (is_sharp) return kept;
     }
-    return {};
   }
 
   /// A modulus margin and the D with it.
@@ -229,6 +217,22 @@ class ModulusLevels {
         places_[place == 0 ? 0 : place - 1].angle,
         places_[std::min(place + 1, places_.size() - 1)].angle, 30,
         [&](const Scalar& left, const Scalar& right) { return value(left) > value(right); });
+  }
+
+  /// Moves an end out to the farthest that it has beside its place. @return false where it was
+  /// there
+  bool sharpen(Nearer& of, bool upper, const Scalar& modulus) const {
+    bool& done = upper ? of.upper_is_sharp : of.lower_is_sharp;
+    if (done) return false;
+    const auto out = [&](const Scalar& angle) {
+      const auto there = at(angle, response_.at_angle(angle)).nearer_than(modulus);
+      const Scalar nowhere = -std::numeric_limits<Scalar>::infinity();
+      return !there ? nowhere : upper ? there->upper : -there->lower;
+    };
+    const Scalar end = out(best_about(of.place, out));
+    if (upper) of.gains.upper = std::max(of.gains.upper, end);
+    if (!upper) of.gains.lower = std::min(of.gains.lower, -end);
+    return done = true;
   }
 
   std::vector<Nearer> nearer_than(const Scalar& modulus) const {
