@@ -274,8 +274,7 @@ void Job::answer_family() const {
   write_worst_of_family(whole, common_->draws, [&](const FamilyMember& member) {
     JobHost host;
     host.source = std::make_shared<CaseSource>(whole.case_source);
-    for (const auto& [key, value] : member.values)
-      host.source->overrides.push_back(key + "=" + format_number(value));
+    for (const std::string& setting : member.overrides()) host.source->overrides.push_back(setting);
     try {
       const HostScope here(host);
       do_job(arguments);

@@ -67,8 +67,6 @@ class LinearLoop {
   /// The D of least largest amplitude over a band.
   MinimaxAmplitude quietest_over(const AmplitudeOptions& options, double p,
                                  const FrequencyBand& band) const;
-  /// The D that leave a modulus margin and keep a radius at P, as `quietest_pair` has them.
-  std::vector<Interval<double>> gains_of_modulus(const AmplitudeOptions& options, double p) const;
   /// The gains of least largest amplitude over several loops and a band, or one frequency, of those
   /// that each of them admits as `quietest_pair` does.
   /// @param options  of each loop
@@ -76,8 +74,6 @@ class LinearLoop {
   static MinimaxGains quietest_for_all(const std::vector<LinearLoop>& loops,
                                        const std::vector<AmplitudeOptions>& options,
                                        const FrequencyBand& band, std::optional<double> p);
-  /// The range in which P is looked for first, about that tuned to f (Hz).
-  Interval<double> range_about_tuned(double frequency) const;
   /// The lowest natural frequency of the conductor (Hz).
   double first_frequency() const;
   /// The D of least spectral radius at P.
@@ -99,6 +95,10 @@ class LinearLoop {
 
   /// Throws NoAnswer where the loop has no sum over its poles.
   void require_poles() const;
+  /// The D that leave a modulus margin and keep a radius at P, as `quietest_pair` has them.
+  std::vector<Interval<double>> gains_of_modulus(const AmplitudeOptions& options, double p) const;
+  /// The range in which P is looked for first, about that tuned to f (Hz).
+  Interval<double> range_about_tuned(double frequency) const;
 
   const Case& case_;
   std::optional<SampledLoop<double>> closed_;

@@ -235,10 +235,15 @@ void write_common_intervals(const JobContext& context, const std::vector<FamilyM
 
 }  // namespace
 
+std::vector<std::string> FamilyMember::overrides() const {
+  std::vector<std::string> all;
+  for (const auto& [key, value] : values) all.push_back(key + "=" + format_number(value));
+  return all;
+}
+
 std::string FamilyMember::text() const {
   std::string text;
-  for (const auto& [key, value] : values)
-    text += (text.empty() ? "" : ";") + key + "=" + format_number(value);
+  for (const std::string& setting : overrides()) text += (text.empty() ? "" : ";") + setting;
   return text;
 }
 

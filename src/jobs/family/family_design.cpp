@@ -24,10 +24,6 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-std::string setting(const std::string& key, double value) {
-  return key + "=" + format_number(value);
-}
-
 /// The members in the order of the schedule, with their loops.
 class DesignedFamily {
  public:
@@ -45,9 +41,7 @@ class DesignedFamily {
                      [this](const auto& one, const auto& other) { return at(one) < at(other); });
     cases_.reserve(members_.size());  // loops refer to them
     for (const FamilyMember& member : members_) {
-      std::vector<std::string> overrides;
-      for (const auto& [key, value] : member.values) overrides.push_back(setting(key, value));
-      cases_.push_back(context_with(overrides).case_data);
+      cases_.push_back(context_with(member.overrides()).case_data);
       loops_.emplace_back(cases_.back());
       options_.push_back(
           amplitude_options_of(cases_.back(), question.largest_radius, question.margin));
@@ -93,7 +87,7 @@ class DesignedFamily {
     const auto& [first, last, found] = piece;
     const auto& [p, quietest] = found;
     const PdGains<double> gains{p, quietest.differential_gain};
-    GainMargins least = gain_margins(loops_[first], gains);
+    GainMargins least{0.0, unbounded, unbounded, unbounded, false};
     double lowest = unbounded, highest = 0.0;
     for (std::size_t k = first; k <= last; ++k) {
       const LinearLoop& loop = loops_[k];
@@ -113,9 +107,9 @@ class DesignedFamily {
     }
     std::string proved = "compared";
     if (question_.prove) {
-      std::vector<std::string> overrides = {
-          setting("control.proportional_gain", p),
-          setting("control.differential_gain", gains.differential)};
+      const FamilyMember with_gains{
+          {{"control.proportional_gain", p}, {"control.differential_gain", gains.differential}}};
+      std::vector<std::string> overrides = with_gains.overrides();
       if (!whole_.key.empty())
         overrides.push_back("uncertain." + whole_.key + "=[" + format_number(begin) + ", " +
                             format_number(end) + "]");
@@ -155,8 +149,7 @@ class DesignedFamily {
                              : alone
                                  ? members_[first].text()
                                  : members_[first].text() + " and " + members_[first + 1].text();
-    std::string remedy;
-    if (p_) remedy = "; --both-gains looks for another P";
+    std::string remedy = p_ ? "; --both-gains looks for another P" : "";
     if (!alone)
       remedy += whole_.key.empty() ? "; --schedule KEY divides the range of a key"
                                    : "; more --draws make neighbours more alike";

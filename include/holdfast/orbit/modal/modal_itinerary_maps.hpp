@@ -179,7 +179,7 @@ class ModalItineraryMaps {
 /// The maps of stretches of an itinerary, in the units of `maps`. A stretch ends within sixteen
 /// samples after its product grew a thousandfold.
 /// @return empty for more than 64 stretches: such an orbit cannot be told from rounding
-/// Work: 32 m² multiply-adds a sample, m being the number of natural motions.
+/// Work: 2 n² multiply-adds a sample, n being the number of coordinates of a deviation.
 inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& maps,
                                                    const Itinerary& itinerary) {
   constexpr std::size_t between_looks = 16, most = 64;
