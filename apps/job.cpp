@@ -1,6 +1,7 @@
 #include "job.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 
 #include "case/device/impedance_table.hpp"
@@ -99,6 +100,13 @@ void examine(JobContext& context, bool needs_plant, bool needs_gains) {
     doubt(context,
           doubts_about(context.case_data, in_question(context.case_data, quantities_of_plant())));
   if (needs_gains) doubt(context, {borrowed_gains_text(context.case_data)});
+}
+
+/// The letters of a warning, which are those of another member's too.
+std::string letters_of(std::string text) {
+  const auto is_other = [](unsigned char c) { return std::isalpha(c) == 0; };
+  text.erase(std::remove_if(text.begin(), text.end(), is_other), text.end());
+  return text;
 }
 
 }  // namespace
@@ -240,7 +248,8 @@ void Job::does(const std::function<void()>& work) const {
   options_->final_callback([job = *this, work] {
     const std::optional<std::string>& output = job.common_->output;
     const bool drawn = output && is_picture_name(*output) && has_picture(job.options_->get_name());
-    const bool by_members = job.common_->family && !job.has("--prove") &&
+    const bool by_members = job.common_->family &&
+                            (!job.has("--prove") || job.is_told("proves_comparison", false)) &&
                             !job_texts()["worst"][job.options_->get_name()].as_array()->empty();
     drawn ? job.draw() : by_members ? job.answer_family() : work();
   });
@@ -265,13 +274,14 @@ void Job::answer_family() const {
   std::vector<std::string> arguments = {whole.job};
   for (const CLI::Option* option : options_->get_options()) {
     const std::string name = option->get_name();
-    const bool of_all = name == "--family" || name == "--draws" || name == "--help" ||
-                        name == "--case" || name == "--set" || name == "--output";
+    const bool of_all = name == "--family" || name == "--draws" || name == "--prove" ||
+                        name == "--help" || name == "--case" || name == "--set" ||
+                        name == "--output";
     if (of_all) continue;
     for (const std::string& text : option->results()) arguments.push_back(name + "=" + text);
   }
   std::set<std::string> said;
-  write_worst_of_family(whole, common_->draws, [&](const FamilyMember& member) {
+  write_worst_of_family(whole, common_->draws, has("--prove"), [&](const FamilyMember& member) {
     JobHost host;
     host.source = std::make_shared<CaseSource>(whole.case_source);
     for (const std::string& setting : member.overrides()) host.source->overrides.push_back(setting);
@@ -284,7 +294,7 @@ void Job::answer_family() const {
       throw WrongInput(member.text() + ": " + wrong.what());
     }
     for (const std::string& warning : host.warnings)
-      if (said.insert(warning).second) report_warning(warning, whole.quiet);
+      if (said.insert(letters_of(warning)).second) report_warning(warning, whole.quiet);
     return std::move(host.tables.front());
   });
 }

@@ -21,7 +21,7 @@ void print(const std::string& text) {
 void add_texts(CLI::App& program) {
   CLI::App* completion = add_subcommand(program, "completion");
   const auto shell = std::make_shared<std::string>("bash");
-  completion->add_option("SHELL", *shell, "Which shell")
+  completion->add_option("SHELL", *shell, "Shell that will read the script")
       ->check(CLI::IsMember({"bash", "zsh"}))
       ->required();
   completion->final_callback([&program, shell] {

@@ -1,5 +1,4 @@
 #include <limits>
-#include <utility>
 
 #include "case/axes/axis.hpp"
 #include "case/case_keys.hpp"
@@ -8,7 +7,6 @@
 #include "case/model/modal/modes_warning.hpp"
 #include "case/model/moving_loop.hpp"
 #include "holdfast/math/stats/share_error.hpp"
-#include "holdfast/phase_space/attractor_continuation.hpp"
 #include "holdfast/phase_space/basins.hpp"
 #include "holdfast/phase_space/event_basins.hpp"
 #include "holdfast/phase_space/modal_basins.hpp"
@@ -142,13 +140,13 @@ void write_fractions(const JobContext& context, const BasinsOf<Orbit>& map) {
 void require_attractors(const std::optional<Rational>& ratio, std::int64_t largest_period) {
   if (!ratio) {
     throw NoAnswer(
-        "sampling and excitation never coincide, so no motion is periodic and attractors cannot be "
-        "told apart by their orbits");
+        "the sampling period and the excitation period have no common multiple: no motion is "
+        "periodic, and attractors cannot be distinguished by their orbits");
   }
   if (ratio->denominator > largest_period) {
-    throw NoAnswer("sampling and excitation coincide only every " +
-                   std::to_string(ratio->denominator) +
-                   " samples; give --max-period at least as many");
+    throw NoAnswer("the shortest period possible is " + std::to_string(ratio->denominator) +
+                   " samples, a common multiple of the sampling and excitation periods: give a "
+                   "longer --max-period");
   }
 }
 
@@ -182,7 +180,6 @@ auto basins_of(const BuiltPlant& moving, const JobContext& context, const States
 /// rows, 0 where the motion diverges, −1 where no orbit is found; and its period.
 struct BasinsQuestion {
   std::vector<std::string> axes;          ///< KEY=MIN:MAX:COUNT, two of initial.*
-  std::optional<std::string> along;       ///< KEY=MIN:MAX:COUNT: shares of the states at each value
   std::vector<std::string> map;           ///< KEY=MIN:MAX:COUNT, two: cells in place of states
   std::int64_t largest_period = 100'000;  ///< samples
   bool fractions = false;  ///< a row for each attractor instead of one for each state
@@ -193,7 +190,6 @@ struct BasinsQuestion {
     job.add("--axis", axes);
     job.add("--max-period", largest_period);
     job.add("--fractions", fractions);
-    job.add("--along", along);
     job.add("--map", map);
     job.add("--motions", motions);
     job.add("--switching", switching);
@@ -208,7 +204,6 @@ struct BasinsQuestion {
     }
     const StateGrid grid = grid_of(axes);
     const States states = states_of(context, grid);
-    if (along) return follow(context, states);
     report_warning(dense_work_warning(the_case, switching), context.quiet);
     std::visit(
         [&](const auto& moving) {
@@ -226,66 +221,7 @@ struct BasinsQuestion {
   }
 
   OrbitLimits search_limits() const { return {largest_period, 0, throw_if_interrupted}; }
-
-  void follow(const JobContext& context, const std::vector<Vector<double, 4>>& states) const;
 };
-
-/// Attractors are still one where they lie nearer than this share of their extent.
-constexpr double largest_orbit_distance = 0.1;
-
-template <class Orbit>
-void write_followed(Table& table, double value, const FollowedBasins<Orbit>& followed,
-                    std::size_t states) {
-  for (const auto& attractor : followed.attractors) {
-    const Orbit& orbit = attractor.orbit;
-    table.row(value, attractor.number + 1, orbit.period_samples(), orbit.period(),
-              orbit.forcing_periods(), orbit.amplitude(), orbit.largest_multiplier(),
-              attractor.states, attractor.fraction, attractor.standard_error);
-  }
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const auto& [number, count] :
-       {std::pair{0, followed.diverging}, std::pair{-1, followed.unknown}}) {
-    if (count == 0) continue;
-    const double fraction = static_cast<double>(count) / static_cast<double>(states);
-    table.row(value, number, 0, none, 0, none, none, count, fraction, share_error(count, states));
-  }
-}
-
-/// A row for each attractor at each value of a key.
-void BasinsQuestion::follow(const JobContext& context,
-                            const std::vector<Vector<double, 4>>& states) const {
-  const KeyAxis axis = parse_key_axis("--along", *along);
-  case_value(context.case_data, axis.key);  // throws where there is no such number
-  for (const double end : {axis.axis.min, axis.axis.max})
-    case_with(context.case_data, axis.key, end);
-  const double all = static_cast<double>(states.size()) * static_cast<double>(axis.axis.count);
-  if (all > most_states)
-    throw WrongInput("--along " + *along + ": " + format_number(all) + " motions are more than " +
-                     format_number(most_states) + ": give fewer");
-  Table table(context, columns_of("followed basins", {{"key", axis.key}}));
-  const auto each_value = [&](auto continuation, const auto& find) {
-    for (std::int64_t k = 0; k < axis.axis.count; ++k) {
-      const double value = axis.axis.at(k);
-      const Case there = case_with(context.case_data, axis.key, value);
-      write_followed(table, value,
-                     continuation.next([&](const auto& starts) { return find(there, starts); }),
-                     states.size());
-    }
-  };
-  if (is_sampled(motion_kind_of(context.case_data, switching))) {
-    each_value(AttractorContinuation<PeriodicOrbit>(states, largest_orbit_distance),
-               [&](const Case& there, const auto& starts) {
-                 return basins_of(sampled_masses_of(there), context, starts, search_limits());
-               });
-  } else {
-    each_value(AttractorContinuation<EventOrbit>(states, largest_orbit_distance),
-               [&](const Case& there, const auto& starts) {
-                 return basins_of(std::get<BuiltMasses>(built_loop_of(there, {switching})), context,
-                                  starts, search_limits());
-               });
-  }
-  table.commit();
-}
 
 }  // namespace
 

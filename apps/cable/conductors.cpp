@@ -13,8 +13,8 @@ struct ConductorsQuestion {
     const auto found = conductors_with(text);
     if (found.empty())
       throw NoAnswer("--find " + shortened(text, 60) +
-                     ": no conductor of the library has that in its name, kind or source; leave "
-                     "--find out to list all");
+                     ": no conductor of the library has this text in its name, kind or source; "
+                     "leave --find out to list all");
     Table table(context, columns_of("conductors"));
     for (const LibraryConductor* one : found)
       table.row(one->name, one->kind, one->mass_per_length, one->diameter, one->area,

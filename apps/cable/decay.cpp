@@ -30,12 +30,12 @@ struct CableOptions {
     constexpr double most_rows = 1e7;
     const double time = duration.value_or(usual_duration);
     if (interval > time)
-      throw WrongInput("--interval = " + format_number(interval) + ": admissible is at most " +
+      throw WrongInput("--interval = " + format_number(interval) + ": must be at most " +
                        format_number(time) + " s, the --duration");
     if (time > most_rows * interval)
-      throw WrongInput("--interval = " + format_number(interval) + ": admissible is at least " +
+      throw WrongInput("--interval = " + format_number(interval) + ": must be at least " +
                        format_number(time / most_rows) +
-                       " s: ten million rows at most in --duration " + format_number(time));
+                       " s, for at most ten million rows in --duration " + format_number(time));
     return {force, time, interval, elements, reading};
   }
 };

@@ -74,7 +74,7 @@ fit::DecayFitOptions question_of(const FitQuestion& options) {
   const std::size_t most = target == "peak" ? 1 : target == "measures" ? 2 : 5;
   if (question.free.size() > most)
     throw WrongInput("--parameters: --target " + target + " determines at most " +
-                     std::to_string(most) + " of them");
+                     std::to_string(most) + " of the parameters");
   question.robust = !options.plain;
   question.fit_initial_displacement = options.data.has_value();
   return question;
@@ -115,8 +115,8 @@ TwoMass<double> start_of(const Case& the_case) {
 std::string course_warning(const fit::DecayMinimum& best, const DecayRecord& record) {
   const double share = best.residual / std::abs(record.displacements.front());
   if (share < 0.3) return "";
-  return "the two-mass plant misses the record by " + format_number(std::round(share * 100.0)) +
-         " % of the first displacement: released there at rest, the plant moves otherwise";
+  return "released at rest at the record's start, the two-mass plant deviates from it by " +
+         format_number(std::round(share * 100.0)) + " % of the first displacement";
 }
 
 /// A record of a motion beyond the absorber's reach is likely one in millimetres.
@@ -127,8 +127,8 @@ std::string unit_warning(const std::string& file, const DecayRecord& record, con
   const double reach = reach_of_absorber(the_case);
   if (largest <= reach) return "";
   return file + ": displacement_m reaches " + format_rounded(largest) +
-         " m, but the absorber's place can move only " + format_rounded(reach) +
-         " m: is it in mm, " + format_rounded(1e-3 * largest) + " m?";
+         " m, but the absorber's place can move by only " + format_rounded(reach) +
+         " m: is displacement_m in mm, " + format_rounded(1e-3 * largest) + " m?";
 }
 
 /// Rows in which half a period of the conductor is not seen are likely in milliseconds.
@@ -137,7 +137,7 @@ std::string time_warning(const std::string& file, const DecayRecord& record,
   const double half = pi<double> * std::sqrt(plant.conductor_mass / plant.conductor_stiffness);
   const double usual = usual_step(record.times);
   if (!(usual > half)) return "";
-  return file + ": its rows are " + format_rounded(usual) + " s apart; the conductor's period is " +
+  return file + ": rows are " + format_rounded(usual) + " s apart; the conductor's period is " +
          format_rounded(2.0 * half) + " s: is time_s in ms?";
 }
 
@@ -147,9 +147,9 @@ std::string gap_warning(const std::string& file, const DecayRecord& record,
   const std::string gap = gap_text(record.times);
   if (gap.empty()) return "";
   if (fit::is_measured(question.target))
-    throw WrongInput(file + ": " + gap +
-                     ", in which a peak may be missed; give --target history, which fits only the "
-                     "rows of the file");
+    throw WrongInput(
+        file + ": " + gap +
+        ": it may hide a peak; give --target history to fit only the rows of the file");
   return file + ": " + gap + "; only the rows of the file are fitted";
 }
 

@@ -49,7 +49,7 @@ struct ModesQuestion {
     if (elements % 2 != 0 || elements < 4 * count)
       throw WrongInput("--elements = " + std::to_string(elements) +
                        ": with --count = " + std::to_string(count) +
-                       ", admissible is an even number from " + std::to_string(4 * count) + " on");
+                       " it must be an even number, at least " + std::to_string(4 * count));
     report_warning(borrowed_cable_warning(context.case_data), context.quiet);
     const Conductor<double> conductor = conductor_of(context.case_data);
     const ElementsModes found = elements_modes(conductor, elements, count);

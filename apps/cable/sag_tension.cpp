@@ -58,8 +58,8 @@ struct SagTensionQuestion {
   }
 
   static constexpr const char* no_creep_note =
-      "no stress-strain curves are known for this conductor: its wires are taken to stretch "
-      "linearly and not to creep, so that initial and final tensions are one";
+      "no stress-strain curves are known for this conductor: its wires are assumed to stretch "
+      "linearly and not to creep, so that initial and final tensions are equal";
 };
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace {
 double elements_displacement(const CableElements& cable, double force) {
   const auto held = cable.held_by(force);
   if (held.outcome != EquilibriumOutcome::converged)
-    throw NoAnswer("under " + format_number(force) +
-                   " N no static equilibrium of the cable was found: take a smaller force");
+    throw NoAnswer("no static equilibrium of the cable was found under " + format_number(force) +
+                   " N: give a smaller force");
   return cable.displacement(held.state);
 }
 

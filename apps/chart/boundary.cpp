@@ -229,6 +229,7 @@ struct BoundaryQuestion {
   std::string p = "-1000:200";
   std::string d = "-40:20";
   bool continuous = false, stable_interval = false, regions = false, features = false;
+  bool prove = false;
 
   void add_to(const Job& job) {
     job.add("--p", p);
@@ -237,12 +238,15 @@ struct BoundaryQuestion {
     job.add("--stable-interval", stable_interval);
     job.add("--regions", regions);
     job.add("--features", features);
+    job.add("--prove", prove);
   }
 
   void run(const Job& job) {
     const JobContext context = job.context();
     p = shown_gains(context, "--p", p);
     d = shown_gains(context, "--d", d);
+    if (prove)
+      throw WrongInput("--prove works only with --stable-interval and --family: give both");
     if (stable_interval) {
       write_stable_intervals(context, fixed_gains(job, context.case_data), continuous);
     } else if (regions) {

@@ -23,11 +23,11 @@ constexpr Named<MinimumAmplitudeOutcome> amplitude_names[] = {
     {MinimumAmplitudeOutcome::none, "none"},
     {MinimumAmplitudeOutcome::aliased, "aliased"}};
 
-constexpr const char* ratios_shown = "ratios refer to the true force";
+constexpr const char* ratios_shown = "ratios are relative to the force not held";
 
 std::string no_gain_text(double proportional_gain, double largest_radius) {
-  return "at P = " + format_rounded(proportional_gain) +
-         " N/m no D keeps the spectral radius below " + format_rounded(largest_radius);
+  return "no D keeps the spectral radius below " + format_rounded(largest_radius) +
+         " at P = " + format_rounded(proportional_gain) + " N/m";
 }
 
 /// Why a single row has no D of minimum amplitude.
@@ -36,12 +36,12 @@ void warn_of_no_gain(MinimumAmplitudeOutcome outcome, double proportional_gain,
   if (outcome == MinimumAmplitudeOutcome::none)
     report_warning(std::isfinite(proportional_gain)
                        ? no_gain_text(proportional_gain, largest_radius)
-                       : "none of the P and D searched have the required margin",
+                       : "no P and D within the search have the required margin",
                    quiet);
   if (outcome == MinimumAmplitudeOutcome::aliased)
     report_warning(
-        "the excitation frequency is not below half the sampling rate: its samples do "
-        "not show the vibration",
+        "the excitation frequency is not below half the sampling rate: the samples do not show the "
+        "vibration; give a shorter control.sampling_period",
         quiet);
 }
 
@@ -157,9 +157,9 @@ struct DesignQuestion {
     const JobContext context = job.context();
     if (job.has("--family")) return serve_family(job, context);
     for (const char* of_family : {"--largest-ratio", "--schedule", "--prove", "--draws"})
-      if (job.has(of_family)) throw WrongInput(std::string(of_family) + ": give --family too");
+      if (job.has(of_family)) throw WrongInput(std::string(of_family) + ": add --family too");
     if (both_gains && !band.empty())
-      throw WrongInput("--both-gains --band: of a family alone; give --family");
+      throw WrongInput("--both-gains with --band works only with --family: add it");
     const AmplitudeOptions options =
         amplitude_options_of(context.case_data, largest_radius, margin);
     if (!band.empty()) return write_band_gain(context, parse_range("--band", band), options);
@@ -170,7 +170,7 @@ struct DesignQuestion {
 
   /// The gains for the whole family over the band, or at the frequency of the case.
   void serve_family(const Job& job, const JobContext& context) const {
-    if (!frequency.empty()) throw WrongInput("--frequency: of a family give --band");
+    if (!frequency.empty()) throw WrongInput("--family works with --band, not with --frequency");
     Range range;
     if (band.empty())
       range.min = range.max = excitation_of(context.case_data).frequency;

@@ -34,8 +34,8 @@ bool is_whole(const ProvedMarginEnd& proved, double value) {
 ProofWords proof_words(const ProvedMarginEnd& proved, double value) {
   if (is_whole(proved, value)) return {"proved", proved.stable_to};
   const std::string why = proved.stop == ProofStop::work
-                              ? "the steps of the proof are used up"
-                              : "a root is too near the unit circle to be judged";
+                              ? "the proof reached its limit of steps"
+                              : "a root is too near the unit circle for a proof";
   if (proved.stable_to == value) return {"not proved: " + why, std::nan("")};
   return {"in part: " + why, proved.stable_to};
 }
@@ -116,7 +116,7 @@ void MarginsQuestion::run(const JobContext& context) const {
   table.write("processing_delay", "s", sampling.processing_delay, margins.processing_delay,
               &ProvedMargins::processing_delay);
   if (!table.is_proved())
-    report_warning("not every end is proved: the column proof says which, and why", context.quiet);
+    report_warning("some ends are not proved: the column proof gives the reasons", context.quiet);
   table.commit();
 }
 

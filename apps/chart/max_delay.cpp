@@ -33,8 +33,8 @@ struct MaxDelayQuestion {
     answer(context, loop);
     if (loop.walks() && !prove)
       report_warning(
-          "the period was searched in steps of 3 % (short ones up to 30 %) with the plant of the "
-          "case: an unstable interval narrower than a step is missed",
+          "the period was searched in steps of 3 % (short periods: up to 30 %) with the case's "
+          "plant: an unstable interval narrower than a step is missed",
           context.quiet);
   }
 
@@ -61,7 +61,7 @@ struct MaxDelayQuestion {
         report_warning("at " + format_rounded(question.frequency) +
                            " Hz the search found no limit up to a period of " +
                            format_rounded(answer.sampling_period) +
-                           " s; longer ones are not judged",
+                           " s; longer periods were not examined",
                        context.quiet);
       note(loop, question, answer, context);
       const bool has_proof = proved.upper >= proved.lower;
@@ -76,8 +76,8 @@ struct MaxDelayQuestion {
     table.commit();
     if (on_boundary_ > 0)
       report_warning(std::to_string(on_boundary_) + " of " + std::to_string(axis.count) +
-                         " D lie on the boundary of stability, and their periods are limits: take "
-                         "shorter periods and find D with a margin by holdfast design",
+                         " D lie on the boundary of stability, so their periods are limits: take "
+                         "shorter periods, and let holdfast design find D with a margin",
                      context.quiet);
     report_warning(held_force_, context.quiet);
   }
@@ -112,7 +112,7 @@ struct MaxDelayQuestion {
     if (loop.excess(question.sampling(answer.sampling_period), gains) > -1e-9) ++on_boundary_;
     if (question.criterion == DelayCriterion::attenuates && held_force_.empty())
       held_force_ = held_force_warning(context.case_data, answer.sampling_period,
-                                       question.frequency, "attenuation refers to the true force");
+                                       question.frequency, "attenuates against the force not held");
   }
 
   std::vector<EnclosedPole> poles_;  // of what is proved

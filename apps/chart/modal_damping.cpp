@@ -1,4 +1,3 @@
-#include "case/axes/axis.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "job.hpp"
 #include "jobs/span/mode_dampings.hpp"
@@ -9,20 +8,14 @@ namespace {
 struct ModalDampingQuestion {
   std::int64_t count = 20;
   bool no_control = false;
-  std::optional<std::string> position, damping;
-  std::optional<std::int64_t> device;
 
   void add_to(const Job& job) {
     job.add("--count", count);
     job.add("--no-control", no_control);
-    job.add("--device", device);
-    job.add("--position", position);
-    job.add("--damping", damping);
   }
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
-    if (device || position || damping) return write_chart(context);
     const bool has_devices = !the_case.devices.empty() || !has_absorber(the_case);
     if (has_devices) report_warning(absent_absorber_note(the_case), context.quiet);
     Table table(context, columns_of("modal-damping"));
@@ -43,31 +36,6 @@ struct ModalDampingQuestion {
   }
 
  private:
-  void write_chart(const JobContext& context) const {
-    if (!position || !damping)
-      throw WrongInput(
-          "the place-strength chart of a device needs --position and --damping, each "
-          "MIN:MAX:COUNT");
-    const Axis positions = parse_axis("--position", *position);
-    const Axis dampings = parse_axis("--damping", *damping);
-    require_text_meant(context, positions.count * dampings.count, "cells",
-                       "give fewer by --position or --damping");
-    Table table(context, columns_of("place-strength"));
-    const auto chart = place_strength_chart(context.case_data, static_cast<int>(device.value_or(1)),
-                                            positions, dampings, static_cast<int>(count));
-    const PlaceStrength* best = &chart.front();
-    for (const PlaceStrength& cell : chart) {
-      table.row(cell.position, cell.damping, cell.ratio, cell.mode);
-      if (cell.ratio > best->ratio) best = &cell;
-    }
-    report_warning("the least damping of modes 1 to " + std::to_string(count) + " is largest at " +
-                       format_rounded(best->position) + " m with " + format_rounded(best->damping) +
-                       " N s/m: " + format_rounded(best->ratio) + ", of mode " +
-                       std::to_string(best->mode),
-                   context.quiet);
-    table.commit();
-  }
-
   void warn(const std::vector<ModeRow>& modes, bool quiet) const {
     std::int64_t number = 0, lost = 0, not_light = 0;
     for (const ModeRow& mode : modes) {
@@ -86,12 +54,12 @@ struct ModalDampingQuestion {
     if (not_light > 0)
       report_warning("damping_ratio_first_order holds only for light devices: for " +
                          std::to_string(not_light) +
-                         " of the modes shown the added damping is wrong by half or more",
+                         " of the modes shown it errs by 50 % or more of the added damping",
                      quiet);
     if (lost > 0)
       report_warning(std::to_string(lost) +
-                         " mode(s) have damping nan: they could not be followed from the bare span "
-                         "while devices and gains were raised from zero",
+                         " mode(s) have damping nan: the search from the bare span to the full "
+                         "devices and gains lost them",
                      quiet);
   }
 };

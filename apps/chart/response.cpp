@@ -23,7 +23,7 @@ struct ResponseQuestion {
     const auto response = LinearLoop(context.case_data).response(excitation.frequency);
     report_warning(
         held_force_warning(context.case_data,
-                           "amplitudes are for the held force, ratios refer to the true force"),
+                           "amplitudes are with the held force; ratios refer to a force not held"),
         context.quiet);
     const GainGrid grid{parse_axis("--p", shown_gains(context, "--p", p)),
                         parse_axis("--d", shown_gains(context, "--d", d))};

@@ -96,20 +96,12 @@ std::vector<std::string> keys_of(const Case& the_case) {
   return keys;
 }
 
-/// The case with a key moved, P being held or following Eq. 6.
-Case moved(const Case& the_case, const std::string& key, double value, bool follows) {
+/// The case with a key moved, P being held, or following Eq. 6 where it is tuned.
+Case moved(const Case& the_case, const std::string& key, double value) {
   Case other = the_case;
-  const double held = gains_of(the_case).proportional;
-  const auto tuned = [](Case of) {
-    of.control.proportional_gain_tuned = true;
-    return gains_of(of).proportional;
-  };
   set_case_value(other, key, value);
   settle_sag(other);
   check_case(other);
-  if (key == "control.proportional_gain") return other;
-  other.control.proportional_gain_tuned = false;
-  other.control.proportional_gain = held + (follows ? tuned(other) - tuned(the_case) : 0.0);
   return other;
 }
 
@@ -124,15 +116,15 @@ double unit_of(const Case& the_case, const std::string& key) {
 /// (Richardson): of five digits and more, and NaN where the two disagree by more than a hundredth,
 /// at a corner of the answer. Where a neighbour is not admissible, or of another kind of loop, the
 /// step is to one side.
-AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerValues& here,
-                    bool follows) {
+AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerValues& here) {
   constexpr double step = 1e-4, agreement = 0.01;
-  if (follows && key == "control.proportional_gain") return AnswerValues{};
+  if (the_case.control.proportional_gain_tuned && key == "control.proportional_gain")
+    return AnswerValues{};
   const double value = case_value(the_case, key);
   double by = step * (value != 0.0 ? std::abs(value) : unit_of(the_case, key));
   const auto is_there = [&](double share) {
     try {
-      const Case there = moved(the_case, key, value + share * by, follows);
+      const Case there = moved(the_case, key, value + share * by);
       return has_closed_forms(there) == has_closed_forms(the_case);
     } catch (const WrongInput&) {
       return false;
@@ -144,7 +136,7 @@ AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerVa
   if (!above && !below) return result;
   if (!above) by = -by;
   const auto at = [&](double share) {
-    return answers_of(moved(the_case, key, value + share * by, follows));
+    return answers_of(moved(the_case, key, value + share * by));
   };
   const AnswerValues far = at(1.0), near = at(0.5);
   const AnswerValues far_below = one_sided ? here : at(-1.0),
@@ -163,34 +155,25 @@ AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerVa
 
 /// One row for every answer and parameter, ∂answer/∂parameter and ∂ ln|answer|/∂ ln|parameter|.
 /// Answers that the case does not have (no stable gain, no largest period) have no rows.
-struct SensitivityQuestion {
-  bool tuned = false;
-
-  void add_to(const Job& job) { job.add("--tuned", tuned); }
-
-  void run(const JobContext& context) const {
-    const Case& the_case = context.case_data;
-    const bool follows = tuned || the_case.control.proportional_gain_tuned;
-    Table table(context, columns_of("sensitivity"));
-    const AnswerValues here = answers_of(the_case);
-    const std::vector<std::string> keys = keys_of(the_case);
-    std::vector<AnswerValues> by_key(keys.size());
+void write_sensitivity(const JobContext& context) {
+  const Case& the_case = context.case_data;
+  Table table(context, columns_of("sensitivity"));
+  const AnswerValues here = answers_of(the_case);
+  const std::vector<std::string> keys = keys_of(the_case);
+  std::vector<AnswerValues> by_key(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) by_key[i] = slopes(the_case, keys[i], here);
+  for (std::size_t k = 0; k < here.size(); ++k) {
+    if (!std::isfinite(here[k])) continue;
     for (std::size_t i = 0; i < keys.size(); ++i)
-      by_key[i] = slopes(the_case, keys[i], here, follows);
-    for (std::size_t k = 0; k < here.size(); ++k) {
-      if (!std::isfinite(here[k])) continue;
-      for (std::size_t i = 0; i < keys.size(); ++i)
-        table.row(answered[k].name, here[k], answered[k].unit, keys[i],
-                  find_case_key(keys[i])->unit, by_key[i][k],
-                  by_key[i][k] * case_value(the_case, keys[i]) / here[k]);
-    }
-    table.require_numbers();
-    table.commit();
+      table.row(answered[k].name, here[k], answered[k].unit, keys[i], find_case_key(keys[i])->unit,
+                by_key[i][k], by_key[i][k] * case_value(the_case, keys[i]) / here[k]);
   }
-};
+  table.require_numbers();
+  table.commit();
+}
 
 }  // namespace
 
-void add_sensitivity(CLI::App& program) { add_job<SensitivityQuestion>(program, "sensitivity"); }
+void add_sensitivity(CLI::App& program) { add_job(program, "sensitivity", write_sensitivity); }
 
 }  // namespace holdfast::program

@@ -146,14 +146,14 @@ void StabilityQuestion::prove_whole_family(const Job& job, const JobContext& con
   for (const char* other : {"--p", "--d", "--continuous", "--undecided", "--draws"})
     if (job.has(other))
       throw WrongInput(std::string(other) +
-                       ": --family --prove is of each member, sampled, at its "
-                       "own gains, whose ranges may stand in [uncertain]");
+                       ": leave it out: --family --prove judges the sampled loop of each member at "
+                       "its gains; [uncertain] may give ranges of the gains");
   if (context.case_data.uncertain.empty())
     family_members(context.case_data, 2);  // says what to give
   Table table(context, columns_of("proved family"));
   const FamilyProof proof = family_proof_of(context);
   table.row(name_in(proved_names, proof.verdict), proof.stable_share, proof.undecided_share,
-            static_cast<std::int64_t>(proof.parts), proof.worst_member);
+            static_cast<std::int64_t>(proof.parts), proof.unstable.text());
   table.commit();
 }
 

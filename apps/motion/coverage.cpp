@@ -37,7 +37,7 @@ PhaseWindow window_of(const JobContext& context, const CoverageQuestion& options
   CaseMotion motion(context.case_data, {options.switching});
   run_to_completion(motion, samples, {}, extent);
   if (!(extent.displacement() > 0) || !(extent.velocity() > 0)) {
-    throw NoAnswer("the motion stands still, so it has no window of its own; give --window");
+    throw NoAnswer("the motion stays at rest, so that it determines no window: give --window");
   }
   return {-extent.displacement(), extent.displacement(), -extent.velocity(), extent.velocity()};
 }
@@ -46,7 +46,7 @@ std::vector<double> durations_of(const CoverageQuestion& options) {
   std::vector<double> durations = parse_list("--durations", options.durations);
   std::sort(durations.begin(), durations.end());
   if (durations.front() <= 0)
-    throw WrongInput("--durations " + options.durations + ": every one must be > 0 s");
+    throw WrongInput("--durations " + options.durations + ": every duration must be > 0 s");
   return durations;
 }
 

@@ -23,8 +23,7 @@ struct DeviationQuestion {
 
   void run(const JobContext& context) const {
     if (offset == 0.0)
-      throw WrongInput(
-          "--offset is 0: the neighbour would be the motion itself; the default is 1e-5 m");
+      throw WrongInput("--offset is 0: the two motions would be the same; the default is 1e-5 m");
     require_within_span("--offset", offset, context.case_data);
     Table table(context, columns_of("deviation"));
     const std::int64_t samples = samples_of(context.case_data, duration);
@@ -40,7 +39,8 @@ struct DeviationQuestion {
     });
     require_completed(outcome, first.time());
     if (told_until < 0.0)
-      throw NoAnswer("the neighbour's distance is below rounding errors: take a larger --offset");
+      throw NoAnswer(
+          "the distance of the two motions is below rounding errors: give a larger --offset");
     table.note("above_rounding_until_s", format_number(told_until));
     tell_of_end(context, end_of(first));
     const TrustedDigits trusted =

@@ -47,7 +47,7 @@ struct DiagramQuestion {
       if (is_of_masses(kind) != masses)
         throw WrongInput("--axis " + axis + ": some values give " +
                          modal_words(masses ? there : context.case_data) +
-                         ", others do not: leave out one kind of values");
+                         ", the others two masses: give values of one kind");
     }
     report_warning(dense_work_warning(context.case_data, switching), context.quiet);
     const auto diagram_of = [&](const auto& moving_at) {

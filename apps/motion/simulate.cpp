@@ -70,8 +70,8 @@ struct SimulateQuestion {
     if (no_control || the_case.backlash.width == 0.0) return;
     if (the_case.backlash.law == "none" || the_case.backlash.law == "dead_zone") return;
     table.note("play_at_start",
-               "at neither end: from rest the drive transmits, and its first reversal crosses the "
-               "whole play");
+               "at neither end: the drive transmits a force at the start, and its first reversal "
+               "crosses the whole play");
   }
 
   /// Rows of the nonlinear cable.

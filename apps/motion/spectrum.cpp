@@ -52,10 +52,10 @@ SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& op
   const HarmonicExcitation<double> force = excitation_of(context.case_data);
   const double length = static_cast<double>(kept) * period;
   if (force.amplitude > 0.0 && !not_before(length, 1.0 / force.frequency))
-    throw WrongInput("--duration and --discard leave " + format_rounded(length) +
-                     " s, less than one period of the excitation, " +
-                     format_rounded(1.0 / force.frequency) +
-                     " s: the spectrum has no line at its frequency; give a longer --duration");
+    throw WrongInput(
+        "--duration and --discard leave " + format_rounded(length) +
+        " s, less than one period of the excitation, " + format_rounded(1.0 / force.frequency) +
+        " s: the spectrum has no line at the excitation frequency; give a longer --duration");
   const double from = static_cast<double>(samples - kept) * period;
   const MovingLoop moving = moving_loop_of(context.case_data, {options.switching});
   auto digits = digits_beside(moving, {}, from);
@@ -80,9 +80,9 @@ std::string unsettled_warning(const std::vector<double>& record) {
   const double first = root_mean_square(record.begin(), middle);
   const double second = root_mean_square(middle, record.end());
   if (std::abs(second - first) <= 0.1 * first) return "";
-  return "the motion has not settled where --discard ends: the root mean square of z1 goes from " +
+  return "the motion has not settled after --discard: the root mean square of z1 changes from " +
          format_rounded(first) + " m in the first half of the record to " + format_rounded(second) +
-         " m in the second; take a longer --duration";
+         " m in the second half; give a longer --duration";
 }
 
 void SpectrumQuestion::run(const JobContext& context) const {

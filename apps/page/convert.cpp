@@ -28,15 +28,15 @@ void add_convert(CLI::App& program) {
   options->add_option("IN", question->store, "A store that holdfast has written")
       ->type_name("STORE.zarr")
       ->required();
-  options->add_option("OUT", question->file, "What it becomes: .csv, .nc or .zarr")
+  options->add_option("OUT", question->file, "File to be written: .csv, .nc or .zarr")
       ->type_name("FILE")
       ->required(JobHost::current() == nullptr);
-  options->add_option("--zarr-format", question->context.zarr_format, "Of a .zarr: 2 or 3")
+  options->add_option("--zarr-format", question->context.zarr_format, "Zarr format: 2 or 3")
       ->check(CLI::Range(2, 3))
       ->capture_default_str();
-  options->add_flag("--quiet", question->context.quiet, "No warnings");
+  options->add_flag("--quiet", question->context.quiet, "Show no warnings");
   options->add_flag("--yes", question->context.yes,
-                    "Write a table of more than ten million cells as text");
+                    "Allow a text table of more than ten million cells");
   options->final_callback([question] { question->run(); });
 }
 

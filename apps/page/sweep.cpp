@@ -25,6 +25,7 @@ struct SweepQuestion : SweepOptions {
     // The plan reduces the plant, if it is to be, of the case or of each cell.
     const JobContext context = job.context();
     instructions_given = job.has("--instructions");
+    if (job.has("--family")) members = job.draws();
     dry_run ? write_sweep_size(context, *this) : write_sweep(context, *this);
   }
 };

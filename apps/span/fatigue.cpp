@@ -10,16 +10,21 @@ namespace {
 struct FatigueQuestion {
   std::optional<std::string> frequency;
   bool no_control = false;
-  bool by_speed = false;
+  bool by_speed = false, by_temperature = false;
 
   void add_to(const Job& job) {
     job.add("--frequency", frequency);
     job.add("--no-control", no_control);
     job.add("--by-speed", by_speed);
+    job.add("--by-temperature", by_temperature);
   }
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
+    if (by_temperature && the_case.weather.hours.empty())
+      throw WrongInput(
+          "--by-temperature needs the hours a year of each temperature: give "
+          "weather.temperatures and weather.hours, and [stringing]");
     const Range range = counted(the_case);
     require_measured(the_case, range.min, range.max);
     report_warning(absent_absorber_note(the_case), context.quiet);
@@ -28,7 +33,9 @@ struct FatigueQuestion {
     report_warning(life_line_note(the_case), context.quiet);
     report_warning(life_advice(life, the_case.site.years), context.quiet);
     report_warning(instability_note(the_case, !no_control), context.quiet);
-    by_speed ? write_speeds(context, life) : write_life(context, life);
+    by_speed         ? write_speeds(context, life)
+    : by_temperature ? write_temperatures(context, life)
+                     : write_life(context, life);
   }
 
  private:
@@ -68,6 +75,15 @@ struct FatigueQuestion {
     for (const SpeedDamage& row : life.by_speed)
       table.row(row.speed, row.hours, row.damage_bare, row.damage.lowest, row.damage.highest,
                 row.damage.value);
+    table.commit();
+  }
+
+  static void write_temperatures(const JobContext& context, const FatigueLife& life) {
+    Table table(context, columns_of("fatigue by temperature"));
+    for (const TemperatureDamage& row : life.by_temperature)
+      table.row(row.temperature, row.hours, row.tension,
+                row.tension / context.case_data.conductor.rated_strength, row.damage_bare,
+                row.damage.lowest, row.damage.highest, row.damage.value);
     table.commit();
   }
 };

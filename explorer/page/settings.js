@@ -20,6 +20,8 @@ const settings = [
     range: (own) => [own / 10, own * 6]},
   {key: "excitation.amplitude", label: "Amplitude of the force F", unit: "N", power: 0,
     range: (own) => [0, 4 * sizeOf(own, 1)]},
+  {key: "weather.temperature", label: "Temperature of the conductor", unit: "°C", power: 0,
+    range: () => [-40, 100]},
   {key: "plant.model", label: "What the absorber hangs on", choices: {
     two_masses: "two masses", string: "the taut conductor", cable: "the hanging cable",
     infinite_string: "the conductor without ends"}},
@@ -166,7 +168,8 @@ class Field {
     else if (document.activeElement !== this.input) this.input.value = shown(text, this.setting.power);
     if (this.slider) this.placeSlider();
     const hasModes = ["string", "cable"].includes(this.state.text(modelKey));
-    const given = this.setting.choices || this.state.own.has(this.setting.key); // with wind no force is
+    // With wind no force is given, without [stringing] no temperature.
+    const given = this.setting.choices || this.state.own.has(this.setting.key);
     this.element.hidden = !given || (Boolean(this.setting.ofConductor) && !hasModes);
   }
 

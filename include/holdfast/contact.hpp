@@ -1,6 +1,6 @@
 #pragma once
 
-/// The drive's backlash: laws at samples and between them.
+/// The drive's backlash: laws at samples and in continuous time.
 
 #include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_guard.hpp"

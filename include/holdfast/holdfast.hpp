@@ -1,6 +1,6 @@
 #pragma once
 
-/// The whole library but for its optional adapters.
+/// The whole library except its optional adapters for Ceres, SUNDIALS and SIMD packs.
 
 #include "holdfast/cable.hpp"
 #include "holdfast/chaos.hpp"

@@ -2,7 +2,6 @@
 
 /// Basins, sections, diagrams.
 
-#include "holdfast/phase_space/attractor_continuation.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "holdfast/phase_space/basins.hpp"
 #include "holdfast/phase_space/coverage.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Metrics of many motions.
+/// Metrics of many motions, such as peaks and contact changes, for sweeps over parameters.
 
 #include "holdfast/sweep/event_metric_batch.hpp"
 #include "holdfast/sweep/event_metrics.hpp"

@@ -546,30 +546,9 @@ class Case:
         """
         return self._run("modal-damping", _options.arguments({"count": count, "no_control": no_control}), how)
 
-    def place_strength(
-        self,
-        device: int = 1,
-        *,
-        position: Range = None,
-        damping: Range = None,
-        count: Optional[int] = None,
-        **how: Unpack[How],
-    ) -> Table:
-        """The least damping ratio of the modes with a [[device]] elsewhere and of another strength.
-
-        :param position: m from the left support; (min, max, count)
-        :param damping: N s/m; (min, max, count)
-        """
-        words = _axis("position", position) + _axis("damping", damping)
-        words += _options.arguments({"device": device, "count": count})
-        return self._run("modal-damping", words, how)
-
-    def sensitivity(self, *, tuned: bool = False, **how: Unpack[How]) -> Table:
-        """How stable gains, best gains and the largest sampling period move with each parameter of the plant.
-
-        :param tuned: P follows the absorber by Eq. 6
-        """
-        return self._run("sensitivity", _options.arguments({"tuned": tuned}), how)
+    def sensitivity(self, **how: Unpack[How]) -> Table:
+        """How stable gains, best gains and the largest sampling period move with each parameter of the plant."""
+        return self._run("sensitivity", [], how)
 
     def max_delay(
         self,
@@ -883,27 +862,6 @@ class Case:
         words += _options.axes_texts(starts, 2) if starts else []
         words += _options.arguments({"motions": each, "max_period": max_period, "switching": switching})
         return self._run("basins", words, {**how, "store": store})
-
-    def basins_along(
-        self,
-        key: str,
-        values: Range,
-        axes: Mapping[str, Range],
-        *,
-        max_period: Optional[int] = None,
-        switching: Optional[Switching] = None,
-        **how: Unpack[How],
-    ) -> Table:
-        """The attractors at each value of a key, recognised from value to value, with the shares of the initial
-        states of a grid that come to them and their standard errors.
-
-        :param key: ``"backlash.width"``
-        :param values: (min, max, count) of it
-        :param axes: as of :meth:`basins`
-        """
-        words = _options.axes_texts({key: values}, 1, "--along") + _options.axes_texts(axes, 2)
-        words += _options.arguments({"max_period": max_period, "switching": switching})
-        return self._run("basins", words, how)
 
     def diagram(
         self,

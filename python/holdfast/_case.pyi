@@ -208,19 +208,11 @@ class Case:
         ...
 
     @overload
-    def place_strength(self, device: int=1, *, position: Range=None, damping: Range=None, count: Optional[int]=None, **how: Unpack[How]) -> Table:
+    def sensitivity(self, **how: Unpack[How]) -> Table:
         ...
 
     @overload
-    def place_strength(self, device: int=1, *, output: Path, position: Range=None, damping: Range=None, count: Optional[int]=None, **how: Unpack[How]) -> None:
-        ...
-
-    @overload
-    def sensitivity(self, *, tuned: bool=False, **how: Unpack[How]) -> Table:
-        ...
-
-    @overload
-    def sensitivity(self, *, output: Path, tuned: bool=False, **how: Unpack[How]) -> None:
+    def sensitivity(self, *, output: Path, **how: Unpack[How]) -> None:
         ...
 
     @overload
@@ -333,14 +325,6 @@ class Case:
 
     @overload
     def motions(self, keys: Mapping[str, Range], *, output: Path, store: None=None, starts: Optional[Mapping[str, Range]]=None, each: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[CellsHow]) -> None:
-        ...
-
-    @overload
-    def basins_along(self, key: str, values: Range, axes: Mapping[str, Range], *, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> Table:
-        ...
-
-    @overload
-    def basins_along(self, key: str, values: Range, axes: Mapping[str, Range], *, output: Path, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> None:
         ...
 
     @overload

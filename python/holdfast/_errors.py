@@ -11,7 +11,6 @@ from ._core import NoAnswer
 
 #: Keywords that have other names than their options.
 _KEYWORDS = {
-    "--along": "key",
     "--axis": "axes",
     "--follow": "key",
     "--for": "for_",

@@ -37,7 +37,7 @@ def program():
 
 
 def assert_same(table: holdfast.Table, columns: dict[str, list[str]]) -> None:
-    """To the last bit: the program writes the shortest digits that read back the same."""
+    """To the last bit: the program writes as few digits as restore the same number."""
     assert "exit code" not in columns, columns
     names = [name for name in table if name not in table.axes]
     assert set(names) <= set(columns)

@@ -109,20 +109,6 @@ SAME = [
         ["basins", "--map", "backlash.width=0.001:0.002:2", "--map", "control.sampling_period=0.01:0.011:2"],
         lambda case: case.motions({"backlash.width": (0.001, 0.002, 2), "control.sampling_period": (0.01, 0.011, 2)}),
     ),
-    (
-        [
-            "basins",
-            "--along",
-            "backlash.width=0.001:0.002:2",
-            "--axis",
-            "initial.z1=0.0:0.005:2",
-            "--axis",
-            "initial.z2=0.0:0.005:2",
-        ],
-        lambda case: case.basins_along(
-            "backlash.width", (0.001, 0.002, 2), {"initial.z1": (0.0, 0.005, 2), "initial.z2": (0.0, 0.005, 2)}
-        ),
-    ),
     (["orbit", "--certificate"], lambda case: case.orbit(certificate=True)),
     (
         ["orbit", "--follow", "excitation.amplitude=0.4:0.6"],

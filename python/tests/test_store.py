@@ -326,7 +326,7 @@ def test_damage(tmp_path, by_program, client):
     file.write_bytes(file.read_bytes()[:-3] + b"xyz")
     with pytest.raises(holdfast.NoAnswer, match="damaged"):
         store.convert(tmp_path / "map.csv")
-    with pytest.warns(holdfast.PlausibilityWarning, match="damaged, and is computed anew"):
+    with pytest.warns(holdfast.PlausibilityWarning, match="damaged; this chunk is computed anew"):
         case().sweep(AXES, duration=5, chunk=20, store=store.path, resume=True, client=client)
     assert_same_bytes(store, by_program)
 
@@ -353,7 +353,7 @@ def test_refusals(tmp_path, by_program):
         case().sweep(AXES, duration=6, store=by_program)
     (tmp_path / "full.zarr").mkdir()
     (tmp_path / "full.zarr" / "letter.txt").write_text("dear")
-    with pytest.raises(OSError, match="the name is taken"):
+    with pytest.raises(OSError, match="this name exists and is no store"):
         case().sweep(AXES, store=tmp_path / "full.zarr")
     with pytest.raises(OSError, match="missing.zarr"):
         holdfast.convert(tmp_path / "missing.zarr", tmp_path / "x.csv")

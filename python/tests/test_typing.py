@@ -20,10 +20,10 @@ ROOT = pathlib.Path(__file__).parents[2]
 PACKAGE = pathlib.Path(holdfast.__file__).absolute().parents[1]
 SCRIPTS = sorted((ROOT / "docs" / "python").glob("*.py"))
 #: Options that a method has under another name, or does as another method.
-OTHER_NAMES = {"along": "key", "axis": "axes", "case": "", "follow": "key", "for": "for_", "from": "from_", "map": "keys",
+OTHER_NAMES = {"axis": "axes", "case": "", "follow": "key", "for": "for_", "from": "from_", "map": "keys",
                "metric": "metrics", "motions": "each"}  # fmt: skip
 OTHER_METHODS = {"axis", "features", "fractions", "history", "prove", "regions", "stable_interval", "init", "check", "wind", "dry_run",
-                 "undecided", "device"}  # fmt: skip
+                 "undecided"}  # fmt: skip
 
 
 def job_texts():
@@ -75,7 +75,7 @@ def test_words_of_options_are_those_of_the_program():
             name = option[2:].replace("-", "_")
             annotation = keywords.get(OTHER_NAMES.get(name, name))
             if annotation is None or "Literal" not in annotation and "Switching" not in annotation:
-                assert annotation is None or option == "--from" or node.name == "place_strength", (node.name, option, annotation)
+                assert annotation is None or option == "--from", (node.name, option, annotation)
                 continue
             found = aliases["Switching"] if "Switching" in annotation else re.findall(r"'(\w+)'", annotation)
             assert sorted(found) == sorted(words), (node.name, option)
@@ -99,7 +99,7 @@ def test_what_a_method_is_about_may_stand_first():
     for node, _, _ in methods():
         if not node.args.args[1:]:
             flags = [ast.unparse(one.annotation) for one in node.args.kwonlyargs[:1]]
-            assert flags in ([], ["bool"]) or node.name in ("sensitivity",), node.name
+            assert flags in ([], ["bool"]), node.name
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)

@@ -121,11 +121,11 @@ std::string wind_warning(const Case& the_case) {
   // First mode of the taut string as long and tight as the span: sqrt(H/m)/(2 L), H = m g L²/(8 f).
   const double first_mode = std::sqrt(the_case.conductor.gravity / (32.0 * the_case.conductor.sag));
   if (frequency < std::min(first_mode, 3.0))
-    return found + "so slow a force is below the first mode and sways the span as a whole";
+    return found + "a force this slow is below the first mode and sways the span as a whole";
   if (frequency < 3.0)
     return found + "it excites about mode " + format_number(std::round(frequency / first_mode)) +
            " of the span, as with stay cables; the limits for overhead lines do not apply";
-  return found + "so fast a vibration is damped by the conductor itself";
+  return found + "the conductor itself damps a vibration this fast";
 }
 
 double resolved_proportional_gain(const Case& the_case) {

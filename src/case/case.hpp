@@ -59,6 +59,7 @@ struct Stringing {
 struct Weather {
   double temperature = std::numeric_limits<double>::infinity();  // °C; infinity: "stringing"
   std::vector<double> temperatures;                              // °C, of a year
+  std::vector<double> hours;                                     // a year, at each
   double ice = 0.0;                                              // radial
   double ice_density = 900.0;
   double wind_pressure = 0.0;

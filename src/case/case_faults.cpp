@@ -98,12 +98,29 @@ CaseFault absorber_fault(const Case& c) {
           "control.proportional_gain and control.differential_gain to 0"};
 }
 
+/// Fault of hours of a year, one for each of some values.
+CaseFault hours_fault(const std::string& of, const std::vector<double>& values,
+                      const std::string& key, const std::vector<double>& hours) {
+  if (values.size() != hours.size())
+    return {{key, of},
+            of + " has " + std::to_string(values.size()) + " numbers and " + key + " " +
+                std::to_string(hours.size()) + ": give one number of hours for each"};
+  constexpr double most = 8784.0;
+  const double all = std::accumulate(hours.begin(), hours.end(), 0.0);
+  if (all <= most) return {};
+  return {{key},
+          key + " add up to " + format_rounded(all) + " h, but a year has " + format_number(most) +
+              " h at most"};
+}
+
+CaseFault temperatures_fault(const Case& c) {
+  if (c.weather.hours.empty()) return {};
+  return hours_fault("weather.temperatures", c.weather.temperatures, "weather.hours",
+                     c.weather.hours);
+}
+
 CaseFault speeds_fault(const Case& c) {
-  const std::vector<double>&speeds = c.site.speeds, &hours = c.site.hours;
-  if (speeds.size() != hours.size())
-    return {{"site.hours", "site.speeds"},
-            "site.speeds has " + std::to_string(speeds.size()) + " numbers and site.hours " +
-                std::to_string(hours.size()) + ": give one number of hours for each speed"};
+  const std::vector<double>& speeds = c.site.speeds;
   if (!speeds.empty() && std::isfinite(c.site.weibull_scale))
     return {{"site.weibull_scale", "site.speeds"},
             "site.speeds (with site.hours) and site.weibull_scale are both given: give only one of "
@@ -113,12 +130,7 @@ CaseFault speeds_fault(const Case& c) {
       return {{"site.speeds"},
               "site.speeds must ascend: " + format_number(speeds[k]) + " m/s comes after " +
                   format_number(speeds[k - 1])};
-  constexpr double most = 8784.0;
-  const double all = std::accumulate(hours.begin(), hours.end(), 0.0);
-  if (all <= most) return {};
-  return {{"site.hours"},
-          "site.hours add up to " + format_rounded(all) + " h, but a year has " +
-              format_number(most) + " h at most"};
+  return hours_fault("site.speeds", speeds, "site.hours", c.site.hours);
 }
 
 CaseFault noise_fault(const Case& c) {
@@ -158,7 +170,7 @@ CaseFault force_fault(const Case& c) {
   }
   if (!std::isinf(resolved_proportional_gain(c))) return {};
   return {{"control.proportional_gain", "excitation.frequency", "plant.absorber_mass"},
-          "the tuned gain, Eq. 6, is not finite: lower the frequency or plant.absorber_mass"};
+          "the gain of the paper's Eq. 6 overflows: lower the frequency or plant.absorber_mass"};
 }
 
 }  // namespace
@@ -187,8 +199,8 @@ CaseFault conductor_fault(const Case& the_case) {
       "conductor.mass_per_length", "conductor.span", "conductor.gravity"};
   if ((strain < smallest_strain || strain > largest_strain) && !is_half_borrowed(the_case, keys)) {
     return {keys, "the conductor's own weight would stretch it by " + format_rounded(strain) +
-                      " of its length; admissible is 1e-10 (less cannot be computed) to 0.1 (more "
-                      "breaks any cable)"};
+                      " of its length: the strain must be at least 1e-10 (less cannot be computed) "
+                      "and at most 0.1 (more breaks any cable)"};
   }
   return {};
 }
@@ -197,7 +209,7 @@ CaseFault first_fault(const Case& the_case) {
   for (const auto find :
        {control_fault, jitter_fault, contact_fault, tension_fault, stringing_fault,
         impossible_fault, conductor_fault, reduction_fault, force_fault, noise_fault, modes_fault,
-        absorber_fault, devices_fault, speeds_fault}) {
+        absorber_fault, devices_fault, speeds_fault, temperatures_fault}) {
     CaseFault fault = find(the_case);
     if (!fault.message.empty()) return fault;
   }

@@ -361,7 +361,7 @@ void CaseReader::check_wind() const {
     const bool is_settled = key.name == "wind.diameter" && case_.wind->diameter > 0.0;
     if (!key.required || is_settled || last_given({key.name}) != nullptr) continue;
     throw WrongInput(wind_place_ + ": " + key.name + " is missing: " + key.description +
-                     "; admissible is " + key.admissible() +
+                     "; must be " + key.admissible() +
                      "; holdfast case --init FILE --wind writes a complete [wind]");
   }
   // An excitation below the layer that brought the wind is replaced; one beside it or above it

@@ -199,8 +199,7 @@ void require_admissible(const std::string& option, std::string_view key, double 
 void set_case_value(Case& the_case, std::string_view name, double value) {
   const CaseKey& key = number_key_named(name);
   if (!key.range.contains(value)) {
-    throw WrongInput(key.name + " = " + format_number(value) + ": admissible is " +
-                     key.admissible());
+    throw WrongInput(key.name + " = " + format_number(value) + ": must be " + key.admissible());
   }
   require_in_force(the_case, key);
   *key.number(the_case) = value + 0.0;  // a negative zero is zero

@@ -43,19 +43,15 @@ bool is_in_force(const CaseKey& key, const Case& the_case) {
 /// Comment on a table for a person who changes it; empty for most.
 std::string table_comment(const std::string& table) {
   if (table == "conductor")
-    return "# name, from the library (holdfast conductors), or the conductor's data; sag or "
-           "tension, of which\n"
-           "# the other one is what it leaves. This table, [absorber] and [reduction] make the "
-           "plant where\n"
-           "# [plant] does not give it.\n";
+    return "# Give name, from the library (holdfast conductors), or the conductor's data. Give sag "
+           "or tension;\n# the other one is computed. The plant is computed from this table, "
+           "[absorber] and [reduction]\n# where [plant] does not give it.\n";
   if (table == "plant")
-    return "# What stands here is used as it is. Without it the plant is reduced from "
-           "[conductor],\n"
-           "# [absorber] and [reduction].\n";
+    return "# Values given here are used unchanged. Without them the plant is reduced from "
+           "[conductor],\n# [absorber] and [reduction].\n";
   if (table == "reduction")
-    return "# Without the frequencies they are computed for the conductor; give those that you "
-           "measured: the\n"
-           "# higher one should be near that of the excitation.\n";
+    return "# Give the frequencies that you measured; those left out are computed for the "
+           "conductor. The\n# higher one should be near the frequency of the excitation.\n";
   if (table == "excitation")
     return "# In place of amplitude and frequency: a table [wind] with speed, diameter (of the\n"
            "# conductor) and effective_length.\n";
@@ -63,13 +59,11 @@ std::string table_comment(const std::string& table) {
 }
 
 constexpr const char* begun_head =
-    "#\n"
-    "# Take the # away before a key to give it; what stands behind it now is what holds without.\n"
-    "# A file that gives conductor.name, mass_per_length, span, tension or sag, or every number "
-    "of\n"
-    "# [plant], describes a cable or plant of its own: then nothing of the built-in case stands in "
-    "for\n"
-    "# what is not given. Numbers are in the unit that is told, or have another: \"28.2 kN\".\n";
+    "#\n# Remove the # before a key to give the key; the value shown is used as long as the # "
+    "stands.\n# A file that gives conductor.name, mass_per_length, span, tension or sag, or every "
+    "number of\n# [plant], describes a cable or plant of its own: then no value of the built-in "
+    "case is used for keys\n# that are not given. Numbers are in the unit shown; or give another "
+    "unit in quotes: \"28.2 kN\".\n";
 
 /// How a key stands in a case file to begin with: what was given as a value, the rest as a comment.
 enum class Standing { left_out, comment, value };

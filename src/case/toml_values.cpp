@@ -78,11 +78,10 @@ std::string suggested_word(const std::vector<std::string>& words, const toml::no
 double read_number(const KeyForm& key, const toml::node& node, const std::string& place) {
   const auto number = number_in(node, key.unit, place);
   if (!number)
-    throw WrongInput(place + ": must be a number; admissible is " + key.admissible() +
+    throw WrongInput(place + ": must be a number: " + key.admissible() +
                      suggested_word(key.words, node));
-  if (!std::isfinite(*number))
-    throw WrongInput(place + ": must be finite; admissible is " + key.admissible());
-  if (!key.range.contains(*number)) throw WrongInput(place + ": admissible is " + key.admissible());
+  if (!std::isfinite(*number)) throw WrongInput(place + ": must be finite: " + key.admissible());
+  if (!key.range.contains(*number)) throw WrongInput(place + ": must be " + key.admissible());
   return *number + 0.0;  // a negative zero is zero
 }
 
@@ -134,7 +133,8 @@ std::vector<double> read_numbers(const KeyForm& key, const toml::node& node,
   for (const toml::node& one : *list) {
     const auto value = number_in(one, key.unit, place);
     if (!value || !key.range.contains(*value))
-      throw WrongInput(place + ": not " + value_text(one) + "; admissible is " + key.admissible());
+      throw WrongInput(place + ": " + value_text(one) + " is not admissible: must be " +
+                       key.admissible());
     values.push_back(*value + 0.0);
   }
   return values;
@@ -162,7 +162,7 @@ std::vector<std::array<double, 3>> read_harmonics(const KeyForm& key, const toml
     const auto harmonic = harmonic_of(one, place);
     if (!harmonic) {
       throw WrongInput(place + ": the harmonic " + value_text(one) +
-                       " is not admissible; admissible is " + key.admissible());
+                       " is not admissible: must be " + key.admissible());
     }
     harmonics.push_back(*harmonic);
   }
@@ -217,7 +217,7 @@ toml::table parse_override_value(const KeyForm& key, std::string_view value,
   }
   const std::string guess = guess_of_value(value);
   const std::string plain = key.is_number() ? ", a plain number such as 0.01" : "";
-  throw WrongInput(place + ": admissible is " + key.admissible() + (guess.empty() ? plain : guess));
+  throw WrongInput(place + ": must be " + key.admissible() + (guess.empty() ? plain : guess));
 }
 
 std::optional<double> number_in(const toml::node& node, const std::string& unit,

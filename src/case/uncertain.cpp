@@ -74,14 +74,14 @@ std::vector<UncertainRange> uncertain_ranges(const Case& the_case) {
       const double value = case_value(the_case, one.key);
       if (!std::isfinite(value))
         throw WrongInput("uncertain." + one.key + ": the case gives no " + one.key +
-                         " that it is about");
+                         " to vary: give [lowest, highest]");
       const double scale = one.form == Form::relative ? std::abs(value) : 1.0;
       range.lowest = value - one.below * scale;
       range.highest = value + one.above * scale;
     }
     if (!(range.lowest < range.highest))
       throw WrongInput("uncertain." + one.key +
-                       ": a share of 0 is no range: give [lowest, highest]");
+                       ": a percentage of 0 is no range: give [lowest, highest]");
     const CaseKey& key = *find_case_key(one.key);
     for (const double end : {range.lowest, range.highest})
       if (!key.range.contains(end))

@@ -143,7 +143,7 @@ Support support_of(const Words& there, const Asked& asked) {
     support.reason = rule.refuses.empty() ? rule.idealises : rule.refuses;
     if (!rule.refuses.empty()) {
       const std::string question = asked_words(rule, asked);
-      support.refusal = question + " does not answer with " + with + ": " + rule.refuses;
+      support.refusal = question + " cannot answer for " + with + ": " + rule.refuses;
       if (question == asked.job && rule.also.empty()) support.refused_by = feature;
       return support;
     }
@@ -207,8 +207,8 @@ Support support_of(const Case& the_case, const Asked& asked) {
   Support support = support_of(there, asked);
   // Whose job as a whole does not answer asks which do.
   if (is_of_plant(support.refused_by))
-    support.refusal +=
-        "; jobs that do are " + jobs_that_answer(words_of_feature(support.refused_by), there);
+    support.refusal += "; jobs that can answer are " +
+                       jobs_that_answer(words_of_feature(support.refused_by), there);
   return support;
 }
 

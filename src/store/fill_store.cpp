@@ -133,7 +133,7 @@ class StoreFilling {
     if (is_done(chunk)) return count_found(chunk);
     if (store_.has(chunk))
       tell(store_.file_of(chunk).string() +
-           " or a file that belongs to it is damaged, and is computed anew");
+           " or a file that belongs to it is damaged; this chunk is computed anew");
     under_way.begin(
         [this, chunk, claim = std::move(claim), result = work_.compute(chunk)]() mutable {
           store_.put(chunk, result.values);

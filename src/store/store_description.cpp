@@ -226,7 +226,7 @@ Documents documents_of_format_2(const StoreDescription& store) {
 }
 
 void require(bool holds) {
-  if (!holds) throw std::invalid_argument("not described as holdfast describes a store");
+  if (!holds) throw std::invalid_argument("its description is not one that holdfast writes");
 }
 
 /// The root without its checksum, which was right.

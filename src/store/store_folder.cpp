@@ -166,7 +166,7 @@ bool is_chunk_name(std::string_view name, int format, const ChunkGrid& grid) {
 
 [[noreturn]] void refuse_folder(const fs::path& folder) {
   throw WrongInput("cannot write " + folder.string() +
-                   ": the name is taken by something else than a store; give another name");
+                   ": this name exists and is no store; give another name");
 }
 
 void require_same_plan(const fs::path& folder, const StoreDescription& before,

@@ -12,8 +12,8 @@ StoreFolder entered(const fs::path& folder, const StoreDescription& description,
     if (*done > 0 && !resume)
       throw WrongInput(folder.string() + " holds " + std::to_string(*done) +
                        (*done == 1 ? " finished chunk" : " finished chunks") +
-                       " of an interrupted sweep; go on with --resume, or remove the folder to "
-                       "begin anew");
+                       " of an interrupted sweep; give --resume to continue, or remove the folder "
+                       "to begin anew");
     if (*done == 0) remove_left_work_store(folder);
   }
   return StoreFolder::enter(folder, description);

@@ -57,6 +57,15 @@ std::vector<GridAxis> sweep_axes(const std::vector<std::string>& texts) {
   return axes;
 }
 
+/// The axes of the question; of a family the numbers of its members.
+std::vector<GridAxis> axes_of(const SweepOptions& options) {
+  if (options.members == 0) return sweep_axes(options.axes);
+  if (!options.axes.empty() || !options.part.empty() || options.resume)
+    throw WrongInput("--family draws the cells of a sweep: leave --axis, --part and --resume out");
+  return {{{"member", "", "number of the member of the family"},
+           Axis{0.0, options.members - 1.0, options.members}}};
+}
+
 std::vector<SweepMetric> sweep_metrics(const std::vector<std::string>& names) {
   if (names.empty()) return usual_metrics();
   std::vector<SweepMetric> metrics;
@@ -110,12 +119,17 @@ SweepPlan::SweepPlan(const JobContext& context, const SweepOptions& options)
     : context_(context),
       options_(options),
       metrics_(sweep_metrics(options.metrics)),
-      layout_{sweep_axes(options.axes), {}} {
+      layout_{axes_of(options), {}} {
+  if (options.members > 0) members_ = family_members(context.case_data, options.members);
   for (const SweepMetric metric : metrics_) layout_.columns.push_back(metric_column(metric));
   require_room_for_best_gain(options_, layout_.axes);
-  for (const GridAxis& axis : layout_.axes)
-    require_in_force(context_.case_data, *find_case_key(axis.column.name));
-  shaping_axes_ = axes_shaping_plant(context_.case_data, layout_.axes);
+  if (members_.empty()) {
+    for (const GridAxis& axis : layout_.axes)
+      require_in_force(context_.case_data, *find_case_key(axis.column.name));
+    shaping_axes_ = axes_shaping_plant(context_.case_data, layout_.axes);
+  } else {
+    shaping_axes_ = {0};
+  }
   settle_case();
   const bool over_absorbers =
       std::any_of(layout_.axes.begin(), layout_.axes.end(),
@@ -162,6 +176,7 @@ double SweepPlan::axis_value(std::size_t axis, std::int64_t cell) const {
 }
 
 Case SweepPlan::case_of(std::int64_t cell) const {
+  if (!members_.empty()) return reduced_case(members_[static_cast<std::size_t>(cell)].overrides());
   std::vector<std::string> shaping;
   for (const std::size_t k : shaping_axes_)
     shaping.push_back(layout_.axes[k].column.name + "=" + format_number(axis_value(k, cell)));
@@ -236,6 +251,7 @@ StorePlan SweepPlan::store_plan() const {
     entries.emplace("--axis " + std::to_string(k + 1), options_.axes[k]);
   for (std::size_t k = 0; k < metrics_.size(); ++k)
     entries.emplace("--metric " + std::to_string(k + 1), metric_column(metrics_[k]).column.name);
+  if (options_.members > 0) entries.emplace("--draws", std::to_string(options_.members));
   entries.emplace("--duration", format_number(options_.duration));
   entries.emplace("--max-period", std::to_string(options_.largest_period));
   entries.emplace("--switching", options_.switching == Switching::exact ? "exact" : "sampled");

@@ -10,6 +10,7 @@
 #include "case/job_context.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
+#include "jobs/family/family.hpp"
 #include "process/memo.hpp"
 #include "store/fill_store.hpp"
 #include "store/store_description.hpp"
@@ -30,10 +31,12 @@ struct SweepOptions {
   bool resume = false;
   std::string part;                 // K/N: the K-th of N parts of a store; empty: all
   bool instructions_given = false;  // --instructions was: they are not to be chosen
+  int members = 0;                  // of the case's family, in place of axes; 0: axes
 };
 
 /// The cells of a sweep: the product of any number of axes over keys of a case, numbered with the
-/// first axis slowest, in the chunks of a store. Nothing in it grows with the number of cells.
+/// first axis slowest, in the chunks of a store; or members of the case's family. Nothing in it
+/// grows with the number of cells, the members apart.
 ///
 /// Throws WrongInput from the constructor for axes that are not admissible or are none, for an
 /// unknown metric, and for more than 2⁵³ cells; a value that its key does not admit is no fault of
@@ -59,6 +62,7 @@ class SweepPlan {
   /// The case of a cell. Throws WrongInput, or NoAnswer where its plant cannot be reduced. Any
   /// thread may ask.
   Case case_of(std::int64_t cell) const;
+  const std::vector<FamilyMember>& members() const { return members_; }
   /// Its value on an axis.
   double axis_value(std::size_t axis, std::int64_t cell) const;
 
@@ -81,6 +85,7 @@ class SweepPlan {
   JobContext context_;
   SweepOptions options_;
   std::vector<SweepMetric> metrics_;
+  std::vector<FamilyMember> members_;
   GridLayout layout_;
   std::vector<std::size_t> shaping_axes_;  // those that change what the plant is reduced from
   /// The case by their values, its plant reduced; where there are such axes. A reduction takes some

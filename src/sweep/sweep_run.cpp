@@ -88,8 +88,8 @@ class SweepFaults {
   std::string chaos_text(const SweepPlan& plan) const {
     if (all_.chaotic == 0) return "";
     return "of " + std::to_string(plan.cells()) + " cells " + std::to_string(all_.chaotic) +
-           " are chaotic: rounding decides their motions after a while, and each metric is that of "
-           "one possible motion";
+           " are chaotic: rounding decides their motions after some time, and each metric holds "
+           "for one possible motion";
   }
 
  private:
@@ -134,7 +134,7 @@ std::string held_force_warning_of(const SweepPlan& plan) {
       const double difference = std::abs(held_share(the_case, period, frequency) - 1.0);
       if (!(difference > largest)) continue;
       largest = difference;
-      warning = held_force_warning(the_case, "ratios refer to the true force");
+      warning = held_force_warning(the_case, "ratios are relative to the force not held");
     } catch (const Refusal&) {  // not admissible, and told as the outcome of its cell
     } catch (const InvalidParameter&) {
     }
@@ -151,8 +151,8 @@ std::string best_gain_warning(const SweepPlan& plan) {
   });
   if (!plan.options().best_gain || !(varies || (backlash.width > 0.0 && backlash.law != "none")))
     return "";
-  return "--best-gain chooses D for the loop without its play; the metrics are those of the motion "
-         "with play, where another D may be better";
+  return "--best-gain chooses D for the loop without play, but the metrics hold for the motion "
+         "with play: another D may be better";
 }
 
 /// The part that K/N stands for.
@@ -171,13 +171,52 @@ StorePart part_of(const SweepPlan& plan, const std::string& text) {
   return {static_cast<std::int64_t>(number), static_cast<std::int64_t>(of)};
 }
 
+/// A number that some members have, and which member has it.
+using MemberValue = std::pair<double, std::size_t>;
+
+/// Writes of each metric that is a number the values that 5, 50 and 95 per cent of the members do
+/// not exceed (nearest rank), and the members with the least and the largest.
+void write_quantiles(const SweepPlan& plan, const StoreFolder& store) {
+  Table table(plan.context(), columns_of("sweep of a family"));
+  for (std::size_t k = 0; k < plan.metrics().size(); ++k) {
+    const Column& column = metric_column(plan.metrics()[k]).column;
+    if (column.datatype == "string") continue;
+    std::vector<MemberValue> values;
+    double sum = 0.0;
+    for (std::int64_t chunk = 0, cell = 0; chunk < plan.grid().chunks(); ++chunk) {
+      const auto stored = store.read_column(k, chunk);
+      if (!stored) refuse_chunk(store, chunk);
+      for (const double value : *stored) {
+        if (!std::isnan(value)) values.emplace_back(value, static_cast<std::size_t>(cell));
+        if (!std::isnan(value)) sum += value;
+        ++cell;
+      }
+    }
+    if (values.empty()) continue;
+    std::sort(values.begin(), values.end());
+    const auto at_share = [&](double share) {
+      const double rank = std::ceil(share * static_cast<double>(values.size()));
+      return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1].first;
+    };
+    table.row(column.name, column.unit, static_cast<std::int64_t>(values.size()),
+              sum / static_cast<double>(values.size()), values.front().first, at_share(0.05),
+              at_share(0.5), at_share(0.95), values.back().first,
+              plan.members()[values.front().second].text(),
+              plan.members()[values.back().second].text());
+  }
+  table.commit();
+}
+
 /// One sweep, which other processes may work on too.
 class SweepRun {
  public:
   SweepRun(const JobContext& context, const SweepOptions& options)
       : plan_(context, options),
         part_(part_of(plan_, options.part)),
-        named_(has_named_output(context)) {}
+        named_(options.members == 0 && has_named_output(context)) {
+    if (is_of_family() && is_store_name(context.output))
+      throw WrongInput("--family: the quantiles are a table: give an --output that ends in .csv");
+  }
 
   void run() {
     choose_instructions();
@@ -193,6 +232,7 @@ class SweepRun {
 
  private:
   const JobContext& context() const { return plan_.context(); }
+  bool is_of_family() const { return !plan_.members().empty(); }
   bool is_to_stay() const { return is_store_name(context().output); }
   const StoreFolder& store() const { return work_ ? work_->store() : *store_; }
 
@@ -213,7 +253,7 @@ class SweepRun {
       store_ = StoreFolder::enter(*context().output, plan_.store());
       return;
     }
-    output_.emplace(context(), plan_.layout());
+    if (!is_of_family()) output_.emplace(context(), plan_.layout());
     // The output is known to be writable now; a process that is killed shall leave nothing of it.
     if (named_) output_.reset();
     const fs::path folder = store_folder(context(), named_);
@@ -249,7 +289,10 @@ class SweepRun {
 
   void conclude() {
     if (part_.of > 1) return;  // the others may not be there yet
-    if (work_) {
+    if (is_of_family()) {
+      write_quantiles(plan_, store());
+      work_->remove();
+    } else if (work_) {
       if (!output_) output_.emplace(context(), plan_.layout());
       append_stored(store(), *output_);
       output_->commit();
@@ -286,7 +329,7 @@ class SweepRun {
 
 void write_sweep(const JobContext& context, const SweepOptions& options) {
   if (options.resume && !has_named_output(context))
-    throw WrongInput("--resume needs the --output of the earlier run, which names its results");
+    throw WrongInput("--resume continues an earlier run: give the same --output as that run");
   SweepRun(context, options).run();
 }
 

@@ -68,7 +68,7 @@ struct OwnPlant {
   Column control_input() const { return Column::Zero(); }
   Column excitation_input() const { return Column::Zero(); }
 };'
-refuses 'it has `ports()`' <<CODE
+refuses 'declares its measured quantities by `ports()`' <<CODE
 #include "holdfast/control/loop_map.hpp"
 $own_plant
 auto map = holdfast::loop_map(OwnPlant{}, {0.01});
@@ -84,26 +84,26 @@ $own_plant
 holdfast::IdealLoop<double, OwnPlant> loop{};
 CODE
 
-refuses 'a state of a plant is a column of as many numbers as it has states' <<'CODE'
+refuses 'the state of a plant is a column vector, one number per state variable' <<'CODE'
 #include "holdfast/motion/implemented_loop.hpp"
 auto begin(const holdfast::ImplementedLoop& loop) {
   return holdfast::event_motion(loop, Eigen::Matrix<double, 6, 1>::Zero());
 }
 CODE
-refuses 'a state of a plant is a column of as many numbers as it has states' <<'CODE'
+refuses 'the state of a plant is a column vector, one number per state variable' <<'CODE'
 #include "holdfast/motion/ideal_loop.hpp"
 auto begin(const holdfast::IdealLoop<double>& loop) {
   return holdfast::harmonically_forced_motion(loop, Eigen::Vector3d(1.0, 2.0, 3.0));
 }
 CODE
-refuses 'a state of a plant is a column of as many numbers as it has states' <<'CODE'
+refuses 'the state of a plant is a column vector, one number per state variable' <<'CODE'
 #include "holdfast/orbit/orbit_search.hpp"
 auto find(const holdfast::IdealLoop<double>& loop) {
   return holdfast::find_periodic_orbit(loop, Eigen::RowVector4d(1.0, 2.0, 3.0, 4.0));
 }
 CODE
 
-refuses 'a controller says how many numbers it remembers' <<'CODE'
+refuses 'a controller declares its number of states' <<'CODE'
 #include "holdfast/control/controlled_plant.hpp"
 struct Law {
   double command(const holdfast::ControlSample&, Eigen::Matrix<double, 1, 1>&) const { return 0.0; }

@@ -293,7 +293,7 @@ TEST(Classify, ANeighbourDecidesWhereTheZeroOneTestDoesNot) {
     EXPECT_EQ(kind_of(indicators), kind) << came_to;
   }
   indicators.neighbour = 1e-9;
-  EXPECT_TRUE(names(classify(indicators), "a neighbour 1e-09 of the extent away came to 1e-09"));
+  EXPECT_TRUE(names(classify(indicators), "a neighbouring motion went from 1e-09 to 1e-09"));
   indicators.zero_one = 0.9;
   EXPECT_EQ(kind_of(indicators), AttractorType::undecided) << "the two contradict each other";
   indicators.zero_one = 0.5;

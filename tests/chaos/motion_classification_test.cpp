@@ -91,7 +91,7 @@ TEST(MotionClassification, OfExactSwitchingIsPeriodicByCertificate) {
       EXPECT_EQ(found.indicators.certified_period, found.classification.period);
       EXPECT_EQ(found.classification.rests_on.find("Certified orbit"), 0U)
           << found.classification.rests_on;
-      EXPECT_NE(found.classification.rests_on.find("switches alike"), std::string::npos);
+      EXPECT_NE(found.classification.rests_on.find("change alike"), std::string::npos);
       EXPECT_TRUE(found.indicators.largest_exponent->negative());
     }
   }

@@ -22,7 +22,7 @@ TEST(CaseJob, BeginsAFileThatIsTheSameCase) {
       printed_by("case --from plant --set control.sampling_period=0.004 --init '" + file + "'"),
       "");
   const std::string text = read_text(file);
-  expect_holds(text, {"sampling_period = 0.004", "# N/m, k1"});
+  expect_holds(text, {"sampling_period = 0.004", "# N/m, stiffness k1"});
   const auto expected = table_of("case --set control.sampling_period=0.004");
   const auto read = table_of("case --check '" + file + "'");
   ASSERT_EQ(read.rows(), expected.rows());
@@ -281,9 +281,9 @@ TEST(CaseJob, AConductorThatContradictsItsPlantIsNamedInEveryAnswer) {
   for (const std::string job : {"margins", "modes --count 1", "answers",
                                 "sweep --axis backlash.width=0.001 --duration 0.1"}) {
     const Outcome outcome = run_holdfast(job + asked);
-    expect_holds(outcome.errors, {"contradict it: k1 50.3 instead"});
+    expect_holds(outcome.errors, {"contradict [plant]: k1 50.3 instead"});
     if (job == "answers") {
-      expect_holds(lines_of(outcome.output).at(1), {"contradict it"});
+      expect_holds(lines_of(outcome.output).at(1), {"contradict [plant]"});
     }
   }
   write_text(file, control + "0.29\n");
@@ -354,7 +354,7 @@ TEST(Plausibility, ARecordInMillimetresIsNamedAsSuch) {
             std::to_string(1e3 * record.number(row, "displacement_m")) + "\n";
   const std::string file = (folder / "in-mm.csv").string();
   write_text(file, text);
-  expect_said("fit --data '" + file + "'", {"in-mm.csv: displacement_m reaches", "is it in mm"});
+  expect_said("fit --data '" + file + "'", {"in-mm.csv: displacement_m reaches", "in mm, 0.00"});
 }
 
 }  // namespace

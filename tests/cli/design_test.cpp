@@ -258,12 +258,12 @@ TEST(SensitivityJob, OfTheLargestPeriodIsThatOfTheCasesDelay) {
 }
 
 TEST(SensitivityJob, ATunedGainIsCarriedAlong) {
-  const std::string tuned = "sensitivity --set control.proportional_gain=tuned";
-  const CsvTable carried = table_of(tuned), asked = table_of(tuned + " --tuned");
-  ASSERT_EQ(carried.rows(), asked.rows());
+  const CsvTable carried = table_of("sensitivity --set control.proportional_gain=tuned"),
+                 held = table_of("sensitivity");
   const std::size_t row =
       row_where(carried, "answer", "least_radius", "parameter", "plant.absorber_stiffness");
-  EXPECT_EQ(carried.text(row, "derivative"), asked.text(row, "derivative"));
+  EXPECT_GT(std::abs(carried.number(row, "derivative") / held.number(row, "derivative") - 1.0),
+            0.1);
   const std::size_t gain =
       row_where(carried, "answer", "least_radius", "parameter", "control.proportional_gain");
   EXPECT_EQ(carried.number(gain, "derivative"), 0.0);

@@ -113,7 +113,7 @@ TEST_F(PlaceJob, SaysWhereABoundEndsIt) {
   const auto best = answer(stay_text, "--quiet --modes 2:2 --keep position");
   expect_said("place --modes 2:2 --keep position --set device.1.damping=" +
                   program::format_number(value_of(best, "damping")) + case_of(stay_text),
-              {"nothing better than the case"});
+              {"no values better than the case's"});
 }
 
 TEST_F(PlaceJob, ANegativeStiffnessLeavesTheConductorAtRest) {

@@ -67,7 +67,6 @@ a orbit --prove --switching exact
 a orbit --switching exact
 a orbit --map backlash.width=0.0004:0.0006 --map control.differential_gain=-14:-12
 a basins --map backlash.width=0.001:0.002:3 --map control.sampling_period=0.01:0.011:2
-a basins --along backlash.width=0.001:0.002:3 --axis initial.z1=0:0.005:2 --axis initial.z2=0:0.005:2
 a verdict
 t basins --axis initial.z1=-0.005:0.005:5 --axis initial.z2=-0.005:0.005:5 --threads 3
 t sweep --axis backlash.width=0:0.001:5 --axis control.sampling_period=0.001,0.002 --duration 0.5 --threads 3 --output sweep.csv

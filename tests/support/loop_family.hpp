@@ -35,18 +35,26 @@ std::array<double, N> member_of(const ParameterBox<N>& box, Random& random) {
 }
 
 /// The base function less the sum over the frequencies that samples do not tell apart is the factor
-/// times 1 − P G_z − D G_v, by the map of the sampled loop.
+/// times 1 − P G_z − D G_v, by the map of the sampled loop; in the frame of a box whose middle is
+/// another loop.
+/// @param v  of the angle, see angle_at()
 template <class Loop>
 void expect_function_of(const Loop& loop, const typename Loop::template Parameters<double>& values,
-                        double theta, const LoopMap<double>& map) {
+                        double v, const LoopMap<double>& map) {
   typename Loop::template Parameters<EnclosedSlope> x;
   typename Loop::template Parameters<Enclosure> all;
   for (std::size_t k = 0; k < values.size(); ++k) x[k].value = all[k] = Enclosure(values[k]);
-  const Enclosure omega = Enclosure(theta) / all[Loop::place_of_period];
-  const int near = loop.near(values, omega.middle());
-  const auto base = loop.base(x, {EnclosedSlope(theta), {omega, Enclosure()}}, near);
-  const detail::AliasSum sum = loop.aliases(all, Enclosure(theta));
-  const auto factor = loop.factor(all, omega, near);
+  auto middle = values;
+  middle[0] *= 0.8;
+  middle[Loop::place_of_period] *= 1.1;
+  const double period = middle[Loop::place_of_period];
+  auto frame = loop.frame_at(middle, v / period);
+  const auto at = detail::angle_at(v, x[Loop::place_of_period], frame.tuning(x), period);
+  const double theta = at.theta.value.middle();
+  loop.sum_modes(all, at.tuned.value, frame);
+  const auto base = loop.base(x, at, frame);
+  const detail::AliasSum sum = loop.aliases(all)(at.theta.value);
+  const auto factor = loop.factor(all, {at.theta.value, at.omega.value, at.tuned.value}, frame);
   const auto by_p = factor * sum.proportional, by_d = factor * sum.differential;
   const Enclosure p = all[Loop::place_of_p], d = all[Loop::place_of_d];
   const Enclosure real = base.real.value - p * by_p.real - d * by_d.real;

@@ -19,13 +19,13 @@ Scalar bar_tension(const Vector<Scalar, 2>& reach, double length, double axial_s
   return axial_stiffness * (reach.norm() - length) / length;
 }
 
-/// Force T n (N) of a bar on its first node; n = reach/|reach| points to the second node.
+/// Force T n (N) of a bar on its first node: its tension T along n = reach/|reach|.
 template <class Scalar>
 Vector<Scalar, 2> bar_pull(const Vector<Scalar, 2>& reach, double length, double axial_stiffness) {
   return reach * Scalar(axial_stiffness * (Scalar(1.0 / length) - Scalar(1) / reach.norm()));
 }
 
-/// Stiffness ∂(T n)/∂reach = (EA/l₀) n nᵀ + (T/l)(I − n nᵀ) (N/m) of a bar, symmetric.
+/// Stiffness (EA/l₀) n nᵀ + (T/l)(I − n nᵀ) (N/m) of a bar: derivative of bar_pull() by `reach`.
 template <class Scalar>
 Matrix<Scalar, 2> bar_stiffness(const Vector<Scalar, 2>& reach, double length,
                                 double axial_stiffness) {
@@ -36,21 +36,20 @@ Matrix<Scalar, 2> bar_stiffness(const Vector<Scalar, 2>& reach, double length,
 }
 
 /// A cable as N elastic bars between N + 1 nodes, the outer two being the supports.
-///
-/// The unstretched lengths of the bars add up to that of the cable. One node lies at the absorber's
-/// material point; the bars left of this node have one unstretched length, the bars right of it
-/// another. Positions are 2 × (N − 1), a column [x, y]ᵀ (m) per free node, y downward.
+/// The unstretched lengths of the bars add up to that of the cable. One node lies at the absorber.
+/// The bars left of this node all have one unstretched length, and the bars right of it another.
+/// Positions are 2 × (N − 1), a column [x, y]ᵀ (m) per free node from the left support, y downward.
 /// @tparam Real  `double`; a parameter so that the class is compiled only where it is used
 template <class Real>
 class BasicBarChain {
  public:
-  /// Columns of free nodes' positions (m) or velocities (m/s).
+  /// Positions (m) or velocities (m/s) of the free nodes, one column per node.
   using Nodes = Eigen::Matrix<Real, 2, Eigen::Dynamic>;
 
-  /// @param conductor  admissible in the sense of `validate`
-  /// @param position   x_p (m), inside the span: place of the absorber's node in the bare cable
-  /// @param elements   N, ≥ 2
-  /// @throws InvalidParameter outside these ranges
+  /// @param conductor  conductor of the cable, one that `validate` accepts
+  /// @param position   distance x_p (m) of the absorber from the left support in the bare cable
+  /// @param elements   number N of bars, ≥ 2
+  /// @throws InvalidParameter outside these ranges or unless 0 < x_p < span
   BasicBarChain(const Conductor<Real>& conductor, Real position, int elements)
       : conductor_(checked(conductor, position, elements)),
         cable_(conductor),
@@ -64,20 +63,21 @@ class BasicBarChain {
     lengths_.resize(static_cast<std::size_t>(elements), (whole - place_) / (elements - left));
   }
 
-  /// N, the number of bars.
+  /// Number N of bars.
   int elements() const { return static_cast<int>(lengths_.size()); }
-  /// N − 1, the nodes between the supports.
+  /// Number N − 1 of nodes between the supports.
   int free_nodes() const { return elements() - 1; }
   /// Index of the free node at the absorber's place.
   int loaded_node() const { return loaded_node_; }
-  /// l₀ (m) of bar e, between the free nodes e − 1 and e.
+  /// Unstretched length l₀ (m) of bar `element`, between the free nodes `element` − 1 and
+  /// `element`.
   Real length(int element) const { return lengths_[static_cast<std::size_t>(element)]; }
   /// Axial stiffness EA (N), the same for all bars.
   Real axial_stiffness() const { return cable_.axial_stiffness(); }
-  /// The cable that the bars stand for.
+  /// Conductor that the bars model.
   const Conductor<Real>& conductor() const { return conductor_; }
 
-  /// Lumped mass (kg) of a free node: half of each of its two bars.
+  /// Lumped mass (kg) of a free node: half the mass of each of its two bars.
   Real mass(int node) const {
     return conductor_.mass_per_length * 0.5 * (length(node) + length(node + 1));
   }
@@ -92,7 +92,7 @@ class BasicBarChain {
     return Vector<Scalar, 2>(to - from);
   }
 
-  /// Smallest tension (N) of all bars; not positive where a bar is slack.
+  /// Smallest tension (N) of all bars; zero or negative where a bar is slack.
   Real smallest_tension(const Nodes& nodes) const {
     Real smallest = std::numeric_limits<Real>::infinity();
     for (int e = 0; e < elements(); ++e)
@@ -101,8 +101,8 @@ class BasicBarChain {
     return smallest;
   }
 
-  /// Positions (m) of the free nodes on the exact catenary under a load P (N) at the absorber, the
-  /// first guess for the equilibrium of the bars.
+  /// Positions (m) of the free nodes on the exact catenary under a load P (N) at the absorber. They
+  /// are the first guess for the equilibrium of the bars.
   Nodes catenary_positions(Real load) const {
     const LoadedCable<Real> loaded = cable_.under_load(load, place_);
     Nodes nodes(2, free_nodes());
@@ -135,12 +135,12 @@ using BarChain = BasicBarChain<double>;
 
 /// Equilibrium of a bar chain.
 struct ChainEquilibrium {
-  BarChain::Nodes nodes;       ///< 2 × (N − 1), m
+  BarChain::Nodes nodes;       ///< positions (m) of the free nodes, 2 × (N − 1)
   EquilibriumOutcome outcome;  ///< converged: forces balanced to round-off, every bar in tension
-  double unbalanced;           ///< N, largest component of the unbalanced force at a node
+  double unbalanced;           ///< largest component (N) of the unbalanced force at any node
 };
 
-/// Tangent stiffness ∂(internal force)/∂(positions) (N/m), a symmetric block-tridiagonal matrix of
+/// Tangent stiffness ∂(internal force)/∂(positions) (N/m) of N bars: symmetric, block-tridiagonal,
 /// 2(N − 1) rows, x and y of each node in turn; positive definite where all bars are in tension.
 template <class Real>
 Eigen::SparseMatrix<Real> tangent_stiffness(const BasicBarChain<Real>& chain,

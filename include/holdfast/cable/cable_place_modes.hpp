@@ -15,8 +15,8 @@ namespace holdfast {
 
 /// Mass that hangs on a cable at the absorber's place.
 struct HungMass {
-  double weight;          ///< kg, ≥ 0: mass whose weight the cable carries at rest
-  double sideways = 0.0;  ///< kg, ≥ 0: part of it that moves along the span with the cable
+  double weight;          ///< mass (kg), ≥ 0, whose weight the cable carries at rest
+  double sideways = 0.0;  ///< mass (kg), ≥ 0, that moves along the span with the cable
 };
 
 /// Distribution of a bar's mass on its two nodes. Each entry states the relative error of the wave
@@ -29,15 +29,15 @@ enum class BarMass {
 /// The modes of a hanging cable with their shapes at the absorber's place.
 struct CablePlaceModes {
   EquilibriumOutcome outcome;            ///< outcome of the search for the equilibrium
-  std::vector<PlaceMode<double>> modes;  ///< ascending ω; none without an equilibrium
-  int apart = 0;                         ///< number of single modes, listed first; then bundles
+  std::vector<PlaceMode<double>> modes;  ///< modes by ascending ω; none without an equilibrium
+  int apart = 0;                         ///< number of single modes; bundles of modes follow them
 };
 
 namespace detail {
 
-/// Lanczos' process on K⁻¹M in the inner product of K, begun with the deflection under a unit
-/// force. It gives a tridiagonal matrix T (s²): the receptance is the static one times the (1, 1)
-/// entry of (I + s²T)⁻¹. Each vector is made orthogonal to all earlier ones, if needed twice.
+/// Lanczos' process on K⁻¹M (stiffness K, masses M) in the inner product of K, begun with the
+/// deflection under a unit force. The result is a tridiagonal matrix T (s²): the receptance is the
+/// static one times the (1, 1) entry of (I + s²T)⁻¹. Vectors are orthogonalised up to twice.
 template <class Real>
 class FlexibilityLanczos {
  public:
@@ -78,9 +78,9 @@ class FlexibilityLanczos {
 
   /// Static receptance (m/N): the deflection under a unit force.
   Real deflection() const { return deflection_; }
-  /// The off-diagonal entry (s²) that the next step would add to T.
+  /// Off-diagonal entry (s²) that the next step of Lanczos' process would add to T.
   Real remainder() const { return beside_[count_ - 1]; }
-  /// The eigenvalues 1/ω² (s²) and eigenvectors of T.
+  /// Eigenvalues 1/ω² (s²) and eigenvectors of the tridiagonal matrix T.
   Eigen::SelfAdjointEigenSolver<Square> eigen() const {
     Eigen::SelfAdjointEigenSolver<Square> solver;
     solver.computeFromTridiagonal(diagonal_.head(count_), beside_.head(count_ - 1));
@@ -93,7 +93,7 @@ class FlexibilityLanczos {
   Real deflection_;
 };
 
-/// Mass matrix M (kg) of the free nodes, with the degrees of freedom x, y of each in turn.
+/// Mass matrix M (kg) of the free nodes, with the degrees of freedom x, y of each node in turn.
 template <class Real>
 Eigen::SparseMatrix<Real> mass_matrix(const BasicBarChain<Real>& chain, BarMass mass) {
   const Eigen::Index size = 2 * chain.free_nodes();
@@ -114,8 +114,8 @@ Eigen::SparseMatrix<Real> mass_matrix(const BasicBarChain<Real>& chain, BarMass 
   return matrix;
 }
 
-/// Sets the damping ratio of each mode that is not `apart`, a bundle, to half its relative width in
-/// frequency. A bundle extends to the geometric means of its frequency and either neighbour's.
+/// Sets the damping ratio of each bundle, a mode not in `apart`, to half the relative width of its
+/// band. The band ends at the geometric means of the frequencies of adjacent modes.
 inline void widen_bundles(std::vector<PlaceMode<double>>& modes, const std::vector<bool>& apart) {
   for (std::size_t n = 1; n < modes.size(); ++n) {
     if (apart[n]) continue;
@@ -136,12 +136,12 @@ inline void widen_bundles(std::vector<PlaceMode<double>>& modes, const std::vect
 ///
 /// K is the tangent stiffness of the bars, M their mass matrix with `hung.sideways`, e the vertical
 /// unit vector of the absorber's node. `steps` steps of Lanczos' process keep the first 2·`steps`
-/// moments of H about s = 0 exactly. Slow modes come out one by one, all others in bundles, wider
-/// and wider with frequency. A mode is single if the residual of the process is below 10⁻⁷ of 1/ω².
-/// The damping of a bundle covers its width, so that its waves leave the place and do not return.
-/// Modes with a node at the place do not appear. Work: O(bars · steps²).
-/// @tparam Real  `double`; a parameter so that it is compiled only where it is used
-/// @param chain  the cable's bars, six or more to the shortest wavelength of interest
+/// moments of H about s = 0 exactly. Slow modes are found singly, faster ones in bundles that widen
+/// with frequency. A mode is single if its residual in the process is below 10⁻⁷ of its 1/ω². A
+/// bundle's damping ratio is half its relative width in frequency, so that no wave returns to the
+/// absorber. Modes with a node at the absorber do not appear. Work: O(bars · steps²).
+/// @tparam Real  `double`; a parameter so that the function is compiled only where it is used
+/// @param chain  the cable's bars, at least six per shortest wavelength of interest
 /// @param hung   mass on the absorber's node
 /// @param steps  number of Lanczos steps, 1 … 2(N − 1) for N bars
 /// @param mass   distribution of the bars' mass on the nodes

@@ -10,25 +10,25 @@
 
 namespace holdfast {
 
-/// One undamped in-plane mode of the finite elements.
+/// One undamped in-plane mode of a cable in finite elements.
 struct ElementsMode {
-  ModeFamily family;      ///< by the symmetry of the vertical displacement about mid-span
-  double frequency;       ///< Hz
-  double along_share;     ///< share of the kinetic energy that moves along the span, 0 … 1
-  Eigen::VectorXd shape;  ///< 2(N − 1): x, y of each free node, largest magnitude 1
+  ModeFamily family;      ///< symmetry of the vertical displacement about mid-span
+  double frequency;       ///< natural frequency (Hz)
+  double along_share;     ///< share of the kinetic energy in motion along the span, 0 … 1
+  Eigen::VectorXd shape;  ///< displacements x, y of each free node, largest magnitude 1
 };
 
 /// Undamped modes of the bare cable about its equilibrium.
 struct ElementsModes {
   EquilibriumOutcome outcome;  ///< outcome of the search for the equilibrium
   /// Modes in ascending order of frequency, both transverse and longitudinal ones, which
-  /// `along_share` tells apart. None without an equilibrium.
+  /// `along_share` distinguishes. Empty without an equilibrium.
   std::vector<ElementsMode> modes;
 };
 
 namespace detail {
 
-/// Family of a shape: symmetric where the vertical part times its mirror image sums up to > 0.
+/// Family of a mode shape: symmetric if Σ v(x) v(L − x) > 0 over the vertical displacements v.
 inline ModeFamily family_of(const Eigen::VectorXd& shape) {
   const Eigen::Index nodes = shape.size() / 2;
   double overlap = 0.0;
@@ -40,8 +40,8 @@ inline ModeFamily family_of(const Eigen::VectorXd& shape) {
 }  // namespace detail
 
 /// The `count` lowest undamped modes of the bare cable in N = `elements` equal bars:
-/// K φ = ω² M φ with the tangent stiffness K at the equilibrium and lumped masses M, which make the
-/// frequencies too low. K is dense: N up to about 1000 is practical.
+/// K φ = ω² M φ with the tangent stiffness K at the equilibrium and the lumped masses M. Lumping
+/// makes the frequencies too low. K is stored dense: N up to about 1000 is practical.
 /// @throws InvalidParameter for an inadmissible conductor, an odd N, N < 2, or a count outside
 /// 1 … 2(N − 1)
 template <class Real>

@@ -11,16 +11,16 @@
 
 namespace holdfast {
 
-/// Stress–strain curves of the wires of one material in a conductor. A stress (Pa) is their force
-/// over the area of the whole conductor; a strain ε is the mechanical one, without that of the
-/// temperature, and 0 in the unloaded conductor at the reference temperature.
+/// Stress–strain curves of the wires of one material in a conductor. A stress σ (Pa) is the wires'
+/// force over the area of the whole conductor. A strain ε is mechanical: it excludes thermal
+/// expansion and is 0 in the unloaded conductor at the reference temperature.
 struct WireCurves {
-  std::array<double, 5> initial{};  ///< Σ a_k ε^k (Pa), of the first loading within an hour
-  std::array<double, 5> creep{};    ///< likewise, after ten years under the stress
-  double modulus = 0.0;             ///< dσ/dε (Pa) when unloaded, ≥ 0; 0: no such wires
-  double expansion = 0.0;           ///< α (1/K)
+  std::array<double, 5> initial{};  ///< a_k of σ = Σ a_k ε^k (Pa), first loading within an hour
+  std::array<double, 5> creep{};    ///< a_k of σ = Σ a_k ε^k (Pa), after ten years under stress
+  double modulus = 0.0;             ///< slope dσ/dε (Pa) of unloading, ≥ 0; 0: no such wires
+  double expansion = 0.0;           ///< coefficient of thermal expansion α (1/K)
 
-  /// Stress (Pa) on a curve, 0 where the wires are slack.
+  /// Stress (Pa) at a strain on one of the curves; 0 where the wires are slack.
   static double on(const std::array<double, 5>& curve, double strain) {
     if (strain <= 0.0) return 0.0;
     double stress = 0.0;
@@ -38,14 +38,14 @@ inline WireCurves linear_wires(double modulus, double expansion) {
 
 /// Stress–strain curves of a conductor.
 struct ConductorCurves {
-  WireCurves outer;                     ///< which conduct
-  WireCurves core;                      ///< may be none
-  double reference_temperature = 20.0;  ///< °C, at which both are unstressed together
-  double largest_strain = 0.01;         ///< up to which the curves hold
-  bool creeps = false;                  ///< initial and creep curves differ
+  WireCurves outer;                     ///< curves of the outer, conducting wires
+  WireCurves core;                      ///< curves of the core; modulus 0: no core
+  double reference_temperature = 20.0;  ///< temperature (°C) at which both materials are unstressed
+  double largest_strain = 0.01;         ///< largest strain at which the curves hold
+  bool creeps = false;                  ///< whether the initial and creep curves differ
 };
 
-/// Curves of ACSR of 26 aluminium and 7 steel wires, "Drake" among them.
+/// Stress–strain curves of ACSR conductors of 26 aluminium and 7 steel wires, such as "Drake".
 /// Source: Aluminum Company of America, stress–strain–creep chart 1-537 (psi over percent, 70 °F).
 inline ConductorCurves acsr_26_7_curves() {
   constexpr double psi = 6894.757293168361, percent = 0.01, fahrenheit = 5.0 / 9.0;
@@ -68,58 +68,58 @@ inline ConductorCurves acsr_26_7_curves() {
           true};
 }
 
-/// Weather of a span, as far as its tension depends on it.
+/// Temperature and load of a span, on which its tension depends.
 struct SpanWeather {
-  double temperature;        ///< of the conductor (°C)
-  double weight_per_length;  ///< w (N/m) across the chord: conductor, ice and wind, > 0
+  double temperature;        ///< temperature of the conductor (°C)
+  double weight_per_length;  ///< load w (N/m) across the chord: conductor, ice and wind, > 0
 };
 
 /// Tension of a span in one weather.
 struct SpanTension {
-  double horizontal;   ///< H (N)
-  double support;      ///< H cosh(wL/2H) (N), at the supports, the largest
-  double sag;          ///< (H/w)(cosh(wL/2H) − 1) (m), in the plane of the load
-  double core_share;   ///< of the core in the force, 0 … 1
-  double strain;       ///< largest mechanical strain of both materials
-  bool within_curves;  ///< that strain is one that the curves hold for
+  double horizontal;   ///< horizontal tension H (N)
+  double support;      ///< largest tension H cosh(wL/2H) (N), at the supports of the span L
+  double sag;          ///< sag (H/w)(cosh(wL/2H) − 1) (m), in the plane of the load w
+  double core_share;   ///< core's share of the force, 0 … 1
+  double strain;       ///< mechanical strain of outer wires or core, whichever is larger
+  bool within_curves;  ///< whether the stress–strain curves hold at `strain`
 };
 
-/// Sag H/w (cosh(wL/2H) − 1) (m) of a catenary.
+/// Sag H/w (cosh(wL/2H) − 1) (m) of a catenary of tension H (N), weight w (N/m) and span L (m).
 inline double catenary_sag(double horizontal_tension, double weight_per_length, double span) {
   const double half = std::sinh(weight_per_length * span / (4.0 * horizontal_tension));
   return 2.0 * horizontal_tension / weight_per_length * half * half;
 }
 
-/// How a span was strung.
+/// Measured tension of a strung span, and the heaviest load that the span has borne.
 struct Stringing {
-  SpanWeather weather;        ///< in which the tension was read
-  double horizontal_tension;  ///< H (N), > 0
-  bool is_final = false;      ///< read after creep and heaviest load, not when strung
-  std::optional<SpanWeather> heaviest = {};  ///< load that the span has borne, if any
+  SpanWeather weather;        ///< weather in which the tension was read
+  double horizontal_tension;  ///< horizontal tension H (N) as read, > 0
+  bool is_final = false;      ///< whether the span had already crept and borne that load
+  std::optional<SpanWeather> heaviest = {};  ///< heaviest load that the span has borne, if any
 };
 
 /// The change of state of a strung span: its tension at every temperature and load, when new and
 /// after years.
 ///
 /// The conductor has the unstressed length L₀. Under the tension H the catenary has the length
-/// S = (2H/w) sinh(wL/2H) and the strain ε = S/L₀ − 1, and its wires of area A bear the mean
-/// tension:
+/// S = (2H/w) sinh(wL/2H) and the strain ε = S/L₀ − 1. At the temperature T, the wires of the area
+/// A bear the mean tension:
 ///
 ///     A Σ σ_c(ε − α_c (T − T₀)) = H (L/2 + (H/2w) sinh(wL/H))/S
 ///
-/// with c the outer wires and the core; slack wires bear nothing, which gives the knee point. When
-/// new, σ_c is the initial curve. Creep for ten years at the temperature of stringing, and the
-/// heaviest load, each leave a permanent strain in each material: where its unloading line, of
-/// slope `modulus`, comes to zero. The larger one counts; the final σ_c is that line up to the
-/// initial curve. Source: the method of experimental plastic elongation; CIGRE Technical Brochure
-/// 324, Sag-tension calculation methods for overhead lines, 2016.
+/// with c the outer wires or the core, T₀ the reference temperature. Slack wires bear nothing,
+/// which gives the knee point. When new, σ_c is the initial curve. Ten years of creep in stringing
+/// weather leave a permanent strain in each material, as does the heaviest load: the strain where
+/// its unloading line of slope `modulus` has zero stress. The final σ_c follows the line of the
+/// larger permanent strain up to the initial curve. Source: experimental plastic elongation method;
+/// CIGRE Technical Brochure 324, Sag-tension calculation methods for overhead lines, 2016.
 class StrungSpan {
  public:
-  /// @param curves  of the conductor
-  /// @param area    A (m²), > 0
-  /// @param span    L (m), > 0; of several spans with swinging insulators the ruling span
-  /// @param stringing  the reading, and what the span has borne
-  /// @throws InvalidParameter naming what is out of range
+  /// @param curves  stress–strain curves of the conductor
+  /// @param area    cross section A (m²), > 0
+  /// @param span    span L (m), > 0; the ruling span where insulators swing between several spans
+  /// @param stringing  reading of the tension, and the heaviest load borne
+  /// @throws InvalidParameter naming the parameter that is out of range
   StrungSpan(const ConductorCurves& curves, double area, double span, const Stringing& stringing)
       : curves_(curves), area_(area), span_(span) {
     require_positive("area", area, "m^2");
@@ -138,24 +138,21 @@ class StrungSpan {
     string_with(found * (1.0 - root(missing, 0.0, curves_.largest_strain)), stringing);
   }
 
-  /// Tension of the new span.
+  /// Tension of the span when new, in a given weather.
   SpanTension initial(const SpanWeather& weather) const {
     return tension(weather, horizontal_tension(weather, Law::initial), Law::initial);
   }
 
-  /// Tension after creep and the heaviest load.
+  /// Tension of the span after creep and the heaviest load, in a given weather.
   SpanTension final(const SpanWeather& weather) const {
     return tension(weather, horizontal_tension(weather, Law::final), Law::final);
   }
-
-  /// Whether the heaviest load, and not creep, left the permanent strain of the outer wires.
-  bool load_decides() const { return load_decides_; }
 
  private:
   enum class Law { initial, creep, final };
   static constexpr double longest_strain = 0.05;  // of a search
 
-  /// Argument between two, at which a function comes to zero.
+  /// Zero of a function between two arguments.
   template <class Function>
   static double root(const Function& function, double lower, double upper) {
     const double at_lower = function(lower), at_upper = function(upper);
@@ -184,19 +181,19 @@ class StrungSpan {
     return outer_stress(strain, temperature, law) + core_stress(strain, temperature, law);
   }
 
-  /// S (m).
+  /// Length S (m) of the catenary.
   double catenary_length(double horizontal, double weight) const {
     return 2.0 * horizontal / weight * std::sinh(weight * span_ / (2.0 * horizontal));
   }
 
-  /// Mean of the tension along the catenary (N).
+  /// Mean tension (N) along the catenary.
   double mean_tension(double horizontal, double weight) const {
     return horizontal *
            (span_ / 2.0 + horizontal / (2.0 * weight) * std::sinh(weight * span_ / horizontal)) /
            catenary_length(horizontal, weight);
   }
 
-  /// L₀ (m) of a conductor that is new and has that tension.
+  /// Unstressed length L₀ (m) of a new conductor with a given horizontal tension (N).
   double unstressed_length(const SpanWeather& weather, double horizontal) const {
     const double wanted = mean_tension(horizontal, weather.weight_per_length) / area_;
     const auto excess = [&](double strain) {
@@ -231,7 +228,7 @@ class StrungSpan {
             largest,    largest <= curves_.largest_strain};
   }
 
-  /// Permanent strain of outer wires and core by a state.
+  /// Permanent strains that the tension in one weather leaves in outer wires and core.
   std::array<double, 2> permanent_by(const SpanWeather& weather, Law law) const {
     const double horizontal = horizontal_tension(weather, law);
     const double strain = catenary_length(horizontal, weather.weight_per_length) / length_ - 1.0;
@@ -245,7 +242,7 @@ class StrungSpan {
     return permanent;
   }
 
-  /// Permanent strains of a conductor of that unstressed length.
+  /// Sets the unstressed length (m), and the permanent strains by creep and by the heaviest load.
   void string_with(double unstressed, const Stringing& stringing) {
     length_ = unstressed;
     permanent_ = {};
@@ -253,7 +250,6 @@ class StrungSpan {
     permanent_ = permanent_by(stringing.weather, Law::creep);
     if (!stringing.heaviest) return;
     const std::array<double, 2> by_load = permanent_by(*stringing.heaviest, Law::initial);
-    load_decides_ = by_load[0] > permanent_[0];
     for (std::size_t k = 0; k < by_load.size(); ++k)
       permanent_[k] = std::max(permanent_[k], by_load[k]);
   }
@@ -262,7 +258,6 @@ class StrungSpan {
   double area_, span_;
   double length_ = 0.0;                   // L₀ (m)
   std::array<double, 2> permanent_ = {};  // strains of outer wires and core
-  bool load_decides_ = false;
 };
 
 }  // namespace holdfast

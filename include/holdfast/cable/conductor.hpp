@@ -8,39 +8,39 @@ namespace holdfast {
 
 /// A conductor (or stay) that hangs between two level supports.
 ///
-/// Coordinates: x to the right from the left support, 0 … L; w downward. For an inclined stay take
-/// the chord as span and the gravity normal to it (g cos α).
+/// Coordinates: x to the right from the left support, 0 … L; displacement w downward. For a stay
+/// inclined by α take the chord as span and the gravity normal to it (g cos α).
 template <class Scalar>
 struct Conductor {
-  Scalar mass_per_length;  ///< μ (kg/m of unstretched length), > 0
-  Scalar span;             ///< L (m), > 0
-  Scalar sag;              ///< f (m) at mid-span under its own weight, 0 < f < L/2
-  Scalar area;             ///< cross section (m²), > 0
-  Scalar youngs_modulus;   ///< E (Pa), > 0
-  Scalar damping_ratio;    ///< ζ, fraction of critical damping, 0 ≤ ζ < 1
-  Scalar gravity;          ///< g (m/s²), > 0
+  Scalar mass_per_length;  ///< mass μ per unstretched length (kg/m), > 0
+  Scalar span;             ///< span L (m), > 0
+  Scalar sag;              ///< sag f (m) at mid-span under the conductor's own weight, 0 < f < L/2
+  Scalar area;             ///< cross section A (m²), > 0
+  Scalar youngs_modulus;   ///< Young's modulus E (Pa), > 0
+  Scalar damping_ratio;    ///< damping ratio ζ, fraction of critical damping, 0 ≤ ζ < 1
+  Scalar gravity;          ///< acceleration of gravity g (m/s²), > 0
 
-  /// μ g (N/m).
+  /// Weight per length μ g (N/m).
   Scalar weight_per_length() const { return mass_per_length * gravity; }
-  /// μ g L (N).
+  /// Weight μ g L (N) of a conductor as long as the span.
   Scalar weight() const { return weight_per_length() * span; }
-  /// E A (N).
+  /// Axial stiffness E A (N).
   Scalar axial_stiffness() const { return youngs_modulus * area; }
-  /// H = μ g L² / (8 f) (N), horizontal tension of the parabola with this sag.
+  /// Horizontal tension H = μ g L² / (8 f) (N) of the parabola with the sag f.
   Scalar parabolic_tension() const { return weight() * span / (Scalar(8) * sag); }
-  /// L_e = L (1 + 8 (f/L)²) (m), the length over which the additional tension stretches the cable.
+  /// Effective length L_e = L (1 + 8 (f/L)²) (m), which additional tension stretches.
   Scalar effective_length() const {
     const Scalar ratio = sag / span;
     return span * (Scalar(1) + Scalar(8) * ratio * ratio);
   }
-  /// λ² = (μ g L/H)² L E A / (H L_e), Irvine's parameter: 0 for the taut string, ∞ for the
+  /// Irvine's parameter λ² = (μ g L/H)² L E A / (H L_e): 0 for the taut string, ∞ for the
   /// inextensible cable. Source: H. M. Irvine, Cable Structures, MIT Press, 1981.
   Scalar irvine_parameter() const {
     const Scalar tension = parabolic_tension();
     const Scalar slope = weight() / tension;
     return slope * slope * span * axial_stiffness() / (tension * effective_length());
   }
-  /// √(H/μ) (m/s), the speed of transverse waves.
+  /// Speed √(H/μ) (m/s) of transverse waves.
   Scalar transverse_wave_speed() const {
     using std::sqrt;
     return sqrt(parabolic_tension() / mass_per_length);
@@ -62,7 +62,7 @@ inline void validate(const Conductor<double>& conductor) {
     throw InvalidParameter("damping ratio zeta", conductor.damping_ratio, "", ">= 0 and < 1");
 }
 
-/// Refuses a position (m) along the span (m) that is not inside it.
+/// Refuses a position (m from the left support) that is not inside the span (m).
 /// @throws InvalidParameter unless 0 < position < span
 inline void require_inside_span(double position, double span) {
   if (position > 0 && position < span) return;

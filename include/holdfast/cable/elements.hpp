@@ -11,19 +11,19 @@ namespace holdfast {
 /// Model of the absorber on the continuous cable.
 enum class AbsorberReading {
   weight,       ///< a weight without inertia
-  rigid_mass,   ///< a mass fixed to its node, with inertia along the span too, damped by α
-  spring_mass,  ///< a mass on a spring and a damper below its node, both of them vertical
+  rigid_mass,   ///< a mass fixed to its node, with inertia along the span too, Rayleigh-damped
+  spring_mass,  ///< a mass below its node on a vertical spring and a vertical damper
 };
 
 /// The absorber on the continuous cable.
 struct HangingAbsorber {
   AbsorberReading reading;  ///< model, which decides which members below are used
-  double mass;              ///< m₂ (kg), ≥ 0; > 0 for the spring–mass
-  double stiffness = 0.0;   ///< k₂ (N/m), of the spring–mass only
-  double damping = 0.0;     ///< c₂ (N s/m), of the spring–mass only
-  /// M_c (kg), ≥ 0, of the spring–mass only: inertia fixed to the node, which adds no weight
+  double mass;              ///< mass m₂ (kg), ≥ 0; > 0 for the spring–mass
+  double stiffness = 0.0;   ///< spring stiffness k₂ (N/m), of the spring–mass only
+  double damping = 0.0;     ///< damper coefficient c₂ (N s/m), of the spring–mass only
+  /// Clamp mass M_c (kg), ≥ 0, of the spring–mass only: inertia fixed to the node, without weight
   double clamp_mass = 0.0;
-  bool sideways = false;  ///< of the spring–mass: whether m₂ moves along the span with the node
+  bool sideways = false;  ///< whether m₂ of a spring–mass moves along the span with the node
 };
 
 /// Refuses an absorber outside the ranges that its members state.
@@ -37,12 +37,12 @@ inline void validate(const HangingAbsorber& absorber) {
   require_non_negative("absorber damping c2", absorber.damping, "N s/m");
 }
 
-/// Rayleigh damping C = α M + β K.
+/// Rayleigh damping: the damping matrix C = α M + β K of mass matrix M and stiffness matrix K.
 struct RayleighDamping {
-  double mass_factor;       ///< α (1/s), ≥ 0
-  double stiffness_factor;  ///< β (s), ≥ 0
+  double mass_factor;       ///< factor α of the masses (1/s), ≥ 0
+  double stiffness_factor;  ///< factor β of the stiffness (s), ≥ 0
 
-  /// ζ = α/(2ω) + βω/2 of a mode of ω (rad/s) > 0.
+  /// Damping ratio ζ = α/(2ω) + βω/2 of a mode of angular frequency ω (rad/s) > 0.
   double damping_ratio(double angular_frequency) const {
     return 0.5 * (mass_factor / angular_frequency + stiffness_factor * angular_frequency);
   }
@@ -62,28 +62,28 @@ inline RayleighDamping rayleigh_damping(double damping_ratio, double first_frequ
           2.0 * damping_ratio / (first + second)};
 }
 
-/// The continuous cable with its absorber in finite elements: M v̇ + C v + f(q) = F for a chain of
-/// elastic bars with lumped masses. C = α M + β K, K at the equilibrium with the absorber's weight.
-/// The class has the right-hand side and its Jacobian, but no solver.
+/// The cable with its absorber as elastic bars: M v̇ + C v + f(q) = F with positions q, velocities
+/// v, lumped masses M, internal forces f and loads F. C = α M + β K, K at the equilibrium with the
+/// absorber's weight. The class computes the rates and their Jacobian; it has no solver.
 ///
-/// State: [x, y, ẋ, ẏ] (m, m/s) per free node. With a spring–mass, [a, ȧ] follows those of the
-/// loaded node, a (m) the absorber's drop from rest. The Jacobian's entries lie within
+/// State: [x, y, ẋ, ẏ] (m, m/s) per free node. With a spring–mass, [a, ȧ] follows the four states
+/// of the loaded node, a (m) being the absorber's drop from rest. The Jacobian's entries lie within
 /// `half_bandwidth()` of the diagonal. `push()` adds downward forces at the absorber's place.
 /// @tparam Real  `double`; a parameter so that the class is compiled only where it is used
 template <class Real>
 class BasicCableElements {
  public:
-  /// Columns of free nodes' positions (m).
+  /// Positions (m) of the free nodes, one column per node.
   using Nodes = typename BasicBarChain<Real>::Nodes;
-  /// A state, a column of `states()` numbers.
+  /// State vector of `states()` numbers.
   using States = Vector<Real, Eigen::Dynamic>;
 
-  /// @param conductor  admissible in the sense of `validate`
-  /// @param position   x_p (m) of the absorber, inside the span
-  /// @param elements   N, ≥ 2
+  /// @param conductor  conductor of the cable, one that `validate` accepts
+  /// @param position   distance x_p (m) of the absorber from the left support, inside the span
+  /// @param elements   number N of bars, ≥ 2
   /// @param absorber   absorber on the node at x_p
   /// @param damping    damping of the cable; both factors ≥ 0
-  /// @throws InvalidParameter outside these ranges, or for an absorber outside its own
+  /// @throws InvalidParameter outside these ranges, or for an absorber that `validate` refuses
   BasicCableElements(const Conductor<Real>& conductor, Real position, int elements,
                      const HangingAbsorber& absorber, const RayleighDamping& damping)
       : chain_(conductor, position, elements), absorber_(absorber), damping_(damping) {
@@ -101,7 +101,7 @@ class BasicCableElements {
   const BasicBarChain<Real>& chain() const { return chain_; }
   /// Whether the absorber is a mass on a spring.
   bool is_sprung() const { return absorber_.reading == AbsorberReading::spring_mass; }
-  /// Number of states.
+  /// Number of states of the differential equations.
   int states() const { return 4 * chain_.free_nodes() + (is_sprung() ? 2 : 0); }
   /// Half-bandwidth of the Jacobian: 7, or 9 with the two further states of the spring–mass.
   int half_bandwidth() const { return is_sprung() ? 9 : 7; }
@@ -111,11 +111,11 @@ class BasicCableElements {
 
   /// State at rest under a further force at the absorber's place.
   struct Start {
-    States state;                ///< states() numbers, velocities zero; valid where converged
-    EquilibriumOutcome outcome;  ///< converged where this equilibrium and rest() were found
+    States state;                ///< states() numbers with zero velocities; valid if converged
+    EquilibriumOutcome outcome;  ///< converged: this equilibrium and rest() were both found
   };
-  /// The state at rest under a further force.
-  /// @param force  N, downward positive, beside the weight of the absorber
+  /// State at rest under a force at the absorber's place in addition to the absorber's weight.
+  /// @param force  force (N), downward positive
   Start held_by(Real force) const {
     const ChainEquilibrium held = chain_equilibrium(chain_, resting_load() + force);
     const bool found = rest_.outcome == EquilibriumOutcome::converged;
@@ -129,8 +129,8 @@ class BasicCableElements {
     return start;
   }
 
-  /// Motion [z, ż, a, ȧ] (m, m/s, m, m/s) of the absorber's place and of the absorber; only with a
-  /// spring–mass.
+  /// Drops z of the absorber's node and a of the absorber from rest, with their velocities: [z, ż,
+  /// a, ȧ] (m, m/s, m, m/s); only with a spring–mass.
   Vector<Real, 4> at_absorber(const Real* state) const {
     const int own = first_state(chain_.loaded_node());
     return {state[own + 1] - rest_.nodes(1, chain_.loaded_node()), state[own + 3], state[own + 4],
@@ -226,7 +226,7 @@ class BasicCableElements {
     }
   }
 
-  /// The smallest tension (N) of the bars; the model of the cable holds while it is positive.
+  /// Smallest tension (N) of the bars; the model of the cable holds while this tension is positive.
   Real margin(const Real* state) const { return chain_.smallest_tension(positions(state)); }
 
   /// Positions (m) of the free nodes.
@@ -250,14 +250,14 @@ class BasicCableElements {
     if (is_sprung() && absorber_.sideways) masses[0] += absorber_.mass;
     return masses;
   }
-  /// Damping rates (1/s) of a node by α: along the span; vertically, where α spares the clamp mass.
+  /// Damping rates (1/s) of a node by α M, along the span and vertically; the clamp is undamped.
   Vector<Real, 2> mass_drag(int node) const {
     Vector<Real, 2> drag = Vector<Real, 2>::Constant(damping_.mass_factor);
     if (is_sprung() && node == chain_.loaded_node())
       drag[1] *= chain_.mass(node) / inertia(node)[1];
     return drag;
   }
-  /// Place (m) and velocity (m/s) of a node.
+  /// Position (m) and velocity (m/s) of a node.
   template <class Scalar>
   struct NodeMotion {
     Vector<Scalar, 2> place, velocity;

@@ -12,9 +12,9 @@ namespace holdfast {
 /// Extent of a segment of an elastic catenary, as a function of the forces at its left end.
 template <class Scalar>
 struct CatenaryExtent {
-  Scalar horizontal;             ///< m
-  Scalar vertical;               ///< m, downward
-  Matrix<Scalar, 2> derivative;  ///< ∂(horizontal, vertical)/∂(H, V) (m/N), symmetric, positive
+  Scalar horizontal;             ///< horizontal extent (m)
+  Scalar vertical;               ///< vertical extent (m), downward positive
+  Matrix<Scalar, 2> derivative;  ///< ∂(horizontal, vertical)/∂(H, V) (m/N), positive definite
 };
 
 /// The extent of a segment of an elastic catenary of weight w (N per unstretched metre) and axial
@@ -24,8 +24,8 @@ struct CatenaryExtent {
 ///     x = H l/EA + (H/w) [asinh(V/H) − asinh((V − w l)/H)]
 ///     y = l (2V − w l)/(2EA) + [T(0) − T(l)]/w
 ///
-/// The derivative is the Hessian of the complementary energy ∫ (T²/2EA + T) ds: symmetric, and
-/// positive definite for H > 0. Source: Irvine 1981, Sect. 1.4.
+/// The derivative of (x, y) by (H, V) is the Hessian of the energy ∫ (T²/2EA + T) ds: symmetric,
+/// and positive definite for H > 0. Source: Irvine 1981, Sect. 1.4.
 /// @param weight          w (N/m), > 0
 /// @param stiffness       EA (N), > 0
 /// @param tension         H (N), > 0
@@ -53,29 +53,29 @@ CatenaryExtent<Scalar> catenary_extent(const Scalar& weight, const Scalar& stiff
 
 /// Outcome of the search for an equilibrium.
 enum class EquilibriumOutcome {
-  converged,      ///< bars: the forces balance; catenary: it meets both supports to 2·10⁻¹¹ L
-  not_converged,  ///< none found: slack bars, or a load beyond the number type's resolution
+  converged,  ///< bars: all forces balance; catenary: meets both supports to 2·10⁻¹¹ of the span
+  not_converged,  ///< no equilibrium found: slack bars, or a load too large for the precision
 };
 
-/// Equilibrium of the whole cable under one vertical point load; NaN where it was not found.
+/// Equilibrium of the whole cable under one vertical point load; NaN where none was found.
 template <class Scalar>
 struct LoadedCable {
-  Scalar tension;              ///< H (N), horizontal tension, constant along the cable
-  Scalar vertical_force;       ///< V (N), upward force of the left support on the cable
+  Scalar tension;              ///< horizontal tension H (N), constant along the cable
+  Scalar vertical_force;       ///< upward force V (N) of the left support on the cable
   EquilibriumOutcome outcome;  ///< whether the cable meets both supports
 };
 
 /// The exact statics of an elastic cable: two catenaries that meet under the point load.
 ///
 /// The unstretched length is chosen so that the bare cable has the given sag. Across a load P (N,
-/// downward) the vertical force drops by P. H and V put the right end on the support (L, 0): there
-/// the complementary energy ∫ (T²/2EA + T) ds − H L is stationary. It is strictly convex in (H, V),
-/// so that every load has exactly one solution, which Newton's method with backtracking finds from
+/// downward) the vertical force drops by P. With the right end on the support (L, 0), the
+/// complementary energy ∫ (T²/2EA + T) ds − H L is stationary in (H, V). This energy is strictly
+/// convex: every load has exactly one solution, and Newton's method with backtracking finds it from
 /// any start. Source: Irvine 1981, Sect. 1.4.
 template <class Scalar>
 class HangingCable {
  public:
-  /// @param conductor  admissible in the sense of `validate`
+  /// @param conductor  conductor of the cable, one that `validate` accepts
   explicit HangingCable(const Conductor<Scalar>& conductor)
       : weight_(conductor.weight_per_length()),
         stiffness_(conductor.axial_stiffness()),
@@ -83,11 +83,11 @@ class HangingCable {
     settle_length(conductor);
   }
 
-  /// l₀ (m), the length of the cable laid out without tension.
+  /// Length l₀ (m) of the cable without tension.
   const Scalar& unstretched_length() const { return length_; }
   /// Horizontal tension H (N) of the bare cable.
   const Scalar& bare_tension() const { return bare_tension_; }
-  /// L (m), the distance of the two supports, which are level.
+  /// Span L (m) between the two level supports.
   const Scalar& span() const { return span_; }
   /// Axial stiffness EA (N).
   const Scalar& axial_stiffness() const { return stiffness_; }
@@ -99,7 +99,7 @@ class HangingCable {
     return {bare_tension_, weight_ * length_ / Scalar(2), bare_outcome_};
   }
 
-  /// Unstretched coordinate s (m) of the material point that hangs at x (m) in the bare cable.
+  /// Unstretched coordinate s (m, from the left) of the material point at x (m) in the bare cable.
   Scalar material_coordinate(const Scalar& x) const {
     using std::abs;
     Scalar below(0), above = length_, s = length_ * x / span_;
@@ -114,7 +114,7 @@ class HangingCable {
     return s;
   }
 
-  /// Equilibrium with a load P (N, downward positive, any size) at s_p (m), 0 < s_p < l₀.
+  /// Equilibrium under any load P (N, downward) at unstretched coordinate s_p (m), 0 < s_p < l₀.
   LoadedCable<Scalar> under_load(const Scalar& load, const Scalar& place) const {
     LoadedCable<Scalar> cable = bare();
     cable.vertical_force += load * (Scalar(1) - place / length_);
@@ -148,7 +148,7 @@ class HangingCable {
     return {none, none, EquilibriumOutcome::not_converged};
   }
 
-  /// Extent of both catenaries together, and its derivative by (H, V), with the load P (N) at s_p.
+  /// Extent of the whole cable under a load P (N) at s_p (m), and its derivative by (H, V).
   CatenaryExtent<Scalar> whole(const LoadedCable<Scalar>& cable, const Scalar& load,
                                const Scalar& place) const {
     const auto left = extent(cable, place);
@@ -159,7 +159,7 @@ class HangingCable {
             left.derivative + right.derivative};
   }
 
-  /// Position of the material point s (m), 0 ≤ s ≤ s_p: x and drop (m) from the left support.
+  /// Extent (m) from the left support to the material point s (m), left of the load: 0 ≤ s ≤ s_p.
   CatenaryExtent<Scalar> extent(const LoadedCable<Scalar>& cable, const Scalar& s) const {
     return catenary_extent<Scalar>(weight_, stiffness_, cable.tension, cable.vertical_force, s);
   }
@@ -214,7 +214,7 @@ class HangingCable {
     length_ = Scalar(2) * half;
   }
 
-  /// A Newton step, shortened so that the tension remains at least a tenth of its value.
+  /// A Newton step, shortened so that the tension remains at least a tenth of its present value.
   static Vector<Scalar, 2> step_within(const Vector<Scalar, 2>& newton, const Scalar& tension) {
     const Scalar floor = Scalar(-0.9) * tension;
     if (!(newton[0] < floor)) return newton;
@@ -228,14 +228,14 @@ class HangingCable {
 
 /// Force and displacement of the loaded point of a cable by the exact statics.
 ///
-/// The interface is that of `IrvinePointLoad`; the displacement w counts from the bare cable.
-/// Results are NaN where `HangingCable::under_load` finds no equilibrium.
+/// The interface equals that of `IrvinePointLoad`; the displacement w is measured from the bare
+/// cable. Results are NaN where `HangingCable::under_load` finds no equilibrium.
 template <class Scalar>
 class CatenaryPointLoad {
  public:
-  /// @param conductor  admissible in the sense of `validate`
-  /// @param position   x_p (m), inside the span: place in the bare cable of the material point that
-  ///                   carries the load
+  /// @param conductor  conductor of the cable, one that `validate` accepts
+  /// @param position   distance x_p (m) of the loaded material point from the left support in the
+  ///                   bare cable, inside the span
   CatenaryPointLoad(const Conductor<Scalar>& conductor, const Scalar& position)
       : cable_(conductor),
         place_(cable_.material_coordinate(position)),
@@ -262,7 +262,7 @@ class CatenaryPointLoad {
     return cable_.point(loaded, load, place_, s)[1] - cable_.extent(cable_.bare(), s).vertical;
   }
 
-  /// dP/dw (N/m) at a load P (N).
+  /// Tangent stiffness dP/dw (N/m) of the loaded point at a load P (N).
   ///
   /// The supports are fixed: J d(H, V) = J_right [0, 1]ᵀ dP. J is the derivative of the extent of
   /// the whole cable, J_right that of its part right of the load. dw follows from the left part.
@@ -275,7 +275,7 @@ class CatenaryPointLoad {
     return Scalar(1) / left.row(1).dot(change);
   }
 
-  /// The load −μ g L/2 (N): at and below it `IrvinePointLoad` does not hold, but this class does.
+  /// Load −μ g L/2 (N), the lower limit of `IrvinePointLoad`; this class is valid for any load.
   Scalar lowest_load() const { return lowest_load_; }
 
  private:

@@ -11,15 +11,15 @@ namespace holdfast {
 
 /// Symmetry of an in-plane mode about mid-span.
 enum class ModeFamily {
-  symmetric,      ///< the cable stretches: the frequency depends on λ²
-  antisymmetric,  ///< to first order no stretch: the frequency is that of the taut string
+  symmetric,      ///< the mode stretches the cable; its frequency depends on Irvine's λ²
+  antisymmetric,  ///< no stretch to first order; the frequency is that of the taut string
 };
 
 /// One in-plane mode of a shallow cable.
 struct CableMode {
   ModeFamily family;               ///< symmetry, which decides the formula of the shape
-  double dimensionless_frequency;  ///< ω̄ = ω L/√(H/μ), > 0
-  double frequency;                ///< ω/2π (Hz)
+  double dimensionless_frequency;  ///< dimensionless frequency ω̄ = ω L/√(H/μ), > 0
+  double frequency;                ///< natural frequency ω/2π (Hz)
 
   /// Shape at x̂ = x/L, 0 … 1, with largest magnitude near 1: sin(ω̄ x̂) of an antisymmetric mode,
   /// [cos(ω̄/2) − cos(ω̄/2 − ω̄ x̂)]/(1 + |cos(ω̄/2)|) of a symmetric one. This is Irvine's shape,
@@ -55,8 +55,8 @@ Scalar symmetric_frequency(int n, const Scalar& irvine_parameter) {
   }
 }
 
-/// The `count` lowest in-plane modes in ascending frequency; where two coincide (a crossover) the
-/// symmetric one comes first.
+/// The `count` lowest in-plane modes in ascending order of frequency. At a crossover
+/// (two equal frequencies) the symmetric mode comes first.
 /// @throws InvalidParameter for an inadmissible conductor, or count < 1
 inline std::vector<CableMode> irvine_modes(const Conductor<double>& conductor, int count) {
   validate(conductor);

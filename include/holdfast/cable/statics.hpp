@@ -19,14 +19,14 @@ namespace holdfast {
 ///     ĥ³ + (2 + λ²/24) ĥ² + (1 + λ²/12) ĥ − (λ²/2) x̂_p (1 − x̂_p) P̂ (1 + P̂) = 0
 ///     w(x) = μ g L²/(H (1 + ĥ)) [ P̂ x̂_< (1 − x̂_>) − (ĥ/2) x̂ (1 − x̂) ],
 ///
-/// x̂_<, x̂_> the smaller and the larger of x̂, x̂_p. w counts from the bare cable. Valid for small
-/// slopes (f/L up to about 1/8) and P̂ > −1/2, below which ĥ would rise again.
+/// x̂_<, x̂_> are the smaller and the larger of x̂, x̂_p. w is measured from the bare cable. Both
+/// hold for small slopes (f/L up to about 1/8) and P̂ > −1/2, below which ĥ would rise again.
 /// Source: H. M. Irvine, Cable Structures, MIT Press, 1981, Sect. 2.4.
 template <class Scalar>
 class IrvinePointLoad {
  public:
-  /// @param conductor  admissible in the sense of `validate`
-  /// @param position   x_p (m), inside the span
+  /// @param conductor  conductor of the cable, one that `validate` accepts
+  /// @param position   distance x_p (m) of the load from the left support, inside the span
   IrvinePointLoad(const Conductor<Scalar>& conductor, const Scalar& position)
       : tension_(conductor.parabolic_tension()),
         weight_(conductor.weight()),
@@ -59,7 +59,7 @@ class IrvinePointLoad {
     return tension_ * (Scalar(1) + relative_additional_tension(load));
   }
 
-  /// Displacement w(x) (m) of Eq. (1), 0 ≤ x ≤ L, under a load P (N).
+  /// Displacement w(x) (m) at x (m) from the left support, 0 ≤ x ≤ L, under a load P (N).
   Scalar deflection(const Scalar& x, const Scalar& load) const {
     const Scalar at = x / span_, added = relative_additional_tension(load);
     const Scalar lower = at < place_ ? at : place_, upper = at < place_ ? place_ : at;
@@ -71,7 +71,7 @@ class IrvinePointLoad {
   /// Displacement w(x_p) (m) of the loaded point under a load P (N).
   Scalar displacement(const Scalar& load) const { return deflection(place_ * span_, load); }
 
-  /// dP/dw at x_p (N/m): the stiffness against a small further load, at a load P (N).
+  /// Tangent stiffness dP/dw (N/m) of the loaded point at a load P (N).
   Scalar stiffness(const Scalar& load) const {
     const Scalar relative = load / weight_, added = relative_additional_tension(load);
     const Scalar form = place_ * (Scalar(1) - place_);
@@ -86,7 +86,7 @@ class IrvinePointLoad {
     return weight_ / (scale() * form * rate);
   }
 
-  /// The load −μ g L/2 (N), at and below which Eq. (1) does not hold.
+  /// Load −μ g L/2 (N), at and below which the equations of this class do not hold.
   Scalar lowest_load() const { return -weight_ / Scalar(2); }
 
  private:
@@ -95,38 +95,38 @@ class IrvinePointLoad {
   Scalar tension_, weight_, span_, parameter_, place_;
 };
 
-/// Statics of the absorber's place with force and displacement counted as in Kollár 2022, Fig. 2:
+/// Statics of the absorber's place with force and displacement measured as in Kollár 2022, Fig. 2:
 /// from the equilibrium with the absorber's weight, downward positive.
 ///
-/// @tparam PointLoad  `IrvinePointLoad<double>` (Eq. 1) or `CatenaryPointLoad<double>` (exact)
+/// @tparam PointLoad  `IrvinePointLoad<double>` (parabola) or `CatenaryPointLoad<double>` (exact)
 template <class PointLoad>
 class StaticsFromRest {
  public:
-  /// @param model         statics of the place, its displacement counted from the bare cable
+  /// @param model         statics of the place, its displacement measured from the bare cable
   /// @param resting_load  weight of the absorber (N), ≥ 0
   StaticsFromRest(PointLoad model, double resting_load)
       : model_(std::move(model)),
         resting_load_(resting_load),
         resting_displacement_(model_.displacement(resting_load)) {}
 
-  /// The statics of the place as counted from the bare cable.
+  /// Statics of the absorber's place, with load and displacement measured from the bare cable.
   const PointLoad& model() const { return model_; }
 
-  /// Drop (m) of the place from the bare cable to the equilibrium.
+  /// Drop (m) of the absorber's place from the bare cable to the equilibrium.
   double resting_displacement() const { return resting_displacement_; }
 
-  /// Horizontal tension H + h (N) under a further force (N).
+  /// Horizontal tension H + h (N) under a force (N) in addition to the absorber's weight.
   double tension(double force) const { return model_.tension(resting_load_ + force); }
 
-  /// Displacement w (m) under a further force (N), force > lowest_force().
+  /// Displacement w (m) under a force (N) > lowest_force() in addition to the absorber's weight.
   double displacement(double force) const {
     return model_.displacement(resting_load_ + force) - resting_displacement_;
   }
 
-  /// Tangent stiffness dF/dw (N/m) at a further force (N).
+  /// Tangent stiffness dF/dw (N/m) at a force F (N) in addition to the absorber's weight.
   double stiffness(double force) const { return model_.stiffness(resting_load_ + force); }
 
-  /// The force F (N) that displaces the place by w (m), from Newton's method on the increasing
+  /// Force F (N) that displaces the absorber's place by w (m), by Newton's method on the increasing
   /// w(F) within a bracket. @throws InvalidParameter where F would not be above lowest_force()
   double force(double displacement_sought) const {
     require_finite("displacement", displacement_sought, "m");
@@ -148,8 +148,8 @@ class StaticsFromRest {
     return guess;
   }
 
-  /// The further force (N) at and below which the models do not hold. This force and the absorber's
-  /// weight together are an upward load of half the cable's weight.
+  /// Lower limit (N) of the force in addition to the absorber's weight, set by `IrvinePointLoad`:
+  /// with the absorber's weight it is an upward load of half the cable's weight.
   double lowest_force() const { return model_.lowest_load() - resting_load_; }
 
  private:
@@ -157,8 +157,8 @@ class StaticsFromRest {
   double resting_load_, resting_displacement_;
 };
 
-/// The statics by Eq. (1) at the absorber's place.
-/// @throws InvalidParameter for an inadmissible conductor, place or mass (kg)
+/// Statics of the absorber's place by Irvine's parabolic cable (Kollár 2022, Eq. 1).
+/// @throws InvalidParameter for an inadmissible conductor, position (m, from the left) or mass (kg)
 inline StaticsFromRest<IrvinePointLoad<double>> irvine_statics(const Conductor<double>& conductor,
                                                                double position,
                                                                double absorber_mass) {
@@ -168,8 +168,8 @@ inline StaticsFromRest<IrvinePointLoad<double>> irvine_statics(const Conductor<d
   return {{conductor, position}, absorber_mass * conductor.gravity};
 }
 
-/// The exact statics at the absorber's place.
-/// @throws InvalidParameter for an inadmissible conductor, place or mass (kg)
+/// Statics of the absorber's place by two elastic catenaries (exact).
+/// @throws InvalidParameter for an inadmissible conductor, position (m, from the left) or mass (kg)
 template <class Scalar>
 StaticsFromRest<CatenaryPointLoad<Scalar>> exact_statics(const Conductor<Scalar>& conductor,
                                                          double position, double absorber_mass) {
@@ -179,22 +179,22 @@ StaticsFromRest<CatenaryPointLoad<Scalar>> exact_statics(const Conductor<Scalar>
   return {{conductor, position}, absorber_mass * conductor.gravity};
 }
 
-/// Straight line that replaces the force-displacement relationship F(w) of the cable (Eq. 2).
+/// Straight line that replaces the force F(w) of the cable (Kollár 2022, Eq. 2).
 enum class StiffnessReading {
   tangent,        ///< slope at the equilibrium with the absorber's weight
   secant,         ///< (F(below) − F(−above)) / (below + above)
   least_squares,  ///< slope of the line nearest to F(w) over −above … below
 };
 
-/// Range of displacements (m) from the equilibrium with the absorber's weight that determines k₁.
+/// Displacements (m) from the equilibrium with the absorber's weight over which k₁ is determined.
 struct ReadingRange {
-  double below;  ///< downward, ≥ 0
-  double above;  ///< upward, ≥ 0
+  double below;  ///< largest displacement downward (m), ≥ 0
+  double above;  ///< largest displacement upward (m), ≥ 0
 };
 
 namespace detail {
 
-/// Slope (N/m) of the least-squares line of F(w) over w = `middle` ± `half` (m):
+/// Slope (N/m) of the least-squares line of F(w) over w = w̄ ± half (m), where w̄ is `middle`:
 /// ∫ (w − w̄) F dw/∫ (w − w̄)² dw by 16-point Gauss–Legendre quadrature.
 template <class Statics>
 double least_squares_slope(const Statics& statics, double middle, double half) {
@@ -215,7 +215,7 @@ double least_squares_slope(const Statics& statics, double middle, double half) {
 
 }  // namespace detail
 
-/// The conductor's stiffness k₁ = ΔP/Δw (N/m), Eq. (2), from the statics at the absorber's place.
+/// The conductor's stiffness k₁ = ΔP/Δw (N/m) at the absorber's place (Kollár 2022, Eq. 2).
 ///
 /// The least-squares line need not pass through the equilibrium.
 /// @throws InvalidParameter for a negative or empty range, and for one in which the statics do not

@@ -17,25 +17,25 @@ namespace holdfast {
 /// stiffness.
 template <class Scalar>
 struct TautString {
-  Scalar tension;                ///< T (N), > 0
-  Scalar mass_per_length;        ///< μ (kg/m), > 0
-  Scalar span;                   ///< L (m), > 0
-  Scalar damping_ratio;          ///< ζ of each mode, 0 ≤ ζ < 1
-  Scalar bending_stiffness = 0;  ///< EI (N m²), ≥ 0
+  Scalar tension;                ///< tension T (N), > 0
+  Scalar mass_per_length;        ///< mass per length μ (kg/m), > 0
+  Scalar span;                   ///< span L (m), > 0
+  Scalar damping_ratio;          ///< damping ratio ζ of each mode, 0 ≤ ζ < 1
+  Scalar bending_stiffness = 0;  ///< bending stiffness EI (N m²), ≥ 0
 
-  /// c = √(T/μ) (m/s), the speed of transverse waves.
+  /// Speed c = √(T/μ) (m/s) of transverse waves.
   Scalar wave_speed() const {
     using std::sqrt;
     return sqrt(tension / mass_per_length);
   }
-  /// Z_c = √(T μ) (N s/m), force over velocity in a wave that runs one way.
+  /// Wave impedance Z_c = √(T μ) (N s/m): force over velocity in a travelling wave.
   Scalar wave_impedance() const {
     using std::sqrt;
     return sqrt(tension * mass_per_length);
   }
-  /// M_n = μ L/2 (kg), the mass of every mode sin(nπx/L).
+  /// Modal mass M_n = μ L/2 (kg) of every mode sin(nπx/L).
   Scalar modal_mass() const { return mass_per_length * span / Scalar(2); }
-  /// ω_n = (nπ/L) √(T/μ) √(1 + n²π² EI/(T L²)) (rad/s) for n > 0, not necessarily whole.
+  /// Angular frequency (nπ/L) √(T/μ) √(1 + n²π² EI/(T L²)) (rad/s) of mode n, any real n > 0.
   Scalar angular_frequency(const Scalar& n) const {
     using std::sqrt;
     const Scalar waves = n * pi<Scalar> / span;
@@ -62,10 +62,10 @@ TautString<Scalar> taut_string(const Conductor<Scalar>& conductor) {
 }
 
 /// The receptance H(s) = sinh(s a/c) sinh(s (L − a)/c) / (s Z_c sinh(s L/c)) (m/N) of the string at
-/// a place a from the left support, with all its modes (unchecked). It is computed from decaying
-/// exponentials, so that no s with Re s ≥ 0 overflows.
+/// a place a from the left support, with all its modes. Decaying exponentials avoid overflow at
+/// every s with Re s ≥ 0. The arguments are not checked.
 /// @param string  the string; its damping and bending stiffness are ignored
-/// @param place   a (m), inside the span
+/// @param place   distance a (m) from the left support, inside the span
 /// @param s       complex frequency (1/s), Re s ≥ 0, not the pole of a mode
 template <class Scalar>
 std::complex<Scalar> receptance(const TautString<Scalar>& string, const Scalar& place,
@@ -96,13 +96,13 @@ std::vector<PlaceMode<Scalar>> string_modes(const TautString<Scalar>& string, co
   return modes;
 }
 
-/// An infinitely long string with a clamp, written as one mode: 1/H = 2 Z_c s + M s² + k,
-/// Z_c = √(T μ). Its waves do not return.
+/// An infinitely long string with a clamp, as one mode: its receptance H(s) (m/N) is given by
+/// 1/H = 2 Z_c s + M s² + k with Z_c = √(T μ). Waves do not return from its ends.
 ///
-/// A mode needs two terms that such a string lacks; both affect only the thirteenth digit. The
-/// stiffness k = 10⁻¹³ · 2 Z_c/τ has a time constant of 10¹³ samples. The mass M is at least
-/// 10⁻¹³ · 2 Z_c τ; with this least mass the velocity settles long before the next sample, so that
-/// the computer reads the velocity just before its own force changes.
+/// A mode needs a stiffness and a mass that this string lacks; both affect only the thirteenth
+/// digit. The stiffness k = 10⁻¹³ · 2 Z_c/τ has a time constant of 10¹³ samples. The mass M is at
+/// least 10⁻¹³ · 2 Z_c τ; with this least mass the velocity settles long before the next sample.
+/// The computer thus reads the velocity just before its own force changes.
 /// @param wave_impedance   Z_c (N s/m), > 0
 /// @param clamp_mass       M (kg) of the clamp, ≥ 0
 /// @param sampling_period  τ (s), > 0
@@ -118,20 +118,20 @@ inline PlaceMode<double> infinite_string_mode(double wave_impedance, double clam
   return {omega, impedance / (2.0 * mass * omega), 1.0, mass};
 }
 
-/// The modes of the string for use at frequencies below mode `count`: the modes 1 … count one by
-/// one, and the modes above, up to a given frequency, in bundles of ever more neighbours. A bundle
-/// from mode n on has h = 1 + (n − count − 1)/10 modes, rounded down; fewer with bending stiffness.
+/// The modes of the string for use at frequencies below mode `count`: the modes 1 … count singly,
+/// and the modes above, up to a given frequency, in bundles of increasing size. A bundle that
+/// begins with mode n has h = 1 + (n − count − 1)/10 modes, rounded down; fewer with bending
+/// stiffness.
 ///
-/// A bundle of h modes is one mode of mass M = μL/(2h) with the mean of their squared shapes. Its
-/// frequency ω = √(ω(n − ½) ω(n + h − ½)) has the static deflection of its h modes together.
-/// Its damping covers its bandwidth, so that its waves leave the place and do not return, as on a
-/// string that is damped enough above mode `count`. Without the bundles, the string would act on
+/// A bundle of h modes is one mode of mass M = μL/(2h) whose φ² is the mean of their φ². At its
+/// frequency ω = √(ω(n − ½) ω(n + h − ½)) it deflects statically as its h modes do together. Its
+/// damping covers its bandwidth, so that waves leave the place a and do not return, as on a
 /// the place at high frequencies like a mass 1/Σ(φ²/M).
 /// @param string   string whose modes are bundled
-/// @param place    a (m), inside the span
+/// @param place    distance a (m) from the left support, inside the span
 /// @param count    number of modes that are not bundled, 1 … 10⁴
-/// @param highest  ω (rad/s) up to which bundles are formed; none where mode count + 1 reaches it
-/// @throws InvalidParameter as `string_modes`, and for a frequency that is not finite
+/// @param highest  highest ω (rad/s) of the bundles; no bundles where mode count + 1 reaches it
+/// @throws InvalidParameter in the cases of `string_modes`, and for a frequency that is not finite
 template <class Scalar>
 std::vector<PlaceMode<Scalar>> bundled_string_modes(const TautString<Scalar>& string,
                                                     const Scalar& place, int count,

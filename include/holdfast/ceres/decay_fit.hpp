@@ -18,7 +18,7 @@
 #include "holdfast/math/signal/decay_measures.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
-/// Fits of the plant to records, which need the package Ceres Solver.
+/// Fits of the plant to decay records; this header needs the package Ceres Solver.
 namespace holdfast::fit {
 
 namespace detail {
@@ -47,7 +47,7 @@ inline std::unique_ptr<DecayCost> decay_cost(const DecayResiduals& residuals) {
   return std::make_unique<DecayCost>(new DecayResiduals(residuals), residuals.count());
 }
 
-/// Residuals (count), without a robust loss, and their derivatives by the free θ (count × free).
+/// Residuals without a robust loss, and their derivatives by the free unknowns θ.
 struct Linearisation {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;
@@ -122,9 +122,9 @@ inline double median_deviation(const Eigen::VectorXd& residuals) {
   return 1.4826 * *middle;
 }
 
-/// The factor of (JᵀJ)⁻¹ in the covariance of p free θ from n residuals r: Σr²/(n − p), for
-/// measures at least (1 %)²; with Huber's loss [Σψ²/(n − p)]/(mean ψ′)², ψ the bounded residuals.
-/// Source: P. J. Huber, Robust Statistics, 1981, Sect. 7.6.
+/// Factor of (JᵀJ)⁻¹ in the covariance of p free unknowns, for n residuals r with derivatives J:
+/// Σr²/(n − p), for measures at least (1 %)²; with Huber's loss [Σψ²/(n − p)]/(mean ψ′)² with the
+/// bounded residuals ψ. Source: P. J. Huber, Robust Statistics, 1981, Sect. 7.6.
 inline double variance_factor(const DecayResiduals& residuals, const Linearisation& at) {
   const auto freedom = static_cast<double>(at.residuals.size() - at.jacobian.cols());
   if (is_measured(residuals.target))
@@ -139,7 +139,7 @@ inline double variance_factor(const DecayResiduals& residuals, const Linearisati
   return squares / freedom / (share * share);
 }
 
-/// The standard errors σ_p = p σ_θ of the free parameters, from the covariance of θ.
+/// Standard errors σ_p = p σ_θ of the free parameters p, from the covariance of their logarithms θ.
 inline std::vector<double> standard_errors(const DecayResiduals& residuals, const Linearisation& at,
                                            const TwoMass<double>& plant,
                                            const DecayFitOptions& fit_options) {
@@ -176,15 +176,15 @@ inline DecayMinimum minimum_of(const DecayResiduals& residuals, const DecayFitOp
   return minimum;
 }
 
-/// Whether the record determines the minimum: the standard error of at least one parameter is not
-/// above its value. Otherwise the cost is so flat that the solver stops at an arbitrary point.
+/// Whether the record determines the minimum: at least one standard error is at most its parameter.
+/// Otherwise the cost is so flat that the solver stops at an arbitrary point.
 inline bool is_determined(const DecayMinimum& minimum, const DecayFitOptions& fit_options) {
   for (std::size_t k = 0; k < fit_options.free.size(); ++k)
     if (minimum.standard_errors[k] <= parameter_of(minimum.plant, fit_options.free[k])) return true;
   return false;
 }
 
-/// Adds a minimum, or counts one more start of a known one with the same parameters.
+/// Adds a minimum. If one with the same parameters is known, counts one more start for it.
 inline void collect(std::vector<DecayMinimum>& minima, const DecayMinimum& found,
                     const DecayFitOptions& fit_options) {
   const auto same = [&](const DecayMinimum& known) {
@@ -209,14 +209,14 @@ inline bool damping_is_free(const DecayFitOptions& fit_options) {
                    PlantParameter::absorber_damping) != fit_options.free.end();
 }
 
-/// The plant at θ = 0: the given plant, with the critical damping 2 √(k₂m₂) for a free c₂.
+/// Reference plant of a fit: the given plant, but a free c₂ at the critical damping 2 √(k₂m₂).
 inline TwoMass<double> reference_of(TwoMass<double> plant, const DecayFitOptions& fit_options) {
   if (damping_is_free(fit_options))
     plant.absorber_damping = 2.0 * std::sqrt(plant.absorber_stiffness * plant.absorber_mass);
   return plant;
 }
 
-/// The starts of a fit: c₂, if free, at 1/32, 1/16, … 4 times the critical damping.
+/// Start values of a fit: c₂, if free, at 1/32, 1/16, … 4 times the critical damping.
 inline std::vector<Theta> starts_of(const DecayFitOptions& fit_options) {
   if (!damping_is_free(fit_options)) return {Theta{}};
   std::vector<Theta> starts;
@@ -245,12 +245,12 @@ inline void validate(const DecayRecord& record, const TwoMass<double>& plant,
       throw InvalidParameter("time", t[k], "s", "later than the one before");
   }
   if (z.front() == 0.0)
-    throw InvalidParameter("first displacement", 0.0, "m", "not 0: the decay starts displaced");
+    throw InvalidParameter("first displacement", 0.0, "m", "not 0, to start a decay");
   if (fit_options.free.empty())
     throw InvalidParameter("number of free parameters", 0.0, "", ">= 1");
   for (const PlantParameter parameter : fit_options.free) {
     if (parameter != PlantParameter::absorber_damping)
-      require_positive("start of a free parameter", parameter_of(plant, parameter), "");
+      require_positive("start value of a free parameter", parameter_of(plant, parameter), "");
     if (std::count(fit_options.free.begin(), fit_options.free.end(), parameter) > 1)
       throw InvalidParameter("number of times that a free parameter is listed", 2.0, "", "1");
   }
@@ -258,7 +258,7 @@ inline void validate(const DecayRecord& record, const TwoMass<double>& plant,
   if (is_measured(fit_options.target) && fit_options.free.size() > most)
     throw InvalidParameter("number of free parameters",
                            static_cast<double>(fit_options.free.size()), "",
-                           "fewer than the numbers that the target measures");
+                           "fewer than the measured quantities of the target");
 }
 
 /// Continues the runs with Huber's loss, whose scale follows from the residuals at the deepest
@@ -278,18 +278,18 @@ inline void make_robust(DecayResiduals& residuals, const DecayFitOptions& fit_op
 
 }  // namespace detail
 
-/// Fits the plant's decay from rest at z₁ = z₂ = z₀ to a record, from several starts of c₂ (if it
-/// is free). A heavily and a lightly damped absorber often fit the same record, so that all minima
-/// are reported.
+/// Fits the plant's decay from rest at z₁ = z₂ = z₀ to a record, from several starts of the
+/// absorber's damping c₂, if that is free. A heavily and a lightly damped absorber often fit the
+/// same record, so that all minima are reported.
 ///
-/// The unknowns are the logarithms of the parameters, within a factor 10⁶ of the given plant's (c₂:
-/// of the critical damping 2 √(k₂m₂), z₀: of the record's). Derivatives are exact (dual numbers).
-/// @param record       at least 8 instants, ascending, the first one displaced
+/// The unknowns are the logarithms of the parameters, each within a factor 10⁶ of its given value
+/// (c₂: of critical damping 2 √(k₂m₂); z₀: of the first z₁). Derivatives are exact (dual numbers).
+/// @param record       at least 8 ascending instants; z₁ ≠ 0 at the first one
 /// @param plant        values of the parameters that are not free, and start values of the others
 /// @param fit_options  free parameters and the quantities that are fitted
-/// @throws InvalidParameter for an inadmissible plant, a record with fewer instants, not
-///         ascending, not finite or not starting displaced; for no free parameter, one listed
-///         twice, or at least as many as fitted measures
+/// @throws InvalidParameter for an inadmissible plant; a record with fewer instants, not ascending,
+///         not finite, or with z₁ = 0 at first; no free parameter, one listed twice, or at least as
+///         many free parameters as fitted measures
 inline DecayFit fit_decay(const DecayRecord& record, const TwoMass<double>& plant,
                           const DecayFitOptions& fit_options = {}) {
   detail::validate(record, plant, fit_options);

@@ -9,14 +9,14 @@ namespace holdfast::fit {
 
 /// A parameter of the plant that a fit may determine; m₂ is known from the absorber's design.
 enum class PlantParameter {
-  conductor_mass,       ///< m₁ (kg)
-  conductor_stiffness,  ///< k₁ (N/m)
-  conductor_damping,    ///< c₁ (N s/m)
-  absorber_stiffness,   ///< k₂ (N/m)
-  absorber_damping,     ///< c₂ (N s/m)
+  conductor_mass,       ///< mass m₁ (kg) of the conductor
+  conductor_stiffness,  ///< stiffness k₁ (N/m) of the conductor
+  conductor_damping,    ///< damping c₁ (N s/m) of the conductor
+  absorber_stiffness,   ///< stiffness k₂ (N/m) of the absorber
+  absorber_damping,     ///< damping c₂ (N s/m) of the absorber
 };
 
-/// The value of a parameter, in the unit of its member of TwoMass.
+/// Value of a parameter of the plant, in the unit of that member of TwoMass.
 inline double parameter_of(const TwoMass<double>& plant, PlantParameter parameter) {
   using Plant = TwoMass<double>;
   constexpr double Plant::*members[] = {&Plant::conductor_mass, &Plant::conductor_stiffness,
@@ -27,8 +27,8 @@ inline double parameter_of(const TwoMass<double>& plant, PlantParameter paramete
 
 /// Quantities of a record to which the plant is fitted.
 enum class DecayTarget {
-  first_peak_and_period,            ///< relative errors of these two measures
-  first_peak_period_and_decrement,  ///< relative errors of these three measures
+  first_peak_and_period,            ///< relative errors of first peak and period
+  first_peak_period_and_decrement,  ///< relative errors of first peak, period and decrement
   time_history,                     ///< errors of z₁ at every instant
 };
 
@@ -37,27 +37,27 @@ inline bool is_measured(DecayTarget target) { return target != DecayTarget::time
 
 /// Options of a fit.
 struct DecayFitOptions {
-  std::vector<PlantParameter> free = {PlantParameter::absorber_damping};  ///< each only once
+  /// Parameters that are fitted, each listed once.
+  std::vector<PlantParameter> free = {PlantParameter::absorber_damping};
   DecayTarget target = DecayTarget::time_history;  ///< quantities that are fitted
-  /// Whether Huber's loss is used, beyond 1.345 standard deviations as estimated from the median
-  /// residual at the deepest minimum. Outliers then count little; for Gaussian noise the efficiency
-  /// is 95 %. Only for the time history.
+  /// Whether Huber's loss limits outliers (time history only). Its scale, 1.345 standard deviations
+  /// from the median residual at the deepest minimum, is 95 % efficient for Gaussian noise.
   bool robust = true;
-  /// Whether z₀ is fitted too, as for a measured record, or is the record's first value, as for a
-  /// computed one. Only for the time history.
+  /// Whether z₀ is fitted too, which a measured record requires; otherwise z₀ is the record's first
+  /// value, exact in a computed record. Only for the time history.
   bool fit_initial_displacement = true;
 };
 
 /// One local minimum of the misfit.
 struct DecayMinimum {
   TwoMass<double> plant;        ///< the given plant with the free parameters as fitted
-  double initial_displacement;  ///< z₀ (m)
+  double initial_displacement;  ///< initial displacement z₀ (m)
   /// Standard errors of the free parameters in the order of DecayFitOptions::free; NaN where the
-  /// record does not determine them. Time history: from the residuals' scatter, with a robust loss
-  /// by Huber's sandwich formula. Measures: from their relative misfit, taken as 1 % or more.
+  /// record does not determine them. For a time history they follow from the residuals' scatter,
+  /// with a robust loss by Huber's sandwich formula; for measures from the relative misfit, ≥ 1 %.
   std::vector<double> standard_errors;
-  double residual;  ///< root mean square: m for the time history, relative for the measures
-  /// ½ Σ loss at the minimum, dimensionless: residuals of the time history are relative to |z(0)|.
+  double residual;  ///< root mean square residual: in m for the time history, else relative
+  /// Cost ½ Σ loss at the minimum, dimensionless; residuals of a history are relative to |z(0)|.
   double cost;
   int found_from;  ///< number of starts that led to this minimum
 };
@@ -70,10 +70,10 @@ enum class FitOutcome {
   no_minimum,
 };
 
-/// All minima that the starts of a fit led to.
+/// Result of a fit: the minima found from its starts.
 struct DecayFit {
-  FitOutcome outcome;                ///< whether `minima` has any
-  std::vector<DecayMinimum> minima;  ///< the deepest first
+  FitOutcome outcome;                ///< whether a minimum was found
+  std::vector<DecayMinimum> minima;  ///< minima found, the deepest first
   int starts;  ///< number of starts: 8 where c₂ is free, else 1; 0 where measures are to be fitted
                ///< to a record with fewer than four peaks
 };

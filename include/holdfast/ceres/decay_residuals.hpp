@@ -24,7 +24,7 @@ double value_of(const ::ceres::Jet<T, N>& number) {
 constexpr std::size_t plant_parameters = 5;             // in the order of PlantParameter
 constexpr std::size_t unknowns = plant_parameters + 1;  // and z₀
 
-/// The plant whose parameters are those of `reference` times e^θ.
+/// Plant with the parameters of `reference` times e^θ, one θ per parameter; m₂ is unchanged.
 template <class Scalar>
 TwoMass<Scalar> scaled_plant(const TwoMass<double>& reference,
                              const std::array<Scalar, plant_parameters>& theta) {
@@ -42,7 +42,7 @@ TwoMass<double> values_of(const TwoMass<Scalar>& plant) {
           value_of(plant.absorber_stiffness), value_of(plant.absorber_damping)};
 }
 
-/// The residual ± √(2 ρ(r)) by which a least-squares solver minimises Huber's loss ρ.
+/// Transformed residual ± √(2 ρ(r)), by which a least-squares solver minimises Huber's loss ρ.
 template <class Scalar>
 Scalar huber_residual(const Scalar& residual, double scale) {
   using std::abs;
@@ -52,8 +52,8 @@ Scalar huber_residual(const Scalar& residual, double scale) {
   return residual < Scalar(0) ? Scalar(-root) : root;
 }
 
-/// Residuals of a plant against a record as a functor of θ, the logarithms of the five parameters
-/// and of z₀ relative to `reference` and to the record.
+/// Residuals of a plant against a record as a functor of θ: the logarithms of the five parameters
+/// relative to `reference`, and of z₀ relative to the record.
 struct DecayResiduals {
   const DecayRecord& record;
   DecayMeasures measures;

@@ -13,7 +13,7 @@
 #include "holdfast/ceres/device_placement_options.hpp"
 #include "holdfast/core/errors.hpp"
 
-/// A search for the best place and strength of a device, which needs the package Ceres Solver.
+/// Search for the best place and strength of a device; this header needs the package Ceres Solver.
 namespace holdfast::placement {
 
 namespace detail {
@@ -21,14 +21,14 @@ namespace detail {
 /// A point of the unit cube: each value scaled to 0 … 1 between its bounds.
 using Place = std::vector<double>;
 
-/// Evaluates the levels at points of the cube and keeps the best point so far.
+/// Evaluator of the levels at points of the unit cube; keeps the best point so far.
 class LevelQuestions {
  public:
   LevelQuestions(const std::vector<MovableValue>& values, const Levels& levels,
                  const PlacementOptions& options)
       : values_(values), levels_(levels), watch_(options.watch) {}
 
-  /// The values at a point of the cube; coordinates outside 0 … 1 are replaced by 0 or 1.
+  /// Device values at a point of the unit cube; coordinates outside 0 … 1 are replaced by 0 or 1.
   std::vector<double> values_at(const Place& place) const {
     std::vector<double> found;
     for (std::size_t k = 0; k < values_.size(); ++k) {
@@ -42,7 +42,7 @@ class LevelQuestions {
     return found;
   }
 
-  /// The levels at a point; empty where its values are not admissible.
+  /// The levels at a point of the unit cube; empty for inadmissible device values.
   std::vector<double> at(const Place& place) {
     if (watch_) watch_();
     ++asked_;
@@ -59,7 +59,7 @@ class LevelQuestions {
     return found;
   }
 
-  /// The largest level at a point; infinity where its values are not admissible.
+  /// The largest level at a point of the unit cube; infinity for inadmissible device values.
   double worst(const Place& place) {
     const std::vector<double> found = at(place);
     return found.empty() ? std::numeric_limits<double>::infinity()
@@ -67,7 +67,7 @@ class LevelQuestions {
   }
 
   const std::vector<MovableValue>& values() const { return values_; }  ///< values that vary
-  const Place& best() const { return best_; }                          ///< best point, or empty
+  const Place& best() const { return best_; }  ///< best point so far; empty: none
   int asked() const { return asked_; }
 
  private:
@@ -79,8 +79,8 @@ class LevelQuestions {
   int asked_ = 0;
 };
 
-/// The residuals (level/scale)^{p/2} for Ceres. The sum of their squares is the p-th power of the
-/// p-norm of level/scale.
+/// The residuals (level/scale)^{p/2} for Ceres, with the largest level at the start as scale. The
+/// sum of their squares is the p-th power of the p-norm of level/scale.
 struct NormResiduals {
   LevelQuestions& questions;
   double power, scale;          // p, and the largest level where the run begins
@@ -109,7 +109,7 @@ struct NormResiduals {
 };
 
 /// Minimises the p-norm of the levels within the bounds by one run of Ceres. Its unknowns are the
-/// coordinates plus 1: Ceres' difference quotients have steps relative to the unknowns.
+/// coordinates plus 1, since Ceres' difference quotients have steps relative to the unknowns.
 inline Place run_on_norm(LevelQuestions& questions, const Place& start, double power) {
   const std::vector<double> levels = questions.at(start);
   if (levels.empty()) return start;
@@ -152,8 +152,8 @@ inline double halton(int k, int base) {
   return sum;
 }
 
-/// An orthonormal basis, different for each turn: the columns of I − 2 q qᵀ with a unit vector q
-/// from Halton's sequence.
+/// An orthonormal basis for one turn of the direct search: the columns of I − 2 q qᵀ with a unit
+/// vector q from Halton's sequence that differs from turn to turn.
 inline std::vector<Place> poll_basis(int turn, std::size_t size) {
   constexpr int bases[] = {2, 3, 5, 7, 11, 13};
   Place q(size);
@@ -170,7 +170,7 @@ inline std::vector<Place> poll_basis(int turn, std::size_t size) {
   return basis;
 }
 
-/// Minimises the largest level from a point by direct search, since its derivative jumps where
+/// Minimises the largest level from a point by direct search, since the derivative jumps where
 /// another level becomes the largest. Each turn tries steps along another basis; after two turns
 /// without improvement the step is halved (OrthoMADS: Abramson, Audet, Dennis & Le Digabel, SIAM J.
 /// Optim. 20 (2009)).
@@ -202,7 +202,7 @@ inline void refine(LevelQuestions& questions, Place place, double step, double r
   }
 }
 
-/// A grid over the cube and its local minima: points without a better neighbour along any value.
+/// Grid over the unit cube and its local minima: points without a better neighbour on any axis.
 class GridOfStarts {
  public:
   explicit GridOfStarts(LevelQuestions& questions) : values_(questions.values()) {
@@ -250,14 +250,14 @@ class GridOfStarts {
 };
 
 inline void validate(const std::vector<MovableValue>& values, const PlacementOptions& options) {
-  require_within("number of values that move", static_cast<double>(values.size()), "", 1, 6);
+  require_within("number of varied values", static_cast<double>(values.size()), "", 1, 6);
   for (const MovableValue& value : values) {
-    require_finite("bounds of a value that moves", value.upper - value.lower, "");
-    require_positive("upper less lower bound of a value that moves", value.upper - value.lower, "");
-    if (value.by_ratio) require_positive("lower bound of a value that moves", value.lower, "");
-    require_within("places of a grid along a value", value.places, "", 2, 1000);
+    require_finite("bounds of a varied value", value.upper - value.lower, "");
+    require_positive("upper minus lower bound of a varied value", value.upper - value.lower, "");
+    if (value.by_ratio) require_positive("lower bound of a varied value", value.lower, "");
+    require_within("grid points along a varied value", value.places, "", 2, 1000);
     if (!std::isnan(value.present))
-      require_within("present number of a value that moves", value.present, "", value.lower,
+      require_within("present value of a varied value", value.present, "", value.lower,
                      value.upper);
   }
   require_within("number of runs", options.runs, "", 1, 1000);
@@ -265,7 +265,7 @@ inline void validate(const std::vector<MovableValue>& values, const PlacementOpt
   require_within("resolution of a placement", options.resolution, "", 1e-14, 0.5);
 }
 
-/// The point of the present values; empty where one of them is NaN.
+/// Point of the unit cube for the present values; empty where a present value is NaN.
 inline Place present_place(const std::vector<MovableValue>& values) {
   Place place;
   for (const MovableValue& value : values) {
@@ -277,7 +277,7 @@ inline Place present_place(const std::vector<MovableValue>& values) {
   return place;
 }
 
-/// The grid's step along the value with the most places, in the coordinates of the cube.
+/// Step of the grid along the value with the most grid points, in the coordinates of the unit cube.
 inline double grid_step(const std::vector<MovableValue>& values) {
   int most = 2;
   for (const MovableValue& value : values) most = std::max(most, value.places);
@@ -307,7 +307,7 @@ inline Placement answer_of(LevelQuestions& questions) {
 
 }  // namespace detail
 
-/// The values of a device whose largest level over a band is least,
+/// Searches for the values of a device at which the largest level over a band is least:
 ///
 ///     min over the values of  max_k level_k(values)
 ///
@@ -315,7 +315,7 @@ inline Placement answer_of(LevelQuestions& questions) {
 /// search starts from the best points of a grid and from the present values. From each, Ceres
 /// minimises p-norms that approach the maximum, within the bounds and by central differences; then
 /// a direct search minimises the maximum itself. The result is the best of all points
-/// evaluated. If the present values are admissible, the result is no worse than they are.
+/// evaluated. If the present values are admissible, the result is at least as good.
 ///
 /// This is a search and no proof: a minimum narrower than the grid may be missed.
 /// @param values   1 … 6 values that vary

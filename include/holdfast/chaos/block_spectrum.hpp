@@ -16,10 +16,10 @@
 
 namespace holdfast {
 
-/// The exponents that are computed.
+/// The Lyapunov exponents that are computed.
 enum class LyapunovScope {
   all,      ///< the whole spectrum
-  largest,  ///< only the first one, from one tangent vector
+  largest,  ///< only the first exponent, from one tangent vector
 };
 
 /// The Lyapunov spectrum of the sampled loop with backlash, computed from blocks of its contacts.
@@ -30,20 +30,20 @@ enum class LyapunovScope {
 ///
 ///     a = √(Σ_k ‖W_k … W₁ Q‖²) ‖R⁻¹‖,   k = 1 … K
 ///
-/// measures how much round-off is amplified in R's diagonal. The length of a stretch is chosen from
-/// the growth in the previous one. A stretch with a > `largest_amplification` is repeated in
+/// measures the amplification of round-off in the diagonal of R. The length of a stretch is chosen
+/// from the growth in the previous one. A stretch with a > `largest_amplification` is repeated in
 /// halves, a single block sample by sample. Vectors are orthogonalised in balanced coordinates
 /// (`ItineraryBlocks`); spectrum() converts the result to the loop's coordinates. Columns that a
-/// map annihilates are dropped. Logarithms are taken of the product of several stretches at once.
+/// map annihilates are dropped. Several stretches share one logarithm, that of their product.
 ///
 /// Work per block of six samples and per tangent vector: 25 multiply-adds (20 without processing
 /// delay); per stretch: orthogonalising a 5 × 4 matrix (5 × 5 before the first null direction).
 template <class Scalar>
 class BlockSpectrum {
  public:
-  /// The largest amplification a allowed in a stretch of more than one sample.
+  /// The largest amplification a of round-off allowed in a stretch of more than one sample.
   static constexpr double largest_amplification = 5e6;
-  /// The longest stretch, in blocks.
+  /// The length of the longest stretch between two orthogonalisations, in blocks.
   static constexpr int most_blocks = 64;
 
   /// @param blocks  blocks of the loop whose S and S* are the tangent maps
@@ -62,13 +62,13 @@ class BlockSpectrum {
   /// directions of the tangent vectors are kept.
   void restart(ItineraryBlock open);
 
-  /// The spectrum over the blocks pushed and the partial block `open`.
+  /// The Lyapunov spectrum over the blocks pushed and the partial block `open`.
   LyapunovSpectrum<double, 5> spectrum(ItineraryBlock open = empty_block) const;
-  /// The number of complete batches, for the standard errors.
+  /// The number of complete batches of samples, on which the standard errors rest.
   std::size_t complete_batches() const { return sums_.complete_batches(); }
 
  private:
-  /// The tangent vectors orthonormalised in the loop's own coordinates, with ln |R_ii|.
+  /// The tangent vectors, orthonormalised in the loop's own coordinates, with their ln |R_ii|.
   struct Orthogonal {
     explicit Orthogonal(const BlockSpectrum& from) : alive(from.alive_) {
       basis = from.blocks_->scale().asDiagonal() * from.basis_;
@@ -195,7 +195,7 @@ class BlockSpectrum {
     products_ = Vector<Scalar, 5>::Ones();
   }
 
-  /// Sets the largest number of blocks in a stretch from the amplification in the last one.
+  /// Sets the largest number of blocks in a stretch from the amplification a in the last stretch.
   void learn(double squared_amplification, int count) {
     constexpr double at_start = 16.0;  // ‖I₄‖² ‖I₄‖²
     const double blocks = count;
@@ -204,7 +204,7 @@ class BlockSpectrum {
     allowed_ = std::min(std::max(1.0, std::floor(room / growth)), 2.0 * blocks);
   }
 
-  /// Plans the next stretch such that the rest of the batch is cut into equal stretches.
+  /// Plans the next stretch so that the rest of the batch is cut into stretches of equal length.
   void plan() {
     const auto blocks_left = (sums_.steps_left() - samples_) / ItineraryBlocks::length;
     const double left = std::max(1.0, static_cast<double>(blocks_left));

@@ -20,15 +20,15 @@
 
 namespace holdfast {
 
-/// The length and the resolution of an examination of a motion. The defaults suit motions of up to
-/// a few thousand samples per period.
+/// The length and the resolution with which a motion is examined. The defaults suit motions of up
+/// to a few thousand samples per period.
 struct IndicatorOptions {
   std::int64_t transient = 5000;  ///< samples left out at the start, 0 … 10⁷
-  std::int64_t samples = 20160;  ///< number of samples examined, 2000 … 100 000; divisible by 2, 3,
-                                 ///< 5, 7 so that many periods fit in whole
-  double base_frequency = 1.0;          ///< f, cycles per sample; its subharmonics are sought
+  std::int64_t samples = 20160;  ///< number of samples examined, 2000 … 100 000; a multiple of 2,
+                                 ///< 3, 5 and 7 is a multiple of many periods
+  double base_frequency = 1.0;   ///< frequency f, cycles per sample, with subharmonics f/m
   std::int64_t zero_one_stride = 1;     ///< samples per step of the 0–1 test, 1 … samples/500
-  bool forcing_incommensurate = false;  ///< see ChaosIndicators::forcing_incommensurate
+  bool forcing_incommensurate = false;  ///< value of ChaosIndicators::forcing_incommensurate
 };
 
 /// Validates the options. @throws InvalidParameter where a member is outside its range
@@ -51,8 +51,8 @@ ExponentEstimate largest_exponent(const LyapunovSpectrum<double, Size>& spectrum
   return exponent_estimate(value, found.standard_errors[which]);
 }
 
-/// The detector of divergence: some |x_i| exceeds 10³⁰ times the largest |x_i| of the first 100
-/// samples.
+/// A detector of divergence: a motion diverges when some |x_i| exceeds 10³⁰ times the largest |x_i|
+/// of its first 100 samples.
 template <int Size>
 class DivergenceGuard {
  public:
@@ -84,7 +84,7 @@ inline double extent_of(const std::vector<double>& series, std::size_t from, std
   return *high - *low;
 }
 
-/// The extent max − min of a series' last quarter over that of the first; empty if the first is 0.
+/// The extent max − min of a series' last quarter over the first quarter's; empty if that is 0.
 inline std::optional<double> extent_growth(const std::vector<double>& series) {
   const std::size_t size = series.size(), quarter = size / 4;
   const double first = extent_of(series, 0, quarter);
@@ -109,7 +109,7 @@ inline std::vector<double> every(const std::vector<double>& series, std::int64_t
   return thinned;
 }
 
-/// Sets the indicators `repeat`, `closest_return` and `determinism`.
+/// Sets the indicators `repeat`, `closest_return` and `determinism` from the states of a motion.
 /// @param sizes  largest |x_i| since the start, for each coordinate
 template <int Size>
 void weigh_returns(const std::vector<Vector<double, Size>>& states,
@@ -121,8 +121,8 @@ void weigh_returns(const std::vector<Vector<double, Size>>& states,
   indicators.determinism = recurrence_determinism<Size>(last, recurrence_radius);
 }
 
-/// The Lyapunov exponents of a discrete system from its tangent maps; none where no map is given.
-/// Before restart() the basis only turns into the directions of the exponents, without averages.
+/// The Lyapunov exponents of a discrete system from its tangent maps; none without a map. Before
+/// restart() the basis turns into the directions of the exponents, and nothing is averaged.
 template <int Size>
 class TangentMaps {
  public:
@@ -151,9 +151,9 @@ class TangentMaps {
   bool counts_ = false;
 };
 
-/// Runs a discrete system and computes all indicators of chaos_indicators() but the exponent.
+/// Runs a discrete system and computes all indicators of chaos_indicators() except the exponent.
 /// @param tangents  tangent vectors: push(before) is called after each step with the state before
-///                  it, restart() before the first step that is not transient
+///                  it, restart() before the first step after the transient
 template <int Size, class Tangents>
 ChaosIndicators indicators_of_system(
     const Vector<double, Size>& initial, const std::function<void(Vector<double, Size>&)>& advance,
@@ -193,7 +193,7 @@ ChaosIndicators indicators_of_system(
 
 }  // namespace detail
 
-/// Runs a discrete system and computes the indicators that `classify` weighs.
+/// Runs a discrete system and computes the indicators by which `classify` names the kind of motion.
 ///
 ///     auto logistic = [](Vector<double, 1>& x) { x[0] = 4 * x[0] * (1 - x[0]); };
 ///     auto value = [](const Vector<double, 1>& x) { return x[0]; };
@@ -206,12 +206,12 @@ ChaosIndicators indicators_of_system(
 /// transient before the averages of the exponents begin.
 ///
 /// A motion diverges when its state is not finite or exceeds 10³⁰ times the largest coordinate of
-/// its first 100 samples; then nothing else is computed. Otherwise a lag of up to a sixth of the
-/// samples is sought at which their second half repeats to 10⁻⁹ of the extent. The closest return
-/// and the determinism (radius: 0.05 of the extent) are those of the last 1000 states. The spectrum
-/// is tested for lines on multiples of f/m, f being the base frequency and m ≤ 128. Bounded work:
-/// transient + samples steps, the 0–1 test, one search for repetition (at worst samples²/12
-/// distances), two spectra, and 10⁶ distances.
+/// its first 100 samples; then nothing else is computed. Otherwise the smallest lag n ≤ samples/6
+/// is sought at which every state x_j of the second half is within 10⁻⁹ of x_{j−n}. Closest return
+/// and determinism (radius 0.05) are those of the last 1000 states. Distances are those of
+/// `RelativeDistance`. The spectrum is tested for lines on multiples of f/m, f being the base
+/// frequency and m ≤ 128. Bounded work: transient + samples steps, the 0–1 test, one search for
+/// repetition (at worst samples²/12 distances), two spectra, and 10⁶ distances.
 /// @param initial     the state at sample 0
 /// @param advance     replaces a state by the next one
 /// @param observable  a number computed from a state, for the spectrum and the 0–1 test

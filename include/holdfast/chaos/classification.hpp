@@ -16,18 +16,18 @@ namespace holdfast {
 /// The kinds of motion of a discrete system.
 enum class AttractorType {
   periodic,               ///< repeats after N samples
-  quasi_periodic,         ///< two or more frequencies without a common period; neighbours stay near
-  irregular_contracting,  ///< neighbours converge, yet no repetition was found
-  chaotic,                ///< bounded as far as observed; neighbours separate exponentially
+  quasi_periodic,         ///< ≥ 2 frequencies without a common period; nearby motions stay near
+  irregular_contracting,  ///< neighbouring motions converge, but no repetition was found
+  chaotic,                ///< bounded as far as observed; nearby motions separate exponentially
   diverges,               ///< exceeds every bound
   undecided,              ///< indicators are missing or contradict each other
 };
 
-/// The largest Lyapunov exponent and its 99 % interval, value ± half_width. Where the true
-/// exponent is 0, the interval lies above 0 in one case of 200 and below 0 in another of 200.
+/// The largest Lyapunov exponent and its 99 % interval, value ± half_width. A true exponent of 0 is
+/// below the interval with probability 1/200, and above it with probability 1/200.
 struct ExponentEstimate {
-  double value;       ///< −∞ where every direction is a null direction
-  double half_width;  ///< ≥ 0
+  double value;       ///< exponent; −∞ where every direction is a null direction
+  double half_width;  ///< half width of the interval, ≥ 0
 
   /// Whether the whole interval is above zero.
   bool positive() const { return value - half_width > 0.0; }
@@ -36,8 +36,8 @@ struct ExponentEstimate {
 };
 
 /// The estimate from an exponent and its standard error by batch means. The half width is the
-/// standard error times Student's 99 % quantile for the fewest batches of a series with more than
-/// 64 steps (32), plus 10⁻¹² for the rounding of logarithms.
+/// standard error times Student's 99 % quantile, plus 10⁻¹² for the rounding of logarithms. The
+/// quantile is for 32 batches, the fewest of a series with more than 64 steps.
 /// @param value           the exponent, natural logarithm per step
 /// @param standard_error  ≥ 0, not NaN
 /// @throws InvalidParameter where the standard error is out of its range
@@ -49,7 +49,7 @@ inline ExponentEstimate exponent_estimate(double value, double standard_error) {
 
 /// The measures of the lines in the spectrum of an observable; f is the base frequency.
 struct SpectralIndicators {
-  int division;               ///< smallest m such that the multiples of f/m contain the power, or 0
+  int division;               ///< smallest m for which multiples of f/m contain `share`; 0: none
   double share;               ///< share of the power that the multiples of f/m must contain
   std::size_t lines_holding;  ///< number of lines that contain 99 % of the power
   double continuous;          ///< share of the power between the lines
@@ -58,26 +58,26 @@ struct SpectralIndicators {
 /// The indicators that decide the kind of a motion; those not computed stay empty.
 struct ChaosIndicators {
   std::optional<std::int64_t> diverged_at;       ///< sample at which the motion exceeded all bounds
-  std::optional<std::int64_t> certified_period;  ///< samples in a period of a proved orbit
-  std::optional<RepeatSearch> repeat;            ///< repetition of the states, at least three times
-  std::optional<ExponentEstimate> largest_exponent;  ///< natural logarithm per step
+  std::optional<std::int64_t> certified_period;  ///< period of a certified orbit (samples)
+  std::optional<RepeatSearch> repeat;            ///< lag at which the states repeat, ≥ 3 times
+  std::optional<ExponentEstimate> largest_exponent;  ///< exponent, natural log per step
   std::optional<double> zero_one;                    ///< median K of the 0–1 test
   std::optional<SpectralIndicators> lines;           ///< spectral lines of the observable
-  std::optional<double> extent_growth;   ///< extent of the last quarter over that of the first
-  std::optional<double> neighbour;       ///< final distance of a neighbour (neighbour_distance())
-  std::optional<double> closest_return;  ///< closest_return() of the last states
-  std::optional<double> determinism;     ///< recurrence_determinism() of the last states
+  std::optional<double> extent_growth;  ///< extent of the last quarter over the extent of the first
+  std::optional<double> neighbour;      ///< neighbour_distance(): final distance of a nearby motion
+  std::optional<double> closest_return;          ///< closest_return() of the last states
+  std::optional<double> determinism;             ///< recurrence_determinism() of the last states
   std::optional<SwitchingComplexity> switching;  ///< complexity of the contacts, if known
   std::optional<double> forcing_periods;         ///< number of forcing periods in the series
-  bool forcing_incommensurate = false;  ///< f τ is no fraction with a bounded denominator: no
-                                        ///< forced response repeats
+  bool forcing_incommensurate = false;  ///< whether f τ is no fraction with a bounded denominator,
+                                        ///< so that no forced response repeats
 };
 
 /// The kind of a motion with its period and the reason.
 struct Classification {
   AttractorType kind = AttractorType::undecided;  ///< kind of the motion
-  std::int64_t period = 0;                        ///< samples; 0 unless periodic
-  std::string rests_on;                           ///< reason, one or two English sentences
+  std::int64_t period = 0;                        ///< period in samples; 0 unless periodic
+  std::string rests_on;                           ///< reason, in one or two English sentences
 };
 
 /// The name of a kind: `periodic(N)`, `quasi-periodic`, `irregular, exponent <= 0`, `chaotic`, …
@@ -95,7 +95,7 @@ inline std::string attractor_type_text(const Classification& classification) {
 
 /// The least K of the 0–1 test with which a series counts as chaotic.
 inline constexpr double zero_one_high = 0.8;
-/// The largest K with which a series counts as regular; a K between both limits decides nothing.
+/// The largest K of the 0–1 test of a regular series; a K between both limits decides nothing.
 inline constexpr double zero_one_low = 0.2;
 /// The largest share of the power between the lines with which a spectrum counts as pure lines.
 inline constexpr double lines_only_share = 1e-3;
@@ -104,11 +104,11 @@ inline constexpr double fewest_forcing_periods = 20.0;
 /// The largest factor by which the extent of a steady motion may grow or shrink from the first to
 /// the last quarter of the series.
 inline constexpr double steady_growth = 2.0;
-/// The initial distance of a neighbour, as a share of the extent.
+/// The initial distance of a neighbouring motion, as a share of the motion's extent.
 inline constexpr double neighbour_start = 1e-9;
-/// The least final distance, as a share of the extent, of a neighbour that has separated.
+/// The least final distance, as a share of the extent, of a neighbouring motion that has separated.
 inline constexpr double neighbour_parted = 1e-3;
-/// The largest final distance, as a share of the extent, of a neighbour that has stayed near.
+/// The largest final distance, as a share of the extent, of a neighbouring motion that stays near.
 inline constexpr double neighbour_stays = 1e-7;
 
 namespace detail {
@@ -141,9 +141,9 @@ class Classifier {
                        " periods of the forcing");
     }
     if (indicators_.repeat && indicators_.repeat->lag > 0) return repeating();
-    if (!indicators_.largest_exponent) return undecided("No exponent is known");
+    if (!indicators_.largest_exponent) return undecided("The largest exponent is unknown");
     if (!is_steady()) {
-      return undecided("The motion is not steady, the extent of the last quarter is " +
+      return undecided("The motion is not steady: the extent of its last quarter is " +
                        number_text(*indicators_.extent_growth) + " times that of the first");
     }
     if (indicators_.largest_exponent->positive()) return separating();
@@ -153,8 +153,8 @@ class Classifier {
   /// Classifies a motion under a recorded force or with jittering samples. The spectrum, 0–1 test
   /// and repetitions reflect the forcing as much as the motion. So no motion is called
   /// quasi-periodic, and with jitter only rest is called periodic. Divergence and chaos (an
-  /// exponent above zero) are still recognised. Otherwise a negative exponent decides: neighbours
-  /// converge under the same forcing, and the motion follows it.
+  /// exponent above zero) are still recognised. Otherwise a negative exponent decides: neighbouring
+  /// motions converge under the same forcing, so that the forcing determines the motion.
   Classification classify_irregularly_forced(bool samples_jitter) const {
     const Classification regular = classify();
     const bool repeats = regular.kind == AttractorType::periodic;
@@ -164,12 +164,13 @@ class Classifier {
     if (stands || is_short()) return regular;
     if (comes_together())
       return irregular(
-          "Neighbours come together and follow a forcing or samples that do not repeat");
+          "Neighbouring motions converge under a forcing or sampling that does not repeat");
     if (regular.kind == AttractorType::undecided) return regular;
-    return undecided("The forcing or the samples do not repeat, and the exponent does not decide");
+    return undecided(
+        "The forcing or the sampling does not repeat, and the exponent does not decide");
   }
 
-  /// Whether the motion is undecided and the neighbour distance, not computed yet, could decide.
+  /// Whether the motion is undecided and neighbour_distance(), not computed yet, could decide.
   bool lacks_neighbour() const {
     return !indicators_.neighbour && searched_in_vain() && indicators_.largest_exponent &&
            !comes_together() && classify().kind == AttractorType::undecided;
@@ -178,7 +179,7 @@ class Classifier {
  private:
   Classification repeating() const {
     if (indicators_.largest_exponent && indicators_.largest_exponent->positive())
-      return undecided("The motion repeats although its neighbours leave it");
+      return undecided("The motion repeats although neighbouring motions separate from it");
     return {AttractorType::periodic, static_cast<std::int64_t>(indicators_.repeat->lag),
             "There is no certificate, but the second half of the record " + repeat_text() +
                 ", three times and more, to " + number_text(indicators_.repeat->tolerance) +
@@ -188,24 +189,23 @@ class Classifier {
   Classification separating() const {
     if (has_parted()) return chaotic();
     if (!(indicators_.zero_one && *indicators_.zero_one >= zero_one_high))
-      return undecided("Neighbours separate, but the 0-1 test does not show chaos");
+      return undecided("Neighbouring motions separate, but the 0-1 test does not show chaos");
     if (has_lines_alone() || has_one_base())
-      return undecided("Neighbours separate, but the spectrum has only lines");
+      return undecided("Neighbouring motions separate, but the spectrum has only lines");
     return chaotic();
   }
 
   Classification chaotic() const {
     return weighed(AttractorType::chaotic,
-                   "Neighbours separate exponentially in a motion that stayed bounded as far as it "
-                   "was followed");
+                   "Neighbouring motions separate exponentially, and the motion stayed bounded as "
+                   "long as computed");
   }
 
   Classification neutral() const {
     if (!(is_regular() || stays_beside_neighbour()) || !searched_in_vain())
-      return undecided("The exponent cannot be told from zero, and no other measure decides");
+      return undecided("The exponent may be zero, and no other measure decides");
     if (!has_lines_alone() || has_one_base())
-      return undecided(
-          "The exponent cannot be told from zero, and the lines show no second frequency");
+      return undecided("The exponent may be zero, and the spectrum shows no second frequency");
     return weighed(AttractorType::quasi_periodic,
                    "The exponent is zero within its error and the spectrum has lines without a "
                    "common base");
@@ -219,13 +219,13 @@ class Classifier {
                      "common multiple");
     }
     if (!searched_in_vain())
-      return undecided("Neighbours come together, but no repetition was looked for");
+      return undecided("Neighbouring motions converge, but no repetition was searched for");
     if (has_one_base() || (is_regular() && has_lines_alone()))
       return undecided(
           "The motion is regular but does not repeat: it settles slowly or has a long period");
     return irregular(
-        "Neighbours come together, yet the motion does not repeat; its period may be longer, or "
-        "the contacts never settle");
+        "Neighbouring motions converge, but the motion does not repeat; its period may be longer, "
+        "or the contacts never settle");
   }
 
   Classification weighed(AttractorType kind, const std::string& why,
@@ -239,14 +239,14 @@ class Classifier {
   }
   Classification irregular(const std::string& why) const {
     const std::string switching =
-        indicators_.switching
-            ? "; contacts carry " + number_text(indicators_.switching->entropy) + " bit per sample"
-            : "";
+        indicators_.switching ? "; the sequence of contacts has an entropy of " +
+                                    number_text(indicators_.switching->entropy) + " bit per sample"
+                              : "";
     return weighed(AttractorType::irregular_contracting, why, switching);
   }
 
   std::string exponent_text() const {
-    if (!indicators_.largest_exponent) return "no exponent is known";
+    if (!indicators_.largest_exponent) return "largest exponent unknown";
     const ExponentEstimate& found = *indicators_.largest_exponent;
     return "largest exponent " + number_text(found.value) + " +- " + number_text(found.half_width) +
            " per sample (99 %)";
@@ -256,14 +256,14 @@ class Classifier {
     return "0-1 test K = " + number_text(*indicators_.zero_one);
   }
   std::string repeat_text() const {
-    if (!indicators_.repeat) return "no repetition was looked for";
+    if (!indicators_.repeat) return "no repetition was searched for";
     const RepeatSearch& found = *indicators_.repeat;
     if (found.lag > 0) return "repeats after " + std::to_string(found.lag) + " samples";
     return "no repetition within " + std::to_string(found.largest_lag) + " samples to " +
            number_text(found.tolerance) + " of the motion's extent";
   }
   std::string lines_text() const {
-    if (!indicators_.lines) return "no spectrum was looked at";
+    if (!indicators_.lines) return "no spectrum was computed";
     const SpectralIndicators& found = *indicators_.lines;
     const std::string text = number_text(100.0 * found.continuous) +
                              " % of the power between the lines, " +
@@ -275,8 +275,8 @@ class Classifier {
 
   std::string neighbour_text() const {
     if (!indicators_.neighbour) return "";
-    return "; a neighbour " + number_text(neighbour_start) + " of the extent away came to " +
-           number_text(*indicators_.neighbour) + " of it";
+    return "; the distance of a neighbouring motion went from " + number_text(neighbour_start) +
+           " to " + number_text(*indicators_.neighbour) + " of the extent";
   }
 
   bool is_short() const {
@@ -291,7 +291,7 @@ class Classifier {
   }
   bool is_regular() const { return indicators_.zero_one && *indicators_.zero_one <= zero_one_low; }
   bool has_parted() const { return indicators_.neighbour.value_or(0.0) >= neighbour_parted; }
-  /// Whether a neighbour stays near and the 0–1 test does not show chaos.
+  /// Whether a neighbouring motion stays near and the 0–1 test does not show chaos.
   bool stays_beside_neighbour() const {
     return indicators_.neighbour.value_or(1.0) <= neighbour_stays &&
            indicators_.zero_one.value_or(0.0) < zero_one_high;

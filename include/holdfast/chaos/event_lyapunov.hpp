@@ -15,20 +15,20 @@
 
 namespace holdfast {
 
-/// A motion with the Lyapunov spectrum along it. It may be passed to run_trajectory in place of the
-/// motion, so that a time history is recorded at the same time.
+/// An EventMotion with the Lyapunov spectrum along that motion. The object may be passed to
+/// run_trajectory in place of the motion, so that a time history is recorded at the same time.
 ///
 /// The tangent is that of VariationalFlow, orthogonalised at every sample. With N the order of the
-/// plant, there are N + 3 exponents. Each of these causes makes one of them −∞:
+/// plant, there are N + 3 exponents. Each of these causes makes one exponent −∞:
 /// - the drive has been engaged: from then on its gap is a function of the state;
-/// - the controller takes no differences of displacements: the last one read has no effect;
+/// - the controller takes no differences of displacements: the last reading has no effect;
 /// - there is no processing delay: u_{j−1} has no effect from t_j on.
-/// In stick Δż = 0 and the drive's position is known. After a stick at most N − 1 exponents are
-/// finite, plus one for each command or reading that is stored during the stick and acts later. The
-/// stick with the fewest of these counts: it costs one exponent without processing delay and up to
-/// two with it. With delay and differences of displacements N + 2 may be finite, one less if this
-/// object is made before the first sample, when nothing has been read. A gap that is never left
-/// adds an exponent 0.
+/// In stick Δż = 0 and the drive's position is known. After a phase of stick at most N − 1
+/// exponents are finite, plus one for each command or reading that is stored during stick and acts
+/// later. The phase with the fewest finite exponents decides: without processing delay one more
+/// exponent is −∞, with delay up to two more. With delay and differences of displacements N + 2
+/// exponents may be finite, or N + 1 if this object is made before the first measurement. A gap
+/// that is never left adds an exponent 0.
 ///
 /// An exact −∞ is detected by the structural rank (structural_rank.hpp) of the product of all maps.
 /// Pivots would not show it: in a product of several maps a zero becomes round-off, which later
@@ -59,9 +59,9 @@ class EventLyapunov {
   /// The state x_j, N × 1; for two masses z_j (m, m/s, m, m/s).
   const typename EventMotion<Contact>::State& state() const { return motion_->state(); }
 
-  /// The spectrum over the samples since the last restart, natural logarithm per sample.
+  /// The Lyapunov spectrum over the samples since the last restart, natural logarithm per sample.
   const LyapunovSpectrum<double, size>& spectrum() const { return spectrum_; }
-  /// The number of complete batches, for the standard errors.
+  /// The number of complete batches of samples, on which the standard errors rest.
   std::size_t complete_batches() const { return spectrum_.complete_batches(); }
   /// Restarts the averages; only the tangent vectors are kept.
   void restart() { spectrum_.restart(); }

@@ -13,11 +13,11 @@
 
 namespace holdfast {
 
-/// The contacts of 0 … `ItineraryBlocks::length` consecutive samples as a binary number: a 1, then
-/// a digit for each sample in their order, 1 where the force is transmitted.
+/// The contacts of 0 … `ItineraryBlocks::length` consecutive samples as a binary number: a leading
+/// 1, then one digit for each sample in order, 1 where the force is transmitted.
 using ItineraryBlock = std::uint8_t;
 
-/// The block without samples.
+/// The empty block, without any sample.
 inline constexpr ItineraryBlock empty_block = 1;
 
 /// The number of samples of a block.
@@ -27,7 +27,7 @@ constexpr int samples_of(ItineraryBlock block) {
   return samples;
 }
 
-/// The block with one sample appended.
+/// A block extended by one more sample.
 constexpr ItineraryBlock followed_by(ItineraryBlock block, bool engaged) {
   return static_cast<ItineraryBlock>(2 * block + (engaged ? 1 : 0));
 }
@@ -66,12 +66,12 @@ class ItineraryBlocks {
   int rank(ItineraryBlock block) const { return ranks_[block]; }
   /// The smaller of the ranks of S and S*.
   int smallest_rank() const { return std::min(ranks_[2], ranks_[3]); }
-  /// The larger of the ranks of S and S*: at most that many exponents are finite.
+  /// The larger of the ranks of S and S*; at most that many Lyapunov exponents are finite.
   int largest_rank() const { return std::max(ranks_[2], ranks_[3]); }
 
-  /// The number of coordinates that matter: 4 where both maps ignore the last one, u_{j−1}; else 5.
+  /// The number of coordinates in use: 4 where both maps ignore the last one, u_{j−1}; else 5.
   int reach() const { return reach_; }
-  /// The diagonal of T.
+  /// The diagonal of the balancing matrix T.
   const Vector<double, 5>& scale() const { return scale_; }
 
  private:

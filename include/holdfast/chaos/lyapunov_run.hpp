@@ -23,10 +23,10 @@ namespace holdfast {
 
 /// The length and accuracy of an averaged Lyapunov spectrum.
 struct LyapunovRun {
-  std::int64_t most_samples;  ///< most samples averaged, after the discarded ones, ≥ 1
+  std::int64_t most_samples;  ///< largest number of samples averaged after the discarded ones, ≥ 1
   std::int64_t discard = 0;   ///< samples left out while motion and basis settle, ≥ 0
   double standard_error = 0;  ///< sufficient standard error of λ₁, ≥ 0; 0: all samples are used
-  LyapunovScope scope = LyapunovScope::all;  ///< which exponents are computed
+  LyapunovScope scope = LyapunovScope::all;  ///< the exponents that are computed
 };
 
 /// Validates the settings of a run. @throws InvalidParameter where a field is not admissible
@@ -38,8 +38,8 @@ inline void validate(const LyapunovRun& run) {
 
 /// The outcome of a Lyapunov run.
 enum class LyapunovOutcome {
-  accurate,      ///< the standard error asked for was reached
-  sample_limit,  ///< all samples were used before that error was reached
+  accurate,      ///< the required standard error was reached
+  sample_limit,  ///< all samples were used before the required error was reached
   diverged,      ///< the state left the range of numbers; exponents are averages up to then, NaN
                  ///< if this happened within the discarded samples
 };
@@ -48,8 +48,8 @@ enum class LyapunovOutcome {
 /// after the tangent vectors have settled (settled_means()).
 struct LyapunovResult {
   LyapunovOutcome outcome;  ///< reason for the end of the run
-  /// The exponents λ₁ … λ₅ in the order of the QR, −∞ for a null direction. λ₂ … λ₅ are NaN where
-  /// only λ₁ was computed.
+  /// The exponents λ₁ … λ₅ in the order of the QR factorisation, −∞ for a null direction. λ₂ … λ₅
+  /// are NaN where only λ₁ was computed.
   Vector<double, 5> exponents;
   /// Standard errors, including the bias that the first samples may have left (settled_means()).
   Vector<double, 5> standard_errors;
@@ -70,7 +70,7 @@ inline constexpr std::size_t fewest_batches = 32;
 
 namespace detail {
 
-/// The result of a run from the five leading exponents of a spectrum.
+/// The result of a Lyapunov run, from the five leading exponents of a spectrum.
 /// @tparam Size  ≥ 5
 template <int Size>
 LyapunovResult lyapunov_result(LyapunovOutcome outcome,
@@ -131,7 +131,7 @@ LyapunovResult run_average(Lyapunov& motion, const LyapunovRun& run,
 /// is S where the force is transmitted, S* in the backlash.
 ///
 /// S and S* should be those of the motion's own loop. Kollár 2022 combines S and S* for δ = τ with
-/// a trajectory for δ = 0. His Table 2 is reproduced with the blocks of a loop for δ = τ.
+/// a trajectory for δ = 0. Table 2 of that paper is reproduced with the blocks of a loop for δ = τ.
 /// @tparam Scalar  number type of the loop, `double`
 template <class Scalar>
 class LyapunovObserver {
@@ -142,7 +142,7 @@ class LyapunovObserver {
       : LyapunovObserver(std::make_shared<const ItineraryBlocks>(tangent_loop, gains)) {}
 
   /// @param blocks  blocks of the loop whose S and S* are the tangent maps
-  /// @param scope   which exponents are computed
+  /// @param scope   exponents that are computed
   explicit LyapunovObserver(std::shared_ptr<const ItineraryBlocks> blocks,
                             LyapunovScope scope = LyapunovScope::all)
       : engine_(std::move(blocks), scope) {}
@@ -157,10 +157,10 @@ class LyapunovObserver {
     open_ = empty_block;
   }
 
-  /// The spectrum over the samples since the last restart, equal to that by QR at every sample.
-  /// Reading it changes nothing.
+  /// The Lyapunov spectrum over the samples since the last restart, equal to that of a QR
+  /// factorisation at every sample. The call changes nothing.
   LyapunovSpectrum<Scalar, 5> spectrum() const { return engine_.spectrum(open_); }
-  /// The number of complete batches, for the standard errors.
+  /// The number of complete batches of samples, on which the standard errors rest.
   std::size_t complete_batches() const { return engine_.complete_batches(); }
   /// Restarts the averages; only the directions of the tangent vectors are kept.
   void restart() {
@@ -175,7 +175,7 @@ class LyapunovObserver {
 
 namespace detail {
 
-/// A motion of the sampled loop with its exponents, as run_average() requires it.
+/// A motion of the sampled loop with its Lyapunov exponents, as required by run_average().
 /// @tparam Exponents  LyapunovObserver or ModalSpectrum
 template <class Motion, class Exponents>
 class SampledLyapunov : public Exponents {
@@ -195,7 +195,7 @@ class SampledLyapunov : public Exponents {
   bool engaged_ = false;
 };
 
-/// The exponents of a motion from its present state over a run.
+/// The Lyapunov exponents of a motion from its present state over a run.
 template <class Motion, class Exponents>
 LyapunovResult run_sampled(Motion& motion, const Exponents& exponents, const LyapunovRun& run,
                            const std::function<void()>& pause) {
@@ -210,7 +210,7 @@ LyapunovResult run_sampled(Motion& motion, const Exponents& exponents, const Lya
 ///     auto blocks = std::make_shared<const ItineraryBlocks>(loop, gains);
 ///     const LyapunovResult result = run_lyapunov(motion, blocks, {1000000, 1000, 1e-5});
 ///
-/// @param motion  a SampledMotion on scalars; it ends after the last sample used
+/// @param motion  a SampledMotion of a scalar type; it ends after the last sample used
 /// @param blocks  blocks of the loop whose S and S* are the tangent maps
 /// @param run     length and accuracy of the average
 /// @param pause   called every 2¹² samples; may throw to end the run

@@ -29,7 +29,7 @@ Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
 
 }  // namespace detail
 
-/// The Lyapunov spectrum of a sequence of tangent maps, by QR at every step.
+/// The Lyapunov spectrum of a sequence of tangent maps M_j, by a QR factorisation at every step.
 ///
 ///     M_j Q_j = Q_{j+1} R_{j+1},   λ_i = (1/n) Σ_j ln |(R_j)_ii|   (natural logarithm per step)
 ///
@@ -43,9 +43,9 @@ class LyapunovSpectrum {
  public:
   /// The sums over the steps so far, with the present basis.
   struct State {
-    Matrix<Scalar, Size> basis;      ///< Q_n
+    Matrix<Scalar, Size> basis;      ///< orthogonal basis Q_n
     BatchSums<Scalar, Size> sums;    ///< sums of ln |R_ii|
-    Vector<Scalar, Size> remainder;  ///< part of the sums that is in no batch yet
+    Vector<Scalar, Size> remainder;  ///< part of the sums not in any batch yet
     int finite = Size;               ///< number of exponents that are not −∞
   };
 
@@ -71,11 +71,11 @@ class LyapunovSpectrum {
   /// Applies one step with a tangent map whose rank is determined first.
   void push(const Matrix<Scalar, Size>& tangent) { push(tangent, rank_of(tangent)); }
 
-  /// The exponents λ₁ … λ_Size per step, in the order of the QR (descending once converged); −∞
-  /// for a null direction, NaN before the first step.
+  /// The exponents λ₁ … λ_Size per step, in the order of the QR factors (descending once
+  /// converged); −∞ for a null direction, NaN before the first step.
   Vector<Scalar, Size> exponents() const;
 
-  /// The standard errors by batch means; 0 for a null direction, NaN with too few steps.
+  /// The exponents' standard errors by batch means; 0 for a null direction, NaN with too few steps.
   Vector<Scalar, Size> standard_errors() const {
     return with(state_.sums.standard_errors(), Scalar(0));
   }
@@ -92,7 +92,7 @@ class LyapunovSpectrum {
 
   /// The number n of maps since the start or the last restart.
   std::int64_t steps() const { return state_.sums.steps(); }
-  /// The number of complete batches, for the standard errors.
+  /// The number of complete batches of steps, on which the standard errors rest.
   std::size_t complete_batches() const { return state_.sums.complete_batches(); }
 
   /// Restarts the averages; only the directions of the tangent vectors and the number of null

@@ -30,7 +30,7 @@ struct ModalTangents : ModalSpectrum<Scalar> {
 }  // namespace detail
 
 /// Classifies the motion of a conductor given by its modes, like classify_motion() of an IdealLoop;
-/// the result is undecided where two of the plant's natural motions cannot be told apart.
+/// undecided where two of the plant's natural motions cannot be separated numerically.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂]
 /// @param limits         limits of the search for an orbit

@@ -60,19 +60,19 @@ class ModalSpectrum {
     sums_.add(logarithms, 1);
   }
 
-  /// Adds one sample, as run_trajectory calls its observers.
+  /// Adds one sample. run_trajectory calls its observers in this form.
   void operator()(const MotionSample<double>& sample) { push(sample.engaged); }
 
   /// Restarts the averages; only the directions of the deviations are kept.
   void restart() { sums_ = BatchSums<Scalar, leading>(1); }
 
-  /// The spectrum over the samples since the last restart.
+  /// The Lyapunov spectrum over the samples since the last restart.
   LyapunovSpectrum<Scalar, 5> spectrum() const {
     return LyapunovSpectrum<Scalar, 5>({Matrix<Scalar, leading>::Identity(), sums_,
                                         Vector<Scalar, leading>::Zero(),
                                         static_cast<int>(finite_)});
   }
-  /// The number of complete batches, for the standard errors.
+  /// The number of complete batches of samples, on which the standard errors rest.
   std::size_t complete_batches() const { return sums_.complete_batches(); }
 
  private:

@@ -36,7 +36,7 @@ struct ClassifiedMotion {
   /// Result of the search for a periodic orbit, with the orbit if there is one. Its outcome is
   /// `incommensurate` also under a recorded force or with jittering samples.
   Search search;
-  ChaosIndicators indicators;  ///< indicators; for a certified orbit only period and exponent
+  ChaosIndicators indicators;  ///< indicators; for a certified orbit only its period and exponent
 };
 
 /// The classification of a motion of an IdealLoop.
@@ -65,8 +65,8 @@ std::string certificate_text(const Orbit& orbit, const std::string& shown) {
          ", and it closes to " + number_text(orbit.closure_error) + " in m and m/s.";
 }
 
-/// Takes the classification from the search where the search certified an orbit or saw the motion
-/// diverge.
+/// Classifies a motion by the result of the orbit search, where that search certified an orbit or
+/// saw the motion diverge.
 /// @param shown   statement about the orbit's contacts, for certificate_text()
 /// @return whether the search decided
 template <class Search>
@@ -87,7 +87,7 @@ bool is_decided_by_search(ClassifiedMotion<Search>& found, const std::string& sh
   return true;
 }
 
-/// The options for a loop: some 1000 forcing periods for the 0–1 test, in at most 10⁵ samples.
+/// The indicator options for a loop: some 1000 forcing periods for the 0–1 test, ≤ 10⁵ samples.
 /// @param cycles  f τ, periods of the forcing per sample, > 0
 inline IndicatorOptions indicator_options(double cycles) {
   IndicatorOptions options;
@@ -100,7 +100,7 @@ inline IndicatorOptions indicator_options(double cycles) {
 }
 
 /// The indicators of a motion that switches at its samples, from its states [z; u_{j−1}].
-/// @param engaged   set in each step to whether the drive transmits; `tangents` uses it
+/// @param engaged   set in each step: whether the drive transmits; read by `tangents`
 /// @param tangents  as indicators_of_system() requires them
 template <class Motion, class Tangents>
 ChaosIndicators indicators_of_samples(Motion motion, const IndicatorOptions& options, bool& engaged,
@@ -138,14 +138,14 @@ ChaosIndicators indicators_of_motion(const IdealLoop<Scalar>& loop,
   return indicators_of_samples(motion, options, engaged, tangents);
 }
 
-/// A motion with its tangent in the form that chaos_indicators() requires. Its states are
-/// [x; u_{j−1}; 0; 0], filled up with zeros to the length of the deviations of VariationalFlow.
+/// A motion with its tangent in the form that chaos_indicators() requires. The states are [x;
+/// u_{j−1}; 0; 0]: the zeros make them as long as the deviations of VariationalFlow.
 template <class Contact>
 class TrajectoryWithTangent {
   static constexpr int size = VariationalFlow<Contact>::size;
 
  public:
-  /// @param gap_counts  whether a deviation of the gap's place is part of the tangent
+  /// @param gap_counts  whether a deviation of the gap's position is part of the tangent
   TrajectoryWithTangent(const EventMotion<Contact>& start, bool gap_counts)
       : motion_(start), tangent_(motion_), gap_counts_(gap_counts) {}
 
@@ -159,7 +159,7 @@ class TrajectoryWithTangent {
         [this](const State&) { return map(); }, [this] { return engaged_; });
   }
 
-  /// The last sample at which the drive was outside its gap.
+  /// The index of the last sample at which the drive was outside its gap.
   std::int64_t last_engaged() const { return last_engaged_; }
   bool accumulates() const { return motion_.counts().accumulates; }
 
@@ -214,7 +214,7 @@ std::optional<ChaosIndicators> indicators_of_motion(const EventMotion<Contact>& 
   return TrajectoryWithTangent<Contact>(start, false).indicators(options);
 }
 
-/// The first harmonic of positive amplitude, whose periods are counted; null without one.
+/// The first harmonic of positive amplitude, used to count periods; null if there is none.
 inline const Harmonic* first_harmonic(const MultiHarmonicForce& force) {
   const auto first =
       std::find_if(force.harmonics.begin(), force.harmonics.end(),
@@ -235,8 +235,8 @@ double own_frequency(const Plant& plant) {
   return balanced_norm(plant.state_matrix()) / (2.0 * pi<double>);
 }
 
-/// The options for a loop, from the frequency of its first harmonic or, without one, its natural
-/// frequency. The examination ends before the record of a recorded force does.
+/// The indicator options for a loop, from the frequency of its first harmonic or, without one, its
+/// natural frequency. Under a recorded force the examination ends before the record.
 /// @return nothing where the record has fewer than 4200 samples
 template <class Plant>
 std::optional<IndicatorOptions> indicator_options(const ImplementedLoopOf<Plant>& loop) {
@@ -261,8 +261,8 @@ struct Weighing {
   bool may_look_longer = true;  ///< may use more samples if the planned ones do not decide
 };
 
-/// Classifies a motion by its samples. Where they do not decide, the distance of a neighbour is
-/// added; where that does not decide either, all is repeated with 99 960 samples.
+/// Classifies a motion by the indicators of its samples. If they do not decide, the distance of a
+/// neighbouring motion is added; if that does not decide, all is repeated with 99 960 samples.
 /// @param start  the motion, before a sample
 /// @param look   IndicatorOptions ↦ ChaosIndicators, nothing where the motion cannot be followed
 /// @return whether the motion could be followed
@@ -289,8 +289,8 @@ bool classify(ClassifiedMotion<Search>& found, const Motion& start, IndicatorOpt
   return classify(found, start, options, criteria, look);
 }
 
-/// The classification of a motion that switches at samples, from the orbit that it comes to or,
-/// without one, from the indicators that `look` computes.
+/// The classification of a motion that switches at samples, from the orbit on which it settles or,
+/// without an orbit, from the indicators that `look` computes.
 /// @tparam Loop  IdealLoop or ModalLoop
 template <class Loop, class Motion, class Look>
 SampledClassification classify_sampled(const Loop& loop, OrbitResult search, const Motion& motion,
@@ -337,7 +337,7 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
 
 }  // namespace detail
 
-/// Classifies a motion by the periodic orbit that it comes to or, where none is found, by the
+/// Classifies a motion by the periodic orbit on which it settles or, where none is found, by the
 /// indicators of its samples.
 ///
 ///     classify_motion(loop, Vector<double, 4>::Zero()).classification.kind;  // periodic
@@ -345,8 +345,8 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
 /// @param limits         limits of the search for an orbit
-/// Work: that of find_periodic_orbit() and of chaos_indicators() for N ≤ 10⁵ samples. Where these
-/// do not decide, 3 N samples more for a neighbour's distance, then all again with N = 10⁵.
+/// Work: that of find_periodic_orbit() and of chaos_indicators() for N ≤ 10⁵ samples. If these do
+/// not decide: 3 N samples for the distance of a neighbouring motion, then all again with N = 10⁵.
 /// @throws InvalidParameter where an argument is not admissible
 template <class Scalar>
 SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
@@ -374,8 +374,8 @@ SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
 /// The rules are those of `classify`. Three cases do not occur in an IdealLoop:
 /// - a recorded force or a jittering clock: no orbit is sought, and no motion is called
 /// quasi-periodic; with a jittering clock only rest is called periodic. A negative exponent means
-/// `irregular_contracting`: neighbours converge under the same forcing. Only samples before the end
-/// of the record count; with fewer than 4200 of them the motion is undecided;
+/// `irregular_contracting`: neighbouring motions converge under the same forcing. Only samples
+/// before the end of the record count; with fewer than 4200 of them the motion is undecided;
 /// - a quantised measurement: exponents and multipliers take a quantised reading as constant;
 /// - changes of contact that accumulate: the motion is undecided.
 /// @param loop           the loop with its implemented hardware
@@ -394,13 +394,13 @@ EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<
   auto search = find_event_orbit(motion, limits);
   found.search = {search.outcome, std::move(search.orbit), search.samples, search.candidates,
                   search.neutral_state};
-  if (detail::is_decided_by_search(found, "it switches alike in three successive periods"))
+  if (detail::is_decided_by_search(found, "its contacts change alike in three successive periods"))
     return found;
   detail::weigh_samples(loop, motion, found);
   if (found.search.outcome == OrbitOutcome::neutral)
-    found.classification.rests_on += " A multiplier is 1: nothing brings back state number " +
+    found.classification.rests_on += " A multiplier is 1: nothing restores state variable " +
                                      std::to_string(*found.search.neutral_state) +
-                                     " (counted from 0), so the motion is one of a family.";
+                                     " (counted from 0), so that the motion belongs to a family.";
   return found;
 }
 /// Classifies a motion of an implemented loop; the initial state is any Eigen column.

@@ -10,14 +10,14 @@
 
 namespace holdfast {
 
-/// The final distance of a neighbour y of a motion x, as a share of the extent: the mean of
-/// |x_i − y_i| over the last quarter of the samples, divided by max x_i − min x_i, for the
+/// The final distance of a neighbouring motion y from a motion x, as a share of the extent: the
+/// mean of |x_i − y_i| over the last quarter of the samples, divided by max x_i − min x_i, for the
 /// coordinate i whose ratio is largest. The neighbour starts after the transient, with z displaced
 /// by `neighbour_start` of the extent of z.
 ///
-/// It detects sensitive dependence without tangents. Where neighbours separate exponentially, the
-/// distance becomes comparable to the extent; on an invariant circle or torus it stays at its
-/// initial size.
+/// This distance detects sensitive dependence without tangents. Where neighbours separate
+/// exponentially, it becomes comparable to the extent; on an invariant circle or torus it stays at
+/// its initial size.
 /// @param motion     SampledMotion, EventMotion or ModalMotion before a sample; a copy is run
 /// @param transient  samples left out at the start, ≥ 2
 /// @param samples    number of samples of both motions, ≥ 4

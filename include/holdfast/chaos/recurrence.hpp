@@ -20,8 +20,8 @@ template <int Size>
 class RelativeDistance {
  public:
   /// @param states  the series whose extents are the units
-  /// @param sizes   largest |x_i| of each coordinate, where it was larger before the series than in
-  ///               it, for example before a decay
+  /// @param sizes   largest |x_i| of each coordinate before the series, if larger than in the
+  ///               series, for example before a decay
   /// @throws InvalidParameter where the series is empty or a state is not finite
   explicit RelativeDistance(const std::vector<Vector<double, Size>>& states,
                             const Vector<double, Size>& sizes = no_sizes()) {
@@ -38,7 +38,7 @@ class RelativeDistance {
     weights_ = (extent.array() > 1e-13 * largest.array()).select(extent.cwiseInverse(), 0.0);
   }
 
-  /// The constructor's `sizes` where none are known: zeros, or empty for a dynamic Size.
+  /// The constructor's default `sizes`, for unknown sizes: zeros, or empty for a dynamic Size.
   static Vector<double, Size> no_sizes() { return Vector<double, Size>::Zero(Size < 0 ? 0 : Size); }
 
   /// The distance d of two states, in or outside the series; 0 where no coordinate varies.
@@ -78,9 +78,9 @@ struct RepeatSearch {
 ///
 ///     d(x_j, x_{j−n}) ≤ tolerance   for every j ≥ N/2
 ///
-/// with room for `repeats` repetitions: n ≤ N / (2 repeats). It is evidence and no proof: slow
-/// drift or a longer period may pass a coarse tolerance. Work: one distance for a lag that fails at
-/// once; at worst N²/(4 repeats), N ≤ 10⁶.
+/// with room for `repeats` repetitions: n ≤ N / (2 repeats). Such a lag is evidence and no proof:
+/// slow drift or a longer period may pass a coarse tolerance. Work: one distance for a lag that
+/// fails at once; at worst N²/(4 repeats), N ≤ 10⁶.
 /// @param states     x_0 … x_{N−1} at successive samples
 /// @param tolerance  share of the extent of the second half, 0 ≤ tolerance < 1
 /// @param repeats    number of repetitions that must fit, ≥ 1
@@ -110,9 +110,9 @@ RepeatSearch repeats_after(const std::vector<Vector<double, Size>>& states, doub
 /// of states nearer to each other than a radius, the share that lies on diagonal lines of two or
 /// more pairs; 0 without such pairs.
 ///
-/// It is near 1 for a motion on a closed curve and about 1 − (1 − rate)² for a random series, the
-/// rate being the share of pairs within the radius. Work: N²/2 distances and no storage, N ≤ 5000.
-/// Source: N. Marwan et al., Physics Reports 438 (2007), 237–329.
+/// The determinism is near 1 for a motion on a closed curve and about 1 − (1 − rate)² for a random
+/// series, the rate being the share of pairs within the radius. Work: N²/2 distances and no
+/// storage, N ≤ 5000.
 /// @param states  x_j at successive samples, whose extents are the units
 /// @param radius  share of the extent, > 0
 /// @throws InvalidParameter for fewer than two or more than 5000 states, a state that is not

@@ -10,14 +10,14 @@ namespace holdfast {
 
 /// The complexity of a sequence of contacts (engaged or in the backlash); H_k is block_entropy().
 struct SwitchingComplexity {
-  double entropy;        ///< h_k = H_{k+1} − H_k (bits per symbol)
-  std::size_t block;     ///< length k of the words
+  double entropy;        ///< entropy rate h_k = H_{k+1} − H_k (bits per symbol)
+  std::size_t block;     ///< length k of the words counted
   std::size_t switches;  ///< number of changes of contact
 };
 
-/// The entropy H_k (bits) of the words of k symbols in a sequence, from their frequencies. It is
-/// biased low unless the sequence has many times 2^k symbols. Work: n + 2^k.
-/// @param sequence  n symbols, whose words overlap
+/// The entropy H_k (bits) of the words of k symbols in a sequence, from their frequencies. The
+/// estimate is too low unless n is many times 2^k. Work: n + 2^k.
+/// @param sequence  n symbols; successive words overlap
 /// @param block     word length k, 0 … 20 and ≤ n; H₀ = 0
 /// @throws InvalidParameter where k is out of its range
 inline double block_entropy(const std::vector<bool>& sequence, std::size_t block) {

@@ -13,8 +13,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// The walk (p(n), q(n)) of the 0–1 test in the plane, with its mean-square displacement over
-/// n = 1, 2, … steps. One object serves every c without new memory.
+/// The walk (p(n), q(n)) of the 0–1 test in the plane, with its mean-square displacement over n =
+/// 1, 2, … steps. One object is used for all frequencies c, without further allocation.
 class ZeroOneWalk {
  public:
   /// @param centred  the series without its mean
@@ -113,7 +113,7 @@ inline double median_of_sorted(const std::vector<double>& sorted) {
 /// few c that coincide with a frequency of the series K_c is 1 without chaos; the median ignores
 /// them.
 ///
-/// The test yields 0 for any motion sampled much faster than it moves. It is unreliable for fewer
+/// The test yields 0 for any motion sampled much faster than it varies. It is unreliable for fewer
 /// than about 500 samples of a motion with several frequencies. A constant series has K = 0.
 ///
 /// Work: at most 500 lags from 5000 evenly spaced j for each c, and one cosine and sine per sample.

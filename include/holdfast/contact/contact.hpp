@@ -27,15 +27,15 @@ enum class Switching : std::uint8_t {
 ///
 /// **At samples** the law decides on the contact up to the next sample. Where the law does not
 /// transmit, the command has no effect: u_j = 0 from t_j + δ on, and the force of a drive with
-/// states of its own decays with them. The stops of a dead zone act from the sample on. The mode is
-/// always 1, but for a dead zone it is 0 on the lower and 2 on the upper stop.
+/// a lag decays. The stops of a dead zone act from the sample on. The mode is always 1, except on
+/// the stops of a dead zone: 0 on the lower stop, 2 on the upper one.
 ///
-/// **Exact play** is the play operator of Δz as a Filippov system. With v = Δż = rᵀx and a(s) =
-/// rᵀ(A x + b s + b_u u + c F), the relative acceleration under a transmitted force s, its modes,
-/// numbered as in ContactMode, are
+/// **Exact play** is the play operator of Δz as a Filippov system. v = Δż = rᵀx is the relative
+/// velocity, a(s) = rᵀ(A x + b s + b_u u + c F) the relative acceleration under a transmitted force
+/// s. The modes, numbered as in ContactMode, are
 ///
 /// - engaged: the drive's force s_e is transmitted (u for an ideal drive, f x + g u for one with
-///   states), until v reaches zero from a sign σ. Then the gap is [Δz − r₀, Δz] for σ > 0, [Δz, Δz
+///   a lag), until v reaches zero from a sign σ. Then the gap is [Δz − r₀, Δz] for σ > 0, [Δz, Δz
 ///   + r₀] for σ < 0. The next mode is stick if σ a(0) > 0 and σ a(s_e) < 0, else gap;
 /// - gap: no force is transmitted, until Δz leaves the gap; then engaged;
 /// - stick: without force the relative motion would continue in the old direction, with s_e it
@@ -47,18 +47,18 @@ enum class Switching : std::uint8_t {
 /// this law evaluated at the samples only. Source of the sliding force: A. F. Filippov,
 /// Differential equations with discontinuous righthand sides, 1988.
 ///
-/// **An exact dead zone** |Δz| ≤ r₀/2 transmits nothing inside (mode 1); outside (0 and 2) it
-/// transmits the command, and the stop adds k_c (Δz ∓ r₀/2) + c_c Δż between the masses. No mode
-/// slides. If the plant pushes outwards over the edge and the command inwards, the absorber bounces
-/// on the edge: v reverses with a period of 2 |v| (1/|a(0)| + 1/|a(u)|), and damping reduces |v|
-/// without end. Every bounce is computed until SwitchCounts::accumulates is set. Source: S. W.
-/// Shaw, P. J. Holmes, A periodically forced piecewise linear oscillator, J. Sound Vib. 90 (1983).
+/// **An exact dead zone** |Δz| ≤ r₀/2 transmits nothing inside (mode 1); outside (modes 0 and 2)
+/// it transmits the command, and the stop adds k_c (Δz ∓ r₀/2) + c_c Δż between the masses. No mode
+/// slides. If the plant pushes outwards and the command inwards at the edge, the absorber bounces
+/// there: v reverses with the period 2 |v| (1/|a(0)| + 1/|a(u)|), and damping reduces |v| without
+/// end. Every bounce is computed until SwitchCounts::accumulates is set. Source: S. W. Shaw, P. J.
+/// Holmes, A periodically forced piecewise linear oscillator, J. Sound Vib. 90 (1983).
 /// @tparam DrivenPlant  TwoMass<double> or a LinearPlant<double, N>
 template <class DrivenPlant = TwoMass<double>>
 class DriveContact {
  public:
   using Plant = DrivenPlant;                           ///< plant with the drive
-  using State = StateOf<Plant>;                        ///< x, N × 1
+  using State = StateOf<Plant>;                        ///< state x of the plant, N × 1
   using Instant = ContactInstantOf<states_of<Plant>>;  ///< state, command and force at an instant
   using ModeGuards = GuardsOf<states_of<Plant>>;       ///< guards that end a mode
 
@@ -110,32 +110,32 @@ class DriveContact {
                ? plant_on_stop(plant_, backlash_.contact_stiffness, backlash_.contact_damping)
                : plant_;
   }
-  /// The readings of the plant's states.
+  /// Functions that read displacements and velocities from the plant's state.
   const PortReadings<Plant>& readings() const { return readings_; }
 
   /// The number of the present mode, 0 … `modes` − 1.
   int mode() const { return mode_; }
-  /// The present contact mode of the drive; for a law at samples `engaged` before the first sample.
+  /// The present contact mode of the drive. A law at samples begins with `engaged`.
   ContactMode word() const { return word_; }
   /// Whether the command of the present sample has an effect: always, except where a law at samples
   /// decided not to transmit it.
   bool transmits_command() const {
     return kind_ != Kind::at_samples || word_ == ContactMode::engaged;
   }
-  /// The command u_j (N) that reaches the drive: the given one, or 0 where it is not transmitted.
+  /// The command u_j (N) that reaches the drive: `command`, or 0 if the command is not transmitted.
   double commanded(double command) const { return transmits_command() ? command : 0.0; }
-  /// The force that the drive transmits (N), without a stop's own force.
+  /// Force (N) that the drive transmits, without the force of a stop.
   double transmitted(const Instant& now) const {
     if (kind_ == Kind::at_samples) return now.command;
     if (word_ == ContactMode::engaged) return engaged_force(plant_, now);
     return word_ == ContactMode::gap ? 0.0 : -free_(now) / mobility_;
   }
 
-  /// Whether the contact may change between samples: with an exact law except play with r₀ = 0.
+  /// Whether the contact may change between samples: true for exact laws except play with r₀ = 0.
   bool changes_between_samples() const { return changes_between_samples_; }
-  /// The guards that end the present mode between the samples. While play is engaged: σ Δż. In a
-  /// gap: the distance (m) from either end. On a stop: the distance (m) of Δz beyond its end. In
-  /// stick: the accelerations (m/s²) σ a(0) and −σ a(s_e).
+  /// The guards that end the present mode between the samples. Engaged play: the velocity σ Δż
+  /// (m/s). Gap: the distances (m) of Δz from both ends. Stop: the distance (m) of Δz beyond the
+  /// end of the gap. Stick: the accelerations (m/s²) σ a(0) and −σ a(s_e).
   ModeGuards guards() const {
     if (!changes_between_samples_) return {};
     if (mode_ == gap) return gap_guards();
@@ -143,7 +143,7 @@ class DriveContact {
     return mode_ == 0 ? engaged_guards() : stick_guards();
   }
 
-  /// Applies a sample: a law at samples decides from its Δz and Δż; an exact law ignores it.
+  /// Applies a sampled state: a law at samples decides from its Δz and Δż; exact laws ignore it.
   void sample(const State& state) {
     if (kind_ != Kind::at_samples) return;
     const bool engaged =
@@ -151,21 +151,21 @@ class DriveContact {
     word_ = engaged ? ContactMode::engaged : ContactMode::gap;
     mode_ = gap + law_.side();
   }
-  /// Applies a jump, or possible jump, of the force or the command.
+  /// Updates the contact after a jump, or possible jump, of the force or the command.
   void jumped(const Instant& now) {
     if (kind_ != Kind::play) return;
     if (word_ == ContactMode::stick) return leave_stick(now, 1);
     // Further zeros at a change of contact are those of the force and the command before the jump.
     zeros_ = std::min(zeros_, mode_ == gap ? 2 : 1);
   }
-  /// Applies a displacement of the absorber against the conductor: stick ends, and a stop that was
-  /// passed is detected at once, since the guard is negative.
+  /// Updates the contact after a jump of the absorber's displacement against the conductor: stick
+  /// ends, and a stop that was passed is detected at once, since its guard is negative.
   void displaced() {
     if (word_ == ContactMode::stick) change_to(gap, 0);
     zeros_ = 0;
     displaced_ = true;
   }
-  /// Restores the constraints of stick exactly: Δż = 0 and the former Δz. No effect in other modes.
+  /// Restores the constraints of stick, Δż = 0 and the former Δz, exactly; other modes: no effect.
   void keep(const State& before, State& after) const {
     if (word_ == ContactMode::stick) readings_.hold_relative_position(before, after);
   }
@@ -189,24 +189,24 @@ class DriveContact {
     if (mode_ == stick) change_to(guard == 0 ? gap : 0, guard == 0 ? 3 : 2);
   }
 
-  /// The number of the mode stick, in which Δż = 0; −1 for a law without it.
+  /// Number of the mode stick, in which Δż = 0; −1 for a law without this mode.
   int sticking_mode() const { return kind_ == Kind::play ? stick : -1; }
-  /// Whether a mode's switching surface depends on play's last reversal g, as Δz = g or Δz = g ∓
-  /// r₀. Other surfaces are Δż = 0 (engaged play) and a fixed Δz (stops).
+  /// Whether a mode's switching surface is Δz = g or Δz = g ∓ r₀, g being the Δz (m) at play's last
+  /// reversal. Other surfaces are Δż = 0 (engaged play) and a fixed Δz (stops).
   bool is_anchored(int mode) const { return kind_ == Kind::play && mode != 0; }
   /// Whether the drive is in a gap that begins at play's last reversal.
   bool remembers_gap() const { return kind_ == Kind::play && mode_ == gap; }
-  /// The sign σ of exact play; 0 before Δż was nonzero for the first time.
+  /// Sign σ = ±1 of Δż in exact play; 0 until Δż is nonzero for the first time.
   double sign() const { return sign_; }
   /// The lower end of an exact law's gap, Δz (m); undefined for play while engaged.
   double lower() const { return lower_; }
   /// The upper end of an exact law's gap, Δz (m); undefined for play while engaged.
   double upper() const { return upper_; }
-  /// The Δz = g (m) of play's last reversal, where the gap begins; while engaged, the g of the
-  /// previous gap.
+  /// Relative displacement g = Δz (m) at play's last reversal, where the gap begins; while engaged,
+  /// at the previous reversal.
   double reversal() const { return sign_ > 0.0 ? upper_ : lower_; }
-  /// Puts play into the gap that begins at a given reversal.
-  /// @param at    reversal g (m)
+  /// Puts a drive with exact play into the gap that begins at a given reversal.
+  /// @param at    relative displacement g (m) at the reversal
   /// @param sign  σ = ±1: the gap is below g for +1
   void cross_gap(double at, double sign) {
     sign_ = sign;
@@ -235,7 +235,7 @@ class DriveContact {
     return result;
   }
 
-  /// The guards of the gap. The zeros just after a change belong to the end at which the gap began.
+  /// The guards of the gap. Just after a reversal, the guard at the end where the gap begins is 0.
   ModeGuards gap_guards() const {
     ModeGuards result;
     result.guard[0] = {-readings_.displacement_row(), 0.0, 0.0, upper_, sign_ > 0.0 ? zeros_ : 0};
@@ -275,8 +275,8 @@ class DriveContact {
     upper_ = sign_ > 0.0 ? here : here + backlash_.width;
   }
 
-  /// Leaves the gap beyond the end on a side ±1. A drive that was displaced beyond it may move
-  /// back: then a new gap begins where the drive is.
+  /// Leaves the gap beyond its upper (+1) or lower (−1) end. If a displaced drive is moving back
+  /// from beyond this end, a new gap begins at its present Δz.
   void leave_gap(double side, const Instant& now) {
     sign_ = side;
     if (side * readings_.relative_velocity(now.state) < 0.0) {
@@ -299,8 +299,8 @@ class DriveContact {
 
   /// Ends stick where its condition is violated; otherwise the mode is unchanged.
   /// @param now    the instant, with the command and the force from then on
-  /// @param zeros  zeros of the velocity if the drive engages: one where the command jumped beyond
-  ///               the force of stick, two where that force reached the command
+  /// @param zeros  number of v, v̇, … that vanish if the drive engages: one if the command jumped
+  ///               beyond the force of stick, two if that force reached the command
   void leave_stick(const Instant& now, int zeros) {
     if (!(sign_ * free_(now) > 0.0))
       change_to(gap, zeros + 1);

@@ -10,22 +10,22 @@ namespace holdfast {
 /// @tparam States  N, the order of the plant
 template <int States>
 struct ContactInstantOf {
-  Vector<double, States> state;  ///< x, N × 1; for two masses z (m, m/s, m, m/s)
-  double command;                ///< u, the command in force (N)
-  double force;                  ///< F, the excitation (N)
+  Vector<double, States> state;  ///< state x, N × 1; for two masses z (m, m/s, m, m/s)
+  double command;                ///< command u in force (N)
+  double force;                  ///< excitation F (N)
 };
 
 /// A guard g = state · x + command u + force F + constant, positive while the contact persists.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct GuardOf {
-  Vector<double, States> state;  ///< coefficients of x, N × 1; g in m, m/s or m/s², by mode
-  double command = 0.0;          ///< coefficient of u, per newton
-  double force = 0.0;            ///< coefficient of F, per newton
-  double constant = 0.0;         ///< constant, in the unit of g
-  /// The number of g, ġ, g̈, … that vanish at this instant because the contact has just changed.
+  Vector<double, States> state;  ///< coefficients of the state x, N × 1; g in m, m/s or m/s²
+  double command = 0.0;          ///< coefficient of the command u, per newton
+  double force = 0.0;            ///< coefficient of the excitation F, per newton
+  double constant = 0.0;         ///< constant term, in the unit of g
+  /// Number of g, ġ, g̈, … that vanish at this instant because the contact has just changed.
   int zeros = 0;
-  /// Whether the sign of g is still unknown; g is then multiplied by the first sign that it takes.
+  /// Whether the sign of g is unknown; g is then multiplied by the sign of its first nonzero value.
   bool unsigned_yet = false;
 };
 
@@ -33,7 +33,7 @@ struct GuardOf {
 /// @tparam States  N, the order of the plant
 template <int States>
 struct GuardsOf {
-  std::array<GuardOf<States>, 2> guard;  ///< the first `count` are valid
+  std::array<GuardOf<States>, 2> guard;  ///< guards; the first `count` are valid
   int count = 0;                         ///< number of guards; 0: the contact does not change
 };
 

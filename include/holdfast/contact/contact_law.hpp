@@ -28,7 +28,7 @@ namespace holdfast {
 /// `dead_zone` is another law: its gap is fixed about Δz = 0.
 enum class ContactLaw : std::uint8_t {
   kollar,     ///< `Backlash`: Kollár 2022, Eqs. (7)–(8)
-  immediate,  ///< `ImmediateBacklash`: entry tested at the exit sample too
+  immediate,  ///< `ImmediateBacklash`: entry tested at the sample of exit too
   play,       ///< `PlayBacklash`: the play operator on sampled Δz
   dead_zone,  ///< `DeadZone`: a gap about Δz = 0 between two stops
   none,       ///< `NoBacklash`: always transmits
@@ -42,20 +42,20 @@ class NoBacklash {
   Mask<Scalar> step(const Scalar& /*relative_displacement*/, const Scalar& /*relative_velocity*/) {
     return !inside();
   }
-  /// Whether the drive is in its backlash: never.
+  /// Whether the drive is in its backlash: always false.
   Mask<Scalar> inside() const { return Scalar(0) > Scalar(0); }
 };
 
 /// A law of backlash and its parameters.
 struct BacklashParameters {
-  ContactLaw law = ContactLaw::kollar;  ///< chosen law
-  double width = 0.0;                   ///< r₀ (m), ≥ 0; unused by `none`
-  double contact_stiffness = 0.0;       ///< k_c (N/m), ≥ 0; used by `dead_zone` only
-  double contact_damping = 0.0;         ///< c_c (N s/m), ≥ 0; used by `dead_zone` only
+  ContactLaw law = ContactLaw::kollar;  ///< law of backlash
+  double width = 0.0;                   ///< gap width r₀ (m), ≥ 0; unused by `none`
+  double contact_stiffness = 0.0;       ///< stop's stiffness k_c (N/m), ≥ 0; `dead_zone` only
+  double contact_damping = 0.0;         ///< stop's damping c_c (N s/m), ≥ 0; `dead_zone` only
 };
 
-/// Rejects parameters outside the ranges stated at their members, whether or not the law uses
-/// them.
+/// Rejects parameters outside the ranges stated at their members, even where the law does not use
+/// the parameter.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const BacklashParameters& backlash) {
   validate_backlash_width(backlash.width);
@@ -68,14 +68,14 @@ inline void validate(const BacklashParameters& backlash) {
 ///     SampledContact contact({ContactLaw::play, 0.002});
 ///     const bool engaged = contact.step(relative_displacement, relative_velocity);
 ///
-/// It decides at each sample like the class that `ContactLaw` names for the law.
+/// The decisions equal those of the class named at the law's entry in `ContactLaw`.
 class SampledContact {
  public:
-  /// @throws InvalidParameter under the conditions of `validate`
+  /// Contact before its first sample. @throws InvalidParameter in the cases of `validate`
   explicit SampledContact(const BacklashParameters& backlash) : law_(chosen_law(backlash)) {}
 
   /// Processes one sample, Δz (m) and Δż (m/s).
-  /// @return true where the force is transmitted during the coming period
+  /// @return true where the force is transmitted until the next sample
   bool step(double relative_displacement, double relative_velocity) {
     return std::visit([&](auto& law) { return law.step(relative_displacement, relative_velocity); },
                       law_);
@@ -86,7 +86,7 @@ class SampledContact {
     return std::visit([](const auto& law) { return law.inside(); }, law_);
   }
 
-  /// The stop that a dead zone touched at the last step, −1, 0 or +1; 0 for the other laws.
+  /// Stop that a dead zone touched at the last step: −1, +1 or 0 for none; 0 for all other laws.
   int side() const {
     const auto* zone = std::get_if<DeadZone<double>>(&law_);
     return zone == nullptr ? 0 : static_cast<int>(zone->touched_side());

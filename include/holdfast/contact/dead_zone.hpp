@@ -25,7 +25,7 @@ namespace holdfast {
 template <class Scalar>
 class DeadZone {
  public:
-  /// @param width  gap width r₀ (m), ≥ 0
+  /// Dead zone before its first sample. @param width  gap width r₀ (m), ≥ 0
   explicit DeadZone(const Scalar& width)
       : width_(width),
         half_width_(width / Scalar(2)),
@@ -33,7 +33,7 @@ class DeadZone {
         inside_(Scalar(0) > Scalar(0)) {}
 
   /// Processes one sample; Δż is not used.
-  /// @return true where the control force is transmitted during the coming period
+  /// @return true where the control force is transmitted until the next sample
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& /*relative_velocity*/) {
     touched_side_ = side(relative_displacement);
     inside_ = !((touched_side_ > Scalar(0)) | (touched_side_ < Scalar(0)));
@@ -52,7 +52,7 @@ class DeadZone {
 
   /// Whether no stop was touched at the last step.
   Mask<Scalar> inside() const { return inside_; }
-  /// The stop σ touched at the last step: −1, 0 or +1; 0 before the first one.
+  /// Stop σ touched at the last step: −1, 0 or +1; 0 before the first step.
   const Scalar& touched_side() const { return touched_side_; }
 
  private:

@@ -8,7 +8,7 @@ namespace holdfast {
 /// The memory of a backlash: the gap of the drive and the last sampled velocity.
 template <class Scalar>
 struct BacklashMemory {
-  Mask<Scalar> inside;       ///< whether the drive is in its gap since the last sample
+  Mask<Scalar> inside;       ///< whether the drive has been in its gap since the last sample
   Scalar lower,              ///< lower end of the gap, Δz (m); valid while inside
       upper;                 ///< upper end of the gap, Δz (m); valid while inside
   Scalar previous_velocity;  ///< Δż of the last sample (m/s); zero before the first one
@@ -17,7 +17,7 @@ struct BacklashMemory {
 /// Whether a sample that leaves the gap may also enter the next one.
 enum class EntryTest {
   after_exit,  ///< entry is tested from the next sample on
-  at_exit,     ///< entry is tested at that sample too
+  at_exit,     ///< entry is tested at the sample of exit too
 };
 
 /// The backlash of the drive as a hysteresis in discrete time, a function of the sampled Δz = z₂ −
@@ -40,15 +40,15 @@ enum class EntryTest {
 template <class Scalar, EntryTest Entry = EntryTest::after_exit>
 class Backlash {
  public:
-  /// @param width  gap width r₀ (m), ≥ 0
+  /// Backlash before its first sample, outside the gap. @param width  gap width r₀ (m), ≥ 0
   explicit Backlash(const Scalar& width)
       : Backlash(width, {Scalar(0) > Scalar(0), Scalar(0), Scalar(0), Scalar(0)}) {}
 
-  /// Continues from the memory of a backlash of the same width.
+  /// Backlash that continues from the memory of an earlier one of the same width.
   Backlash(const Scalar& width, const BacklashMemory<Scalar>& memory)
       : width_(width), memory_(memory) {}
 
-  /// Processes one sample. @return true where the force is transmitted during the coming period
+  /// Processes one sample. @return true where the force is transmitted until the next sample
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& relative_velocity) {
     const Scalar zero(0);
     const Mask<Scalar> stays = memory_.inside & (relative_displacement >= memory_.lower) &
@@ -68,15 +68,15 @@ class Backlash {
     return !memory_.inside;
   }
 
-  /// Whether the drive is in its gap since the last step.
+  /// Whether the drive has been in its gap since the last step.
   Mask<Scalar> inside() const { return memory_.inside; }
   /// The lower end of the current gap, Δz (m); valid while inside.
   const Scalar& lower() const { return memory_.lower; }
   /// The upper end of the current gap, Δz (m); valid while inside.
   const Scalar& upper() const { return memory_.upper; }
-  /// The width r₀ (m).
+  /// Gap width r₀ (m).
   const Scalar& width() const { return width_; }
-  /// The memory that the coming samples depend on.
+  /// State of the backlash, on which its decisions at later samples depend.
   const BacklashMemory<Scalar>& memory() const { return memory_; }
 
  private:

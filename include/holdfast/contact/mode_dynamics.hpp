@@ -22,7 +22,7 @@ DynamicsOf<Plant> engaged_dynamics(const Plant& plant) {
           StateOf<Plant>::Zero(matrix.rows())};
 }
 
-/// The equations of motion with a drive in its gap: ẋ = A x + b_u u + c F.
+/// Equations of motion with the drive in its gap: ẋ = A x + b_u u + c F.
 template <class Plant>
 DynamicsOf<Plant> released_dynamics(const Plant& plant) {
   const auto& linear = linear_plant(plant);
@@ -45,7 +45,7 @@ AffineDynamicsOf<States> locked_dynamics(const LinearPlant<double, States>& plan
           plant.excitation - pushed * r.dot(plant.excitation),
           Vector<double, States>::Zero(plant.order())};
 }
-/// The equations of motion of both masses as one body m₁ + m₂; internal forces cancel.
+/// Equations of motion of the two masses in stick, as one body m₁ + m₂; internal forces cancel.
 template <class Scalar>
 AffineDynamicsOf<4> locked_dynamics(const TwoMass<Scalar>& plant) {
   const Scalar mass = plant.conductor_mass + plant.absorber_mass;
@@ -81,7 +81,7 @@ AffineDynamicsOf<States> dynamics_on_stop(const LinearPlant<double, States>& pla
   pressed.drift = plant.force_input * (-stiffness * at);
   return pressed;
 }
-/// The equations of motion of the two masses on a stop.
+/// The equations of motion of the two masses on a stop at Δz = `at` (m).
 template <class Scalar>
 AffineDynamicsOf<4> dynamics_on_stop(const TwoMass<Scalar>& plant, double stiffness, double damping,
                                      double at) {
@@ -105,9 +105,9 @@ double engaged_force(const TwoMass<Scalar>&, const ContactInstantOf<4>& now) {
 /// The relative acceleration Δz̈ = state · x + command u + force F (m/s²) in one mode.
 template <int States>
 struct GapAcceleration {
-  Vector<double, States> state;  ///< coefficients of x, N × 1
-  double command;                ///< coefficient of u, per newton
-  double force;                  ///< coefficient of F, per newton
+  Vector<double, States> state;  ///< coefficients of the state x, N × 1
+  double command;                ///< coefficient of the command u, per newton
+  double force;                  ///< coefficient of the excitation F, per newton
 
   /// The relative acceleration (m/s²) at an instant.
   double operator()(const ContactInstantOf<States>& now) const {
@@ -115,7 +115,7 @@ struct GapAcceleration {
   }
 };
 
-/// The relative acceleration rᵀ ẋ in a mode without drift, r being the row of Δż.
+/// The relative acceleration rᵀ ẋ in a mode without constant drift, r being the row of Δż.
 template <class Plant>
 GapAcceleration<states_of<Plant>> gap_acceleration(const Plant& plant,
                                                    const DynamicsOf<Plant>& dynamics) {

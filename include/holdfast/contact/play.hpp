@@ -5,7 +5,7 @@
 namespace holdfast {
 
 /// The backlash of the drive as a play of half-width r₀/2 on the sampled Δz = z₂ − z₁. Δz is the
-/// position of its near side, y that of its far side, which the near side carries along.
+/// position of the play's near side, y the position of its far side, which the near side drags.
 ///
 ///     y_j = max(Δz_j − r₀/2, min(Δz_j + r₀/2, y_{j−1}))
 ///     the force is transmitted from sample j on where y_j ≠ y_{j−1}
@@ -31,10 +31,10 @@ namespace holdfast {
 template <class Scalar>
 class PlayBacklash {
  public:
-  /// @param width  gap width r₀ (m), ≥ 0
+  /// Play before its first sample. @param width  gap width r₀ (m), ≥ 0
   explicit PlayBacklash(const Scalar& width) : width_(width), half_width_(width / Scalar(2)) {}
 
-  /// Processes one sample. @return true where the force is transmitted during the coming period
+  /// Processes one sample. @return true where the force is transmitted until the next sample
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& relative_velocity) {
     const Scalar zero(0);
     const Mask<Scalar> undecided = !decided_, moves_up = relative_velocity > zero;
@@ -56,11 +56,11 @@ class PlayBacklash {
 
   /// Whether no force has been transmitted since the last step.
   Mask<Scalar> inside() const { return inside_; }
-  /// The lower end of the current gap, y − r₀/2, Δz (m); valid once y is determined.
+  /// The lower end of the current gap, Δz = y − r₀/2 (m); valid once y is determined.
   Scalar lower() const { return far_side_ - half_width_; }
-  /// The upper end of the current gap, y + r₀/2, Δz (m); valid once y is determined.
+  /// The upper end of the current gap, Δz = y + r₀/2 (m); valid once y is determined.
   Scalar upper() const { return far_side_ + half_width_; }
-  /// The width r₀ (m).
+  /// Gap width r₀ (m).
   const Scalar& width() const { return width_; }
 
  private:

@@ -39,10 +39,10 @@ struct HasCommand<
 template <class Law>
 constexpr bool is_controller() {
   static_assert(HasStates<Law>::value,
-                "a controller says how many numbers it remembers: `static constexpr int states`");
+                "a controller declares its number of states: `static constexpr int states`");
   static_assert(!HasStates<Law>::value || HasCommand<Law>::value,
                 "a controller has `double command(const ControlSample&, Vector<double, states>&) "
-                "const`; what it remembers stands in that vector alone");
+                "const`; its whole state is in that vector");
   return HasCommand<Law>::value;
 }
 
@@ -95,15 +95,15 @@ class OwnController {
     if constexpr (detail::is_controller<Law>()) take(law);
   }
 
-  /// Whether there is a controller.
+  /// Whether the object holds a controller.
   bool exists() const { return value_ != nullptr; }
   /// The number M of states of the controller.
   Eigen::Index states() const { return at_.size() - 2; }
 
-  /// Computes the command of sample j and the next state. @return [u_j; x_c,j+1]
+  /// Computes the command u_j (N) of sample j and the next state. @return [u_j; x_c,j+1]
   /// @param sample  measured values
   /// @param state   state x_c,j
-  /// @throws InvalidParameter where the law gives NaN or infinity, unless an input reached 10¹⁰⁰
+  /// @throws InvalidParameter for a NaN or infinite result, unless a reading or state reached 10¹⁰⁰
   template <class State>
   Column command(const ControlSample& sample, const State& state) {
     elapsed_ = sample.elapsed;
@@ -115,8 +115,8 @@ class OwnController {
     return result;
   }
 
-  /// The Jacobian at the last sample, (M + 1) × (M + 2). A law without derivative() has central
-  /// differences over 2⁻¹⁶ of each variable's largest size so far: ten digits if the law is smooth.
+  /// Jacobian at the last sample, (M + 1) × (M + 2). A law without derivative() gets central
+  /// differences over 2⁻¹⁶ of each variable's largest size so far: ten digits for a smooth law.
   template <class Result = Derivative>
   Result derivative() const {
     if (derivative_) return derivative_(at_, elapsed_);
@@ -163,7 +163,7 @@ class OwnController {
 ///     loop.plant = with_controller(kollar2022_plant(), MyController{});
 ///
 /// The states of the controller follow those of the plant, [x; x_c], N + M in all. x_c is constant
-/// between samples; a reported sample has the x_c before its command. event_motion(),
+/// between samples; a reported sample has x_c as it was before its command. event_motion(),
 /// find_event_orbit(), run_event_lyapunov() and classify_motion() accept such a loop like any
 /// other. The gains of its DigitalLoop must be 0 and its limits ideal (`validate`); `command` may
 /// use `quantised` and std::clamp instead. Charts and margins need P and D and reject such a loop.
@@ -171,7 +171,7 @@ struct ControlledPlant : LinearPlant<double> {
   OwnController controller;  ///< controller that decides the force
 };
 
-/// Validates a plant. @throws InvalidParameter where it is not admissible or has no controller
+/// Validates a plant. @throws InvalidParameter for a plant not admissible or without a controller
 template <class Plant>
 std::enable_if_t<std::is_same_v<Plant, ControlledPlant>> validate(const Plant& plant) {
   if (!plant.controller.exists())
@@ -193,25 +193,25 @@ ControlledPlant with_controller(const Plant& plant, const Law& law) {
   }
 }
 
-/// A linear controller of M states, such as an observer or a filter:
+/// A linear controller of M states x_c, such as an observer or a filter:
 ///
 ///     x_c,j+1 = A_c x_c,j + B_c y_j,   u_j = C_c x_c,j + D_c y_j,   y_j = [z₁; ż₁]
 template <int States>
 struct LinearController {
   static constexpr int states = States;    ///< number M of states
-  Matrix<double, States> transition;       ///< A_c, M × M
-  Matrix<double, States, 2> input;         ///< B_c, M × 2
-  RowVector<double, States> output;        ///< C_c, 1 × M (N)
-  RowVector<double, 2> feedthrough{0, 0};  ///< D_c, 1 × 2 (N/m, N s/m)
+  Matrix<double, States> transition;       ///< transition matrix A_c of the state, M × M
+  Matrix<double, States, 2> input;         ///< input matrix B_c of the readings, M × 2
+  RowVector<double, States> output;        ///< output row C_c, 1 × M (N)
+  RowVector<double, 2> feedthrough{0, 0};  ///< feedthrough row D_c, 1 × 2 (N/m, N s/m)
 
-  /// The command u_j (N); updates the state.
+  /// Command u_j (N) of a sample; replaces the state by the next one.
   double command(const ControlSample& sample, Vector<double, States>& state) const {
     const Vector<double, 2> read(sample.displacement, sample.velocity);
     const double force = output.dot(state) + feedthrough.dot(read);
     state = (transition * state + input * read).eval();
     return force;
   }
-  /// The Jacobian [D_c, C_c; B_c, A_c].
+  /// Jacobian [D_c, C_c; B_c, A_c] of the command and the next state.
   ControllerDerivative<States> derivative(const ControlSample&,
                                           const Vector<double, States>&) const {
     ControllerDerivative<States> result;

@@ -18,12 +18,12 @@ enum class VelocitySensing {
 
 /// The quantisation, velocity sensing and saturation of a real controller; by default ideal.
 struct ControllerLimits {
-  double displacement_quantum = 0;  ///< q_z (m), ≥ 0: resolution of the displacement; 0: exact
-  double velocity_quantum = 0;  ///< q_v (m/s), ≥ 0: resolution of a measured velocity; 0: exact;
+  double displacement_quantum = 0;  ///< resolution q_z (m) of the displacement, ≥ 0; 0: exact
+  double velocity_quantum = 0;  ///< resolution q_v (m/s) of a measured velocity, ≥ 0; 0: exact;
                                 ///< not used with VelocitySensing::difference
-  /// The source of the velocity v̂_j.
+  /// Source of the velocity v̂_j in the command.
   VelocitySensing velocity = VelocitySensing::measured;
-  double largest_force = std::numeric_limits<double>::infinity();  ///< u_max (N), > 0
+  double largest_force = std::numeric_limits<double>::infinity();  ///< limit u_max (N), > 0
 };
 
 /// Whether the limits leave the law u = P z₁ + D ż₁ unchanged.
@@ -33,8 +33,8 @@ inline bool is_ideal(const ControllerLimits& limits) {
          limits.largest_force == std::numeric_limits<double>::infinity();
 }
 
-/// @throws InvalidParameter unless both quanta are finite and ≥ 0 and the largest force is > 0
-/// (infinity: no limit)
+/// Validates the limits. @throws InvalidParameter unless both quanta are finite and ≥ 0 and the
+/// largest force is > 0 (infinity: no limit)
 inline void validate(const ControllerLimits& limits) {
   require_non_negative("displacement quantum", limits.displacement_quantum, "m");
   require_non_negative("velocity quantum", limits.velocity_quantum, "m/s");
@@ -45,15 +45,15 @@ inline void validate(const ControllerLimits& limits) {
 
 /// The memory of a controller: its previous reading.
 struct ControllerMemory {
-  double previous_displacement = 0;  ///< ẑ_{j−1} (m), the reading; valid if has_sampled
+  double previous_displacement = 0;  ///< previous reading ẑ_{j−1} (m); valid if has_sampled
   bool has_sampled = false;          ///< whether there was a previous sample
 };
 
-/// The derivatives of a command u_j.
+/// Derivatives of a command u_j by the displacement z₁ and the velocity ż₁ of the conductor.
 struct ControllerSlope {
-  double displacement = 0;           ///< ∂u_j / ∂z₁ at t_j (N/m)
-  double velocity = 0;               ///< ∂u_j / ∂ż₁ at t_j (N s/m)
-  double previous_displacement = 0;  ///< ∂u_j / ∂z₁ at t_{j−1} (N/m)
+  double displacement = 0;           ///< derivative ∂u_j/∂z₁ by z₁ at t_j (N/m)
+  double velocity = 0;               ///< derivative ∂u_j/∂ż₁ by ż₁ at t_j (N s/m)
+  double previous_displacement = 0;  ///< derivative ∂u_j/∂z₁ by z₁ at t_{j−1} (N/m)
 };
 
 /// The proportional–differential law with the limits of a real digital loop:
@@ -71,7 +71,7 @@ struct ControllerSlope {
 /// Sources: Kollár 2022, Eq. (5), for the law; for the rounding see `quantised`.
 class Controller {
  public:
-  /// @throws InvalidParameter unless gains and limits are admissible
+  /// Controller before its first sample. @throws InvalidParameter for inadmissible gains or limits
   Controller(const PdGains<double>& gains, const ControllerLimits& limits)
       : gains_(gains), limits_(limits) {
     validate(gains_);
@@ -100,13 +100,13 @@ class Controller {
   }
 
   /// The derivatives of the last command: zero under saturation, and zero with respect to quantised
-  /// readings. Where the command is exactly ±u_max they are the slopes without saturation. All are
+  /// readings. A command of exactly ±u_max has the slopes without saturation. All slopes are
   /// zero before the first command and after `restore`.
   const ControllerSlope& slope() const { return slope_; }
 
-  /// The memory that the coming commands depend on.
+  /// Memory of the controller, on which its next commands depend.
   const ControllerMemory& memory() const { return memory_; }
-  /// Continues from the memory of a controller with the same gains and limits.
+  /// Sets the memory to that of another controller with the same gains and limits.
   void restore(const ControllerMemory& memory) {
     memory_ = memory;
     slope_ = {};

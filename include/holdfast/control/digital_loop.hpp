@@ -18,12 +18,12 @@ namespace holdfast {
 /// The digital side of a loop and its excitation: everything that a motion depends on except its
 /// plant, its contact and its initial state.
 struct DigitalLoop {
-  Sampling<double> sampling;            ///< τ and δ
-  PdGains<double> gains;                ///< P and D
-  MultiHarmonicForce force;             ///< F(t), the excitation of the conductor
-  ForceHold hold = ForceHold::sampled;  ///< hold of F(t) over a sample, of a record too
+  Sampling<double> sampling;            ///< sampling period τ and processing delay δ
+  PdGains<double> gains;                ///< gains P and D
+  MultiHarmonicForce force;             ///< excitation F(t) of the conductor
+  ForceHold hold = ForceHold::sampled;  ///< whether F(t), with any record, is held between samples
   ControllerLimits limits = {};         ///< limits of the sensors and the drive
-  Jitter jitter = {};                   ///< jitter of the clock; 2 J + δ ≤ τ
+  Jitter jitter = {};                   ///< jitter of the clock, of half width J: 2 J + δ ≤ τ
 };
 
 /// Validates a loop. @throws InvalidParameter where any part is not admissible
@@ -35,10 +35,10 @@ inline void validate(const DigitalLoop& loop) {
 }
 
 /// The ratio f τ = p/q of the first harmonic, not always in lowest terms: after q samples, which
-/// are p periods of the first harmonic, sampling and all harmonics are in phase again. The ratio is
-/// 0/1 without excitation.
+/// are p periods of the first harmonic, sampling and all harmonics are in phase again. Without
+/// excitation the ratio is 0/1.
 /// @return nothing for a recorded force, for jittering samples, and where q would exceed 10⁶: such
-///         frequencies count as incommensurate, although every decimal number is a fraction
+///         frequencies are treated as incommensurate, although every decimal number is a fraction
 inline std::optional<Rational> forcing_ratio(const DigitalLoop& loop) {
   constexpr std::int64_t most_samples = 1'000'000;
   if (loop.force.record != nullptr || loop.jitter.half_width > 0.0) return std::nullopt;

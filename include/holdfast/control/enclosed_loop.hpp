@@ -9,7 +9,7 @@
 namespace holdfast {
 
 /// The two masses, each parameter as the interval of all decimals that round to the given double.
-/// @throws InvalidParameter where they are not admissible
+/// @throws InvalidParameter where a parameter is not admissible
 inline TwoMass<Enclosure> enclosed(const TwoMass<double>& plant) {
   validate(plant);
   const auto decimal = [](double x) { return Enclosure::of_decimal(x); };
@@ -18,8 +18,8 @@ inline TwoMass<Enclosure> enclosed(const TwoMass<double>& plant) {
           decimal(plant.absorber_stiffness), decimal(plant.absorber_damping)};
 }
 
-/// The sampling, τ and δ being the intervals of all decimals that round to the given doubles.
-/// @throws InvalidParameter where they are not admissible
+/// The sampling with τ and δ as the intervals of all decimals that round to the given doubles.
+/// @throws InvalidParameter where τ or δ is not admissible
 inline Sampling<Enclosure> enclosed(const Sampling<double>& sampling) {
   validate(sampling);
   return {Enclosure::of_decimal(sampling.period), Enclosure::of_decimal(sampling.processing_delay)};

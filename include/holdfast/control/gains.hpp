@@ -9,20 +9,20 @@ namespace holdfast {
 
 /// The readings that a controller receives at sample j.
 struct ControlSample {
-  double displacement;  ///< z₁ (m), or the measured displacement of the plant's ports
-  double velocity;      ///< ż₁ (m/s), or the measured velocity of the plant's ports
-  double elapsed;       ///< h_j (s), time since the previous sample; τ at the first one
+  double displacement;  ///< displacement z₁ (m), or the one measured by the plant's ports
+  double velocity;      ///< velocity ż₁ (m/s), or the one measured by the plant's ports
+  double elapsed;       ///< time h_j (s) since the previous sample; τ at the first sample
 };
 
-/// The gains of the proportional–differential law u = P z₁ + D ż₁. They are also a controller
+/// The gains of the proportional–differential law u = P z₁ + D ż₁. The class is also a controller
 /// without states (control/controlled_plant.hpp).
 /// Source: Kollár 2022, Eq. (5) and Eq. (11), whose row matrix D is [P, D, 0, 0].
 template <class Scalar>
 struct PdGains {
   static_assert(is_real<Scalar>, "a gain is a real number: PdGains<double>");
   static constexpr int states = 0;  ///< number M of states of the controller
-  Scalar proportional = Scalar(0);  ///< P (N/m), finite
-  Scalar differential = Scalar(0);  ///< D (N s/m), finite
+  Scalar proportional = Scalar(0);  ///< proportional gain P (N/m), finite
+  Scalar differential = Scalar(0);  ///< differential gain D (N s/m), finite
 
   /// The feedback row K = [P, D, 0, 0], 1 × 4, so that u = K z.
   RowVector<Scalar, 4> feedback_row() const {
@@ -33,7 +33,7 @@ struct PdGains {
   Scalar command(const ControlSample& sample, const Vector<Scalar, 0>&) const {
     return proportional * sample.displacement + differential * sample.velocity;
   }
-  /// The Jacobian [P, D].
+  /// Jacobian [P, D] of the command by the displacement and the velocity.
   RowVector<Scalar, 2> derivative(const ControlSample&, const Vector<Scalar, 0>&) const {
     return {proportional, differential};
   }
@@ -47,10 +47,10 @@ inline void validate(const PdGains<double>& gains) {
 
 /// The proportional gain P = k₂ − m₂ ω² that tunes the absorber to the excitation.
 /// Source: Kollár 2022, Eq. (6).
-/// @param absorber_stiffness  k₂ (N/m), > 0
-/// @param absorber_mass       m₂ (kg), > 0
+/// @param absorber_stiffness  stiffness k₂ (N/m), > 0
+/// @param absorber_mass       mass m₂ (kg), > 0
 /// @param frequency           excitation frequency f = ω / 2π (Hz), > 0
-/// @return P (N/m); negative above the absorber's own frequency
+/// @return P (N/m); negative above the absorber's natural frequency √(k₂/m₂)/2π
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar>
 Scalar tuned_proportional_gain(const Scalar& absorber_stiffness, const Scalar& absorber_mass,

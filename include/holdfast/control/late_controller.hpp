@@ -17,21 +17,21 @@ namespace holdfast {
 ///
 ///     u_j = c_{j−M′},   0 for the first M′ samples;   c_j is the command of `Controller`
 ///
-/// Its states are the M′ delayed commands, the next one first. Where the velocity is a difference,
+/// Its states are the M′ delayed commands, the oldest first. Where the velocity is a difference,
 /// two more follow: the last displacement reading and a flag, > 0 once there was a reading.
 struct LateController {
   static constexpr int states = Eigen::Dynamic;             ///< number M, known at run time only
-  using State = Vector<double, Eigen::Dynamic>;             ///< M × 1
-  using Derivative = ControllerDerivative<Eigen::Dynamic>;  ///< (M + 1) × (M + 2)
+  using State = Vector<double, Eigen::Dynamic>;             ///< state, M × 1
+  using Derivative = ControllerDerivative<Eigen::Dynamic>;  ///< Jacobian, (M + 1) × (M + 2)
 
-  PdGains<double> gains;         ///< P and D
-  ControllerLimits limits = {};  ///< limits of readings and force
+  PdGains<double> gains;         ///< gains P and D
+  ControllerLimits limits = {};  ///< limits of the readings and of the force
   Eigen::Index samples = 0;      ///< number M′ ≥ 0 of samples of delay
 
   /// The number M of states.
   Eigen::Index order() const { return samples + (differs() ? 2 : 0); }
 
-  /// The command u_j (N); updates the state.
+  /// Command u_j (N) of a sample; replaces the state by the next one.
   double command(const ControlSample& sample, State& state) const {
     const auto [now, controller] = sensed(sample, state);
     if (differs()) state.tail(2) << controller.memory().previous_displacement, 1.0;
@@ -42,7 +42,7 @@ struct LateController {
     return next;
   }
 
-  /// The Jacobian of [u_j; next state] by readings and state; 0 through a quantiser.
+  /// Jacobian of [u_j; next state] by readings and state; entries of quantised readings are 0.
   Derivative derivative(const ControlSample& sample, const State& state) const {
     const ControllerSlope slope = sensed(sample, state).second.slope();
     Derivative result = Derivative::Zero(order() + 1, order() + 2);
@@ -67,7 +67,7 @@ struct LateController {
   }
 };
 
-/// The sampling with period τ and the remaining delay δ − (k − 1) τ, k = held_commands().
+/// The sampling with period τ and the remaining delay δ − (k − 1) τ, where k = held_commands().
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @throws InvalidParameter where the sampling is not admissible
 inline Sampling<double> within_sample(const Sampling<double>& sampling) {
@@ -76,9 +76,9 @@ inline Sampling<double> within_sample(const Sampling<double>& sampling) {
   return {sampling.period, std::clamp(late, 0.0, sampling.period)};
 }
 
-/// The controller of a loop whose delay may exceed a sample. It delays by k − 1 whole samples, k =
-/// held_commands(); within_sample() has the remaining delay.
-/// @param gains     P and D
+/// The controller of a loop whose delay may exceed a sample. Commands are delayed by k − 1 whole
+/// samples, k = held_commands(); within_sample() gives the remaining delay.
+/// @param gains     gains P and D
 /// @param limits    limits of readings and force
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @throws InvalidParameter where an argument is not admissible

@@ -8,14 +8,14 @@
 
 namespace holdfast {
 
-/// The input of a force held over each period, F_j = F_m cos(ω t_j): cosine = c_d, sine = 0.
+/// Harmonic input of a force F_j = F_m cos(ω t_j) held over each period: cosine = c_d, sine = 0.
 /// Source: Kollár 2022, Eq. (13).
 template <class Scalar, int States>
 HarmonicInput<Scalar, States> held_harmonic(const SampledLoop<Scalar, States>& loop) {
   return {loop.held_excitation, Vector<Scalar, States>::Zero(loop.held_excitation.size())};
 }
 
-/// The input of the exact harmonic force over a sampling period (s); ω in rad/s.
+/// Harmonic input of a force that is not held, over a sampling period (s); ω in rad/s.
 template <class Plant, class Scalar = ScalarOf<Plant>>
 HarmonicInput<Scalar, states_of<Plant>> exact_harmonic(
     const Plant& plant, const detail::Undeduced<Scalar>& sampling_period,
@@ -24,7 +24,7 @@ HarmonicInput<Scalar, states_of<Plant>> exact_harmonic(
                                                   sampling_period, angular_frequency);
 }
 
-/// The input of the harmonic force with either hold.
+/// Input of a harmonic force, held over each sampling period or not (`hold`).
 template <class Plant, class Scalar = ScalarOf<Plant>>
 HarmonicInput<Scalar, states_of<Plant>> harmonic_input(
     const Plant& plant, const SampledLoop<Scalar, states_of<Plant>>& loop, ForceHold hold,
@@ -34,7 +34,7 @@ HarmonicInput<Scalar, states_of<Plant>> harmonic_input(
              : exact_harmonic(plant, loop.sampling.period, angular_frequency);
 }
 
-/// The harmonic input of a loop of any order and delay, (N + k) × 1, with 0 at the stored commands.
+/// Harmonic input of a loop of any order N and delay, (N + k) × 1, zero for the k delayed commands.
 template <class Plant, class Scalar = ScalarOf<Plant>>
 HarmonicInput<Scalar, Eigen::Dynamic> harmonic_input(
     const Plant& plant, const LoopMap<Scalar>& map, ForceHold hold,

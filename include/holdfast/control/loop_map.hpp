@@ -25,20 +25,20 @@ namespace holdfast {
 /// is asymptotically stable if and only if all |λ(S₀ + s K)| < 1.
 template <class Scalar>
 struct LoopMap {
-  Sampling<Scalar> sampling;                  ///< τ and δ; δ may exceed τ
+  Sampling<Scalar> sampling;                  ///< period τ and delay δ; δ may exceed τ
   Eigen::Index held_commands;                 ///< number k of delayed commands, ≥ 1
-  Matrix<Scalar, Eigen::Dynamic> open_map;    ///< S₀, (N + k) × (N + k)
-  Matrix<Scalar, Eigen::Dynamic> increment;   ///< S₀ − I, to full relative accuracy for any τ
-  Vector<Scalar, Eigen::Dynamic> command;     ///< s, (N + k) × 1 per newton of u_j
-  Vector<Scalar, Eigen::Dynamic> excitation;  ///< c_y, (N + k) × 1 per newton of F_j, held
-  RowVector<Scalar, Eigen::Dynamic> displacement;  ///< h_z, 1 × (N + k): row multiplied by P
-  RowVector<Scalar, Eigen::Dynamic> velocity;      ///< h_v, 1 × (N + k): row multiplied by D
-  RowVector<Scalar, Eigen::Dynamic> conductor;     ///< row of the conductor's z (m), 1 × (N + k)
+  Matrix<Scalar, Eigen::Dynamic> open_map;    ///< map S₀ without feedback, (N + k) × (N + k)
+  Matrix<Scalar, Eigen::Dynamic> increment;   ///< S₀ − I to full relative accuracy for any τ
+  Vector<Scalar, Eigen::Dynamic> command;     ///< input column s per newton of u_j, (N + k) × 1
+  Vector<Scalar, Eigen::Dynamic> excitation;  ///< column c_y per newton of held F_j, (N + k) × 1
+  RowVector<Scalar, Eigen::Dynamic> displacement;  ///< row h_z that P multiplies, 1 × (N + k)
+  RowVector<Scalar, Eigen::Dynamic> velocity;      ///< row h_v that D multiplies, 1 × (N + k)
+  RowVector<Scalar, Eigen::Dynamic> conductor;     ///< row of the conductor's displacement (m)
 
   /// The number of states N + k.
   Eigen::Index size() const { return open_map.rows(); }
 
-  /// The closed map S₀ + s (P h_z + D h_v), (N + k) × (N + k).
+  /// Map S₀ + s (P h_z + D h_v) of the closed loop, (N + k) × (N + k).
   Matrix<Scalar, Eigen::Dynamic> closed_map(const PdGains<Scalar>& gains) const {
     return open_map + command * (gains.proportional * displacement + gains.differential * velocity);
   }
@@ -64,8 +64,8 @@ inline int held_commands(const Sampling<double>& sampling) {
 
 namespace detail {
 
-/// The map with k delayed commands, (k − 1) τ ≤ δ ≤ k τ: where δ is a whole number of samples, both
-/// neighbouring k are possible.
+/// The map with k delayed commands, (k − 1) τ ≤ δ ≤ k τ. If δ is a whole number of samples, two
+/// values of k are possible.
 template <class Plant, class Scalar>
 LoopMap<Scalar> loop_map_keeping(const Plant& plant, const Sampling<Scalar>& sampling, int k) {
   const Scalar past = std::min(

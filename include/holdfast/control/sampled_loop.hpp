@@ -14,9 +14,9 @@ template <class Scalar>
 struct Sampling {
   static_assert(is_real<Scalar>, "a time is a real number: Sampling<double>");
 
-  Scalar period;  ///< τ (s), > 0
+  Scalar period;  ///< sampling period τ (s), > 0
   Scalar processing_delay =
-      Scalar(0);  ///< δ (s), 0 ≤ δ ≤ τ: from taking a sample to applying its force
+      Scalar(0);  ///< processing delay δ (s) from a sample to its force, 0 ≤ δ ≤ τ
 };
 
 /// Validates a sampling. @throws InvalidParameter unless τ > 0 and 0 ≤ δ ≤ τ, both finite
@@ -25,7 +25,7 @@ inline void validate(const Sampling<double>& sampling) {
   require_within("processing delay", sampling.processing_delay, "s", 0.0, sampling.period);
 }
 
-/// The plant with a computer that samples every τ and applies each force δ later, held for τ.
+/// The plant with a computer. It samples every τ and applies each force δ later, held for τ.
 ///
 /// The force is u_{j−1} in [t_j, t_j + δ) and u_j in [t_j + δ, t_{j+1}), so that exactly
 ///
@@ -40,17 +40,17 @@ inline void validate(const Sampling<double>& sampling) {
 /// @tparam States  N, the order of the plant; 4 for the two masses, Eigen::Dynamic for any
 template <class Scalar, int States = 4>
 struct SampledLoop {
-  Sampling<Scalar> sampling;          ///< τ and δ of the matrices below
-  Matrix<Scalar, States> transition;  ///< A_d, N × N
+  Sampling<Scalar> sampling;          ///< period τ and delay δ of the matrices below
+  Matrix<Scalar, States> transition;  ///< transition matrix A_d, N × N
   Matrix<Scalar, States> increment;   ///< A_d − I, N × N, to full relative accuracy for any τ
-  Vector<Scalar, States> previous_force;   ///< Γ₁, N × 1: response per newton of u_{j−1}
-  Vector<Scalar, States> present_force;    ///< Γ₀, N × 1: response per newton of u_j
-  Vector<Scalar, States> held_excitation;  ///< c_d, N × 1: response per newton of F held over τ
+  Vector<Scalar, States> previous_force;   ///< response Γ₁ per newton of u_{j−1}, N × 1
+  Vector<Scalar, States> present_force;    ///< response Γ₀ per newton of u_j, N × 1
+  Vector<Scalar, States> held_excitation;  ///< response c_d per newton of F held over τ, N × 1
 
   /// The map S of Eq. (14) for any δ with the force transmitted, 5 × 5: [A_d + Γ₀ K, Γ₁; K, 0], K =
-  /// [P, D, 0, 0]. It is for the two masses only; for another plant see LoopMap::closed_map().
+  /// [P, D, 0, 0]. Only the two masses have this map; for other plants see LoopMap::closed_map().
   Matrix<Scalar, 5> engaged_map(const PdGains<Scalar>& gains) const {
-    static_assert(States == 4, "the feedback row of another plant comes from its ports");
+    static_assert(States == 4, "only a plant of two masses has the feedback row [P, D, 0, 0]");
     Matrix<Scalar, 5> map = backlash_map();
     map.template topLeftCorner<4, 4>() += present_force * gains.feedback_row();
     map.template bottomLeftCorner<1, 4>() = gains.feedback_row();
@@ -68,7 +68,7 @@ struct SampledLoop {
   }
 };
 
-/// Converts a loop to another number type, for instance to every lane of a pack.
+/// Converts a loop to another number type, for instance to a pack whose lanes are all equal.
 template <class To, class From, int States>
 SampledLoop<To, States> converted(const SampledLoop<From, States>& loop) {
   return {{To(loop.sampling.period), To(loop.sampling.processing_delay)},
@@ -92,7 +92,7 @@ template <class Plant, class Scalar = ScalarOf<Plant>>
 SampledLoop<Scalar, states_of<Plant>> sampled_loop(
     const Plant& plant, const Sampling<detail::Undeduced<Scalar>>& sampling) {
   static_assert(!detail::HasController<Plant>::value,
-                "a plant with a controller of its own moves by event_motion()");
+                "motions of a plant with its own controller need event_motion()");
   constexpr int states = states_of<Plant>;
   detail::require_admissible(plant);
   const Matrix<Scalar, states> a = plant.state_matrix();

@@ -12,7 +12,7 @@ namespace holdfast {
 
 /// The deviation of the sampling instants from their grid; by default zero.
 struct Jitter {
-  double half_width = 0;   ///< J (s), ≥ 0: largest deviation
+  double half_width = 0;   ///< largest deviation J (s), ≥ 0
   std::uint64_t seed = 1;  ///< seed of the random sequence
 };
 
@@ -37,7 +37,7 @@ inline void validate(const Sampling<double>& sampling, const Jitter& jitter) {
 
 namespace detail {
 
-/// The output number `index` (1, 2, …) of the generator SplitMix64 that starts from `seed`:
+/// Output number `index` (1, 2, …) of the random generator SplitMix64 started from `seed`:
 ///
 ///     s = seed + index · γ,   s ← (s ⊕ s≫30) a,   s ← (s ⊕ s≫27) b,   s ⊕ s≫31   (mod 2⁶⁴)
 ///
@@ -63,8 +63,8 @@ constexpr std::uint64_t split_mix_64(std::uint64_t seed, std::uint64_t index) {
 /// the period τ, both to the last bit.
 class SamplingClock {
  public:
-  /// @param period  τ (s), > 0
-  /// @param jitter  J < τ / 2, so that the samples ascend; with a processing delay,
+  /// @param period  sampling period τ (s), > 0
+  /// @param jitter  half width J < τ / 2, so that the samples ascend; with a processing delay,
   ///                `validate(sampling, jitter)` requires more
   /// @throws InvalidParameter where an argument is not admissible
   explicit SamplingClock(double period, const Jitter& jitter = {})
@@ -72,7 +72,7 @@ class SamplingClock {
     validate(Sampling<double>{period}, jitter);
   }
 
-  /// The instant t_j (s), j ≥ 0.
+  /// Instant t_j (s) of sample j = `index`, j ≥ 0.
   double time(std::int64_t index) const {
     const double on_grid = static_cast<double>(index) * period_;
     if (jitter_.half_width == 0) return on_grid;
@@ -86,7 +86,7 @@ class SamplingClock {
     return std::fma(jitter_.half_width, share(index + 1) - share(index), period_);
   }
 
-  /// The deviation e_j (s), j ≥ 0.
+  /// Deviation e_j (s) of sample j = `index` from the grid, j ≥ 0.
   double deviation(std::int64_t index) const { return jitter_.half_width * share(index); }
 
   /// The nominal period τ (s).

@@ -12,8 +12,8 @@ namespace holdfast {
 ///     transition = e^{Ah},   input = ∫₀ʰ e^{As} ds B
 template <class Scalar, int States, int Inputs>
 struct HeldStep {
-  Matrix<Scalar, States> transition;     ///< e^{Ah}, States × States
-  Matrix<Scalar, States, Inputs> input;  ///< ∫₀ʰ e^{As} ds B, States × Inputs
+  Matrix<Scalar, States> transition;     ///< transition matrix e^{Ah}, States × States
+  Matrix<Scalar, States, Inputs> input;  ///< input matrix ∫₀ʰ e^{As} ds B, States × Inputs
 };
 
 /// Computes the zero-order hold by one augmented matrix exponential (Van Loan's construction):

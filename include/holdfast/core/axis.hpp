@@ -12,11 +12,11 @@ namespace holdfast {
 
 /// Equally spaced values from `min` to `max`, both included exactly.
 struct Axis {
-  double min = 0.0;        ///< the first value
+  double min = 0.0;        ///< first value, finite
   double max = 0.0;        ///< the last value, ≥ min
   std::int64_t count = 1;  ///< number of values, ≥ 1; if it is 1, the only value is `min`
 
-  /// The value number `index`, 0 ≤ index < count.
+  /// Value at an index, 0 ≤ index < count.
   double at(std::int64_t index) const {
     const std::int64_t last = count - 1;
     if (index <= 0 || last <= 0) return min;
@@ -38,8 +38,8 @@ struct Axis {
   }
 
  private:
-  /// The index of the first value with `beyond`, from the position of the bound on the axis. Where
-  /// the bound is within rounding of a value, the values next to it are tested.
+  /// Index of the first value for which `beyond` holds, computed from the bound's position on the
+  /// axis. If the bound equals a value within rounding, the values next to it are tested.
   template <class Beyond>
   std::int64_t first_beyond(double bound, Beyond beyond) const {
     if (!(bound >= min)) return 0;

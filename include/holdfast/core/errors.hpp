@@ -19,9 +19,9 @@ namespace holdfast {
 /// they are fields of the result.
 class InvalidParameter : public std::invalid_argument {
  public:
-  /// @param name        the parameter's name, a word of the field ("sampling period")
+  /// @param name        the parameter's technical name ("sampling period")
   /// @param value       the refused value
-  /// @param unit        its SI unit, empty for pure numbers
+  /// @param unit        SI unit of the value, empty for pure numbers
   /// @param admissible  admissible values, to be read after "must be" ("> 0")
   InvalidParameter(std::string name, double value, std::string unit, std::string admissible)
       : std::invalid_argument(sentence(name, value, unit, admissible)),
@@ -30,7 +30,7 @@ class InvalidParameter : public std::invalid_argument {
         unit_(std::move(unit)),
         admissible_(std::move(admissible)) {}
 
-  /// The name of the refused parameter, in words of the field.
+  /// The technical name of the refused parameter.
   const std::string& name() const noexcept { return name_; }
   /// The refused value, in `unit()`; may be NaN or infinite.
   double value() const noexcept { return value_; }
@@ -90,7 +90,7 @@ inline void require_within(std::string_view name, double value, std::string_view
   throw InvalidParameter(std::string(name), value, std::string(unit), range.str());
 }
 
-/// Refuses the size of a vector, or of a side of a matrix, that differs from the wanted one.
+/// Refuses a size of a vector, or of a side of a matrix, that differs from the wanted size.
 /// @throws InvalidParameter unless size = wanted.
 inline void require_size(std::string_view name, std::ptrdiff_t size, std::ptrdiff_t wanted) {
   const auto entries = static_cast<double>(wanted);

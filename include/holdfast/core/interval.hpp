@@ -17,7 +17,7 @@ struct Interval {
   /// Whether lower < value < upper; false for NaN.
   bool contains(const Scalar& value) const { return lower < value && value < upper; }
 
-  /// A point inside: the middle; 0 for the whole line; 1 + |a| away from a single finite end a.
+  /// A point of the interval: its middle; a ± (1 + |a|) for one finite end a; 0 for the whole line.
   Scalar representative() const {
     constexpr Scalar unbounded = std::numeric_limits<Scalar>::infinity();
     if (lower == -unbounded && upper == unbounded) return Scalar(0);

@@ -9,16 +9,16 @@
 namespace holdfast {
 
 /// The lanes of a number type: a scalar has one, a SIMD pack several. A pack type specialises this
-/// class and `MaskOf`. A kernel can then read and write `count` neighbouring numbers at a time and
+/// class and `MaskOf`. A kernel can then read and write `count` consecutive numbers at a time and
 /// pass a single lane to scalar code.
 template <class Scalar>
 struct Lanes {
   using Value = Scalar;                    ///< type of the number in one lane
   static constexpr std::size_t count = 1;  ///< number of lanes
 
-  /// Reads `count` neighbouring numbers, the first one into lane 0.
+  /// Reads `count` consecutive numbers, the first one into lane 0.
   static Scalar load(const Value* values) { return *values; }
-  /// Writes all lanes to `count` neighbouring numbers, lane 0 first.
+  /// Writes all lanes to `count` consecutive numbers, lane 0 first.
   static void store(const Scalar& pack, Value* values) { *values = pack; }
 
   /// Writes one byte for each lane: 1 where the mask is set, else 0.
@@ -41,8 +41,8 @@ auto lane_of(const Scalar& pack, std::size_t lane) {
   return values[lane];
 }
 
-/// The pack, or matrix of packs, that has the given number or matrix in each lane.
-/// @param of_lane  (lane) → number or matrix of fixed size
+/// Pack, or matrix of packs, with a given number or matrix in each lane.
+/// @param of_lane  function from the index of a lane to a number or a matrix of fixed size
 template <class Scalar, class OfLane>
 auto from_lanes(const OfLane& of_lane) {
   using Value = std::decay_t<decltype(of_lane(0))>;

@@ -14,7 +14,7 @@ struct LogAxis {
   double max = 1.0;        ///< the last value, ≥ min
   std::int64_t count = 1;  ///< number of values, ≥ 1; if it is 1, the only value is `min`
 
-  /// The value number `index`, min (max/min)^{index/(count − 1)}, 0 ≤ index < count.
+  /// Value min (max/min)^{index/(count − 1)} at an index, 0 ≤ index < count.
   double at(std::int64_t index) const {
     const std::int64_t last = count - 1;
     if (index <= 0 || last <= 0) return min;

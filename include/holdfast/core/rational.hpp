@@ -11,11 +11,11 @@ namespace holdfast {
 
 /// A fraction in lowest terms.
 struct Rational {
-  std::int64_t numerator = 0;    ///< p, with the sign of the fraction
-  std::int64_t denominator = 1;  ///< q, ≥ 1
+  std::int64_t numerator = 0;    ///< numerator p, with the sign of the fraction
+  std::int64_t denominator = 1;  ///< denominator q, ≥ 1
 };
 
-/// The fraction p/q in lowest terms that a rounded number stands for, by continued fractions.
+/// Fraction p/q in lowest terms that a rounded number represents, by continued fractions.
 ///
 /// A product such as f τ = 10 Hz · 0.011 s is rounded. The result is the first convergent with a
 /// relative difference of at most 10⁻¹³, here 11/100.
@@ -23,7 +23,7 @@ struct Rational {
 /// @param value                number to be written as a fraction, |value| ≤ 9·10¹⁵
 /// @param largest_denominator  largest admissible q, ≥ 1
 /// @return nothing where no such convergent has q ≤ largest_denominator: two frequencies with this
-///         ratio then count as incommensurate
+///         ratio are then treated as incommensurate
 /// @throws InvalidParameter when `value` is not finite or too large
 inline std::optional<Rational> reconstruct_rational(double value,
                                                     std::int64_t largest_denominator) {

@@ -29,7 +29,7 @@ constexpr int larger_size(int size, int more) {
   return size == Eigen::Dynamic || more == Eigen::Dynamic ? Eigen::Dynamic : size + more;
 }
 
-/// π to the precision of the number type (30 digits are given).
+/// π to the precision of the number type, at most 30 digits.
 template <class Scalar>
 inline constexpr Scalar pi = Scalar(3.14159265358979323846264338328L);
 

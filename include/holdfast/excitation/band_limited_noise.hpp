@@ -14,14 +14,14 @@ namespace holdfast {
 
 /// A force of flat spectrum between two frequencies.
 struct NoiseBand {
-  double rms;              ///< σ, root of the mean square (N), ≥ 0
-  double lowest;           ///< f_a (Hz), ≥ 0
-  double highest;          ///< f_b (Hz), > f_a
-  int lines = 1000;        ///< n, number of harmonics in the band, ≥ 1
+  double rms;              ///< root mean square σ (N) of the force, ≥ 0
+  double lowest;           ///< lower end f_a (Hz) of the band, ≥ 0
+  double highest;          ///< upper end f_b (Hz) of the band, > f_a
+  int lines = 1000;        ///< number n of harmonics in the band, ≥ 1
   std::uint64_t seed = 1;  ///< seed of the random phases
 };
 
-/// @throws InvalidParameter unless σ ≥ 0, 0 ≤ f_a < f_b and n ≥ 1, all finite
+/// Validates a noise band. @throws InvalidParameter unless σ ≥ 0, 0 ≤ f_a < f_b, n ≥ 1, all finite
 inline void validate(const NoiseBand& band) {
   require_non_negative("noise rms", band.rms, "N");
   require_non_negative("noise lowest frequency", band.lowest, "Hz");
@@ -39,8 +39,8 @@ inline void validate(const NoiseBand& band) {
 ///     f_i = f_a + (i + ½) Δ,   Δ = (f_b − f_a)/n,   φ_i independent, uniform in [0, 2π)
 ///
 /// The one-sided power density of F, in the mean over each of the n parts, is σ²/(f_b − f_a);
-/// outside the band it is zero. Over all phases F(t) has mean 0 and variance σ² at every t; it
-/// tends to a Gaussian as n grows. Each F has the mean square σ² over a long time; |F| ≤ √(2n) σ.
+/// outside the band it is zero. Over all phases F(t) has mean 0 and variance σ² at every t, and
+/// F(t) tends to a Gaussian as n grows. Each F has mean square σ² over a long time; |F| ≤ √(2n) σ.
 ///
 /// Repetition: in T = n/(f_b − f_a) seconds all harmonics turn by the same angle 2π (f_a T + ½)
 /// beyond whole cycles, so that the envelope of F repeats every T. F(t + T) = F(t) where f_a T + ½
@@ -48,8 +48,8 @@ inline void validate(const NoiseBand& band) {
 /// q T where f_a T + ½ = p/q in lowest terms; where f_a T is irrational F has no period. F does not
 /// repeat within a motion no longer than T: take n ≥ (f_b − f_a) times the motion's duration.
 ///
-/// φ_i is 2π times the upper 53 bits of output i of `std::mt19937_64`, read as a binary fraction:
-/// the same for the same seed with every standard library.
+/// φ_i is 2π times the upper 53 bits of output i of `std::mt19937_64`, read as a binary fraction.
+/// Equal seeds give equal phases with every standard library.
 ///
 /// Source: Shinozuka and Deodatis 1991, Applied Mechanics Reviews 44, simulation of stochastic
 /// processes by spectral representation.

@@ -16,7 +16,7 @@
 
 namespace holdfast {
 
-/// The bounds of |F|, |Ḟ|, |F̈| (N, N/s, N/s²) over all times.
+/// Bounds of a force F and its derivatives, |F|, |Ḟ|, |F̈| (N, N/s, N/s²), over all times.
 struct ForceBounds {
   double value,     ///< bound of |F| (N)
       rate,         ///< bound of |Ḟ| (N/s)
@@ -26,16 +26,16 @@ struct ForceBounds {
 /// An instant at a fixed time after every sample.
 struct PeriodInstant {
   double after;  ///< time after the sample (s)
-  /// The cosine and sine of the angle ω_l after + φ_l of each harmonic.
+  /// Cosine and sine of the angle ω_l · `after` + φ_l of each harmonic l.
   std::vector<ExcitationSample<double>> turned;
 };
 
 /// The excitation over the sampling periods, held at its value at each sample or followed exactly.
 class ForceOverSamples {
  public:
-  /// @param force            F(t), admissible
+  /// @param force            excitation F(t), admissible
   /// @param hold             whether all of F, record included, is held from sample to sample
-  /// @param sampling_period  τ (s), > 0
+  /// @param sampling_period  sampling period τ (s), > 0
   ForceOverSamples(const MultiHarmonicForce& force, ForceHold hold, double sampling_period)
       : force_(force), hold_(hold) {
     if (hold == ForceHold::sampled) return;
@@ -65,7 +65,7 @@ class ForceOverSamples {
     return hold_ == ForceHold::sampled ? held_ : force_.at(time_ + after);
   }
 
-  /// The instant at the time `after` (s) since every sample, prepared for at(const PeriodInstant&).
+  /// Instant at the time `after` (s) after every sample, prepared for at(const PeriodInstant&).
   PeriodInstant instant(double after) const {
     PeriodInstant instant{after, {}};
     for (const Harmonic& line : force_.harmonics) {
@@ -75,7 +75,7 @@ class ForceOverSamples {
     return instant;
   }
 
-  /// The force F (N) at a prepared instant, by two multiply-adds per harmonic; not for jitter.
+  /// Force F (N) at a prepared instant, by two multiply-adds per harmonic; not with jitter.
   double at(const PeriodInstant& instant) const {
     if (hold_ == ForceHold::sampled) return held_;
     if (force_.record) return force_.at(time_ + instant.after);
@@ -86,13 +86,13 @@ class ForceOverSamples {
     return sum;
   }
 
-  /// The force held over the period (N); 0 where it is not held.
+  /// Force (N) that is held over the period; 0 for a force that is not held.
   double held() const { return hold_ == ForceHold::sampled ? held_ : 0.0; }
 
-  /// The phasors F_l cos ω_l t_j, F_l sin ω_l t_j of all harmonics; none where the force is held.
+  /// The phasors F_l cos ω_l t_j, F_l sin ω_l t_j of all harmonics l; empty if the force is held.
   const std::vector<ExcitationSample<double>>& phases() const { return phases_; }
 
-  /// Whether `held()` and `phases()` describe the whole force: no record is followed exactly.
+  /// Whether `held()` and `phases()` describe the whole force; false for a record not held.
   bool is_regular() const { return hold_ == ForceHold::sampled || !force_.record; }
 
   /// Computes the coefficients F_k (N) of F(t_j + after + x length) = Σ F_k x^k; times in s.
@@ -102,7 +102,7 @@ class ForceOverSamples {
     coefficients[0] = held_;
   }
 
-  /// The first instant (s after the sample) later than `after` at which the force may jump or kink.
+  /// First instant (s after the sample) later than `after` at which the force may jump or kink.
   double next_break(double after) const {
     if (hold_ == ForceHold::sampled || !force_.record)
       return std::numeric_limits<double>::infinity();
@@ -110,7 +110,7 @@ class ForceOverSamples {
     return length > after ? length : std::nextafter(after, std::numeric_limits<double>::infinity());
   }
 
-  /// The largest ω of the harmonics (rad/s); 0 where the force is held.
+  /// Largest angular frequency ω (rad/s) of the harmonics; 0 where the force is held.
   double highest_angular_frequency() const {
     return hold_ == ForceHold::exact ? force_.highest_angular_frequency() : 0.0;
   }

@@ -26,14 +26,14 @@ namespace holdfast {
 template <class Scalar, int States = 4>
 class HarmonicForcing {
  public:
-  /// @param input            g_c and g_s, N × 1 per newton
-  /// @param excitation       F_m and f
-  /// @param sampling_period  τ (s), > 0
+  /// @param input            responses g_c and g_s of the state per newton, N × 1
+  /// @param excitation       amplitude F_m and frequency f
+  /// @param sampling_period  sampling period τ (s), > 0
   HarmonicForcing(const HarmonicInput<Scalar, States>& input,
                   const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
       : table_(input, excitation, sampling_period) {}
 
-  /// The contribution (N × 1) over the present period. Then advances to the next period.
+  /// Returns the contribution (N × 1) of the present period and advances to the next one.
   Vector<Scalar, States> next() {
     const std::size_t k = static_cast<std::size_t>(index_) % PhasorTable<Scalar, States>::block;
     if (k == 0) table_.turn_to(index_);
@@ -46,15 +46,15 @@ class HarmonicForcing {
   std::int64_t index_ = 0;
 };
 
-/// The harmonic forcing read from a PhasorTable, which several motions may share and which must
-/// outlive it. The caller prepares the table, so that `next` need not check whether it is ready.
+/// The harmonic forcing read from a PhasorTable, which must outlive this object. Motions may share
+/// a table. The caller prepares it, so that `next` need not check whether the table is ready.
 template <class Scalar>
 class PhasorForcing {
  public:
-  /// @param table  table, on which the caller calls turn_to() at each multiple of `block`
+  /// @param table  table; the caller calls turn_to(j) before each period j divisible by `block`
   explicit PhasorForcing(const PhasorTable<Scalar>& table) : table_(&table) {}
 
-  /// The contribution (4 × 1) over the present period. Then advances to the next period.
+  /// Returns the contribution (4 × 1) of the present period and advances to the next one.
   Vector<Scalar, 4> next() { return table_->addition(index_++ % PhasorTable<Scalar>::block); }
 
  private:
@@ -62,14 +62,14 @@ class PhasorForcing {
   std::size_t index_ = 0;
 };
 
-/// The harmonic forcing with f τ = p/q, which repeats every q samples: a table of q contributions.
-/// Copies share the table.
+/// Harmonic forcing with f τ = p/q (frequency f, sampling period τ), which repeats every q samples:
+/// a table of q contributions, shared by copies.
 /// @tparam States  N, the order of the plant
 template <class Value, int States = 4>
 class PeriodicForcing {
  public:
-  /// @param input      g_c and g_s, N × 1 per newton
-  /// @param amplitude  F_m (N)
+  /// @param input      responses g_c and g_s of the state per newton, N × 1
+  /// @param amplitude  amplitude F_m (N)
   /// @param ratio      f τ = p/q in lowest terms, q ≥ 1; exact, so that the phase does not drift
   /// @throws InvalidParameter unless 1 ≤ q ≤ 10⁹
   PeriodicForcing(const HarmonicInput<Value, States>& input, const Value& amplitude,
@@ -81,7 +81,7 @@ class PeriodicForcing {
       : additions_(
             std::make_shared<const std::vector<Vector<Value, States>>>(std::move(additions))) {}
 
-  /// The contribution (N × 1) over the present period. Then advances to the next period.
+  /// Returns the contribution (N × 1) of the present period and advances to the next one.
   const Vector<Value, States>& next() {
     const Vector<Value, States>& addition = (*additions_)[phase_];
     if (++phase_ == additions_->size()) phase_ = 0;

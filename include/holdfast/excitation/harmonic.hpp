@@ -9,15 +9,15 @@ namespace holdfast {
 
 /// One harmonic of an excitation, F cos(2π f t + φ).
 struct Harmonic {
-  double amplitude;    ///< F (N), ≥ 0
-  double frequency;    ///< f (Hz), > 0
-  double phase = 0.0;  ///< φ (rad)
+  double amplitude;    ///< amplitude F (N), ≥ 0
+  double frequency;    ///< frequency f (Hz), > 0
+  double phase = 0.0;  ///< phase φ (rad)
 
   /// The angular frequency ω = 2π f (rad/s).
   double angular_frequency() const { return 2.0 * pi<double> * frequency; }
 
-  /// The angle 2π f t + φ (rad) without the whole cycles of f t. It is accurate to a few round-offs
-  /// of 2π + |φ| for any time t (s).
+  /// Angle 2π f t + φ (rad) without the whole cycles of f t. The error is a few round-offs of
+  /// 2π + |φ| for any time t (s).
   double angle(double time) const {
     const double cycles = frequency * time;
     const double rounded_off = std::fma(frequency, time, -cycles);
@@ -28,7 +28,7 @@ struct Harmonic {
   double at(double time) const { return amplitude * std::cos(angle(time)); }
 };
 
-/// @throws InvalidParameter unless F ≥ 0 and f > 0, all three finite
+/// Validates a harmonic. @throws InvalidParameter unless F ≥ 0 and f > 0, and F, f, φ are finite
 inline void validate(const Harmonic& harmonic) {
   require_non_negative("harmonic amplitude", harmonic.amplitude, "N");
   require_positive("harmonic frequency", harmonic.frequency, "Hz");

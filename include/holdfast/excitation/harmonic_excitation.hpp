@@ -8,8 +8,8 @@ namespace holdfast {
 /// The excitation F(t) = F_m cos(2π f t) of the conductor. Source: Kollár 2022, Eq. (4).
 template <class Scalar>
 struct HarmonicExcitation {
-  Scalar amplitude;  ///< F_m (N), ≥ 0
-  Scalar frequency;  ///< f (Hz), > 0
+  Scalar amplitude;  ///< amplitude F_m (N), ≥ 0
+  Scalar frequency;  ///< frequency f (Hz), > 0
 
   /// The angular frequency ω = 2π f (rad/s).
   Scalar angular_frequency() const { return Scalar(2) * pi<Scalar> * frequency; }
@@ -22,7 +22,7 @@ struct ExcitationSample {
   Scalar sine;    ///< F_m sin ω t_j (N); the sine alone in a unit phasor
 };
 
-/// @throws InvalidParameter unless F_m ≥ 0 and f > 0, both finite
+/// Validates an excitation. @throws InvalidParameter unless F_m ≥ 0 and f > 0, both finite
 inline void validate(const HarmonicExcitation<double>& excitation) {
   require_non_negative("excitation amplitude", excitation.amplitude, "N");
   require_positive("excitation frequency", excitation.frequency, "Hz");

@@ -19,11 +19,11 @@ enum class ForceHold {
 ///
 ///     z_{j+1} = … + F_m (cosine · cos(ω t_j) + sine · sin(ω t_j))
 ///
-/// Both kinds of ForceHold have this form, so that one stepper serves both.
+/// The response has this form for both kinds of ForceHold.
 template <class Scalar, int States = 4>
 struct HarmonicInput {
-  Vector<Scalar, States> cosine;  ///< g_c, N × 1 per newton of F_m cos(ω t_j)
-  Vector<Scalar, States> sine;    ///< g_s, N × 1 per newton of F_m sin(ω t_j)
+  Vector<Scalar, States> cosine;  ///< response g_c per newton of F_m cos(ω t_j), N × 1
+  Vector<Scalar, States> sine;    ///< response g_s per newton of F_m sin(ω t_j), N × 1
 };
 
 /// The response to the exact force in one sampling period, ∫₀^τ e^{A(τ−s)} c cos(ω(t_j + s)) ds.
@@ -35,8 +35,8 @@ struct HarmonicInput {
 /// The result differs from that of the held force by O(τ) in phase and O(τ²) in amplitude as τ → 0.
 /// @param a                  state matrix A, N × N (1/s)
 /// @param c                  input column c, N × 1 per newton of F
-/// @param period             τ (s), ≥ 0
-/// @param angular_frequency  ω = 2π f (rad/s), finite
+/// @param period             sampling period τ (s), ≥ 0
+/// @param angular_frequency  angular frequency ω = 2π f (rad/s), finite
 /// @throws InvalidParameter where τ or ω is not admissible, or the sizes disagree
 template <class Scalar, int States>
 HarmonicInput<Scalar, States> exact_harmonic(const Matrix<Scalar, States>& a,

@@ -33,7 +33,7 @@ void add_scaled_derivatives(const Harmonic& harmonic, double time, double length
   }
 }
 
-/// Divides coefficient k by k!, for all k.
+/// Divides the coefficient of each index k by k!.
 template <class Coefficients>
 void divide_by_factorials(Eigen::MatrixBase<Coefficients>& coefficients) {
   double inverse_factorial = 1.0;
@@ -65,7 +65,7 @@ struct MultiHarmonicForce {
     return record ? record->next_break(time) : std::numeric_limits<double>::infinity();
   }
 
-  /// The largest 2π f_i (rad/s); 0 without harmonics.
+  /// Largest angular frequency 2π f_i (rad/s) of the harmonics; 0 without harmonics.
   double highest_angular_frequency() const {
     double highest = 0.0;
     for (const Harmonic& harmonic : harmonics) {
@@ -80,10 +80,10 @@ struct MultiHarmonicForce {
   ///     f_k = lengthᵏ/k! Σ_i ω_iᵏ F_i cos(ω_i time + φ_i + k π/2), + the record's line for k ≤ 1
   ///
   /// For 0 ≤ x ≤ 1 the sum of the omitted terms is at most Σ_i F_i (ω_i length)ˢⁱᶻᵉ/size!.
-  /// Work: a cosine, a sine and 3 size multiply-adds for each harmonic, 3 size more, and for the
-  /// record a binary search.
+  /// Work: a cosine, a sine and 3·size multiply-adds for each harmonic, 3·size more in all, and a
+  /// binary search in the record.
   /// @param time          instant (s)
-  /// @param length        length (s); the series converges fast for lengths up to about 1/ω_i
+  /// @param length        unit (s) of x; the series converges fast for lengths up to about 1/ω_i
   /// @param coefficients  f (N), a vector of fixed or dynamic size; all entries are written
   template <class Coefficients>
   void expand(double time, double length, Eigen::MatrixBase<Coefficients>& coefficients) const {
@@ -100,13 +100,13 @@ struct MultiHarmonicForce {
   }
 };
 
-/// The MultiHarmonicForce with one harmonic, of phase 0, and no record.
+/// Force with a single harmonic of phase 0 and no record.
 inline MultiHarmonicForce multi_harmonic_force(const HarmonicExcitation<double>& excitation) {
   return {{Harmonic{excitation.amplitude, excitation.frequency}}, nullptr};
 }
 
-/// @throws InvalidParameter unless every harmonic is admissible; the record was checked by its
-///         constructor
+/// Validates a force; the record was checked by its constructor.
+/// @throws InvalidParameter unless every harmonic is admissible
 inline void validate(const MultiHarmonicForce& force) {
   for (const Harmonic& harmonic : force.harmonics) validate(harmonic);
 }

@@ -16,7 +16,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// Computes unit_phasor() for a type no wider than `double`.
+/// Computes cos 2πx and sin 2πx by Taylor's series, for a type no wider than `double`.
 template <class Scalar>
 ExcitationSample<Scalar> unit_phasor_series(const Scalar& x) {
   using std::floor;
@@ -64,28 +64,28 @@ ExcitationSample<Scalar> unit_phasor(const Scalar& x) {
 /// The phasor F_m cos ω t_j, F_m sin ω t_j of a harmonic at the samples j = 0, 1, 2, …; in a pack,
 /// one harmonic in each lane.
 ///
-/// A cosine and a sine are computed at samples J, multiples of `block`. For the samples J + k they
-/// are turned by fixed angles, e^{iω(J+k)τ} = e^{iωJτ} e^{iωkτ}: rounding does not grow with j.
+/// A cosine and a sine are computed at samples J, multiples of `block`. For samples J + k the pair
+/// is turned by fixed angles, e^{iω(J+k)τ} = e^{iωJτ} e^{iωkτ}: rounding does not grow with j.
 template <class Scalar>
 class RotatingPhasor {
  public:
-  static constexpr std::size_t block = 16;  ///< number of periods for one turn_to()
+  static constexpr std::size_t block = 16;  ///< number of periods that turn_to() prepares
 
   /// Constructs the phasor; `turn_to` is to be called before the first `at`.
-  /// @param excitation       F_m and f
-  /// @param sampling_period  τ (s), > 0
+  /// @param excitation       amplitude F_m and frequency f
+  /// @param sampling_period  sampling period τ (s), > 0
   RotatingPhasor(const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
       : amplitude_(excitation.amplitude), cycles_(excitation.frequency * sampling_period) {
     for (std::size_t k = 0; k < block; ++k) turns_[k] = turn_at(static_cast<std::int64_t>(k));
   }
 
-  /// Prepares the `block` periods from `index` on; to be called at every multiple of `block`.
+  /// Prepares `block` periods, the first being `index`; to be called if `block` divides `index`.
   void turn_to(std::int64_t index) {
     const ExcitationSample<Scalar> turn = turn_at(index);
     base_ = {amplitude_ * turn.cosine, amplitude_ * turn.sine};
   }
 
-  /// The phasor `k` (< block) periods after the `index` of the last turn_to(): 4 multiply-adds.
+  /// Phasor `k` (< block) periods after the `index` of the last turn_to(). Work: 4 multiply-adds.
   ExcitationSample<Scalar> at(std::size_t k) const {
     const ExcitationSample<Scalar>& turn = turns_[k];
     return {turn.cosine * base_.cosine - turn.sine * base_.sine,
@@ -93,7 +93,7 @@ class RotatingPhasor {
   }
 
  private:
-  /// The unit phasor of a period. Whole cycles are removed first, so that `index` may be large.
+  /// Unit phasor at sample `index`. Whole cycles are removed first, so that `index` may be large.
   ExcitationSample<Scalar> turn_at(std::int64_t index) const {
     using std::floor;
     const Scalar turned = Scalar(static_cast<double>(index)) * cycles_;
@@ -114,18 +114,18 @@ class RotatingPhasor {
 template <class Scalar, int States = 4>
 class PhasorTable {
  public:
-  /// The number of periods for which one turn_to() is enough.
+  /// Number of sampling periods that one call of turn_to() prepares.
   static constexpr std::size_t block = RotatingPhasor<Scalar>::block;
 
   /// Constructs the table; `turn_to` is to be called before the first `addition`.
-  /// @param input            g_c and g_s, N × 1 per newton
-  /// @param excitation       F_m and f
-  /// @param sampling_period  τ (s), > 0
+  /// @param input            responses g_c and g_s of the state per newton, N × 1
+  /// @param excitation       amplitude F_m and frequency f
+  /// @param sampling_period  sampling period τ (s), > 0
   PhasorTable(const HarmonicInput<Scalar, States>& input,
               const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
       : input_(input), phase_(excitation, sampling_period) {}
 
-  /// Prepares the `block` periods from `index` on; to be called at every multiple of `block`.
+  /// Prepares `block` periods, the first being `index`; to be called if `block` divides `index`.
   void turn_to(std::int64_t index) { phase_.turn_to(index); }
 
   /// The contribution (N × 1) to the state over the period that is `k` (< block) after the

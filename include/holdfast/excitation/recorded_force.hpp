@@ -17,7 +17,7 @@ enum class RecordInterpolation : std::uint8_t {
   held     ///< the force of the earlier row
 };
 
-/// The line value + slope (t − time) that a force follows from an instant `time` on.
+/// The line value + slope (t − time) that a force follows from the instant `time`.
 struct LinearPiece {
   double value;  ///< force at `time` (N)
   double slope;  ///< slope (N/s)
@@ -28,15 +28,15 @@ struct LinearPiece {
 ///     linear:  F(t) = F_k + (F_{k+1} − F_k) (t − t_k)/(t_{k+1} − t_k)
 ///     held:    F(t) = F_k                                for t_k ≤ t < t_{k+1}, k ≤ n − 2
 ///
-/// F is continuous from the right: from t_{n−1} on it is zero. With `linear`, F_{n−1} is thus only
+/// F is continuous from the right and zero at t_{n−1}. With `linear`, F_{n−1} is thus only
 /// the limit that F approaches for t → t_{n−1}. With `held`, F_{n−1} is not used: the last row
-/// marks the end of the row before it.
+/// only ends the interval before it.
 ///
 /// Work of each evaluation: a binary search over the rows.
 class RecordedForce {
  public:
-  /// @param times          t_k (s), two or more, strictly increasing
-  /// @param forces         F_k (N), one for each time
+  /// @param times          times t_k (s), two or more, strictly increasing
+  /// @param forces         forces F_k (N), one for each time
   /// @param interpolation  interpolation between the rows
   /// @throws InvalidParameter for fewer than two rows, unequal numbers of times and forces, values
   ///         that are not finite, times that do not increase, rows too far apart for their
@@ -67,7 +67,7 @@ class RecordedForce {
   /// The force F (N) at a time (s).
   double at(double time) const { return piece(time).value; }
 
-  /// The line that the force follows from `time` (s) on, in powers of t − `time`; it is valid up to
+  /// The line that the force follows from `time` (s), in powers of t − `time`; it is valid up to
   /// `next_break(time)`.
   LinearPiece piece(double time) const {
     const std::size_t after = first_row_after(time);
@@ -79,7 +79,7 @@ class RecordedForce {
   }
 
   /// The first instant (s) after `time` at which another line begins: the time of the next row,
-  /// even if the row lies on the line before it; +∞ from the last row on.
+  /// even if this row lies on the previous line; +∞ at and after the last row.
   double next_break(double time) const {
     const std::size_t after = first_row_after(time);
     return after == times_.size() ? std::numeric_limits<double>::infinity() : times_[after];

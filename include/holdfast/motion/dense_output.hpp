@@ -24,7 +24,7 @@ namespace holdfast {
 template <class Contact>
 class DenseOutput {
  public:
-  /// The state x of the motion, N × 1.
+  /// The state type of the motion, x: N × 1.
   using State = typename EventMotion<Contact>::State;
 
   /// A part of a sampling period under one contact mode and command, with one Taylor series.
@@ -35,7 +35,7 @@ class DenseOutput {
     typename EventMotion<Contact>::Expansion state;  ///< Taylor series of the state
   };
 
-  /// Constructs a trace that refers to a motion.
+  /// Constructs the dense output of a motion, to which it keeps a reference.
   explicit DenseOutput(const EventMotion<Contact>& motion)
       : motion_(&motion), state_(motion.state()) {}
 
@@ -59,8 +59,8 @@ class DenseOutput {
   /// The parts of the sampling period, in order and without gaps.
   const std::vector<Part>& parts() const { return parts_; }
 
-  /// Called by EventMotion::advance after it has passed a part of the period in the given mode,
-  /// from `begin` (s after the sample) on and `length` (s) long.
+  /// Adds a part of the period; called by EventMotion::advance when it has passed that part. The
+  /// part begins `begin` (s) after the sample and is `length` (s) long, in one mode.
   void flowed(int mode, double begin, double length) {
     const double rate = motion_->rate(mode);
     double reached = begin;
@@ -78,9 +78,9 @@ class DenseOutput {
       reached = part == end - reached ? end : reached + part;
     } while (reached < end);
   }
-  /// Called by EventMotion::advance at t_j + δ, from which on the command u_j is in force.
+  /// Puts the command u_j in force; called by EventMotion::advance at t_j + δ.
   void commanded() { command_ = motion_->command(); }
-  /// Called by EventMotion::advance at a change of contact; the next part shows the new mode.
+  /// Does nothing; called at a change of contact, after which the next part shows the new mode.
   template <class Instant>
   void switched(int, int, int, const Instant&) {}
 

@@ -15,8 +15,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// The scale of the static deflection (m) under a force (N): the largest entry of A⁻¹ c F, or of c
-/// F where A has no inverse. States that are constant between samples are left out.
+/// The scale of the static deflection (m) under a force F (N): the largest entry of A⁻¹ c F, or of
+/// c F where A has no inverse. States that are constant between samples are left out.
 template <class Plant>
 double static_deflection(const Plant& plant, double force) {
   const auto& input = plant.excitation_input();
@@ -47,7 +47,7 @@ double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plan
   return 1e12 * std::max(scale, 1e-100);
 }
 
-/// The divergence bound of a conductor given by its modes; y is the deflection at the absorber.
+/// The divergence bound of a conductor given by its modes; y (m) is the deflection at the absorber.
 /// @param loop   an admissible loop
 /// @param state  the initial state of `modal_plant`
 inline double divergence_bound(const ModalLoop& loop, const NaturalMotions::Full& state) {

@@ -28,14 +28,14 @@
 
 namespace holdfast {
 
-/// A sample of a motion, with the contact mode that begins there.
+/// A sample of an EventMotion, with the contact mode that begins there.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct EventSampleOf : MotionSample<double, States> {
   ContactMode mode;  ///< contact mode from t_j on; `engaged` is true only for ContactMode::engaged
 };
 
-/// A sample of the two masses' motion.
+/// A sample of the motion of two masses.
 using EventSample = EventSampleOf<4>;
 
 /// The counts of contact changes in a motion.
@@ -44,7 +44,7 @@ struct SwitchCounts {
   std::int64_t grazing = 0;  ///< number of changes at which a guard touches zero, within rounding
   bool accumulates = false;  ///< whether a sampling period had more than `most_switches` changes:
                              ///< later changes in that period were not followed, and the motion is
-                             ///< invalid from then on
+                             ///< invalid afterwards
 };
 
 /// The observer of EventMotion::advance that ignores what happens between the samples.
@@ -52,7 +52,7 @@ struct IgnoreFlow {
   /// Called for each part of the sampling period: number of the mode, begin (s after the sample)
   /// and length (s).
   void flowed(int, double, double) const {}
-  /// Called at t_j + δ, where u_j replaces u_{j−1}.
+  /// Called at t_j + δ, where the command u_j replaces u_{j−1}.
   void commanded() const {}
   /// Called at a change of contact: mode before, mode after, number of the guard that reached zero
   /// (−1: a jump of the command or the force), instant.
@@ -75,17 +75,17 @@ struct IgnoreFlow {
 template <class Contact = DriveContact<>>
 class EventMotion {
  public:
-  /// The plant with its drive.
+  /// The type of the plant with its drive.
   using Plant = typename Contact::Plant;
   /// The order N of the plant.
   static constexpr int states = states_of<Plant>;
-  using State = StateOf<Plant>;               ///< x, N × 1
-  using Sample = EventSampleOf<states>;       ///< result of `sense`
+  using State = StateOf<Plant>;               ///< state x, N × 1
+  using Sample = EventSampleOf<states>;       ///< sample returned by `sense`
   using Instant = ContactInstantOf<states>;   ///< state, command and force at an instant
   using Dynamics = AffineDynamicsOf<states>;  ///< equations of motion in one mode
   using Expansion = TaylorStep<states>;       ///< Taylor series of the motion
 
-  /// The largest number of changes of contact in one sampling period that are followed.
+  /// The largest number of contact changes that are followed in one sampling period.
   static constexpr int most_switches = 1000;
 
   /// @throws InvalidParameter where the loop is not admissible, ‖A‖ τ or ω τ exceeds
@@ -131,7 +131,7 @@ class EventMotion {
   /// Advances from t_j to t_{j+1} under the command that the last `sense()` decided.
   void advance() { advance(IgnoreFlow()); }
 
-  /// Advances to the next sample and reports to an observer (motion/variational_flow.hpp):
+  /// Advances to the next sample and calls an observer, as in motion/variational_flow.hpp:
   ///
   ///     flowed(mode, begin, length)             a part of the period in one mode, s after t_j
   ///     commanded()                             at t_j + δ: u_j takes the place of u_{j−1}
@@ -167,7 +167,7 @@ class EventMotion {
   double command() const { return command_; }
   /// The contact, in its present mode.
   const Contact& contact() const { return contact_; }
-  /// The readings of the plant's states.
+  /// The functions that read displacements and velocities from the plant's state.
   const PortReadings<Plant>& readings() const { return readings_; }
   /// The controller with its memory of past samples.
   const auto& controller() const { return controller_; }
@@ -181,13 +181,13 @@ class EventMotion {
   double period() const { return clock_.period_of(index_); }
   /// The rate (1/s) of a mode: Taylor series are exact to rounding over lengths up to 1/rate.
   double rate(int mode) const { return modes_[at(mode)].rate(); }
-  /// The equations of motion in one of the modes of the contact.
+  /// The equations of motion in a mode of the contact, given by its number.
   const Dynamics& dynamics(int mode) const { return modes_[at(mode)].dynamics(); }
 
-  /// Resets the counts.
+  /// Resets the counts of contact changes to zero.
   void restart_counts() { counts_ = {}; }
 
-  /// Sets the displacement (m) that the computer read at the previous sample.
+  /// Sets the displacement (m) that the controller remembers as its reading at the previous sample.
   void remember_reading(double displacement) { controller_.restore({displacement, true}); }
 
   /// Sets the motion to sample `index` with a state, a command in force until t_j + δ, and a
@@ -208,7 +208,7 @@ class EventMotion {
 
   static constexpr std::size_t at(int mode) { return static_cast<std::size_t>(mode); }
 
-  /// The command at a sample. If the plant contains the controller, advances its states too.
+  /// The command at a sample. If the plant contains a controller, its states advance too.
   double read(const ControlSample& sample) {
     if constexpr (detail::HasController<Plant>::value) {
       auto own = state_.tail(controller_.states());
@@ -220,7 +220,7 @@ class EventMotion {
     }
   }
 
-  /// The force F (N) at the sample (0), at t_j + δ (1) or at the next sample (2).
+  /// The excitation force F (N) at the sample (0), at t_j + δ (1) or at the next sample (2).
   double force_at(std::size_t end) const {
     const PeriodInstant& instant = instants_[end];
     return loop_.jitter.half_width > 0.0 ? force_.at(instant.after) : force_.at(instant);
@@ -262,7 +262,7 @@ class EventMotion {
     while (reached < part.end) reached = flow_to_event(part, reached, observer);
   }
 
-  /// Passes a whole part of the period and returns true if its contact certainly does not change.
+  /// Advances over a whole part of the period if surely no contact changes. @return whether it did
   bool flow_without_event(double command, double length, std::size_t part) {
     if (!force_.is_regular() || loop_.jitter.half_width > 0.0) return false;
     const int mode = contact_.mode();

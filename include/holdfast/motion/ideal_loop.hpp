@@ -20,8 +20,8 @@
 
 namespace holdfast {
 
-/// The loop of Kollár 2022 with its excitation and its backlash: everything that a motion depends
-/// on except its initial state.
+/// The loop of Kollár 2022 with its excitation and its backlash: all data of a motion except its
+/// initial state.
 /// @tparam Plant  TwoMass<Scalar> or a LinearPlant<Scalar, N>
 template <class Scalar, class Plant = TwoMass<Scalar>>
 struct IdealLoop {
@@ -30,11 +30,11 @@ struct IdealLoop {
                 "TwoMass, a LinearPlant or made by with_controller()");
 
   Plant plant;                            ///< conductor, absorber and further states
-  Sampling<Scalar> sampling;              ///< τ and δ
-  PdGains<Scalar> gains;                  ///< P and D
-  HarmonicExcitation<Scalar> excitation;  ///< F_m and f
-  Scalar backlash_width = Scalar(0);      ///< r₀ (m), ≥ 0
-  ForceHold hold = ForceHold::sampled;    ///< hold of the harmonic force over a sample
+  Sampling<Scalar> sampling;              ///< sampling period τ, processing delay δ (s)
+  PdGains<Scalar> gains;                  ///< gains P (N/m) and D (N s/m)
+  HarmonicExcitation<Scalar> excitation;  ///< amplitude F_m (N), frequency f (Hz)
+  Scalar backlash_width = Scalar(0);      ///< width r₀ of the backlash (m), ≥ 0
+  ForceHold hold = ForceHold::sampled;    ///< whether the force is held over a sampling period
 };
 
 /// Validates a loop. @throws InvalidParameter where any part is not admissible
@@ -60,14 +60,14 @@ auto converted(const IdealLoop<From, Plant>& loop) {
       loop.hold};
 }
 
-/// The digital side of a loop of the paper's model: an ideal computer, under one harmonic force.
+/// The digital side of an IdealLoop, with its excitation: an ideal computer, one harmonic force.
 template <class Plant>
 DigitalLoop digital_loop(const IdealLoop<double, Plant>& loop) {
   return {loop.sampling, loop.gains, multi_harmonic_force(loop.excitation), loop.hold};
 }
 
 /// The ratio f τ = p/q in lowest terms: q samples take as long as p periods of the excitation. The
-/// function for DigitalLoop (control/digital_loop.hpp) says where there is none.
+/// overload for DigitalLoop (control/digital_loop.hpp) states when no ratio exists.
 template <class Plant>
 std::optional<Rational> forcing_ratio(const IdealLoop<double, Plant>& loop) {
   return forcing_ratio(digital_loop(loop));
@@ -85,7 +85,7 @@ using HarmonicallyForcedMotion =
 
 namespace detail {
 
-/// The motion of a loop under Forcing(input, more...), where `input` is g_c and g_s of the loop.
+/// The motion of a loop under Forcing(input, more...), `input` being the loop's HarmonicInput.
 template <class Forcing, class Scalar, class Plant, class... More>
 SampledMotion<Scalar, Backlash<Scalar>, Forcing, Plant> forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const StateOf<Plant>& initial_state,
@@ -117,7 +117,7 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
   return detail::forced_motion<PeriodicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation.amplitude, ratio);
 }
-/// A periodically forced motion; the initial state is any Eigen column.
+/// The motion under an exactly periodic forcing; the initial state is any Eigen column.
 template <class Scalar, class Plant, class Column>
 PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Rational& ratio,
@@ -135,7 +135,7 @@ HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
   return detail::forced_motion<HarmonicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation, loop.sampling.period);
 }
-/// A harmonically forced motion; the initial state is any Eigen column.
+/// The motion under a harmonic forcing; the initial state is any Eigen column.
 template <class Scalar, class Plant, class Column>
 HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Eigen::MatrixBase<Column>& initial_state) {

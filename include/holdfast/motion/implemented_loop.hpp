@@ -28,7 +28,7 @@ struct ImplementedLoopOf {
   Plant plant;                               ///< conductor, absorber and further states
   DigitalLoop digital;                       ///< sampling, gains, limits, clock and excitation
   BacklashParameters backlash = {};          ///< law of backlash; by default `kollar` with r₀ = 0
-  Switching switching = Switching::sampled;  ///< whether the contact changes at samples or exactly
+  Switching switching = Switching::sampled;  ///< contact changes at samples, or at exact instants
 };
 
 /// The implemented loop of the two masses.
@@ -52,7 +52,7 @@ void validate(const ImplementedLoopOf<Plant>& loop) {
   }
 }
 
-/// The implemented loop that is equal to an IdealLoop, the model of Kollár 2022.
+/// The implemented loop equal to an IdealLoop, that is, to the model of Kollár 2022.
 template <class Plant>
 ImplementedLoopOf<Plant> implemented_loop(const IdealLoop<double, Plant>& loop) {
   return {loop.plant,
@@ -61,10 +61,10 @@ ImplementedLoopOf<Plant> implemented_loop(const IdealLoop<double, Plant>& loop) 
           Switching::sampled};
 }
 
-/// The loop as an IdealLoop, the model of Kollár 2022, where it is one: switching at samples, the
-/// paper's backlash or none, one harmonic that begins at phase 0, an ideal computer and clock. The
-/// motion of such a loop is a SampledMotion, a piecewise affine map from sample to sample.
-/// @return nothing for any other loop
+/// The IdealLoop (model of Kollár 2022) that equals a loop. Its conditions: switching at samples,
+/// the paper's backlash or none, one harmonic that begins at phase 0, an ideal computer and clock.
+/// The motion of such a loop is a SampledMotion, a piecewise affine map from sample to sample.
+/// @return no loop where any of these conditions fails
 template <class Plant>
 std::optional<IdealLoop<double, Plant>> ideal_loop(const ImplementedLoopOf<Plant>& loop) {
   if (detail::HasController<Plant>::value) return std::nullopt;
@@ -86,7 +86,7 @@ std::optional<IdealLoop<double, Plant>> ideal_loop(const ImplementedLoopOf<Plant
                                   digital.hold};
 }
 
-/// The motion of the loop from x₀, N × 1; for two masses [z₁, ż₁, z₂, ż₂].
+/// The motion of the loop from the initial state x₀, N × 1; for two masses [z₁, ż₁, z₂, ż₂].
 /// @throws InvalidParameter where the loop is not admissible, or the state not finite or of another
 /// size
 template <class Plant>

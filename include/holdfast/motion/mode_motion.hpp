@@ -56,12 +56,12 @@ template <class Plant>
 class ModeMotion {
  public:
   static constexpr int states = states_of<Plant>;  ///< N, the order of the plant
-  /// The norm that bounds the motion: from the energy, or from a Lyapunov equation.
+  /// The norm that bounds the motion: EnergyNorm for the two masses, else from a Lyapunov equation.
   using Norm = detail::NormOf<Plant>;
-  using Bound = NoEventBoundOf<Norm, states>;  ///< bound that can exclude zeros of a guard
+  using Bound = NoEventBoundOf<Norm, states>;  ///< bound that may prove that a guard has no zero
 
-  /// The largest admissible ‖A‖ τ and ω τ. In a sampling period in which the contact may change,
-  /// about that many Taylor series are computed.
+  /// The largest admissible ‖A‖ τ and ω τ. A sampling period in which the contact may change takes
+  /// about that many Taylor series.
   static constexpr double most_turns_per_sample = 1e6;
 
   /// @throws InvalidParameter where ‖A‖ τ of the mode or ω τ of the force exceeds
@@ -76,15 +76,15 @@ class ModeMotion {
                 {dynamics, loop.force.harmonics, loop.sampling.processing_delay,
                  loop.sampling.period - loop.sampling.processing_delay}}} {}
 
-  /// The matrices A, b, c and the drift.
+  /// The matrices A, b, c and the drift of the mode.
   const AffineDynamicsOf<states>& dynamics() const { return dynamics_; }
-  /// The rate (1/s) of the mode, max(‖A‖, ω): Taylor series are exact over lengths up to 1/rate.
+  /// The mode's rate (1/s), max(‖A‖, ω): a Taylor series over a time 1/rate is exact to rounding.
   double rate() const { return rate_; }
   /// The exact step over part 0 or part 1 of the period.
   const SubintervalStep<states>& step(std::size_t part) const { return steps_[part]; }
 
-  /// The bound for the guards of the mode, constructed at the first call.
-  /// @param law    contact whose plant(mode) has the energy that bounds the motion
+  /// The bound that may prove that no guard of the mode has a zero; constructed at the first call.
+  /// @param law    contact; the energy of its plant(mode) bounds the motion
   /// @param mode   number of the mode
   /// @param guard  one of the mode's guards
   /// @param force  the excitation

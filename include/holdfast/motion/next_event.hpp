@@ -20,27 +20,27 @@ namespace holdfast {
 /// @tparam States  N, the order of the plant
 template <int States>
 struct ModeStretch {
-  Vector<double, States> state;  ///< x at the beginning, N × 1
-  double command;                ///< u in force (N)
-  Series force;                  ///< F_k (N) of F(t + y h) = Σ F_k y^k; any number of terms
-  double length;                 ///< h (s), ≥ 0
+  Vector<double, States> state;  ///< state x at the beginning, N × 1
+  double command;                ///< command u in force (N)
+  Series force;                  ///< coefficients F_k (N) of F(t + y h) = Σ F_k y^k, in any number
+  double length;                 ///< length h (s), ≥ 0
 };
 
 /// The first guard of a mode that reaches zero over a stretch.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct NextEvent {
-  int guard = -1;                             ///< number of the guard; −1: none reaches zero
-  FirstRoot root{RootOutcome::none, 1.0, 0};  ///< zero, at 0 … 1 of the stretch
+  int guard = -1;                             ///< number of the guard; −1: no guard reaches zero
+  FirstRoot root{RootOutcome::none, 1.0, 0};  ///< first zero, as a share 0 … 1 of the stretch
   std::array<double, 2> signs{};  ///< first sign (±1) of each guard if it was unknown, else 0
   Vector<double, States> state =
-      {};  ///< x at the zero, N × 1; without a zero, at the end of the stretch
+      {};  ///< state x at the zero, N × 1; without a zero, at the end of the stretch
 };
 
 namespace detail {
 
-/// Sets leading coefficients of a guard's series to zero where they are mere rounding errors, as
-/// they may be just after a change of contact.
+/// Sets leading coefficients of a guard's series to zero where they are only rounding errors, as
+/// happens just after a change of contact.
 template <int States>
 void clear_rounding(const GuardOf<States>& guard, const ModeStretch<States>& stretch,
                     const TaylorStep<States>& motion, Series& series) {
@@ -68,7 +68,7 @@ Series guard_series(const GuardOf<States>& guard, const ModeStretch<States>& str
 }
 
 /// The sign of the first nonzero coefficient of a series; 0 where all are zero. Leading
-/// coefficients within rounding of zero, below 10⁻¹² of the sum of all, are set to zero.
+/// coefficients that are rounding errors, below 10⁻¹² of the sum of all moduli, are set to zero.
 inline double first_sign(Series& series) {
   double size = 0.0;
   for (const double term : series) size += std::abs(term);
@@ -82,12 +82,12 @@ inline double first_sign(Series& series) {
 
 }  // namespace detail
 
-/// The first root of any guard of a mode over a stretch, by Taylor series; without one, the end of
-/// the stretch. No root is passed over (math/roots/first_root.hpp).
+/// The first root of any guard of a mode over a stretch of motion, by Taylor series, or the end of
+/// the stretch if there is no root. No root is missed (math/roots/first_root.hpp).
 /// Work: N² + 2 N multiply-adds for each term of the series, 2 N for each guard and term, and the
 /// search for the root.
 /// @param dynamics  equations of motion in the mode
-/// @param guards    guards of the mode; without any the whole stretch is passed
+/// @param guards    guards of the mode; with no guard the whole stretch is passed
 /// @param stretch   part of the motion, at most 1/‖A‖ long
 template <int States>
 NextEvent<States> next_event(const AffineDynamicsOf<States>& dynamics,

@@ -10,16 +10,16 @@
 
 namespace holdfast {
 
-/// A bound that can prove that a guard g has no zero within a time h, from g at both ends.
+/// A bound that can prove that a guard g has no zero within a time h, from its values at both ends.
 ///
-/// Between the ends g is above the chord minus M h²/8, M ≥ |g̈|. From ż = A z + w, w = drift + b u +
-/// c F,
+/// Between the ends g ≥ chord − M h²/8, the chord being the line between these values and M ≥ |g̈|.
+/// From ż = A z + w, w = drift + b u + c F,
 ///
 ///     g̈ = ℓᵀA² z + ℓᵀA w + ℓᵀ ẇ + m F̈     for g = ℓᵀz + m F + const,
 ///
-/// and ‖z‖ in the norm of the energy (plant/energy.hpp), or another norm that A does not increase
-/// (plant/decaying_norm.hpp), grows by at most ‖w‖ h. The bound is valid for every guard of a mode
-/// with the same |ℓ| and |m|. Where the norm is infinite, the bound is infinite or NaN and proves
+/// and ‖z‖ grows by at most ‖w‖ h in the norm of the energy (plant/energy.hpp), or in another norm
+/// that no free motion ż = A z increases (plant/decaying_norm.hpp). The bound is valid for every
+/// guard of a mode with the same |ℓ| and |m|. An infinite norm makes it infinite or NaN: it proves
 /// nothing.
 /// @tparam Norm    EnergyNorm of the two masses, DecayingNorm of a plant of any order
 /// @tparam States  N, the order of the plant
@@ -45,20 +45,20 @@ class NoEventBoundOf {
                 std::abs(guard.force) * force.second_rate;
   }
 
-  /// The terms of drop_below_chord() over one length: by_norm ‖z‖ + by_command |u| + constant.
+  /// The terms of drop_below_chord() for one length: by_norm ‖z‖ + by_command |u| + constant.
   struct Drop {
-    double by_norm;     ///< factor of the norm of the initial state
+    double by_norm;     ///< factor of the norm ‖z‖ of the initial state
     double by_command;  ///< factor of |u|, per newton
-    double constant;    ///< constant, in the unit of the guard
+    double constant;    ///< constant term, in the unit of the guard
   };
-  /// The terms of drop_below_chord() for a length (s), ≥ 0.
+  /// The terms of drop_below_chord() over a length h (s), ≥ 0.
   Drop drop_over(double length) const {
     const double share = length * length / 8.0, by_size = share * by_state_;
     return {by_size, by_size * length * command_growth_ + share * by_command_,
             by_size * length * other_growth_ + share * by_force_};
   }
 
-  /// The largest possible depth of g below its chord: from state `begin`, command (N), length (s).
+  /// The largest depth of g below its chord over a length (s), from a state under a command (N).
   double drop_below_chord(const Vector<double, States>& begin, double command,
                           double length) const {
     const Drop drop = drop_over(length);

@@ -12,7 +12,7 @@
 
 namespace holdfast {
 
-/// Records every sample of a trajectory; reserved memory avoids allocation during the run.
+/// An observer that records every sample of a trajectory, in memory reserved before the run.
 class Recorder {
  public:
   /// @param expected_samples  ≥ 0; memory is reserved for that many, more are possible
@@ -31,21 +31,21 @@ class Recorder {
   std::vector<MotionSample<double>> samples_;
 };
 
-/// The largest |z₁| (m) and |ż₁| (m/s) from a given instant on: the extent of a steady motion.
+/// The extent of a steady motion: the largest |z₁| (m) and |ż₁| (m/s) since a given instant.
 class PhaseExtent {
  public:
   /// @param from  instant (s); earlier samples are ignored
   explicit PhaseExtent(double from) : from_(from) {}
 
-  /// Includes a sample.
+  /// Includes a sample in the extent.
   void operator()(const MotionSample<double>& sample) {
     if (!not_before(sample.time, from_)) return;
     displacement_ = std::fmax(displacement_, std::abs(sample.state[0]));
     velocity_ = std::fmax(velocity_, std::abs(sample.state[1]));
   }
-  /// The largest |z₁| (m) so far; 0 before the first counted sample.
+  /// The largest |z₁| (m) since the instant `from`; 0 before it.
   double displacement() const { return displacement_; }
-  /// The largest |ż₁| (m/s) so far; 0 before the first counted sample.
+  /// The largest |ż₁| (m/s) since the instant `from`; 0 before it.
   double velocity() const { return velocity_; }
 
  private:
@@ -72,9 +72,9 @@ class FirstPeaks {
     ++count_;
   }
 
-  /// The first local maximum of z₁ (m), below the equilibrium; NaN as long as there is none.
+  /// The first local maximum of z₁ (m, downward), so below the equilibrium; NaN before it is met.
   double below_equilibrium() const { return below_; }
-  /// The first local minimum of z₁ (m), above the equilibrium; NaN as long as there is none.
+  /// The first local minimum of z₁ (m, downward), so above the equilibrium; NaN before it is met.
   double above_equilibrium() const { return above_; }
 
  private:
@@ -85,14 +85,14 @@ class FirstPeaks {
   std::int64_t count_ = 0;
 };
 
-/// Records the samples at which the drive has entered or left its backlash.
+/// An observer that records the samples at which the drive enters or leaves its backlash.
 class SwitchLog {
  public:
-  /// A change of contact: the first sample at which the drive is in the backlash, or engaged again.
+  /// A change of contact: the first sample with the drive in the backlash, or engaged again.
   struct Switch {
     std::int64_t index;  ///< number j of the sample
     double time;         ///< instant t_j (s)
-    bool entered;        ///< true: in the backlash; false: engaged again
+    bool entered;        ///< true: the drive enters the backlash; false: it is engaged again
   };
 
   /// @param from  instant (s); earlier changes are ignored

@@ -18,23 +18,23 @@
 
 namespace holdfast {
 
-/// A sample of a motion.
+/// A sample of a motion: state, control force and contact at t_j.
 /// @tparam States  N, the order of the plant
 template <class Scalar, int States = 4>
 struct MotionSample {
   std::int64_t index;            ///< number j of the sample
   Scalar time;                   ///< instant t_j = j τ (s)
-  Vector<Scalar, States> state;  ///< x_j, N × 1; of the two masses z_j = [z₁, ż₁, z₂, ż₂]
+  Vector<Scalar, States> state;  ///< state x_j, N × 1; of two masses z_j = [z₁, ż₁, z₂, ż₂]
   Scalar control_force;  ///< u_j (N), applied from t_j + δ to t_{j+1} + δ; 0 in the backlash
   Mask<Scalar> engaged;  ///< true where the drive transmits, false in the backlash
 };
 
-/// The memory of a motion: everything that its coming samples depend on, except the forcing.
+/// The memory of a motion: all data, besides the forcing, that determine its later samples.
 /// @tparam LawMemory  memory of the backlash
 /// @tparam States     N, the order of the plant
 template <class Scalar, class LawMemory, int States = 4>
 struct MotionMemory {
-  Vector<Scalar, States> state;  ///< x_j, N × 1; for two masses z_j = [z₁, ż₁, z₂, ż₂]
+  Vector<Scalar, States> state;  ///< state x_j, N × 1; for two masses z_j = [z₁, ż₁, z₂, ż₂]
   Scalar previous_force;         ///< u_{j−1} (N), which acts until t_j + δ
   LawMemory backlash;            ///< memory of the backlash before sample j
 };
@@ -60,12 +60,12 @@ class SampledMotion {
  public:
   /// The order N of the plant.
   static constexpr int states = states_of<Plant>;
-  using State = Vector<Scalar, states>;      ///< x, N × 1
+  using State = Vector<Scalar, states>;      ///< state x, N × 1
   using Loop = SampledLoop<Scalar, states>;  ///< matrices of one sampling period
   using Readings = PortReadings<Plant>;      ///< readings of the states
 
-  /// The motion under a harmonic excitation that begins at phase 0. Nothing is transmitted before
-  /// the first sample: u_{−1} = 0.
+  /// Constructs the motion under a harmonic excitation that begins at phase 0. No force is
+  /// transmitted before the first sample: u_{−1} = 0.
   SampledMotion(const Loop& loop, const PdGains<Scalar>& gains,
                 const HarmonicInput<Scalar, states>& input,
                 const HarmonicExcitation<Scalar>& excitation, const Law& law,
@@ -73,8 +73,8 @@ class SampledMotion {
       : SampledMotion(loop, gains, Forcing(input, excitation, loop.sampling.period), law,
                       initial_state, readings) {}
 
-  /// The motion under any forcing, from the forcing's present phase on; u_{−1} = 0.
-  /// @throws InvalidParameter where the state has another size than the loop's
+  /// Constructs the motion under any forcing, which starts at its present phase, with u_{−1} = 0.
+  /// @throws InvalidParameter where the state has another size than the loop
   SampledMotion(const Loop& loop, const PdGains<Scalar>& gains, const Forcing& forcing,
                 const Law& law, const State& initial_state, const Readings& readings = Readings())
       : loop_(loop),
@@ -105,7 +105,7 @@ class SampledMotion {
     ++index_;
   }
 
-  /// Adds a displacement (m) to the conductor now; to be called before `sense()`.
+  /// Adds a displacement (m) to the conductor at the present sample, before `sense()`.
   void displace_conductor(const Scalar& displacement) {
     readings_.displace_conductor(state_, displacement);
   }
@@ -118,7 +118,7 @@ class SampledMotion {
   const State& state() const { return state_; }
   /// The matrices of one sampling period.
   const Loop& loop() const { return loop_; }
-  /// The readings of the plant's states.
+  /// The functions that read displacements and velocities from the plant's state.
   const Readings& readings() const { return readings_; }
   /// The gains P (N/m) and D (N s/m).
   const PdGains<Scalar>& gains() const { return gains_; }
@@ -131,7 +131,7 @@ class SampledMotion {
     return MotionMemory<Scalar, std::decay_t<decltype(law_.memory())>, states>{
         state_, previous_force_, law_.memory()};
   }
-  /// Continues from the memory of a motion of the same loop, at the forcing's present phase.
+  /// Continues from the memory of a motion of an equal loop, at the forcing's present phase.
   /// @throws InvalidParameter where the state has another size
   template <class LawMemory>
   void restore(const MotionMemory<Scalar, LawMemory, states>& memory) {
@@ -181,9 +181,9 @@ class SampledMotion {
   std::int64_t index_ = 0;
 };
 
-/// A pack of motions of the two masses, one in each lane, under a common forcing. The forcing
-/// continues at its present phase.
-/// @param motion          motion that every lane copies, except for the state
+/// A pack of motions of the two masses, one in each lane, under a common forcing, which continues
+/// at its present phase.
+/// @param motion          motion that is copied to every lane, except for its state
 /// @param initial_states  z₀ of every lane, [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 template <class Pack, class Forcing>
 SampledMotion<Pack, Backlash<Pack>, Forcing> in_every_lane(

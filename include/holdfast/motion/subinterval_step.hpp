@@ -12,18 +12,18 @@
 
 namespace holdfast {
 
-/// The exact step over t_j + begin … t_j + begin + length of every sampling period, in one mode:
+/// The exact step from t_j + begin to t_j + begin + length in every sampling period, in one mode:
 ///
 ///     z ← transition z + command u + drift + held F_j             (the force held over the sample)
 ///     z ← transition z + command u + drift + Σ_l (g_c cos ω_l t_j + g_s sin ω_l t_j)   (exactly)
 /// @tparam States  N, the order of the plant
 template <int States>
 struct SubintervalStep {
-  Matrix<double, States> transition;  ///< e^{A length}, N × N
+  Matrix<double, States> transition;  ///< transition matrix e^{A length}, N × N
   Vector<double, States> command;     ///< response per newton of u, N × 1
   Vector<double, States> drift;       ///< contribution of the drift, N × 1
   Vector<double, States> held;        ///< response per newton of a held force, N × 1
-  std::vector<HarmonicInput<double, States>> lines;  ///< g_c and g_s of each harmonic
+  std::vector<HarmonicInput<double, States>> lines;  ///< responses g_c and g_s to each harmonic
 
   /// @param dynamics   equations of motion in the mode
   /// @param harmonics  harmonics of the excitation, in the order of the phases passed to `state`
@@ -32,7 +32,7 @@ struct SubintervalStep {
   SubintervalStep(const AffineDynamicsOf<States>& dynamics, const std::vector<Harmonic>& harmonics,
                   double begin, double length);
 
-  /// The state (N × 1) at the end of the part.
+  /// The state (N × 1) at the end of the part, from the state at its beginning.
   /// @param before      state at the beginning, N × 1
   /// @param commanded   command u in force (N)
   /// @param held_force  held force F_j (N); used only where there are no phases

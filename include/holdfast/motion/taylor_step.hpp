@@ -8,8 +8,8 @@
 
 namespace holdfast {
 
-/// The smallest number of terms of e^x, 0 ≤ x ≤ 1, such that the first omitted one is below 2⁻⁶⁰;
-/// the whole remainder is then below 2⁻⁵⁹.
+/// The smallest number of terms of the series of e^x, 0 ≤ x ≤ 1, with the first omitted term below
+/// 2⁻⁶⁰; the whole remainder is below 2⁻⁵⁹.
 inline int terms_for(double x) {
   constexpr double negligible = 8.7e-19;
   double term = 1.0;
@@ -18,7 +18,7 @@ inline int terms_for(double x) {
   return terms;
 }
 
-/// Taylor's series of the state over a length h: z(t + x h) = Σ z_k x^k, 0 ≤ x ≤ 1, with
+/// The Taylor series of the state over a length h (s): z(t + x h) = Σ z_k x^k, 0 ≤ x ≤ 1, with
 ///
 ///     z_{k+1} = h (A z_k + w_k) / (k + 1),   w_0 = drift + b u + c F_0,  w_k = c F_k
 ///
@@ -33,8 +33,8 @@ class TaylorStep {
       Eigen::Matrix<double, States, Eigen::Dynamic, Eigen::ColMajor, States, most_terms>;
 
   /// @param dynamics  matrices A, b, c and the drift, constant over the length
-  /// @param state     state z(t), N × 1
-  /// @param command   u (N)
+  /// @param state     state z(t) at the beginning, N × 1
+  /// @param command   command u (N)
   /// @param force     coefficients F_k (N), one or more; they set the number of terms
   /// @param length    length h (s), ≥ 0
   TaylorStep(const AffineDynamicsOf<States>& dynamics, const Vector<double, States>& state,
@@ -50,7 +50,7 @@ class TaylorStep {
     }
   }
 
-  /// The state z(t + x h), N × 1, 0 ≤ x ≤ 1.
+  /// The state z(t + x h), N × 1, at the share x of the length, 0 ≤ x ≤ 1.
   Vector<double, States> state(double x) const {
     Vector<double, States> value = coefficients_.col(coefficients_.cols() - 1);
     for (Eigen::Index k = coefficients_.cols() - 2; k >= 0; --k)

@@ -48,18 +48,18 @@ inline constexpr bool is_motion_v = detail::IsMotion<Motion>::value;
 /// A sudden displacement of the conductor (Kollár 2022, Fig. 7).
 struct Kick {
   double time;          ///< instant (s); the kick acts at the first sample that is not before it
-  double displacement;  ///< displacement (m), added to z₁
+  double displacement;  ///< displacement (m), added to the conductor's z₁
 };
 
-/// The outcome of a trajectory.
+/// The outcome of a run of a motion over some samples.
 enum class TrajectoryOutcome {
   completed,  ///< all samples were taken
   diverged,   ///< the state left the range of the number type; observers received all earlier
               ///< samples
 };
 
-/// The number of samples at t = 0, τ, 2τ, … up to the last one not after `duration`. If the
-/// duration is a whole number of periods up to round-off, the last sample counts.
+/// The number of samples at t = 0, τ, 2τ, … up to `duration` (s). If the duration is a whole number
+/// of sampling periods τ up to round-off, the sample at its end is included.
 /// @throws InvalidParameter unless duration ≥ 0, τ > 0, and fewer than 2⁵³ samples
 inline std::int64_t samples_within(double duration, double sampling_period) {
   require_non_negative("duration", duration, "s");
@@ -72,10 +72,10 @@ inline std::int64_t samples_within(double duration, double sampling_period) {
 /// Runs `samples` (≥ 0) samples of a motion, with the kick if one is given, and passes each sample
 /// to every observer, `observer(const MotionSample&)`.
 ///
-/// The observers decide what is stored; nothing is allocated here. Afterwards the motion is at the
-/// sample after the last one passed, from which a further call continues.
+/// The observers decide which data are stored; this function allocates nothing. Afterwards the
+/// motion is at the sample after the last one passed, from which a further call continues.
 /// @tparam Motion  type for which is_motion_v is true, or any type with `sense`, `advance`,
-///                 `displace_conductor` and `time` as described there
+///                 `displace_conductor` and `time` as described at is_motion_v
 template <class Motion, class... Observers>
 TrajectoryOutcome run_trajectory(Motion& motion, std::int64_t samples,
                                  const std::optional<Kick>& kick, Observers&&... observers) {

@@ -16,7 +16,7 @@
 
 namespace holdfast {
 
-/// The derivative of an EventMotion from one sample to the next, including changes of contact,
+/// The derivative (tangent) of an EventMotion from one sample to the next, with changes of contact,
 ///
 ///     X_j = [x; u_{j−1}; g; z₁ as read at sample j − 1],   δX_{j+1} = map · δX_j
 ///
@@ -30,11 +30,11 @@ namespace holdfast {
 ///     gap → engaged:          h = Δz − g,    g ← 0,    f⁺ − f⁻ = b u
 ///     a stop is met or left:  h = Δz ∓ r₀/2,           f⁺ − f⁻ from the stop's damper and u
 ///
-/// Nothing is added at the end of stick: on a surface the transmitted force is continuous, and a
-/// command jumps at a fixed time. In stick δΔż = 0 and δg = δΔz are exact; where the drive sticks
-/// at sample j, the columns are valid for such deviations only. Unused rows are zero: the row of
-/// g while engaged, and the row of the z₁ read unless the velocity is the difference of unrounded
-/// displacements.
+/// In the table s is the force transmitted in stick. The end of stick needs no saltation: on a
+/// surface the transmitted force is continuous, and a command jumps at a fixed time. In stick δΔż =
+/// 0 and δg = δΔz hold exactly; if the drive sticks at sample j, the columns are valid for such
+/// deviations only. Unused rows are zero: the row of g while engaged, and the row of the z₁ read
+/// unless the velocity is the difference of unrounded displacements.
 ///
 ///     VariationalFlow<DriveContact<>> tangent(motion);
 ///     motion.sense();
@@ -50,14 +50,14 @@ namespace holdfast {
 template <class Contact>
 class VariationalFlow {
  public:
-  /// The order N of the plant.
+  /// The order N of the plant: the number of its states.
   static constexpr int states = EventMotion<Contact>::states;
-  /// The number of entries of X, N + 3.
+  /// The number N + 3 of entries of X_j.
   static constexpr int size = larger_size(states, 3);
-  /// The matrix that maps deviations of X, (N + 3) × (N + 3).
+  /// The type of the matrix that maps deviations of X_j, (N + 3) × (N + 3).
   using Map = Matrix<double, size>;
 
-  /// Constructs the derivative at the present sample of a motion.
+  /// Constructs the derivative of a motion at its present sample: the identity.
   explicit VariationalFlow(const EventMotion<Contact>& motion)
       : readings_(motion.readings()),
         map_(Map::Identity(motion.state().size() + 3, motion.state().size() + 3)),
@@ -91,8 +91,8 @@ class VariationalFlow {
 
   // The observer of EventMotion::advance.
 
-  /// Notes a stretch of one mode, from `begin` (s after the sample) on; it enters the map at the
-  /// next change, or at the end of the period.
+  /// Records that the motion stayed in one mode for `length` (s), beginning `begin` (s) after the
+  /// sample. The map includes this time at the next change, or at the end of the period.
   void flowed(int mode, double begin, double length) {
     if (!(length > 0.0)) return;
     if (open_length_ == 0.0) open_begin_ = begin;
@@ -101,7 +101,7 @@ class VariationalFlow {
     if (begin + length >= period_ * (1.0 - same_length)) close_flow();
   }
 
-  /// Replaces δu_{j−1} by δu_j.
+  /// Replaces the deviation δu_{j−1} of the command in force by δu_j.
   void commanded() {
     close_flow();
     map_.row(command_row()) = pending_;
@@ -109,8 +109,8 @@ class VariationalFlow {
     rank_.become(Carried::pending, Carried::in_force);
   }
 
-  /// Multiplies by the saltation matrix where a guard was reached outside stick; a jump of force or
-  /// command, guard −1, adds nothing.
+  /// Multiplies the map by the saltation matrix where a guard was reached outside stick. A jump of
+  /// force or command (guard −1) has no saltation matrix.
   void switched(int from, int to, int guard,
                 const typename EventMotion<Contact>::Instant& instant) {
     close_flow();
@@ -120,7 +120,7 @@ class VariationalFlow {
     rank_.pass(directions(to));
   }
 
-  /// The derivative over the sample just advanced, (N + 3) × (N + 3).
+  /// The derivative over the sampling period just passed, (N + 3) × (N + 3).
   const Map& map() const { return map_; }
 
   /// The structural rank of the product of all maps since construction: the rank of almost every
@@ -139,7 +139,7 @@ class VariationalFlow {
   Eigen::Index command_row() const { return order(); }
   Eigen::Index anchor_row() const { return order() + 1; }
   Eigen::Index read_row() const { return order() + 2; }
-  /// The rows of δx.
+  /// The rows of the map that belong to δx.
   auto states_of_map() { return map_.template topRows<states>(order()); }
   /// The difference, as a share of the period, up to which two lengths count as equal. Lengths that
   /// are sums of several steps are rounded.
@@ -156,13 +156,13 @@ class VariationalFlow {
                : always;
   }
 
-  /// Whether g is independent of x, so that its deviation must be stored.
+  /// Whether g is independent of x, so that the deviation of g must be stored.
   bool carries_anchor(int mode) const { return anchored(mode) && mode != sticking_; }
 
   bool anchored(int mode) const { return anchored_[at(mode)]; }
 
-  /// The gradient ∂h/∂x of a mode's surface: h is Δz − g where the mode is anchored, Δz ∓ r₀/2 for
-  /// stops, and Δż while a drive with a moving gap is engaged.
+  /// The gradient ∂h/∂x of a mode's surface: h is Δz − g where the surface depends on g, Δz ∓ r₀/2
+  /// for stops, and Δż while a drive with a moving gap is engaged.
   State gradient(int from) const {
     return sticking_ < 0 || anchored(from) ? readings_.displacement_row()
                                            : readings_.velocity_row();
@@ -200,7 +200,7 @@ class VariationalFlow {
     }
   }
 
-  /// Updates the rank: the command's row from x and the previous reading, then that reading.
+  /// Updates the rank at a sample: the command takes up the old reading; the new one is stored.
   void note_sample(const Reading& reading) {
     if (reading.state) rank_.begin(Carried::pending);
     if (reading.previous) rank_.become(Carried::reading, Carried::pending);
@@ -269,7 +269,7 @@ class VariationalFlow {
     return longer;
   }
 
-  /// Moves g to the present Δz where one gap follows another: ẋ is the same in both.
+  /// Moves g to the present Δz at a change from one gap to another; both gaps have the same ẋ.
   void anchor_anew() {
     map_.row(anchor_row()) = readings_.relative_displacements(states_of_map());
     rank_.end(Carried::anchor);

@@ -10,12 +10,12 @@
 
 namespace holdfast {
 
-/// The products of the maps of successive samples, in blocks so short that no product loses digits.
+/// Products of successive sample maps, in blocks short enough that no product loses digits.
 /// @tparam Map  type of a map, N × N
 template <class Map>
 class BlockProducts {
  public:
-  /// @param most  most samples in a block, ≥ 1; a product with an entry ≥ 1000 ends its block, too
+  /// @param most  largest number of samples in a block, ≥ 1, which a product entry ≥ 1000 also ends
   explicit BlockProducts(std::size_t most) : most_(most), length_(most) {}
 
   /// Adds the map of the next sample.
@@ -39,16 +39,16 @@ class BlockProducts {
 
 /// A step of Newton's method towards a periodic motion: applies (I − M)⁻¹, where M = M_{K−1} … M₀
 /// is the product of the maps that linearise the motion block by block. For an affine motion the
-/// first step is already exact but for rounding.
+/// first step is already exact up to rounding.
 ///
-/// The equations x_{k+1} = M_k x_k are one block-bidiagonal system. Its inner unknowns x_k are
-/// eliminated one after the other by orthogonal factorisations of their coefficients,
+/// The equations x_{k+1} = M_k x_k are one block-bidiagonal system. The inner unknowns x_k are
+/// eliminated in turn by orthogonal factorisations of their coefficients B and −M_k,
 ///
 ///     Qᵀ [B; −M_k] = [R; 0],
 ///
-/// whose lower rows no longer contain x_k. At the end first · x₀ + last · x_K = 0 is left. M, whose
-/// entries may span hundreds of decades, is never formed. Source: S. J. Wright, Stable parallel
-/// algorithms for two-point boundary value problems, SIAM J. Sci. Stat. Comput. 13 (1992).
+/// after which the lower rows do not contain x_k. The equation first · x₀ + last · x_K = 0 remains.
+/// M, whose entries may span hundreds of decades, is never formed. Source: S. J. Wright, Stable
+/// parallel algorithms for two-point boundary value problems, SIAM J. Sci. Stat. Comput. 13 (1992).
 ///
 ///     const CyclicSystem<double> system(maps);
 ///     if (!system.is_singular()) x += system.correction(open);
@@ -56,18 +56,18 @@ class BlockProducts {
 template <class Scalar, int Size = 5>
 class CyclicSystem {
  public:
-  /// @param maps  N × N, at least one. Work per map: about 16 N³ multiply-adds.
+  /// @param maps  M_0 … M_{K−1}, N × N, K ≥ 1. Work per map: about 16 N³ multiply-adds.
   explicit CyclicSystem(const std::vector<Matrix<Scalar, Size>>& maps);
 
-  /// Whether 1 is a multiplier to working precision: no periodic motion, or a continuum of them.
+  /// Whether 1 is a multiplier to working precision: no periodic motion exists, or infinitely many.
   bool is_singular() const {
     const Scalar smallest_pivot = closed_.matrixLU().diagonal().cwiseAbs().minCoeff();
     const Scalar rounding = Scalar(64) * std::numeric_limits<Scalar>::epsilon();
     return !(smallest_pivot > rounding * closed_.maxPivot());
   }
 
-  /// The correction of x₀ that closes the motion: (I − M)⁻¹ open.
-  /// @param open  x_K − x₀ of the motion
+  /// The correction (I − M)⁻¹ (x_K − x₀) of the first state x₀, which closes the motion.
+  /// @param open  closure error x_K − x₀ of the motion
   Vector<Scalar, Size> correction(const Vector<Scalar, Size>& open) const {
     return closed_.solve(last_ * open);
   }

@@ -23,11 +23,11 @@ using Itinerary = std::vector<std::uint8_t>;
 ///
 ///     z̃_{j+1} = S z̃_j + [a_j; 0] while the drive transmits, S* z̃_j + [a_j; 0] in the backlash,
 ///
-/// where the a_j of the excitation repeat every q samples. Source: Kollár 2022, Eq. (14).
+/// where the inputs a_j of the excitation repeat every q samples. Source: Kollár 2022, Eq. (14).
 template <class Scalar>
 class ItineraryMaps {
  public:
-  using State = Vector<Scalar, 5>;      ///< z̃
+  using State = Vector<Scalar, 5>;      ///< state z̃ = [z; u_{j−1}]
   using Map = Matrix<Scalar, 5>;        ///< map of deviations of z̃
   using System = CyclicSystem<Scalar>;  ///< solver for a periodic motion
 
@@ -39,7 +39,7 @@ class ItineraryMaps {
   /// The map S while the drive is engaged, S* while it is in the backlash; 5 × 5.
   const Matrix<Scalar, 5>& map(bool engaged) const { return maps_[engaged ? 1 : 0]; }
 
-  /// The units of z̃, by plant_scaling() of the loop.
+  /// The units of the state z̃, given by plant_scaling() of the loop.
   const Vector<Scalar, 5>& units() const { return units_; }
 
   /// The map S or S* for z̃ in units().
@@ -47,15 +47,15 @@ class ItineraryMaps {
     return units_.cwiseInverse().asDiagonal() * map(engaged) * units_.asDiagonal();
   }
 
-  /// The largest number of samples whose maps may be multiplied without losing digits of the most
-  /// contracted directions. The ratio in which one map stretches two directions outside its null
-  /// space is estimated by the largest ratio of pivots in the plant's 4 × 4 part of S or S*.
+  /// The largest number of samples whose maps may be multiplied without loss of digits in the most
+  /// contracted directions. The estimate uses the ratio of the largest to the smallest nonzero
+  /// pivot in the plant's 4 × 4 part of S or S*, a measure of a map's anisotropy.
   std::size_t samples_of_block() const;
 
   /// The number of samples q after which the forcing repeats.
   std::size_t samples_of_forcing() const { return forcing_.samples(); }
 
-  /// The excitation's addition to z in each of the q samples, 4 × 1.
+  /// The excitation's contribution to the plant state z in each of the q samples, 4 × 1.
   const std::vector<Vector<Scalar, 4>>& additions() const { return forcing_.additions(); }
 
   /// The next state z̃_{j+1} from z̃_j at phase j of the forcing, 0 ≤ phase < q.
@@ -65,10 +65,10 @@ class ItineraryMaps {
     return next;
   }
 
-  /// Computes all states of an itinerary from its first one; returns the state after its last one.
-  /// @param first      z̃₀
+  /// Computes all states of an itinerary from the first one; returns the state after the last.
+  /// @param first      first state z̃₀
   /// @param itinerary  contacts, the first sample at phase 0 of the forcing
-  /// @param states     filled with z̃_j, one for each sample
+  /// @param states     filled with the states z̃_j, one for each sample
   State follow(const State& first, const Itinerary& itinerary, std::vector<State>& states) const {
     states.front() = first;
     std::size_t phase = 0;
@@ -81,7 +81,7 @@ class ItineraryMaps {
 
   /// The state of rest.
   State rest() const { return State::Zero(); }
-  /// The observed part [z; u_{j−1}] of a state, here the whole of it.
+  /// The observed part [z; u_{j−1}] of a state; here the whole state.
   const State& seen(const State& state) const { return state; }
 
  private:

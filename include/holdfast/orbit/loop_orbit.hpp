@@ -19,17 +19,17 @@ namespace holdfast {
 /// surface: changing a parameter in its fourth digit may end the orbit.
 inline constexpr double near_border = 1e-4;
 
-/// The common part of PeriodicOrbit (switching at samples) and EventOrbitOf (between them).
-/// @tparam Size  size of a state: 5 for z̃_j = [z_j; u_{j−1}], N for x_j of a plant, 4 for z_j
+/// The common data of orbits that switch at samples (PeriodicOrbit) or between them (EventOrbitOf).
+/// @tparam Size  size of a state: 5 for z̃_j = [z_j; u_{j−1}], N for a plant's x_j (4 for z_j)
 template <int Size>
 struct LoopOrbit {
-  Rational ratio;                            ///< f τ = p/q
-  double sampling_period;                    ///< τ (s)
-  std::vector<Vector<double, Size>> states;  ///< one per sample, the first at phase 0 of the force
-  /// Multipliers of one period, largest first; log_modulus is −∞ for a null direction. Of a
-  /// conductor given by many modes only the ten largest.
+  Rational ratio;                            ///< forcing frequency × sampling period, f τ = p/q
+  double sampling_period;                    ///< sampling period τ (s)
+  std::vector<Vector<double, Size>> states;  ///< state at each sample, the first at phase 0
+  /// Multipliers of one period, largest first; log_modulus is −∞ for a null direction. For a
+  /// conductor given by its modes only the ten largest are listed.
   std::vector<Multiplier> multipliers;
-  double closure_error;  ///< ‖z_N − z₀‖, SI numbers of m and m/s
+  double closure_error;  ///< norm of the closure error z_N − z₀, z in m and m/s
 
   /// The number N of samples in a period.
   std::int64_t period_samples() const { return static_cast<std::int64_t>(states.size()); }
@@ -41,8 +41,8 @@ struct LoopOrbit {
   }
   /// The largest modulus max |λ| of the multipliers; 0 where it underflows.
   double largest_multiplier() const { return std::exp(multipliers.front().log_modulus); }
-  /// Whether every neighbour that switches in the same order comes nearer in the long run: the
-  /// largest modulus is below 1 by more than rounding.
+  /// Whether all nearby motions with the same order of switches tend to the orbit: the largest
+  /// modulus of the multipliers is below 1 by more than rounding.
   bool is_attracting() const {
     const double rounding = 64.0 * std::numeric_limits<double>::epsilon();
     return multipliers.front().log_modulus < -rounding * static_cast<double>(states.size());
@@ -55,43 +55,43 @@ struct LoopOrbit {
   }
 };
 
-/// The outcome of a search for the periodic orbit of a motion, or of a single solution for one.
+/// The outcome of a search for a motion's periodic orbit, or of a single solution for an orbit.
 enum class OrbitOutcome {
-  certified,       ///< the motion was seen to tend to the orbit; for a single solution: it switches
-                   ///< as assumed
-  approaching,     ///< an attracting orbit was found, but the motion was not seen to come to it
+  certified,       ///< the motion was seen to tend to the orbit; after a single solution: the
+                   ///< orbit has the assumed contacts
+  approaching,     ///< an attracting orbit was found, but the motion was not seen to settle on it
   on_surface,      ///< the contacts repeat, but the orbit touches a switching surface: the result
                    ///< depends on rounding, and no certificate can be given
-  incommensurate,  ///< f τ is no fraction p/q with q ≤ 10⁶: the forcing's phase is a state that
-                   ///< does not repeat
+  incommensurate,  ///< f τ is no fraction p/q with q ≤ 10⁶: the phase of the forcing
+                   ///< never repeats
   diverges,        ///< the motion grows without bound
-  none_found,      ///< no orbit in the given number of samples, or q is beyond the largest period;
-                   ///< for a single solution: 1 is a multiplier, so that there is none, or many
-  not_reproduced,  ///< the contacts repeat, but the periodic solution switches otherwise
+  none_found,  ///< no orbit in the given number of samples, or q exceeds the largest period; after
+               ///< a single solution: 1 is a multiplier, so that no solution or a continuum exists
+  not_reproduced,  ///< the contacts repeat, but the periodic solution has other contacts
   neutral,         ///< 1 is a multiplier: the motion is on one orbit of a whole family, or drifts
                    ///< along the family like an integrator without restoring term. Give the named
                    ///< state a leak, leave it out, or prescribe its initial value
 };
 
-/// The result of a search for a periodic orbit, or of solving for one.
+/// The result of a search for a periodic orbit, or of a single solution for an orbit.
 /// @tparam Orbit  PeriodicOrbit or EventOrbitOf<N>
 template <class Orbit>
 struct OrbitResultOf {
-  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< how the search ended
+  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< outcome of the search
   std::optional<Orbit> orbit;  ///< the orbit, unless there was no solution; `outcome` states how
                                ///< far it is confirmed
   std::int64_t samples = 0;    ///< number of samples of the motion that were followed
-  int candidates = 0;          ///< number of periods that were solved for
-  /// Index, from 0, of the state by which the orbits of a family differ most, where the outcome is
-  /// `neutral`; the controller's states follow the plant's.
+  int candidates = 0;          ///< number of proposed periods that were solved for
+  /// Index, from 0, of the state variable in which the orbits of a family differ most, where the
+  /// outcome is `neutral`. The plant's variables come first, then the controller's.
   std::optional<std::int64_t> neutral_state = {};
 };
 
 namespace detail {
 
-/// The shortest period such that states and itinerary consist of whole repetitions of it.
-/// @param step    q; the period is a multiple of it (samples)
-/// @param extent  extent of the states, by whose share_of() they are compared
+/// The shortest period (samples) with which both the states and the itinerary repeat.
+/// @param step    number q of samples; only multiples of q are considered
+/// @param extent  extent of the states; its share_of() compares two states
 template <class State, class Symbol, class Extent>
 std::size_t shortest_period(const std::vector<State>& states, const std::vector<Symbol>& itinerary,
                             std::size_t step, const Extent& extent) {
@@ -107,7 +107,7 @@ std::size_t shortest_period(const std::vector<State>& states, const std::vector<
   return samples;
 }
 
-/// Whether a cyclic sequence equals another one that begins 0, `step`, 2 `step`, … places later.
+/// Whether a cyclic sequence equals another one rotated by 0, `step`, 2 `step`, … members.
 /// @param same  comparison of two members
 template <class Member, class Same>
 bool is_rotated(const std::vector<Member>& one, const std::vector<Member>& other, std::size_t step,
@@ -123,7 +123,7 @@ bool is_rotated(const std::vector<Member>& one, const std::vector<Member>& other
   return one.empty();
 }
 
-/// Whether an orbit comes so near to a switching surface that rounding may decide how it switches.
+/// Whether an orbit comes so near to a switching surface that rounding may decide a contact.
 /// @param extent        extent of the orbit's states
 /// @param error         error of the states, as a share of the extent
 /// @param displacement  least distance of Δz from an end of the gap (m)

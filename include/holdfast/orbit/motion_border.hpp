@@ -19,29 +19,29 @@ enum class BorderKind {
   flip,              ///< a multiplier reaches −1
   neimark_sacker,    ///< a pair of multipliers reaches the unit circle
   border_collision,  ///< switching at samples: a sample reaches a switching surface
-  grazing,           ///< switching exactly: Δz or Δż only touches where the drive would switch
-  sliding,           ///< switching exactly: a reversal begins, or ceases, to lead to stick
+  grazing,  ///< switching exactly: Δz or Δż touches a switching surface without crossing it
+  sliding,  ///< switching exactly: reversals begin or cease to lead to stick
   switch_at_sample,  ///< switching exactly: a switch reaches a sample, where the force or the
                      ///< command jumps
-  jump,              ///< the motion is lost beyond a point where no margin vanishes
-  window,            ///< the end of the given window
+  jump,              ///< the motion ceases to exist although no margin falls to zero
+  window,            ///< the edge of the given window
 };
 
-/// A piece of the border of a motion's region, with the largest multiplier at a point of it.
+/// A piece of the border of a motion's parameter region, with the multiplier at one of its points.
 struct MotionBorder {
   BorderKind kind = BorderKind::window;  ///< cause that ends the motion there
-  /// Surface of a collision or grazing: `reversal` or an end of the gap; for exact switching both
-  /// ends of a gap count as one.
+  /// Surface of a collision or grazing: `reversal` or an end of the gap; with exact switching
+  /// `gap_upper` stands for either end of the gap.
   SwitchingSurface surface = SwitchingSurface::reversal;
-  std::int64_t sample = -1;  ///< sample of a collision (of a symmetric motion in the first half of
-                             ///< its period); −1 for other kinds
-  /// For `neimark_sacker` the sector of the pair's angle θ: 0 below π/2, 1 up to 2π/3, 2 above. For
-  /// `window` its side: 0 least x, 1 largest x, 2 least y, 3 largest y.
+  std::int64_t sample = -1;  ///< sample of a collision, in the first half of the period if the
+                             ///< motion is symmetric; −1 for other kinds of border
+  /// Sector of the pair's angle θ for `neimark_sacker`: 0 below π/2, 1 up to 2π/3, 2 above. Side
+  /// for `window`: 0 least x, 1 largest x, 2 least y, 3 largest y.
   int part = 0;
-  Multiplier multiplier{};  ///< largest multiplier; == ignores it
+  Multiplier multiplier{};  ///< largest multiplier; ignored by ==
 };
 
-/// Whether two values belong to the same piece of the border.
+/// Whether two descriptions belong to the same piece of a border.
 inline bool operator==(const MotionBorder& a, const MotionBorder& b) {
   return a.kind == b.kind && a.surface == b.surface && a.sample == b.sample && a.part == b.part;
 }
@@ -53,17 +53,17 @@ struct MotionBorderPoint {
   MotionBorder border;  ///< cause that ends the motion there
 };
 
-/// The region of two parameters in which a periodic motion exists and attracts, around the point
-/// where the motion is given; described by the border of the region.
+/// The region in the plane of two parameters in which a periodic motion exists and attracts, around
+/// the point of the given motion. The region is described by its border.
 struct MotionRegion {
-  /// Points of the border, counter-clockwise. Where the kind of border changes, two points lie side
-  /// by side: a point of codimension two.
+  /// Points of the border, counter-clockwise. Where the kind of border changes, two points lie
+  /// close together, at a point of codimension two.
   std::vector<MotionBorderPoint> border;
-  bool closed = false;  ///< whether the border is complete; else it was lost at the last point
+  bool closed = false;  ///< whether the border is complete; else the search lost it
   int solutions = 0;    ///< number of times that the motion was solved for
 };
 
-/// The rectangle of two parameters that is searched.
+/// The rectangle in the plane of two parameters that is searched.
 struct ParameterWindow {
   double x_from;  ///< least x
   double x_to;    ///< largest x, above x_from
@@ -82,7 +82,7 @@ struct ParameterWindow {
 
 /// The number k of the strong resonance 1:k where two pieces of the border meet: a pair of
 /// multipliers reaches 1, −1, e^{±2πi/3} or ±i.
-/// @return nothing where the pieces meet for another reason
+/// @return nothing where the pieces meet in another kind of point
 inline std::optional<int> strong_resonance(const MotionBorder& a, const MotionBorder& b) {
   const auto pair = BorderKind::neimark_sacker;
   if (a.kind != pair && b.kind != pair) return std::nullopt;
@@ -106,14 +106,14 @@ inline MotionBorder circle_border(const Multiplier& multiplier) {
   return border;
 }
 
-/// The nearest side of the window and the distance of a point from it, as a share of the window.
+/// The side of the window nearest to a point, and the distance from it as a share of the window.
 inline RegionLook<MotionBorder> look_at_window(const PlanePoint& shares) {
   const double sides[] = {shares.x, 1.0 - shares.x, shares.y, 1.0 - shares.y};
   const auto least = std::min_element(std::begin(sides), std::end(sides));
   return {*least, {BorderKind::window, {}, -1, static_cast<int>(least - std::begin(sides)), {}}};
 }
 
-/// Validates a window. @throws InvalidParameter where it is not finite or lacks the point `at`
+/// Validates a window. @throws InvalidParameter if it is not finite or does not contain `at`
 inline void validate(const ParameterWindow& window, const PlanePoint& at) {
   require_finite("window", window.x_from + window.x_to + window.y_from + window.y_to, "");
   require_within("first parameter", at.x, "", window.x_from, window.x_to);

@@ -11,8 +11,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// Whether a motion is its own mirror image half a period later, so that it reaches a surface and
-/// the mirrored surface at the same parameters.
+/// Whether a motion is its own mirror image half a period later. Such a motion reaches a surface
+/// and the mirrored surface at the same parameters.
 inline bool mirrors_itself(const PeriodicOrbit& orbit) {
   const std::size_t samples = orbit.states.size(), half = samples / 2;
   if (samples % 2 != 0) return false;
@@ -26,8 +26,8 @@ inline bool mirrors_itself(const PeriodicOrbit& orbit) {
   return true;
 }
 
-/// The nearest border of a solved itinerary, and the margin from it.
-/// @param half  half the period of a symmetric motion in samples; else 0
+/// The nearest border of a solved itinerary, and the margin of the solution from that border.
+/// @param half  half the period (samples) if the motion mirrors itself, else 0
 inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t half) {
   if (point.by_multiplier == point.margin())
     return {point.margin(), circle_border(point.multiplier)};
@@ -46,12 +46,12 @@ inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t h
 
 }  // namespace detail
 
-/// The region of two parameters in which a periodic motion that switches at samples exists and
-/// attracts, given by its border. Inside, the motion's itinerary has a solution, every sample stays
+/// Computes the border of the region of two parameters in which a periodic motion with switching at
+/// samples exists and attracts. Inside, the motion's itinerary has a solution, every sample stays
 /// on its side of the switching surfaces and every multiplier lies inside the unit circle.
 ///
-/// The maps are affine between switches. As a multiplier tends to 1 the solution therefore grows
-/// beyond bounds and meets a switching surface first. So a border has the kind `fold` only where a
+/// The maps are affine between switches. Therefore, as a multiplier tends to 1, the solution grows
+/// beyond bounds and meets a switching surface first. A border has the kind `fold` only where a
 /// symmetry breaks.
 ///
 ///     const auto family = [&](double width, double gain) { … return other; };

@@ -19,24 +19,24 @@ namespace holdfast {
 enum class BranchEndOutcome {
   border_collision,  ///< a sample reaches a switching surface: its decision would change
   unit_circle,       ///< a multiplier reaches modulus 1
-  range_end,         ///< neither: the orbit exists and attracts up to the end of the range
+  range_end,         ///< no such cause: the orbit exists and attracts up to the end of the range
 };
 
-/// The end of an orbit along a parameter: its cause and place.
+/// The value of a parameter at which an orbit ends, and the cause of the end.
 struct BranchEnd {
   BranchEndOutcome outcome = BranchEndOutcome::range_end;  ///< cause of the end
   double parameter = 0.0;                                  ///< value of the parameter at the end
   Border border;            ///< surface and sample of a border collision
-  Multiplier multiplier{};  ///< largest multiplier at the end; for `unit_circle`, angle 0: fold, π:
-                            ///< flip, else a pair
-  int solutions = 0;  ///< number of times that the itinerary was solved
+  Multiplier multiplier{};  ///< largest multiplier at the end; for `unit_circle`, its angle is 0 at
+                            ///< a fold, π at a flip and any other for a pair
+  int solutions = 0;        ///< number of times that the itinerary was solved
 };
 
 namespace detail {
 
-/// The solution of an orbit's itinerary at one value of a parameter, with the margins from all
-/// causes that may end the orbit: the distances from switching surfaces, as shares of the orbit's
-/// size, and −ln |λ|. Each is positive while the orbit lasts; −1 without solution.
+/// The solution of an orbit's itinerary at one value of a parameter, with the orbit's margins:
+/// distances from switching surfaces, as shares of the orbit's size, and −ln |λ| of the largest
+/// multiplier λ. A margin is positive while the orbit lasts, and −1 without a solution.
 struct BranchPoint {
   Borders borders;
   Multiplier multiplier{};
@@ -53,7 +53,7 @@ struct BranchPoint {
   }
 };
 
-/// The continuation of an orbit by its itinerary along a family of loops of one or more parameters.
+/// The continuation of an orbit, with its itinerary kept, over loops of one or more parameters.
 template <class Family>
 class OrbitContinuation {
  public:
@@ -121,11 +121,11 @@ class OrbitContinuation {
 
 }  // namespace detail
 
-/// Continues an orbit by its itinerary along one parameter, up to the orbit's end.
+/// Continues an orbit along one parameter, with its itinerary fixed, up to the orbit's end.
 ///
 /// At each value the itinerary is solved again. The orbit lasts while every sample stays on its
-/// side of the switching surface and every multiplier inside the unit circle. The first step in
-/// which it ends is narrowed down to rounding. An end and return within one step is missed.
+/// side of the switching surface and every multiplier inside the unit circle. The first step with
+/// an end is narrowed down to rounding. An end with a return within one step is missed.
 ///
 ///     const auto family = [&](double gain) { auto other = loop; other.gains.differential = gain;
 ///                                          return other; };
@@ -134,7 +134,7 @@ class OrbitContinuation {
 /// @param family  parameter ↦ IdealLoop<double>, with the same f τ everywhere; family(from) is the
 ///                loop of the orbit
 /// @param orbit   certified orbit
-/// @param from,to  first and last value of the parameter, finite; `to` may lie on either side
+/// @param from,to  first and last value of the parameter, finite; `to` may be below `from`
 /// @param steps   number of steps, 1 … 10⁶
 /// @throws InvalidParameter where the range is not finite, f τ changes, or the backlash vanishes or
 /// appears along the path, which changes the law of contact

@@ -18,13 +18,13 @@ namespace holdfast {
 
 namespace detail {
 
-/// The model of a sampled motion for ReturnSearch. A return whose contacts have repeated is solved
-/// for its exact orbit. The motion has come to an orbit once it lies within the orbit's region of
-/// attraction.
+/// The model of a motion that switches at samples, for ReturnSearch. After a near return with
+/// repeated contacts the exact orbit is solved for. The motion has settled on an orbit once it lies
+/// within the orbit's region of attraction.
 /// @tparam Loop        IdealLoop or ModalLoop
 /// @tparam MotionOf    motion of that loop
 /// @tparam Attraction  type with maps() of the loop; samples_per_solved(); surround(orbit), which
-///                     computes the region of attraction; holds(motion): the motion lies in it
+///                     computes the region; holds(motion): the motion lies in that region
 template <class Loop, class MotionOf, class Attraction>
 class SampledSearchModel {
  public:
@@ -57,14 +57,14 @@ class SampledSearchModel {
     return memory().backlash.inside == other.backlash.inside;
   }
 
-  /// Whether the contacts since the reference equal those of as many samples before it.
+  /// Whether the contacts since the reference sample equal those of as many samples before that.
   bool may_repeat(const Seen& seen, std::int64_t period) const {
     if (seen.reference < period) return seen.reference == 0 || period == ratio_.denominator;
     const auto end = seen.itinerary.end();
     return std::equal(end - period, end, end - 2 * period);
   }
 
-  /// The orbit with the repeated contacts; none if it touches a surface and follows() is false.
+  /// The orbit with the repeated contacts, unless it touches a surface and follows() is false.
   Result solve(Seen& seen, std::int64_t period, const Memory& reference) {
     Result found =
         solved({seen.itinerary.end() - period, seen.itinerary.end()}, reference.backlash);
@@ -100,8 +100,8 @@ class SampledSearchModel {
   }
 
  private:
-  /// Whether the motion, within a millionth of the orbit, has the orbit's contacts for one more
-  /// period and ends it no farther from the orbit. The samples taken are added to `seen`.
+  /// Whether the motion is within 10⁻⁶ of its extent from the orbit, has the orbit's contacts for
+  /// one period and did not move away meanwhile. The samples taken are added to `seen`.
   bool follows(const PeriodicOrbit& orbit, Seen& seen) {
     const State first = orbit.states.front().template head<4>();
     const double before = seen.extent.share_of(state() - first);
@@ -124,11 +124,11 @@ class SampledSearchModel {
   Attraction attraction_;
 };
 
-/// The region of attraction of an orbit of an IdealLoop, from attraction_balls().
+/// The region of attraction of an IdealLoop's orbit, from attraction_balls().
 template <class Scalar>
 class SampledAttraction {
  public:
-  /// The cost of solving for one sample of an orbit, in samples of followed motion: 10 … 50.
+  /// The estimated cost of solving, in simulated samples per orbit sample; measured: 10 … 50.
   static std::int64_t samples_per_solved() { return 16; }
 
   SampledAttraction(const IdealLoop<Scalar>& loop, const Rational& ratio)
@@ -149,7 +149,7 @@ class SampledAttraction {
   std::vector<AttractionBall> balls_;  // of the proposed orbit
 };
 
-/// The periodic orbit that a motion comes to; the motion begins at a stroboscopic instant.
+/// Finds the periodic orbit of a motion that begins at a stroboscopic instant.
 template <class Loop, class Motion, class Attraction>
 OrbitResult orbit_by_returns(const Loop& loop, const Rational& ratio, const OrbitLimits& limits,
                              const Motion& motion, const Attraction& attraction) {
@@ -160,7 +160,7 @@ OrbitResult orbit_by_returns(const Loop& loop, const Rational& ratio, const Orbi
   return found;
 }
 
-/// The periodic orbit that a motion of an IdealLoop comes to, from a stroboscopic instant on.
+/// Finds the periodic orbit of an IdealLoop's motion that begins at phase 0 of the forcing.
 template <class Scalar>
 OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio,
                             const OrbitLimits& limits,
@@ -170,12 +170,12 @@ OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio
 
 }  // namespace detail
 
-/// The periodic orbit that a motion comes to, with its certificate.
+/// Finds the periodic orbit on which a motion settles, with its certificate.
 ///
 ///     const OrbitResult found = find_periodic_orbit(loop, Vector<double, 4>::Zero());
 ///     if (found.outcome == OrbitOutcome::certified) use(found.orbit->period());
 ///
-/// `certified` means: the motion lies within the orbit's region of attraction and tends to it.
+/// `certified` means that the motion is in the orbit's region of attraction and tends to the orbit.
 ///
 /// Bounded work: at most `limits.most_samples` samples of the motion (one period more where the
 /// orbit touches a switching surface) and about as much again for solving. Memory: one byte per
@@ -197,7 +197,7 @@ OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
   return detail::orbit_of_motion(loop, *ratio, limits,
                                  periodically_forced_motion(loop, *ratio, initial_state));
 }
-/// The periodic orbit that a motion comes to; the initial state is any Eigen column.
+/// Finds the periodic orbit on which a motion settles; the initial state is any Eigen column.
 template <class Scalar, class Column>
 OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
                                 const Eigen::MatrixBase<Column>& initial_state,

@@ -20,8 +20,8 @@
 
 namespace holdfast {
 
-/// A periodic motion of the sampled loop with backlash that is the exact solution for its itinerary
-/// and reproduces that itinerary: the certificate of a periodic motion.
+/// A certified periodic motion of the sampled loop with backlash: the exact solution for its
+/// itinerary (sequence of contacts), which the backlash rule reproduces along the solution.
 struct PeriodicOrbit : LoopOrbit<5> {
   Itinerary itinerary;            ///< contacts of one period, N samples
   BacklashMemory<double> memory;  ///< memory of the drive before the first sample
@@ -34,7 +34,7 @@ struct PeriodicOrbit : LoopOrbit<5> {
   }
 
   /// The distance from the nearest switching surface as a share of the orbit's size; infinite where
-  /// there is none.
+  /// the loop has no such surface.
   double border_share() const {
     const StateScale extent(states);
     return std::min(extent.share_of_displacement(borders.displacement.distance),
@@ -49,19 +49,19 @@ using OrbitResult = OrbitResultOf<PeriodicOrbit>;
 /// @tparam Maps  ItineraryMaps or ModalItineraryMaps
 template <class Maps>
 struct PeriodicSolution {
-  /// The observed state z̃.
+  /// The observed part z̃ = [z; u_{j−1}] of a state.
   using Seen = std::decay_t<decltype(std::declval<Maps>().seen(std::declval<Maps>().rest()))>;
 
-  typename Maps::State first;  ///< the first state
-  std::vector<Seen> states;    ///< z̃_j = [z_j; u_{j−1}], one for each sample
-  /// ‖z_N − z₀‖ (SI numbers of m and m/s) after one period from z₀.
+  typename Maps::State first;  ///< state at the first sample
+  std::vector<Seen> states;    ///< observed states z̃_j = [z_j; u_{j−1}], one for each sample
+  /// Closure error ‖z_N − z₀‖ after one period from z₀ (z in m and m/s).
   typename Seen::Scalar closure_error;
-  /// Error of z̃₀ that the closure error implies, (I − M)⁻¹ (z̃_N − z̃₀), as a share of the extent.
+  /// Error of z̃₀ that follows from the closure error, as a share of the extent of the states.
   double state_error;
 };
 
-/// Solves z̃_N = z̃₀ for an itinerary: (I − M) z̃₀ = g, where g is the closure error of the motion
-/// from rest. The step is made three times, each with the remaining closure error.
+/// Solves z̃_N = z̃₀ for an itinerary: (I − M) z̃₀ = g with the product M of the period's maps and the
+/// closure error g of the motion from rest. Two more such steps reduce the remaining error.
 /// @param maps       maps of the loop
 /// @param itinerary  N samples, N a multiple of the forcing's q, the first one at phase 0
 /// @param blocks     maps_of_blocks() of the itinerary
@@ -87,7 +87,7 @@ std::optional<PeriodicSolution<Maps>> periodic_solution(
   return solution;
 }
 
-/// The five multipliers of one period.
+/// The five multipliers of one period of a two-mass loop.
 template <class Scalar>
 std::vector<Multiplier> multipliers_of(const ItineraryMaps<Scalar>&, const Itinerary&,
                                        const std::vector<Matrix<Scalar, 5>>& blocks) {
@@ -100,7 +100,7 @@ std::vector<Multiplier> multipliers_of(const ItineraryMaps<Scalar>&, const Itine
 /// @param ratio      value of forcing_ratio(loop)
 /// @param maps       maps of the same loop and ratio
 /// @param itinerary  N samples, N ≥ 1 a multiple of q, the first one at phase 0 of the forcing
-/// @param law        the backlash before the first sample, as the motion up to then has left it
+/// @param law        backlash law with its memory before the first sample
 /// @return `certified` where the solution has this itinerary, attracting or not
 /// Work: about 500 multiply-adds a sample of the two masses; memory about 70 bytes a sample.
 /// @tparam Loop  IdealLoop or ModalLoop, with its Maps
@@ -125,9 +125,9 @@ OrbitResult orbit_of_itinerary(const Loop& loop, const Rational& ratio, const Ma
 
 /// The comparison of a periodic orbit with its solution in another number type.
 struct OrbitVerification {
-  bool same_itinerary = false;  ///< the orbit solved in that type reproduces the itinerary
-  double displacement_difference = std::numeric_limits<double>::infinity();  ///< largest (m)
-  double velocity_difference = std::numeric_limits<double>::infinity();      ///< largest (m/s)
+  bool same_itinerary = false;  ///< whether the solution in that type has the itinerary
+  double displacement_difference = std::numeric_limits<double>::infinity();  ///< max. error (m)
+  double velocity_difference = std::numeric_limits<double>::infinity();      ///< max. error (m/s)
   double closure_error = std::numeric_limits<double>::infinity();  ///< ‖z_N − z₀‖ in that type (SI)
 };
 

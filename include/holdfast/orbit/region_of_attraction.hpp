@@ -16,20 +16,20 @@
 
 namespace holdfast {
 
-/// A neighbourhood of one point of an orbit: every motion in it, at the same phase of the forcing,
-/// follows the orbit's itinerary for ever and tends to the orbit.
+/// A neighbourhood of one state of an orbit: every motion that is in it at the same phase of the
+/// forcing follows the orbit's itinerary for ever and tends to the orbit.
 ///
 /// The norm of deviations is
 ///
 ///     ‖e‖² = e_z₁² + (e_ż₁/ω)² + e_z₂² + (e_ż₂/ω)² + (e_u/k₁)² + e_gap²   (m²),
 ///
-/// with ω of the excitation (without excitation √(k₁/m₁)) and e_gap the deviation of the gap that
-/// the drive is in. Contact and the sign of Δż of the last sample must agree with the orbit. An
+/// with the excitation's angular frequency ω (without excitation √(k₁/m₁)) and the deviation e_gap
+/// of the gap's position. Contact and the last sample's sign of Δż must agree with the orbit. An
 /// orbit that stays in the gap for ever does so in every gap that contains it: then the radius is
 /// per metre of clearance between the orbit and the gap's ends.
 struct AttractionBall {
-  std::int64_t sample;            ///< sample of the orbit, a multiple of the forcing's q
-  Vector<double, 5> state;        ///< z̃ = [z; u_{j−1}] there
+  std::int64_t sample;            ///< index of the orbit's sample: a multiple of q, f τ = p/q
+  Vector<double, 5> state;        ///< state z̃ = [z; u_{j−1}] at that sample
   BacklashMemory<double> memory;  ///< memory of the drive before that sample
   bool stays_inside;              ///< the drive never leaves its gap
   double lowest,                  ///< least Δz of the orbit (m)
@@ -37,8 +37,8 @@ struct AttractionBall {
   double radius;                  ///< radius (m), or m per metre of clearance; > 0
 };
 
-/// The weights of the norm of deviations, [1, 1/ω, 1, 1/ω, 1/k₁, 1], each in metres; ω is √(k₁/m₁)
-/// where the excitation has no amplitude.
+/// The weights of the norm of deviations, [1, 1/ω, 1, 1/ω, 1/k₁, 1], which convert to metres; ω is
+/// √(k₁/m₁) where the excitation has no amplitude.
 template <class Scalar>
 Vector<Scalar, 6> deviation_weights(const IdealLoop<Scalar>& loop) {
   const Scalar stiffness = loop.plant.conductor_stiffness;
@@ -48,8 +48,8 @@ Vector<Scalar, 6> deviation_weights(const IdealLoop<Scalar>& loop) {
   return {1.0, 1.0 / angular_frequency, 1.0, 1.0 / angular_frequency, 1.0 / stiffness, 1.0};
 }
 
-/// The radius of the neighbourhood (m) for a given memory of the drive; not positive where an orbit
-/// that stays inside its gap does not fit into the gap of that drive.
+/// The radius of a neighbourhood (m) for a given memory of the drive. It is not positive where an
+/// orbit that stays inside its gap does not fit into the drive's gap.
 template <class Neighbourhood>
 double attraction_radius(const Neighbourhood& point, const BacklashMemory<double>& drive) {
   if (!point.stays_inside) return point.radius;
@@ -82,14 +82,14 @@ struct DeviationSegment {
   double growth = 1.0;                                      // Frobenius norm
 };
 
-/// Deviations of z̃ (m) of an IdealLoop, one in each column, advanced by the maps S and S*.
+/// The deviations of an IdealLoop's z̃, in metres, one per column; the maps S and S* advance them.
 template <class Scalar>
 class SampledDeviations {
  public:
   using Columns = Matrix<Scalar, 6>;               ///< six deviations e
-  using Deviations = Eigen::Matrix<Scalar, 5, 6>;  ///< deviations of z̃ without the gaps
-  using Readings = Eigen::Matrix<Scalar, 2, 6>;    ///< a row for each reading
-  static constexpr int block = 1;                  ///< most samples between two take_readings()
+  using Deviations = Eigen::Matrix<Scalar, 5, 6>;  ///< deviations of z̃, without the gap
+  using Readings = Eigen::Matrix<Scalar, 2, 6>;    ///< readings of Δz and Δż, one per row
+  static constexpr int block = 1;                  ///< most samples between take_readings() calls
 
   SampledDeviations(const IdealLoop<Scalar>& loop, const ItineraryMaps<Scalar>& maps) {
     const Vector<Scalar, 5> weights = deviation_weights(loop).template head<5>();
@@ -147,7 +147,7 @@ class DeviationFlow {
   /// The number of entries of e.
   Eigen::Index order() const { return deviations_.order() + 1; }
 
-  /// The bounds for a deviation over the next `samples` samples.
+  /// The bounds for deviations over the next `samples` samples.
   DeviationSegment next(std::int64_t samples) {
     DeviationSegment segment;
     segment.growth = follow(unit(), samples, &segment).norm();
@@ -157,7 +157,7 @@ class DeviationFlow {
   /// The flow matrix Φ over the next `samples` samples.
   Columns over(std::int64_t samples) { return follow(unit(), samples, nullptr); }
 
-  /// Propagates some deviations over the next `samples` samples.
+  /// Propagates given deviations over the next `samples` samples.
   /// @param segment  if given, its radius is lowered to the least norm at which a decision may
   ///                 change
   Columns follow(const Columns& deviations, std::int64_t samples, DeviationSegment* segment) {
@@ -171,8 +171,8 @@ class DeviationFlow {
   }
 
  private:
-  /// Distances of a sample from the surfaces of its decision (m, m/s); 1 for an orbit that stays
-  /// inside, meaning per metre of clearance.
+  /// The distances of a sample's Δz (m) and Δż (m/s) from the switching surfaces. For an orbit that
+  /// stays inside its gap, the distance of Δz is 1 per metre of clearance.
   struct Distances {
     double displacement = std::numeric_limits<double>::infinity();
     double velocity = std::numeric_limits<double>::infinity();
@@ -224,9 +224,9 @@ class DeviationFlow {
   std::size_t sample_ = 0;
 };
 
-/// The radii at the starts of the segments of one period; a deviation within a segment's radius
-/// stays within the next one's. Empty where a decision limits a radius and the segments together do
-/// not contract.
+/// The radii of attraction at the starts of a period's segments. A deviation within a segment's
+/// radius stays within the radius of the next segment. The list is empty where a decision limits a
+/// radius and the segments together do not contract.
 inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>& segments) {
   constexpr double everywhere = std::numeric_limits<double>::infinity();
   double logarithm = 0.0, smallest = everywhere;
@@ -248,8 +248,8 @@ inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>&
   return radii;
 }
 
-/// The segments of one period, each `length` common periods of q samples long, the last one perhaps
-/// shorter; or one segment of several whole periods.
+/// The segments of one period, each of `length` times q samples (the last may be shorter), or, if
+/// that is longer than the period, one segment of several whole periods.
 /// @param flow  flow of deviations from the first sample on
 template <class Deviations>
 std::vector<DeviationSegment> deviation_segments(DeviationFlow<Deviations> flow,
@@ -274,7 +274,7 @@ void set_extent(Neighbourhood& of, const PeriodicOrbit& orbit) {
   }
 }
 
-/// The neighbourhoods at the starts of the segments.
+/// The neighbourhoods of an orbit at the starts of the segments of its period.
 template <class Scalar>
 std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
                                              const PeriodicOrbit& orbit,
@@ -296,13 +296,13 @@ std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
 
 }  // namespace detail
 
-/// The neighbourhoods of an orbit at its stroboscopic instants (sampling and forcing in phase) from
-/// which every motion tends to the orbit.
+/// The neighbourhoods of an orbit at its stroboscopic instants (sampling and forcing in phase,
+/// every q samples) from which every motion tends to the orbit.
 ///
-/// The period is cut into segments of one common period; their length is doubled until the segments
-/// together contract. Along each, a deviation changes no decision while |h Φ e| is below the
-/// distance from the surface, h being the surface's normal and Φ the flow of deviations; at the end
-/// e has grown by at most the factor ‖Φ‖. By induction both bounds hold for all time.
+/// The period is cut into segments of q samples, then of 2 q, 4 q, … samples, until the segments
+/// together contract. In a segment a deviation e changes no decision while |h Φ e| is below the
+/// orbit's distance from the switching surface, h being the surface's normal and Φ the flow of
+/// deviations; e grows at most by the factor ‖Φ‖. By induction both bounds hold for all time.
 /// @param loop   the loop that has the orbit
 /// @param orbit  attracting and certified
 /// @return neighbourhoods in the order of the orbit; empty where no segments of up to 64 periods,

@@ -15,14 +15,14 @@ namespace holdfast {
 
 /// The limits of a search for an orbit: largest period and length of the motion.
 struct OrbitLimits {
-  std::int64_t largest_period = 1'000'000;  ///< samples, 1 … 10⁸
-  /// Most samples of the motion; 0: eight times the largest period.
+  std::int64_t largest_period = 1'000'000;  ///< longest period sought (samples), 1 … 10⁸
+  /// Largest number of samples of the motion; 0 means eight times the largest period.
   std::int64_t most_samples = 0;
-  /// Called at every stroboscopic instant; may throw to end the search.
+  /// Function called whenever sampling and forcing are in phase; may throw to end the search.
   std::function<void()> watch = {};
 };
 
-/// Validates the limits. @throws InvalidParameter where they are not admissible
+/// Validates the limits. @throws InvalidParameter where a limit is out of its range
 inline void validate(const OrbitLimits& limits) {
   require_within("largest period", static_cast<double>(limits.largest_period), "samples", 1.0, 1e8);
   require_within("number of samples", static_cast<double>(limits.most_samples), "", 0.0, 1e9);
@@ -36,36 +36,36 @@ template <class Symbol, class Plant>
 struct SeenMotion {
   std::vector<Symbol> itinerary;
   StateScaleOf<Plant> extent;
-  std::int64_t reference = 0;  ///< sample that later states are compared with
+  std::int64_t reference = 0;  ///< sample whose state later states are compared with
 
-  /// The number of samples so far.
+  /// The number of samples followed so far.
   std::int64_t taken() const { return static_cast<std::int64_t>(itinerary.size()); }
 
-  /// Whether a motion began within a millionth of its extent from a state and ended no farther from
-  /// that state, but for rounding.
-  /// @param before,after  distances at beginning and end, as shares of the extent
+  /// Whether a motion began near a state, within a millionth of the motion's extent, and ended no
+  /// farther from that state, up to rounding.
+  /// @param before,after  distance from the state at beginning and end, as share of the extent
   bool came_nearer(const StateOf<Plant>& state, double before, double after) const {
     return before <= 1e-6 && after <= std::max(before, 1e-12 * extent.share_of(state));
   }
 };
 
-/// The search for the periodic orbit that one motion comes to.
+/// The search for the periodic orbit on which one motion settles.
 ///
 /// At every stroboscopic instant (sampling and forcing in phase) the state is compared with a
-/// reference that moves on at powers of two (R. P. Brent, An improved Monte Carlo factorization
-/// algorithm, BIT 20, 1980). A near return proposes a period, and the orbit of that period is
-/// solved for. The search ends when the motion is seen to come to that orbit. All proposals but the
-/// first together cost at most about as much as the motion.
+/// reference state, which is replaced whenever the number of samples has doubled (R. P. Brent, An
+/// improved Monte Carlo factorization algorithm, BIT 20, 1980). A return near to the reference
+/// proposes a period, and its orbit is solved for. The search ends when the motion settles on that
+/// orbit. Solving for all further proposals costs at most about as much as the motion.
 /// @tparam Model  a motion (Plant, readings(), state(), memory(), is_followed(), has_contact_of(),
 ///                take_sample()) with the members that differ between kinds of motion:
 ///
 ///     Result, samples_per_solved()      an OrbitResultOf; cost of solving, in samples of motion
 ///     may_repeat(seen, period)          whether a near return is worth solving for
 ///     solve(seen, period, reference)    the orbit that the motion may have come to; samples taken
-///                                       on the way are added to `seen`
+///                                       meanwhile are added to `seen`
 ///     is_same(known, other, seen)       whether two orbits are the same
 ///     approach(found, seen)             called when an orbit is proposed
-///     has_come(found, seen)             whether the motion has come to the proposed orbit
+///     has_come(found, seen)             whether the motion has settled on the proposed orbit
 template <class Model>
 class ReturnSearch {
  public:
@@ -125,7 +125,7 @@ class ReturnSearch {
 
   bool has_come() { return proposed_.orbit && model_.has_come(proposed_, seen_); }
 
-  /// Solves for the orbit of a near return. @return whether the motion has come to that orbit
+  /// Solves for the orbit after a near return. @return whether the motion has settled on that orbit
   bool look_for_return() {
     const std::int64_t period = seen_.taken() - seen_.reference;
     if (period > limits_.largest_period || !near_reference() || !model_.may_repeat(seen_, period))

@@ -12,13 +12,13 @@
 
 namespace holdfast {
 
-/// The extent of a motion: its largest displacement and its largest velocity, kept apart so that no
-/// unit of time weights one against the other.
+/// The extent of a motion: its largest displacement and its largest velocity, kept separate so that
+/// neither is weighted against the other by a unit of time.
 struct StateScale {
   double displacement = 0.0;  ///< largest |z₁|, |z₂| (m)
   double velocity = 0.0;      ///< largest |ż₁|, |ż₂| (m/s)
 
-  /// Constructs the extent of no state: zeros.
+  /// Constructs an empty extent, with both values zero.
   StateScale() = default;
 
   /// The extent of states that begin with [z₁, ż₁, z₂, ż₂].
@@ -35,13 +35,13 @@ struct StateScale {
     velocity = std::max({velocity, double(abs(state[1])), double(abs(state[3]))});
   }
 
-  /// A length (m) as a share of the largest displacement; if that is 0, infinite unless length = 0.
+  /// The ratio of a length (m) to the largest displacement; 0/0 counts as 0, length/0 as infinite.
   double share_of_displacement(double length) const { return share(length, displacement); }
-  /// A speed (m/s) as a share of the largest velocity; if that is 0, infinite unless speed = 0.
+  /// The ratio of a speed (m/s) to the largest velocity; 0/0 counts as 0, speed/0 as infinite.
   double share_of_velocity(double speed) const { return share(speed, velocity); }
 
-  /// The size of a state, or of the difference of two, as a share of the extent: the larger one of
-  /// the shares of its displacements and of its velocities.
+  /// The size of a state, or of a difference of two states, as a share of the extent: the larger of
+  /// the share of its displacements and the share of its velocities.
   template <class Scalar, int Size>
   double share_of(const Vector<Scalar, Size>& state) const {
     StateScale size;
@@ -58,9 +58,9 @@ struct StateScale {
 template <class Plant>
 class StateScaleOf {
  public:
-  using State = StateOf<Plant>;  ///< x, N × 1
+  using State = StateOf<Plant>;  ///< plant state x, N × 1
 
-  /// Constructs the extent of given states; there may be none yet.
+  /// Constructs the extent of given states; the list of states may be empty.
   explicit StateScaleOf(const PortReadings<Plant>& readings, const std::vector<State>& states = {})
       : readings_(readings) {
     for (const State& state : states) include(state);
@@ -77,11 +77,11 @@ class StateScaleOf {
     }
   }
 
-  /// The extent of both sides of the gap: |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s).
+  /// The extent of both sides of the gap: largest |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s).
   const StateScale& sides() const { return sides_; }
 
-  /// The size of a state, or of the difference of two, as a share: max_i |x_i| / largest()_i. It is
-  /// infinite where x_i is not 0 but largest()_i is. Needs at least one state.
+  /// The size max_i |x_i| / largest()_i of a state, or of a difference of two states. The size is
+  /// infinite where largest()_i is 0 and x_i is not. At least one state must have been included.
   double share_of(const State& state) const {
     double share = 0.0;
     for (Eigen::Index i = 0; i < state.size(); ++i)
@@ -92,8 +92,8 @@ class StateScaleOf {
   /// The largest |x_i| of each coordinate, N × 1.
   const State& largest() const { return largest_; }
 
-  /// Raises the extent of each coordinate to at least `share` times that in another motion, so
-  /// that a coordinate decayed to rounding keeps a former size. For two masses nothing changes.
+  /// Raises the extent of each coordinate to at least `share` times its extent in another motion:
+  /// so one that has decayed to rounding keeps a finite unit. For two masses nothing changes.
   void widen(double share, const StateScaleOf& other) {
     if constexpr (!of_two_masses) largest_ = largest_.cwiseMax(share * other.largest_);
   }

@@ -15,34 +15,34 @@ namespace holdfast {
 
 /// The surfaces on which the drive changes its contact.
 enum class SwitchingSurface {
-  reversal,   ///< Δż = 0 while the drive transmits: it enters its backlash
-  gap_lower,  ///< Δz at the lower end of the gap: the drive leaves it
-  gap_upper,  ///< Δz at the upper end of the gap: the drive leaves it
+  reversal,   ///< Δż = 0 while the drive transmits: the drive enters its backlash
+  gap_lower,  ///< Δz at the lower end of the gap: the drive leaves the gap
+  gap_upper,  ///< Δz at the upper end of the gap: the drive leaves the gap
 };
 
 /// The least distance of a motion from a switching surface.
 struct Border {
-  double distance = std::numeric_limits<double>::infinity();  ///< m, or m/s for `reversal`
-  SwitchingSurface surface = SwitchingSurface::reversal;  ///< without meaning where `sample` is −1
-  std::int64_t sample = -1;  ///< counted from the orbit's first sample; −1: none
+  double distance = std::numeric_limits<double>::infinity();  ///< least distance (m; reversal: m/s)
+  SwitchingSurface surface = SwitchingSurface::reversal;  ///< meaningless where `sample` is −1
+  std::int64_t sample = -1;  ///< sample, counted from the orbit's first one; −1: no surface
 };
 
-/// The decision of one sample about the contact, with its reasons.
+/// The contact decision at one sample, with the quantities that it depends on.
 struct ContactDecision {
   bool was_inside;  ///< the drive is in the backlash before the sample
   bool engaged;     ///< the drive is engaged after the sample
-  /// The sign of Δż (1 for Δż = 0) where it decides about the contact at this sample or the next
-  /// one; 0 where the drive stays inside its gap, and without backlash.
+  /// The sign of Δż (1 for Δż = 0) if the contact at this or the next sample depends on that sign;
+  /// 0 if the drive stays inside its gap, and without backlash.
   std::int8_t velocity_sign;
   /// Exit from the gap: −1 by its lower end, 1 by its upper end, 0 none.
   std::int8_t exit_side;
 };
 
-/// The decisions of one period and the memory of the drive before the first one.
+/// The contact decisions of one period and the memory of the drive before the first sample.
 struct SwitchingPattern {
-  std::vector<ContactDecision> decisions;               ///< one for each sample
+  std::vector<ContactDecision> decisions;               ///< decisions, one for each sample
   BacklashMemory<double> memory{false, 0.0, 0.0, 0.0};  ///< memory before the first sample
-  bool repeats = false;  ///< the drive's memory at the end equals that at the beginning
+  bool repeats = false;  ///< whether the period ends in the contact and gap of its start
 
   /// Whether the drive never leaves its gap.
   bool stays_inside() const {
@@ -69,7 +69,7 @@ ContactDecision decide(Backlash<Scalar>& law, const Vector<Scalar, 5>& state) {
 }
 
 /// Calls visit(sample, surface, distance) for every surface that a sample's decision depends on;
-/// the distance is that of borders_of().
+/// borders_of() defines the distance.
 template <class Scalar, class Visit>
 void for_each_border(const SwitchingPattern& pattern, const std::vector<Vector<Scalar, 5>>& states,
                      double width, const Visit& visit) {
@@ -99,10 +99,10 @@ void for_each_border(const SwitchingPattern& pattern, const std::vector<Vector<S
 
 }  // namespace detail
 
-/// Applies the backlash to an orbit until the drive is in the orbit's own gap, and records the
-/// decisions of a period that ends as it begins; at most four periods are tried.
+/// Applies the backlash law along an orbit, for two to four periods, until a period ends with its
+/// initial contact and gap. Records the decisions of the last period.
 /// @param states  states z̃_j of one period
-/// @param law     the backlash before the first sample, as the motion up to then has left it
+/// @param law     backlash law with its memory before the first sample
 template <class Scalar>
 SwitchingPattern switching_pattern(const std::vector<Vector<Scalar, 5>>& states,
                                    Backlash<Scalar> law) {
@@ -133,18 +133,18 @@ inline bool has_itinerary(const SwitchingPattern& pattern, const Itinerary& itin
 
 /// The nearest switching surface of each kind.
 struct Borders {
-  Border displacement;  ///< an end of a gap (m)
-  Border velocity;      ///< a reversal (m/s)
+  Border displacement;  ///< nearest end of a gap (m)
+  Border velocity;      ///< nearest reversal, Δż = 0 (m/s)
 };
 
 /// The least distances of an orbit's states from the switching surfaces beyond which a sample would
-/// decide otherwise than in a pattern; negative where a sample does decide otherwise.
+/// decide differently from a pattern; negative where a sample does decide differently.
 ///
-/// Where the drive stays inside the gap, the distance is that of Δz from the nearer end; where it
-/// leaves the gap, the excess of Δz beyond that end and |Δż|; elsewhere |Δż|.
-/// @param pattern  pattern of the orbit, or of another one for comparison
+/// At a sample inside the gap, the distance is that of Δz from the nearer end. At a sample that
+/// leaves the gap: the excess of Δz beyond the end passed, and |Δż|. At any other sample: |Δż|.
+/// @param pattern  pattern of the orbit, or of another orbit for comparison
 /// @param states   z̃_j, one for each decision, of a motion that repeats them for ever
-/// @param width    r₀ (m)
+/// @param width    width r₀ of the backlash (m)
 template <class Scalar>
 Borders borders_of(const SwitchingPattern& pattern, const std::vector<Vector<Scalar, 5>>& states,
                    double width) {

@@ -14,8 +14,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// Whether `orbit` equals `other` with its states multiplied by `sign` and started at a later
-/// sample: at `shift` or a whole number of common periods (q samples) after it.
+/// Whether `orbit` is a copy of `other`: states multiplied by `sign`, and started later by `shift`
+/// samples plus any whole number of common periods (q samples each).
 template <class Orbit>
 bool is_same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, double sign) {
   const std::size_t samples = orbit.states.size();
@@ -44,9 +44,9 @@ bool is_phase_shifted_copy(const Orbit& orbit, const Orbit& other) {
   return detail::is_same_course(orbit, other, 0, 1.0);
 }
 
-/// Whether one orbit is the other with all signs changed and shifted by half a forcing period. The
-/// loop has this symmetry; sampling preserves it where q is even. Without excitation any shift is
-/// allowed.
+/// Whether one orbit is the mirror image of another: all signs changed, and shifted by half a
+/// forcing period. The loop has this symmetry; sampling preserves it where the number q of samples
+/// in a common period is even. Without excitation any shift is allowed.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 bool is_mirror_image(const Orbit& orbit, const Orbit& other) {
@@ -87,7 +87,7 @@ struct Neighbourhoods<IdealLoop<Scalar>> {
 }  // namespace detail
 
 /// The set of different orbits of one loop with neighbourhoods of their points at the stroboscopic
-/// instants. In a neighbourhood a motion of an IdealLoop surely tends to the orbit
+/// instants. A motion of an IdealLoop in a neighbourhood surely tends to the orbit
 /// (AttractionBall); one of an ImplementedLoop is only within a millionth of the orbit's extent.
 /// @tparam Loop  IdealLoop<double>, ModalLoop or ImplementedLoopOf<Plant>
 template <class Loop>
@@ -101,13 +101,13 @@ class AttractorSet {
   /// A point of an orbit with its neighbourhood.
   struct Entry {
     int orbit;                             ///< number of the orbit
-    typename Neighbourhoods::Point point;  ///< its neighbourhood
+    typename Neighbourhoods::Point point;  ///< point of the orbit with its neighbourhood
   };
 
   /// @param loop  loop of all orbits that will be added
   explicit AttractorSet(const Loop& loop) : neighbourhoods_{loop} {}
 
-  /// Adds an orbit. @return its number, or that of the earlier orbit of which it is a copy
+  /// Adds an orbit. @return its number, or the number of an earlier orbit that it is a copy of
   int add(Orbit orbit) {
     for (std::size_t k = 0; k < orbits_.size(); ++k)
       if (is_phase_shifted_copy(orbits_[k], orbit)) return static_cast<int>(k);
@@ -143,7 +143,7 @@ class AttractorSet {
     return entry != nullptr ? entry->orbit : -1;
   }
 
-  /// The orbits; the index of each is its number.
+  /// The orbits of the set; the index of each is its number.
   const std::vector<Orbit>& orbits() const { return orbits_; }
 
  private:

@@ -18,7 +18,7 @@
 
 namespace holdfast {
 
-/// The attractor that the motion from one initial state comes to.
+/// The attractor in whose basin one initial state lies, if there is one.
 struct BasinLabel {
   OrbitOutcome outcome = OrbitOutcome::none_found;  ///< `certified`, or the reason for no attractor
   int attractor = -1;  ///< index into the attractors of its BasinsOf; −1 unless certified
@@ -29,26 +29,26 @@ struct BasinLabel {
 template <class Orbit>
 struct AttractorOf {
   Orbit orbit;            ///< certified orbit; among its shifted copies the first one found
-  std::size_t states;     ///< number of initial states that come to it
-  double fraction;        ///< share of the initial states that come to it
+  std::size_t states;     ///< number of initial states in its basin
+  double fraction;        ///< share of the initial states in its basin
   double standard_error;  ///< share_error() of the fraction, if the states are a random sample
-  std::optional<int> mirror_image;  ///< number of the earlier attractor that it mirrors
+  std::optional<int> mirror_image;  ///< number of an earlier attractor that this one mirrors
 };
 
-/// The basins of attraction: the attractor that each of many initial states comes to.
+/// The basins of attraction: the attractor of each of many initial states.
 template <class Orbit>
 struct BasinsOf {
   std::vector<BasinLabel> labels;              ///< one label for each initial state, in their order
-  std::vector<AttractorOf<Orbit>> attractors;  ///< in the order of their first initial states
+  std::vector<AttractorOf<Orbit>> attractors;  ///< attractors, ordered by first initial state
 };
 
-/// The basins of an IdealLoop.
+/// The basins of attraction of an IdealLoop.
 using BasinMap = BasinsOf<PeriodicOrbit>;
 
 namespace detail {
 
-/// The basins made from labels that number the attractors in the order of finding; the attractors
-/// are renumbered in the order of the initial states.
+/// The basins made from labels whose attractors are numbered in the order of finding. The
+/// attractors are renumbered in the order of the initial states.
 template <class Orbit>
 BasinsOf<Orbit> numbered_basins(std::vector<BasinLabel> labels, const std::vector<Orbit>& orbits) {
   BasinsOf<Orbit> basins{std::move(labels), {}};
@@ -79,11 +79,11 @@ BasinsOf<Orbit> numbered_basins(std::vector<BasinLabel> labels, const std::vecto
 /// The result of a search for the periodic orbit of one motion.
 template <class Orbit>
 struct FoundOrbit {
-  BasinLabel label;            ///< label; its attractor is the number of an already known orbit
+  BasinLabel label;  ///< label; its attractor is the number of an orbit that was already known
   std::optional<Orbit> orbit;  ///< a certified orbit that was not known yet
 };
 
-/// The FoundOrbit of a motion from the result of its own search.
+/// The FoundOrbit of a motion, made from the result of the orbit search for that motion.
 /// @tparam Result  an OrbitResultOf, or derived from one
 template <class Result>
 auto own_orbit(Result found) {
@@ -92,10 +92,10 @@ auto own_orbit(Result found) {
   return FoundOrbit<Orbit>{{found.outcome, -1}, std::move(found.orbit)};
 }
 
-/// The search for the labels of many initial states of one loop, in rounds. In a round some
-/// remaining states are searched for their own orbits, one by one; then all remaining motions may
-/// be followed together towards the orbits known so far. Each round searches twice as many as the
-/// last one. The result does not depend on the order of execution within a round.
+/// The search for the labels of many initial states of one loop, in rounds. In a round some of the
+/// remaining states are searched for their own orbits, one by one. Then all remaining motions may
+/// be followed together towards the known orbits. Each round searches twice as many states as the
+/// previous one, up to 2¹⁶. The result is independent of the order of execution within a round.
 /// @tparam Model  has search(motion, set), a FoundOrbit, and advance(motions, set, for_tiles),
 ///                which marks attracted and diverging motions
 /// @tparam Tiles  for_tiles(count, tile, job): job(first, number) for tiles of 0 … count − 1
@@ -127,7 +127,7 @@ class BasinSearch {
   }
 
  private:
-  /// Takes out some of the remaining motions, evenly spread.
+  /// Removes some of the remaining motions, evenly spread, and returns them.
   std::vector<ActiveTrajectory> taken_out(std::size_t most) {
     const std::size_t all = left_.size(), count = std::min(most, all);
     std::vector<ActiveTrajectory> chosen, rest;
@@ -158,7 +158,7 @@ class BasinSearch {
   std::vector<BasinLabel> labels_;
 };
 
-/// The basins of a loop, computed by a Model{loop, ratio, limits, …} of its motions.
+/// The basins of attraction of a loop, computed by a Model{loop, ratio, limits, …} of its motions.
 template <class Model, class Tiles, class... More>
 auto basins_by(const typename Model::Loop& loop,
                const std::vector<Vector<double, 4>>& initial_states, const OrbitLimits& limits,
@@ -175,7 +175,7 @@ auto basins_by(const typename Model::Loop& loop,
       std::vector<BasinLabel>(initial_states.size(), {outcome, -1}), {}};
 }
 
-/// The motions of a loop that are followed together; each may be searched for its own orbit.
+/// The motions of a loop that are followed in parallel; each may be searched for its own orbit.
 /// @tparam LoopModel  IdealLoop<double>; ImplementedLoop in event_basins.hpp
 template <class LoopModel, class Propagator>
 struct BatchedMotions;
@@ -217,7 +217,7 @@ struct BatchedMotions<IdealLoop<Scalar>, Propagator> {
 
 }  // namespace detail
 
-/// Computes find_basins() with another way of following the motions.
+/// Computes the basins of find_basins() with a given propagator that follows the motions.
 /// @param propagate       propagate(motion) gives an object like MotionBatch, which is copied; for
 ///                   an ImplementedLoop propagate(loop, scheduler) follows the motions
 /// @param loop            loop; if an ImplementedLoop, one that has_event_pack()
@@ -233,7 +233,7 @@ auto find_basins_by(const Propagator& propagate, const Loop& loop,
                                                                      for_tiles, propagate);
 }
 
-/// The attractor of each of many initial states [z₁, ż₁, z₂, ż₂].
+/// Finds the attractor of each of many initial states [z₁, ż₁, z₂, ż₂].
 ///
 /// Attractors are distinguished by their orbits; copies of an orbit shifted by common periods of
 /// sampling and forcing are the same attractor. An initial state is assigned to an attractor only

@@ -12,10 +12,10 @@ namespace holdfast {
 
 /// A rectangle of the phase plane (z, ż) of the conductor at the absorber; for two masses (z₁, ż₁).
 struct PhaseWindow {
-  double displacement_min,  ///< lower end of z (m), inside the window
-      displacement_max;     ///< upper end of z (m), outside, > displacement_min
-  double velocity_min,      ///< lower end of ż (m/s), inside the window
-      velocity_max;         ///< upper end of ż (m/s), outside, > velocity_min
+  double displacement_min,  ///< lower end of z (m), belongs to the window
+      displacement_max;     ///< upper end of z (m), excluded, > displacement_min
+  double velocity_min,      ///< lower end of ż (m/s), belongs to the window
+      velocity_max;         ///< upper end of ż (m/s), excluded, > velocity_min
 };
 
 /// Validates a window. @throws InvalidParameter unless both sides are positive and finite
@@ -34,7 +34,7 @@ template <class Plant>
 class CoverageOf {
  public:
   /// @param window          window with sides > 0
-  /// @param cells_per_side  1 … 10 000; the window has the square of this number of cells
+  /// @param cells_per_side  number of cells along each side of the window, 1 … 10 000
   /// @param readings        readings of the plant's state
   /// @throws InvalidParameter where the window is empty or the number of cells is out of range
   CoverageOf(const PhaseWindow& window, std::size_t cells_per_side,

@@ -11,18 +11,18 @@ namespace holdfast {
 /// The difference of two motions at one sample.
 struct Deviation {
   double time;          ///< instant (s)
-  double displacement;  ///< z of the second motion's conductor minus that of the first (m)
+  double displacement;  ///< z of the second motion minus z of the first (m)
   double state;         ///< Euclidean norm of the difference of the states, N × 1, SI numbers
   double rounding;      ///< bound of rounding in `state`: 2⁻⁵² times the larger state's norm
 
-  /// Whether the difference exceeds rounding.
+  /// Whether the difference `state` exceeds its bound of rounding.
   bool is_above_rounding() const { return state > rounding; }
 };
 
 /// Runs two motions of the same loop side by side and reports their difference at each sample.
 ///
-/// Exponential separation of neighbouring motions is a mark of chaos. The motions of Kollár 2022,
-/// Fig. 11, start with z₁₀,b − z₁₀,a = 10⁻⁵ m.
+/// Exponential separation of neighbouring motions is a mark of chaos. The two motions of Kollár
+/// 2022, Fig. 11, start 10⁻⁵ m apart in z₁.
 /// @tparam Motion   SampledMotion or EventMotion, of a plant of any order
 /// @param first     reference motion, at the same sample as `second`, before `sense()`
 /// @param second    the motion whose difference from the first is reported

@@ -66,8 +66,8 @@ struct Neighbourhoods<ImplementedLoopOf<Plant>> {
   static constexpr double nearness = 1e-6;
 };
 
-/// The test whether a motion comes to an orbit of a set, by its states at the stroboscopic instants
-/// and its contact modes in between.
+/// The test whether a motion settles on an orbit of a set, by its states at the stroboscopic
+/// instants and its contact modes in between.
 /// @tparam Plant  plant of an ImplementedLoopOf
 template <class Plant>
 class ApproachOf {
@@ -112,7 +112,7 @@ class ApproachOf {
     ++compared_;
   }
 
-  /// The number of the orbit that the motion comes to; −1: none.
+  /// The number of the orbit on which the motion settles; −1 without one.
   int found() const { return orbit_; }
   /// The number of samples between two stroboscopic instants.
   std::int64_t period() const { return period_; }
@@ -129,8 +129,8 @@ class ApproachOf {
     keeps_ = true;
   }
 
-  /// Whether the motion had the contact modes of the orbit in the period just passed and, after two
-  /// periods, came nearer in both, in the second as fast as the largest multiplier requires.
+  /// Whether the motion had the orbit's contact modes in the last period. After two periods its
+  /// distance from the orbit must also have fallen in both, by the factors at find_basins().
   bool keeps_course(const StateOf<Plant>& state) {
     if (!keeps_) return false;
     distances_[++periods_] = entry_->point.distance(state);
@@ -154,7 +154,7 @@ class ApproachOf {
   double distances_[3] = {};
 };
 
-/// The number of the orbit of a set that a motion comes to; −1: none within the given samples.
+/// The number of the orbit of a set on which a motion settles; −1 if on none within `samples`.
 /// @param start  the motion at a stroboscopic instant (sampling and forcing in phase)
 template <class Contact, class Attractors>
 int approached_orbit(const EventMotion<Contact>& start, const Rational& ratio,
@@ -171,8 +171,8 @@ int approached_orbit(const EventMotion<Contact>& start, const Rational& ratio,
   return approach.found();
 }
 
-/// The number of samples after which most motions that come to one of the orbits are near it: as
-/// many as reduce a deviation by a factor of 10⁸, and eight periods more.
+/// The number of samples in which most motions approach the orbit on which they settle: enough to
+/// reduce a deviation by a factor of 10⁸, plus eight periods; at most the number in `limits`.
 template <class Orbit>
 std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limits) {
   double samples = 0.0;
@@ -187,7 +187,7 @@ std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limit
 }
 
 /// The scheduler of motions of two masses that are followed towards the orbits of a set. It gives
-/// each lane its next motion and notes the orbit that a motion comes to.
+/// each lane its next motion and records the orbit on which a motion settles.
 /// @tparam Plant  TwoMass<double>
 template <class Plant = TwoMass<double>>
 class EventScheduler final : public LaneScheduler {
@@ -195,7 +195,7 @@ class EventScheduler final : public LaneScheduler {
   using Approach = ApproachOf<Plant>;
 
   /// @param motions  array of `count` motions
-  /// @param fresh    an approach before its first state
+  /// @param fresh    an ApproachOf before its first state, copied for every motion
   EventScheduler(ActiveTrajectory* motions, std::size_t count, const Approach& fresh,
                  const OrbitLimits& limits)
       : next_(motions), end_(motions + count), fresh_(fresh), limits_(limits) {}
@@ -229,8 +229,8 @@ class EventScheduler final : public LaneScheduler {
   std::array<std::optional<Place>, 8> places_;
 };
 
-/// The motions of a loop ImplementedLoopOf<Plant>. Each is tested for the orbits found in earlier
-/// rounds and searched for its own orbit where it comes to none of them.
+/// The motions of a loop ImplementedLoopOf<Plant>. Each motion is tested for the orbits found in
+/// earlier rounds and, where it settles on none of them, searched for its own orbit.
 /// @tparam Begin  map [z₁, ż₁, z₂, ż₂] ↦ x
 template <class LoopModel, class Begin>
 struct SingleMotions {
@@ -252,13 +252,13 @@ struct SingleMotions {
     return own_orbit(find_event_orbit(motion, limits));
   }
 
-  /// Does nothing: these motions are followed in their searches only.
+  /// Does nothing: motions of this kind are followed by `search` alone.
   template <class Tiles>
   void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
 };
 
-/// The motions of an ImplementedLoop that has_event_pack(): all remaining ones are followed side by
-/// side, from their initial states, towards the orbits known so far.
+/// The motions of an ImplementedLoop that has_event_pack(). All remaining motions are followed side
+/// by side, from their initial states, towards the orbits known so far.
 template <class Plant, class Propagator>
 struct BatchedMotions<ImplementedLoopOf<Plant>, Propagator> {
   using Loop = ImplementedLoopOf<Plant>;
@@ -293,7 +293,7 @@ struct BatchedMotions<ImplementedLoopOf<Plant>, Propagator> {
 
 }  // namespace detail
 
-/// The basins of an implemented loop, as find_basins() of an IdealLoop.
+/// Computes the basins of attraction of an implemented loop, like find_basins() of an IdealLoop.
 ///
 /// A motion is assigned to an attractor where its own search certifies that orbit. It is also
 /// assigned where it comes within a millionth of the extent of an already certified orbit, has the
@@ -303,7 +303,7 @@ struct BatchedMotions<ImplementedLoopOf<Plant>, Propagator> {
 /// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none
 /// @param limits          limits of each search for the orbit of a single motion
 /// @param for_tiles       see find_basins() of an IdealLoop
-/// @param begin           map from such an initial state to the state x of the plant, N × 1
+/// @param begin           map from an initial state to the state x of the plant, N × 1
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Plant, class Tiles, class Begin>
 BasinsOf<EventOrbitOf<states_of<Plant>>> find_basins(
@@ -312,7 +312,7 @@ BasinsOf<EventOrbitOf<states_of<Plant>>> find_basins(
   return detail::basins_by<detail::SingleMotions<ImplementedLoopOf<Plant>, Begin>>(
       loop, initial_states, limits, for_tiles, begin);
 }
-/// The basins of two masses, whose initial states need no conversion.
+/// Computes the basins of two masses, whose initial states need no conversion.
 template <class Tiles>
 BasinsOf<EventOrbit> find_basins(const ImplementedLoop& loop,
                                  const std::vector<Vector<double, 4>>& initial_states,

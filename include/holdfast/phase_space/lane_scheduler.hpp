@@ -23,8 +23,8 @@ class LaneScheduler {
   /// Assigns a lane its next motion and sets its `start` [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s).
   /// @return false where no motion is left
   virtual bool next(std::size_t lane, Vector<double, 4>& start) = 0;
-  /// Examines a lane's state at a stroboscopic instant; `is_followed`: the changes of contact do
-  /// not accumulate. @return whether the motion continues
+  /// Examines a lane's state at a stroboscopic instant. `is_followed` is false where the changes of
+  /// contact accumulate. @return whether the motion continues
   virtual bool goes_on(std::size_t lane, const Vector<double, 4>& state, bool is_followed) = 0;
   /// Records the contact mode of a lane's motion at a sample.
   virtual void took(std::size_t lane, ContactMode mode) = 0;

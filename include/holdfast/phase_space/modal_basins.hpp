@@ -64,8 +64,8 @@ struct Neighbourhoods<ModalLoop> : ModalNeighbourhoods<ModalLoop> {
   using ModalNeighbourhoods<ModalLoop>::ModalNeighbourhoods;
 };
 
-/// The motions of a conductor given by its modes. Each is tested for the regions found in earlier
-/// rounds and searched for its own orbit where it enters none of them.
+/// The motions of a conductor given by its modes. Each motion is tested for the regions found in
+/// earlier rounds and, where it enters none of them, searched for its own orbit.
 template <class LoopModel>
 struct ModalMotions {
   using Loop = LoopModel;
@@ -87,12 +87,12 @@ struct ModalMotions {
     return own_orbit(orbit_by_returns(loop, ratio, limits, start, ModalRegion<Loop>(loop, maps)));
   }
 
-  /// Does nothing: these motions are followed in their searches only.
+  /// Does nothing: motions of this kind are followed by `search` alone.
   template <class Tiles>
   void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
 
  private:
-  /// The number of the known orbit whose region the motion enters in patience() samples; −1: none.
+  /// The number of a known orbit whose region the motion enters within patience() samples, or −1.
   int attracted(ModalMotion motion, const AttractorSet<Loop>& known) const {
     const std::int64_t most = patience(known.orbits(), limits);
     for (std::int64_t j = 0; j < most; ++j) {
@@ -112,9 +112,9 @@ struct ModalMotions {
 
 }  // namespace detail
 
-/// The basins of a conductor given by its modes, like find_basins() of an IdealLoop. A motion is
-/// assigned to an attractor where its own search certifies that orbit, or once it is in the region
-/// of attraction of an already certified orbit.
+/// Computes the basins of a conductor given by its modes, like find_basins() of an IdealLoop. A
+/// motion is assigned to an attractor where its own search certifies that orbit, or once it is in
+/// the region of attraction of an already certified orbit.
 /// @param loop            loop with its excitation and backlash
 /// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite: the conductor bent by a
 ///                        force at the absorber, with the velocities that a blow there causes

@@ -25,17 +25,17 @@ inline ForcedMotionMemory<double> memory_of_start(const Vector<double, 4>& initi
   return {initial_state, 0.0, {false, 0.0, 0.0, 0.0}};
 }
 
-/// One of many motions that are followed towards an orbit.
+/// One of many motions that are followed towards the orbits of a set.
 struct ActiveTrajectory {
-  std::size_t number;                 ///< number given by the caller
-  ForcedMotionMemory<double> memory;  ///< at a stroboscopic instant (sampling and forcing in phase)
-  int orbit = -1;         ///< number of the orbit of a set that attracts it; −1: none yet
-  bool diverged = false;  ///< whether its state has reached 10¹⁰⁰ or is not a number
+  std::size_t number;                 ///< number of the motion, given by the caller
+  ForcedMotionMemory<double> memory;  ///< memory at a stroboscopic instant (phase 0 of the force)
+  int orbit = -1;         ///< number of the orbit of a set that attracts the motion; −1: none yet
+  bool diverged = false;  ///< whether the state has reached 10¹⁰⁰ or is not a number
 };
 
 namespace detail {
 
-/// The memories of all lanes side by side.
+/// The memories of the motions in all SIMD lanes, packed side by side.
 /// @param of_lane  (lane) → const ForcedMotionMemory<double>&
 template <class Scalar, class OfLane>
 ForcedMotionMemory<Scalar> packed_memory(const OfLane& of_lane) {
@@ -51,7 +51,7 @@ ForcedMotionMemory<Scalar> packed_memory(const OfLane& of_lane) {
            number([](const Memory& of) { return of.backlash.previous_velocity; })}};
 }
 
-/// The memory of a single lane.
+/// The memory of the motion in a single SIMD lane.
 template <class Scalar>
 ForcedMotionMemory<double> memory_of_lane(const ForcedMotionMemory<Scalar>& memory,
                                           std::size_t lane) {
@@ -66,9 +66,9 @@ ForcedMotionMemory<double> memory_of_lane(const ForcedMotionMemory<Scalar>& memo
 
 }  // namespace detail
 
-/// The batch of motions of one loop. Each is followed until an orbit of a set attracts it, it
-/// diverges, or it has passed a given number of samples. As many are followed at a time as `Scalar`
-/// has lanes; a lane starts the next motion as soon as its own has ended.
+/// A batch of motions of one loop. Each motion is followed until an orbit of a set attracts it, it
+/// diverges, or it has passed a given number of samples. As many motions are followed at a time as
+/// `Scalar` has lanes; a lane starts the next motion as soon as its last one has ended.
 template <class Scalar>
 class MotionBatch {
  public:

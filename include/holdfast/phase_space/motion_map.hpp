@@ -22,12 +22,12 @@
 
 namespace holdfast {
 
-/// The start of the search that found a periodic motion of a cell.
+/// The starting point of the search that found a periodic motion of a cell of the map.
 enum class MotionOrigin {
   start,      ///< the initial state
   state,      ///< another given state
-  continued,  ///< a neighbour's motion, continued by the order of its switchings
-  neighbour,  ///< the state of a neighbour's motion that cannot be continued
+  continued,  ///< a neighbouring cell's motion, continued by its order of switchings
+  neighbour,  ///< a state of a neighbouring cell's motion that cannot be continued
 };
 
 /// A periodic motion of a cell, certified and attracting.
@@ -38,16 +38,16 @@ struct MappedMotion {
   double amplitude;              ///< largest |z₁| (m) at a sample
   double largest_multiplier;     ///< largest modulus of the multipliers
   double border_share;           ///< border_share() of the PeriodicOrbit or EventOrbit
-  MotionOrigin origin;           ///< start of the search that found it
+  MotionOrigin origin;           ///< start of the search that found the motion
 };
 
-/// One cell of a map and the motions found there.
+/// One cell of a map, with the periodic motions found there.
 struct MapCell {
   /// The outcome of the motion from the initial state: `certified`, or the reason for no orbit.
   OrbitOutcome outcome = OrbitOutcome::none_found;
-  std::vector<MappedMotion> motions;  ///< distinct; the one from the initial state is first
+  std::vector<MappedMotion> motions;  ///< distinct motions, first the one from the initial state
 
-  /// The motion from the initial state; null where it comes to no periodic motion.
+  /// The motion from the initial state; null where that motion settles on no periodic orbit.
   const MappedMotion* from_start() const {
     return outcome == OrbitOutcome::certified ? &motions.front() : nullptr;
   }
@@ -56,7 +56,7 @@ struct MapCell {
 /// The division of a plane of two parameters into cells.
 struct MapShape {
   std::size_t rows;     ///< number of values of the first parameter, the slower one; ≥ 1
-  std::size_t columns;  ///< number of values of the second one; ≥ 1
+  std::size_t columns;  ///< number of values of the second parameter; ≥ 1
 
   /// The number of cells, rows × columns, stored row by row.
   std::size_t cells() const { return rows * columns; }
@@ -121,7 +121,7 @@ struct SampledMapModel {
   }
 
  private:
-  /// The memory with a gap of the loop's width; the gap's middle moves only as far as Δz requires.
+  /// The memory with a gap of the loop's width; the gap's middle moves no farther than Δz requires.
   static ForcedMotionMemory<Scalar> resized(ForcedMotionMemory<Scalar> memory, const Loop& loop) {
     auto& gap = memory.backlash;
     const Scalar half = loop.backlash_width / 2.0, here = relative_displacement(memory.state);
@@ -166,7 +166,7 @@ struct EventMapModel {
 };
 
 /// The search for the motions of all cells: first from the initial state, then in rounds from the
-/// motions that the neighbours found in the previous round, until no new ones appear.
+/// motions found in neighbouring cells in the previous round, until a round finds no new motion.
 template <class Model, class LoopAt, class Tiles>
 class MotionMapSearch {
   using Seed = typename Model::Seed;
@@ -202,7 +202,7 @@ class MotionMapSearch {
     });
   }
 
-  /// Makes the motions found in a round known to the neighbours. @return whether there are any
+  /// Passes a round's new motions to the neighbour cells. @return whether there are any
   bool take_over() {
     bool any = false;
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
@@ -282,7 +282,7 @@ class MotionMapSearch {
 struct MotionMapOptions {
   /// The limits of each search; motions with periods beyond `largest_period` are not found.
   OrbitLimits limits{10000, 0, {}};
-  int most_rounds = 1000;  ///< rounds after the first one; 0: only the initial states are used
+  int most_rounds = 1000;  ///< largest number of rounds after the first; 0: only initial states
   std::vector<Vector<double, 4>> more_starts =
       {};  ///< further initial states for each cell (m, m/s, m, m/s), finite
 };
@@ -292,8 +292,8 @@ struct MotionMapOptions {
 /// Each cell is searched from the initial state and the other given states, then from the motions
 /// of its neighbours. A neighbour's motion is continued by its itinerary; where that gives no
 /// attracting motion, the search starts from the neighbour's state. The search ends when no cell
-/// finds another motion. A cell may still lack a motion that no neighbour has and to which no given
-/// state comes. The result does not depend on the order in which the cells are computed.
+/// finds another motion. A cell may still lack a motion that no neighbour has and that no given
+/// state leads to. The result does not depend on the order in which the cells are computed.
 /// @param loop_at    (cell) ↦ std::optional<IdealLoop<double>>, or of an ImplementedLoop; empty
 ///                 where the parameters are not admissible; called from many threads
 /// @param shape      number of rows and columns

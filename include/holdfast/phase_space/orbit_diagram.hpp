@@ -43,7 +43,7 @@ inline void validate(const DiagramOptions& options) {
 
 /// One point of an orbit diagram.
 struct StrobePoint {
-  std::size_t index;  ///< index of the parameter's value
+  std::size_t index;  ///< index of the parameter's value in the list of values
   bool upward;        ///< true on the way up through the values, false on the way back
   /// The state [z, ż, z₂, ż₂] (m, m/s, m, m/s) of conductor and absorber, on both sides of the gap,
   /// after a whole number of forcing periods.
@@ -70,7 +70,7 @@ template <class Plant>
 bool may_begin_with(const ImplementedLoopOf<Plant>& loop, const StateOf<Plant>& state) {
   return loop.plant.state_matrix().rows() == state.size();
 }
-/// Always true for a conductor given by its modes: if their number changes, the slow modes remain.
+/// Whether a modal state may begin a motion: always; missing modes start at rest.
 inline bool may_begin_with(const ModalLoop&, const ModalMotion::Full&) { return true; }
 
 /// Reports the state of both sides of the gap once every forcing period after the transient.
@@ -114,7 +114,7 @@ bool show_strobes(const ImplementedLoopOf<Plant>& loop, const DiagramOptions& op
   return true;
 }
 
-/// The modal amplitudes ξ of a motion some time after its present sample, which was already taken.
+/// The modal amplitudes ξ of a motion at a time after its present sample, taken by `sense()`.
 /// @param after  time after the sample (s), < τ
 /// @param force  the force decided at that sample (N)
 inline Eigen::VectorXcd amplitudes_after(const NaturalMotions& motions, const ModalMotion& motion,
@@ -173,19 +173,19 @@ bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMot
 
 }  // namespace detail
 
-/// The orbit diagram (bifurcation diagram): stroboscopic states at the excitation's peak, plotted
-/// against a parameter that goes up through its values and back. Each motion begins where the
-/// previous one ended. Where the two ways differ, attractors may coexist, provided that the
+/// Computes an orbit diagram (bifurcation diagram): stroboscopic states at the excitation's peak,
+/// plotted against a parameter that goes up through its values and back. Each motion begins where
+/// the previous one ended. Where the two ways differ, attractors may coexist, provided that the
 /// transient is over and the plotted states cover the period.
 ///
 /// The stroboscopic instants are whole periods of the force's first harmonic, counted from t = 0.
-/// With further harmonics or a recorded force each motion restarts them at t = 0; then only a
-/// common period preserves their phases from one motion to the next.
+/// Every motion starts the force anew at t = 0. Further harmonics and a recorded force therefore
+/// keep their phases only if the duration of a motion is a period of the whole force.
 ///
-/// At each value the drive begins outside its backlash (with a dead zone: where the state is), and
-/// the computer begins without memory of the past. A diverging motion is not plotted further. The
-/// next motion then begins at the initial state. So does a motion whose loop has another order than
-/// the previous loop, for instance by more delayed commands.
+/// At each value the drive begins outside its backlash (with a dead zone: where the state places
+/// it), and the computer begins without memory. A diverging motion is not plotted further. A motion
+/// begins from the initial state after a diverged motion, and in a loop of another order than the
+/// previous loop, for instance with more delayed commands.
 /// @param family         parameter ↦ ImplementedLoopOf<Plant>, or ModalLoop
 /// @param values         values of the parameter, in their order
 /// @param initial_state  a state, or a map parameter ↦ state

@@ -26,7 +26,7 @@ namespace holdfast {
 template <int States>
 struct SectionPointOf {
   double time;                   ///< instant (s)
-  Vector<double, States> state;  ///< x, N × 1, with Δż = 0; of the two masses (m, m/s, m, m/s)
+  Vector<double, States> state;  ///< state x, N × 1, with Δż = 0; of two masses (m, m/s, m, m/s)
   bool rising;                   ///< whether Δż changes from negative to positive
   bool engaged;                  ///< whether the drive transmits from this instant on
 };
@@ -36,10 +36,10 @@ using SectionPoint = SectionPointOf<4>;
 
 namespace detail {
 
-/// The sign and the zeros of Δż that follow from the contact over a stretch of the motion.
+/// The sign and the zeros of Δż that the contact determines over a stretch of the motion.
 struct KnownVelocity {
-  int zeros = 0;      ///< number of Δż, Δz̈, … that vanish at its beginning
-  double sign = 0.0;  ///< constant sign of Δż in it, ±1; 0: not determined
+  int zeros = 0;      ///< number of Δż, Δz̈, … that vanish at the beginning
+  double sign = 0.0;  ///< constant sign of Δż in the stretch, ±1; 0: not determined
 };
 
 /// The sign and the zeros of Δż that the contact determines. @param guards  guards of the mode
@@ -77,7 +77,7 @@ class TurnFinder {
   using Part = typename DenseOutput<Contact>::Part;
 
  public:
-  /// The motion and the observer must outlive this object.
+  /// Constructs the finder; the motion and the observer must outlive it.
   TurnFinder(const Motion& motion, Observer& observer)
       : motion_(&motion), observer_(&observer), trace_(motion) {
     const bool sticks = motion.contact().word() == ContactMode::stick;
@@ -117,7 +117,7 @@ class TurnFinder {
     search(part, known.zeros);
   }
 
-  /// Handles a stretch in which both sides of the drive stay together, as one turning point.
+  /// Reports a part in stick, where Δż stays 0, as one turning point at its beginning.
   void rest(const Part& part) {
     if (sign_ != 0.0) show(part, 0.0, sign_ < 0.0);
     sign_ = 0.0;
@@ -182,18 +182,18 @@ class TurnFinder {
 
 }  // namespace detail
 
-/// Runs a motion and reports every turning point of Δz: every change of sign of Δż, found between
-/// the samples as a first root of its Taylor series (math/roots/first_root.hpp), so that none is
-/// passed over.
+/// Runs a motion and reports every turning point of Δz, that is, every change of sign of Δż. The
+/// turning point is found between the samples as a first root of a Taylor series
+/// (math/roots/first_root.hpp), so that none is missed.
 ///
 ///     auto motion = event_motion(implemented_loop(loop), Vector<double, 4>::Zero().eval());
 ///     run_section(motion, samples, [](const SectionPoint& at) { … });
 ///
-/// Stick, Δż = 0 for some time, is one point at its beginning, whether Δz then reverses or
-/// continues (the next point then has the same `rising`). `rising` means that Δż came to zero from
-/// below. A point is `engaged` where the drive transmits the whole command from there on; with
-/// exact switching and r₀ > 0 no point is `engaged`. Where Δż only touches zero, up to rounding,
-/// there is no point. A motion that begins with Δż = 0 does not begin with a point.
+/// Stick (Δż = 0 for some time) gives one point, at its beginning, whether Δz reverses or continues
+/// afterwards; if it continues, the next point has the same `rising`. `rising` means that Δż came
+/// to zero from below. A point is `engaged` where the drive transmits the whole command afterwards;
+/// with exact switching and r₀ > 0 no point is `engaged`. Where Δż only touches zero, up to
+/// rounding, there is no point. A motion that begins with Δż = 0 does not begin with a point.
 /// @param motion    motion before the first sample; a further call continues from there
 /// @param samples   number of sampling periods
 /// @param observer  called with each point, a SectionPointOf<N>, in order of time

@@ -5,23 +5,23 @@
 
 namespace holdfast {
 
-/// The equations of motion ẋ = A x + drift + b u + c F(t) of a plant of order N as long as the
-/// contact does not change.
+/// The equations of motion ẋ = A x + drift + b u + c F(t) of a plant of order N in one mode of the
+/// contact, under the command u (N) and the excitation F (N).
 /// @tparam States  N; Eigen::Dynamic where it is known at run time only
 template <int States>
 struct AffineDynamicsOf {
-  Matrix<double, States> state;    ///< A, N × N
-  Vector<double, States> command;  ///< b, N × 1 per newton of u; zero where u has no effect
-  Vector<double, States> force;    ///< c, N × 1 per newton of F
-  /// The drift, N × 1; empty by default where N is known at run time only.
+  Matrix<double, States> state;    ///< state matrix A, N × N
+  Vector<double, States> command;  ///< input b, N × 1 per newton of u; zero where u has no effect
+  Vector<double, States> force;    ///< input c, N × 1 per newton of the excitation F
+  /// The drift, a constant part of ẋ, N × 1; empty by default where N is known at run time only.
   Vector<double, States> drift = Vector<double, States>::Zero(States < 0 ? 0 : States);
 };
 
-/// The affine dynamics of the two masses.
+/// The affine dynamics of the plant of two masses (order 4).
 using AffineDynamics = AffineDynamicsOf<4>;
 
-/// The norm ‖A‖ in balanced coordinates (1/s, largest row sum). It describes the growth of the
-/// powers of A h, whatever the units of the state.
+/// The largest row sum ‖A‖ of a matrix (1/s) in balanced coordinates. It describes the growth of
+/// the powers of A h over a time h, whatever the units of the state.
 template <class Scalar, int States>
 Scalar balanced_norm(const Matrix<Scalar, States>& a) {
   return BalancedMatrix<Scalar, States>(a).balanced.cwiseAbs().rowwise().sum().maxCoeff();

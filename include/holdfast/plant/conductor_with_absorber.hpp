@@ -10,21 +10,21 @@
 
 namespace holdfast {
 
-/// A conductor, given by its modes, with the absorber, the poles of both together, and the lags of
-/// the loop's hardware.
+/// A conductor, given by its modes, with an absorber. The structure also holds their joint poles
+/// and the lags of the loop's hardware.
 struct ConductorWithAbsorber {
   std::vector<PlaceMode<double>> modes;  ///< modes at the absorber's place
-  Absorber<double> absorber;             ///< with its clamp
-  std::vector<PlantPole> poles;          ///< all `plant_poles` of both, or none
-  LoopHardware hardware = {};            ///< measurement filter and drive
-  bool has_devices = false;              ///< whether the poles include devices on the span
+  Absorber<double> absorber;             ///< absorber with its clamp
+  std::vector<PlantPole> poles;  ///< all `plant_poles` of conductor and absorber together, or none
+  LoopHardware hardware = {};    ///< measurement filter and drive
+  bool has_devices = false;      ///< whether the poles include devices on the span
 };
 
-/// Whether the loop of a conductor with absorber has closed forms: no, it is given by its poles.
+/// A conductor with absorber has no closed forms of its loop, which is given by its poles.
 template <>
 inline constexpr bool has_closed_forms<ConductorWithAbsorber> = false;
 
-/// The receptance z/F (m/N) at s of the absorber's place, without control (unchecked).
+/// The receptance z/F (m/N) at the absorber's place without control, s in 1/s (unchecked).
 inline std::complex<double> place_receptance(const ConductorWithAbsorber& conductor,
                                              const std::complex<double>& s) {
   if (!conductor.has_devices)
@@ -34,9 +34,9 @@ inline std::complex<double> place_receptance(const ConductorWithAbsorber& conduc
   return to_drive / detail::transmitted_share(conductor.absorber, s);
 }
 
-/// The conductor with absorber and hardware as a plant of order 2N + 2 plus the hardware's states.
-/// @param conductor  conductor; its poles are not used
-/// @throws InvalidParameter where modes, absorber or hardware are inadmissible, or with devices
+/// The linear plant of conductor, absorber and hardware: order 2N + 2 plus the hardware's states.
+/// @param conductor  conductor with its absorber and hardware; its poles are not used
+/// @throws InvalidParameter where modes, absorber or hardware are inadmissible, or if has_devices
 template <class Scalar = double>
 LinearPlant<Scalar> linear_plant(const ConductorWithAbsorber& conductor) {
   if (conductor.has_devices)

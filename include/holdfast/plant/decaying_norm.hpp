@@ -9,12 +9,12 @@
 
 namespace holdfast {
 
-/// A norm ‖x‖² = xᵀW x that decreases along ẋ = A x, ‖e^{At}‖ ≤ 1; W solves
+/// A norm ‖x‖² = xᵀW x that decreases along ẋ = A x, so that ‖e^{At}‖ ≤ 1; W solves
 ///
 ///     AᵀW + W A = −I     in balanced coordinates
 ///
-/// so that ‖x(t)‖ ≤ ‖x(0)‖ + ∫ ‖b u + c F‖ ds, as for EnergyNorm, for a stable plant of any order.
-/// If A is not stable there is no such norm; all values of it are then infinite.
+/// For a stable plant of any order this gives ‖x(t)‖ ≤ ‖x(0)‖ + ∫ ‖b u + c F‖ ds, as for
+/// EnergyNorm. If A is not stable, no such norm exists and every value is infinite.
 ///
 /// W is the sum Σ MᵏᵀQ Mᵏ, computed by doubling, for the Cayley transform M = (p + A)(p − A)⁻¹ and
 /// Q = 2 p (p − A)⁻ᵀ (p − A)⁻¹ with a p > 0. Checks: W has a Cholesky factor, and the residual of
@@ -42,13 +42,13 @@ class DecayingNorm {
   /// Whether A is stable, so that the norm exists.
   bool exists() const { return exists_; }
 
-  /// The norm ‖x‖; infinite where it does not exist.
+  /// The norm ‖x‖ of a state x (N × 1); infinite where A is not stable.
   double operator()(const Vector<double, States>& state) const {
     if (!exists_) return std::numeric_limits<double>::infinity();
     return (factor_.transpose() * state).norm();
   }
 
-  /// The largest ℓᵀx over ‖x‖ = 1, of a functional ℓ (N × 1); infinite where there is no norm.
+  /// The dual norm, the largest ℓᵀx over ‖x‖ = 1 (ℓ: N × 1); infinite where A is not stable.
   double dual(const Vector<double, States>& functional) const {
     if (!exists_) return std::numeric_limits<double>::infinity();
     return factor_.template triangularView<Eigen::Lower>().solve(functional).norm();

@@ -17,11 +17,11 @@
 namespace holdfast {
 
 /// A pole of a plant whose location is proved, with its residue in the transfer function from the
-/// command to the reading: a `PlantPole` in enclosures.
+/// command to the reading. The members enclose those of a `PlantPole`.
 struct EnclosedPole {
-  ComplexEnclosure s;        ///< 1/s; for a pair the one with Im s > 0, for a single pole real
-  ComplexEnclosure residue;  ///< r, m/(N s); real for a single pole
-  bool is_pair;              ///< whether its conjugate is a pole too
+  ComplexEnclosure s;        ///< pole s (1/s): real, or the pole with Im s > 0 of a pair
+  ComplexEnclosure residue;  ///< residue r (m/(N s)); real for a single pole
+  bool is_pair;              ///< whether the conjugate of s is a pole too
 };
 
 namespace detail {
@@ -37,7 +37,7 @@ namespace detail {
 /// exactly the given doubles, all others decimal numbers that round to the given doubles.
 class EnclosedTransfer {
  public:
-  /// The values of p and n divided by a common product.
+  /// The values of p and n at a point, both divided by a common product.
   struct Value {
     ComplexEnclosure denominator, numerator;
   };
@@ -121,7 +121,7 @@ class EnclosedTransfer {
 
   static Enclosure decimal(double nearest) { return Enclosure::of_decimal(nearest); }
 
-  /// The angular frequency 2π f.
+  /// The angular frequency 2π f (rad/s) of a frequency f (Hz).
   static Enclosure rate_of(double frequency) {
     const Enclosure turn(2.0 * 0x1.921fb54442d18p1, 2.0 * 0x1.921fb54442d19p1);
     return turn * decimal(frequency);
@@ -163,7 +163,7 @@ struct PairedPoles {
   }
   std::size_t size() const { return 2 * upper.size() + real.size(); }
 
-  /// All poles, each pair as two neighbours.
+  /// All poles; the two poles of a pair are adjacent.
   std::vector<std::complex<double>> all() const {
     std::vector<std::complex<double>> list;
     for (const auto& s : upper) list.insert(list.end(), {s, std::conj(s)});
@@ -172,7 +172,7 @@ struct PairedPoles {
   }
 };
 
-/// The list of all points except that of index `but`.
+/// All points except the point of index `but`.
 inline std::vector<ComplexEnclosure> others_of(const std::vector<ComplexEnclosure>& all,
                                                std::size_t but) {
   std::vector<ComplexEnclosure> others = all;
@@ -180,8 +180,8 @@ inline std::vector<ComplexEnclosure> others_of(const std::vector<ComplexEnclosur
   return others;
 }
 
-/// The radii of discs about the approximate poles that together contain all poles, and one pole
-/// each where they are disjoint.
+/// The radii of discs about the approximate poles. All discs together contain all poles; disjoint
+/// discs contain one pole each.
 inline std::vector<double> disc_radii(const EnclosedTransfer& transfer,
                                       const std::vector<ComplexEnclosure>& centres) {
   std::vector<double> radii;
@@ -242,11 +242,11 @@ inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer
 /// discs touch, each contains one root, and for a real z_k this root is real. The residue is
 /// n(s)/p′(s), p′ = p_m Π_{j≠k} (s_k − s_j). Work: 10 m² complex operations.
 ///
-/// The modes' parameters are exactly the given doubles, those of absorber and hardware any decimal
-/// numbers that round to them. Source: B. T. Smith, Error bounds for zeros of a polynomial based
-/// upon Gerschgorin's theorems, J. ACM 17 (1970), pp. 661–674.
+/// The modes' parameters are exactly the given doubles; absorber and hardware have any decimal
+/// parameters that round to the given doubles. Source: B. T. Smith, Error bounds for zeros of a
+/// polynomial based upon Gerschgorin's theorems, J. ACM 17 (1970), pp. 661–674.
 /// @param conductor  conductor with its approximate poles
-/// @return nothing where not all poles are known, or two are too close to be separated
+/// @return no poles where not all approximate poles are known, or two are too close to separate
 /// @throws InvalidParameter where conductor, absorber or hardware are not admissible
 inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& conductor) {
   validate(conductor.modes, conductor.absorber);
@@ -254,7 +254,7 @@ inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& con
                                 with_hardware(conductor.poles, conductor.hardware));
 }
 
-/// The enclosed poles of two masses with hardware, for all decimals that round to the parameters.
+/// The enclosed poles of two masses with hardware, for all decimals that round to given doubles.
 /// @throws InvalidParameter where masses or hardware are not admissible
 inline std::vector<EnclosedPole> enclosed_poles(const TwoMass<double>& masses,
                                                 const LoopHardware& hardware = {}) {

@@ -7,17 +7,17 @@
 
 namespace holdfast {
 
-/// The norm ‖z‖² = k₁ z₁² + k₂ (z₂ − z₁)² + m₁ ż₁² + m₂ ż₂², twice the energy of the plant.
+/// The norm ‖z‖² = k₁ z₁² + k₂ (z₂ − z₁)² + m₁ ż₁² + m₂ ż₂², twice the energy of the two masses.
 ///
-/// Springs and masses exchange energy and dampers dissipate it, so that ‖e^{At}‖ ≤ 1: without input
-/// the norm does not grow, in any units, and ‖z(t)‖ ≤ ‖z(0)‖ + ∫ ‖b u + c F‖ ds.
+/// Springs and masses exchange energy and dampers dissipate it. So without input the norm does not
+/// grow, whatever the units: ‖e^{At}‖ ≤ 1, and ‖z(t)‖ ≤ ‖z(0)‖ + ∫ ‖b u + c F‖ ds.
 class EnergyNorm {
  public:
   /// Constructs the norm of a plant.
   /// @throws InvalidParameter where the plant is not admissible
   explicit EnergyNorm(const TwoMass<double>& plant) : plant_(plant) { validate(plant); }
 
-  /// The norm ‖z‖ (√J).
+  /// The norm ‖z‖ (√J) of a state z.
   double operator()(const Vector<double, 4>& state) const {
     const double relative = relative_displacement(state);
     return std::sqrt(plant_.conductor_stiffness * state[0] * state[0] +
@@ -26,7 +26,7 @@ class EnergyNorm {
                      plant_.absorber_mass * state[3] * state[3]);
   }
 
-  /// The dual norm, the largest ℓᵀz over ‖z‖ = 1, of a functional ℓ (4 × 1).
+  /// The dual norm of a functional ℓ (4 × 1): the largest ℓᵀz over ‖z‖ = 1.
   double dual(const Vector<double, 4>& functional) const {
     const double together = functional[0] + functional[2];
     return std::sqrt(together * together / plant_.conductor_stiffness +

@@ -12,8 +12,8 @@
 
 namespace holdfast {
 
-/// The free decay z(t) = e^{At} z(0) of the plant without control from rest, conductor and absorber
-/// both displaced by z₀, as after the removal of a load on the conductor.
+/// The free decay z(t) = e^{At} z(0) of the plant from rest, without control. Conductor and
+/// absorber are both displaced by z₀, as after the removal of a load on the conductor.
 /// @param plant         an admissible plant
 /// @param displacement  z₀ (m)
 /// @param time          t (s), ≥ 0
@@ -27,8 +27,8 @@ Vector<Scalar, 4> free_decay_at(const TwoMass<Scalar>& plant, const Scalar& disp
          Vector<Scalar, 4>(displacement, Scalar(0), displacement, Scalar(0));
 }
 
-/// The displacements z₁ (m) of a free decay at ascending instants (s); it starts at the first one.
-/// The transition e^{Ah} is computed again only where the interval h changes.
+/// The displacements z₁ (m) of a free decay at ascending instants (s), released at the first one.
+/// The transition matrix e^{Ah} is computed again only where the interval h changes.
 /// @throws InvalidParameter where the plant is not admissible or the times are not finite and
 /// ascending
 template <class Scalar>
@@ -60,14 +60,14 @@ std::vector<Scalar> free_decay(const TwoMass<Scalar>& plant, const Scalar& displ
 /// The measures of a free decay with displacements relative to the initial one.
 template <class Scalar>
 struct RelativeDecay {
-  Scalar first_peak;             ///< first opposite peak, < 0
-  Scalar first_peak_time;        ///< s
-  Scalar period;                 ///< s
-  Scalar logarithmic_decrement;  ///< per cycle, from the first four peaks
+  Scalar first_peak;             ///< first opposite peak over the initial displacement, < 0
+  Scalar first_peak_time;        ///< time of the first opposite peak (s)
+  Scalar period;                 ///< period (s), a mean of two cycles
+  Scalar logarithmic_decrement;  ///< logarithmic decrement per cycle, from the first four peaks
 };
 
 /// The crossings and peaks of the plant's free decay from 1 m over four periods, with 400 samples
-/// per period. The period is that of both masses rigidly joined on the conductor's spring.
+/// per period. A period here is that of both masses rigidly joined on the conductor's spring.
 /// @throws InvalidParameter where the plant is not admissible
 template <class Scalar>
 DecayEvents free_decay_events(const TwoMass<Scalar>& plant) {
@@ -83,10 +83,10 @@ DecayEvents free_decay_events(const TwoMass<Scalar>& plant) {
   return decay_events(record);
 }
 
-/// The measures of `decay_measures` to round-off and for any number type: each crossing and peak
-/// found from samples is refined by Newton's method on the closed-form motion.
+/// The measures of `decay_measures` to round-off, for any number type. Each zero crossing or peak
+/// found in samples is refined by Newton's method on the closed-form motion.
 /// @param plant   the two masses, without control
-/// @param events  `free_decay_events` of the same plant's values
+/// @param events  crossings and peaks: `free_decay_events` of the same plant
 /// @return nothing where the decay has fewer than five crossings in four periods (overdamped)
 template <class Scalar>
 std::optional<RelativeDecay<Scalar>> relative_decay(const TwoMass<Scalar>& plant,

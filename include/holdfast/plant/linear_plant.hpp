@@ -11,29 +11,29 @@
 
 namespace holdfast {
 
-/// A linear plant of order N between a drive and a conductor:
+/// A linear plant of order N, a conductor with the absorber and its drive:
 ///
 ///     ẋ = A x + b s + b_u u + c F,    s = f x + g u  where the drive transmits,  s = 0 in its gap
 ///
-/// u is the computer's command, s the force (N) on conductor and absorber. An ideal drive has s = u
-/// (f = 0, g = 1, b_u = 0); a drive with a lag has states of its own, on which the command acts by
-/// b_u and from which f gives the force. The measured quantities and the relative motion at the gap
-/// are rows, the plant's ports, so that x may be in any coordinates.
+/// Here u is the computer's command (N), s the force on conductor and absorber (N). An ideal drive
+/// has s = u (f = 0, g = 1, b_u = 0). A drive with a lag adds states: u acts on them by b_u, and f
+/// gives s from them. Rows, the plant's ports, read the measured quantities and the relative motion
+/// at the gap, so that x may be in any coordinates.
 /// @tparam States  N; Eigen::Dynamic where it is known at run time only
 template <class Number, int States = Eigen::Dynamic>
 struct LinearPlant {
   static_assert(is_real<Number>, "the numbers of a plant are real: LinearPlant<double>");
 
-  Matrix<Number, States> released_matrix;  ///< A, N × N (1/s), without transmitted force
-  Vector<Number, States> force_input;      ///< b, N × 1 per newton of s
-  Vector<Number, States> command_input;    ///< b_u, N × 1 per newton of u; 0 for an ideal drive
-  Vector<Number, States> excitation;       ///< c, N × 1 per newton of F
-  RowVector<Number, States> drive_force;   ///< f, 1 × N; 0 for an ideal drive
-  Number direct_transmission{1};           ///< g: 1 for an ideal drive, 0 for one with a lag
-  Ports<Number, States> connections;       ///< measured quantities and relative motion at the gap
+  Matrix<Number, States> released_matrix;  ///< matrix A, N × N (1/s), without transmitted force
+  Vector<Number, States> force_input;      ///< input b of the force, N × 1 per newton of s
+  Vector<Number, States> command_input;  ///< input b_u, N × 1 per newton of u; 0 for an ideal drive
+  Vector<Number, States> excitation;     ///< input c of the excitation, N × 1 per newton of F
+  RowVector<Number, States> drive_force;  ///< row f, 1 × N; 0 for an ideal drive
+  Number direct_transmission{1};          ///< factor g: 1 for an ideal drive, 0 for one with a lag
+  Ports<Number, States> connections;      ///< measured quantities and relative motion at the gap
 
   /// The state matrix A + b f of an engaged drive, N × N.
-  /// @throws InvalidParameter as `require_one_order`; this applies to all functions below
+  /// @throws InvalidParameter in the cases of `require_one_order`; so do all functions below
   Matrix<Number, States> state_matrix() const {
     require_one_order();
     return released_matrix + force_input * drive_force;
@@ -48,12 +48,12 @@ struct LinearPlant {
     require_one_order();
     return excitation;
   }
-  /// The rows of the measurement and of the relative motion at the gap.
+  /// The rows that read the measured quantities and the relative motion at the gap.
   const Ports<Number, States>& ports() const {
     require_one_order();
     return connections;
   }
-  /// The order N.
+  /// The order N: the number of states.
   Eigen::Index order() const { return released_matrix.rows(); }
 
   /// Rejects a plant whose parts have different orders.
@@ -80,7 +80,7 @@ LinearPlant<Scalar, 4> linear_plant(const TwoMass<Scalar>& plant) {
           plant.excitation_input(), RowVector<Scalar, 4>::Zero(), Scalar(1),
           two_mass_ports<Scalar>()};
 }
-/// Returns the linear plant itself.
+/// The linear plant itself, unchanged.
 template <class Scalar, int States>
 const LinearPlant<Scalar, States>& linear_plant(const LinearPlant<Scalar, States>& plant) {
   return plant;
@@ -95,7 +95,7 @@ template <class Plant>
 struct IsDriven<Plant, std::void_t<decltype(linear_plant(std::declval<const Plant&>()))>>
     : std::true_type {};
 
-/// The plant with `more` further states after its own, all with zero rows and columns.
+/// The plant with `more` states added after its own; the new rows and columns are zero.
 /// @tparam More  the value of `more`, or Eigen::Dynamic
 template <int More, class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, More)> enlarged(const LinearPlant<Scalar, States>& plant,
@@ -134,7 +134,7 @@ LinearPlant<Scalar, larger_size(States, More)> enlarged(const LinearPlant<Scalar
 ///
 /// The filter adds one state.
 /// @param plant   plant whose readings are filtered
-/// @param cutoff  ω_f / 2π (Hz), > 0
+/// @param cutoff  cutoff frequency ω_f/2π (Hz) of the filter, > 0
 /// @throws InvalidParameter where the cutoff is not admissible
 template <class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, 1)> with_measurement_filter(
@@ -151,10 +151,10 @@ LinearPlant<Scalar, larger_size(States, 1)> with_measurement_filter(
   return filtered;
 }
 
-/// The plant with a motor that follows its command with a lag of first order, ṡ = ω_d (u − s). It
-/// has one more state, s (N).
+/// The plant with a motor that follows its command with a lag of first order, ṡ = ω_d (u − s). This
+/// adds one state, s (N).
 /// @param plant      plant with an ideal drive
-/// @param bandwidth  ω_d / 2π (Hz), > 0
+/// @param bandwidth  bandwidth ω_d/2π (Hz) of the motor, > 0
 /// @throws InvalidParameter where the bandwidth is not admissible
 template <class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, 1)> with_drive_lag(const LinearPlant<Scalar, States>& plant,
@@ -171,10 +171,10 @@ LinearPlant<Scalar, larger_size(States, 1)> with_drive_lag(const LinearPlant<Sca
 }
 
 /// The plant with a motor that follows its command with a lag of second order, s̈ = ω_d² (u − s) −
-/// 2 ζ_d ω_d ṡ. It has two more states, s (N) and ṡ/ω_d (N).
+/// 2 ζ_d ω_d ṡ. This adds two states, s (N) and ṡ/ω_d (N).
 /// @param plant      plant with an ideal drive
-/// @param bandwidth  ω_d / 2π (Hz), > 0
-/// @param damping    ζ_d, > 0
+/// @param bandwidth  bandwidth ω_d/2π (Hz) of the motor, > 0
+/// @param damping    damping ratio ζ_d of the motor's lag, > 0
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, 2)> with_drive_lag(const LinearPlant<Scalar, States>& plant,

@@ -14,20 +14,20 @@
 
 namespace holdfast {
 
-/// The hardware between plant and computer: a measurement filter of first order, a drive that
+/// The hardware between plant and computer: a measurement filter F of first order, a drive D that
 /// follows its command with a lag, and the presence of a velocity sensor,
 ///
 ///     F(s) = ω_f/(s + ω_f),   D(s) = ω_d/(s + ω_d)  or  ω_d²/(s² + 2 ζ_d ω_d s + ω_d²)
 ///
-/// The computer reads ẑ = F z and its rate; without a velocity sensor the rate is replaced by
-/// (ẑ_j − ẑ_{j−1})/τ. The force on conductor and absorber is D u.
+/// The computer reads ẑ = F z and its rate. Without a velocity sensor, (ẑ_j − ẑ_{j−1})/τ replaces
+/// the rate. The force on conductor and absorber is D u.
 struct LoopHardware {
   static constexpr double ideal = std::numeric_limits<double>::infinity();  ///< value for no lag
 
-  double measurement_filter = ideal;  ///< ω_f/2π (Hz), > 0
-  double drive_bandwidth = ideal;     ///< ω_d/2π (Hz), > 0
-  double drive_damping = ideal;       ///< ζ_d, > 0; infinity: a lag of first order
-  bool has_velocity_sensor = true;    ///< false: D multiplies a backward difference of readings
+  double measurement_filter = ideal;  ///< cutoff ω_f/2π of the filter (Hz), > 0
+  double drive_bandwidth = ideal;     ///< bandwidth ω_d/2π of the drive (Hz), > 0
+  double drive_damping = ideal;       ///< damping ratio ζ_d, > 0; infinity: a lag of first order
+  bool has_velocity_sensor = true;    ///< false: velocity by backward difference of readings
 };
 
 /// Rejects hardware outside the ranges stated at its members.
@@ -41,8 +41,8 @@ inline void validate(const LoopHardware& hardware) {
   require("drive damping", hardware.drive_damping, "");
 }
 
-/// The plant with the given filter and drive, which `with_measurement_filter` and `with_drive_lag`
-/// add to it.
+/// The plant extended by a filter (`with_measurement_filter`) and a drive with a lag
+/// (`with_drive_lag`).
 /// @param plant     plant with an ideal drive
 /// @param hardware  hardware, which adds up to three states
 /// @throws InvalidParameter where the hardware is not admissible
@@ -62,7 +62,7 @@ LinearPlant<Scalar> with_hardware(LinearPlant<Scalar> plant, const LoopHardware&
 
 namespace detail {
 
-/// The poles p of D(s) and of F(s), each of which is the product of −p/(s − p) over its poles.
+/// The poles p of D(s) and of F(s); each lag is the product of −p/(s − p) over its poles.
 struct HardwarePoles {
   std::vector<std::complex<double>> drive, filter;
 
@@ -93,8 +93,8 @@ struct HardwarePoles {
   }
 
  private:
-  /// Separates equal poles, which have no partial fractions, by ±ε relative: ε = 10⁻⁵ for two, 10⁻³
-  /// for three. This changes the response by ε² relative and costs a factor 1/ε in accuracy.
+  /// Separates equal poles, which have no partial fractions, by relative ±ε: 10⁻⁵ for two poles,
+  /// 10⁻³ for three. The response changes by a relative ε² and loses a factor 1/ε in accuracy.
   void part_equals() {
     std::vector<std::complex<double>*> all;
     all.reserve(drive.size() + filter.size());
@@ -118,7 +118,7 @@ struct HardwarePoles {
   }
 };
 
-/// The partial fractions of G(s) Π (−p)/(s − p), from those of G and the poles p of the lags.
+/// The partial fractions of G(s) Π (−p)/(s − p), from those of G(s) and the poles p of the lags.
 inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles,
                                      const std::vector<std::complex<double>>& lags) {
   for (const std::complex<double>& p : lags) {
@@ -135,12 +135,12 @@ inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles,
 
 }  // namespace detail
 
-/// The poles, with residues from the command to the reading, of a plant with hardware: those of the
-/// plant, then those of drive and filter.
-/// @param poles     all `plant_poles`
-/// @param hardware  hardware; equal poles of it are separated by 10⁻⁵ relative (three by 10⁻³),
-///                  which changes the response by 10⁻¹⁰ (10⁻⁶)
-/// @return nothing where the plant has no poles, or shares one with the hardware
+/// The poles of a plant with hardware, with residues from the command to the reading. The plant's
+/// poles come first, then those of drive and filter.
+/// @param poles     all `plant_poles` of the plant without hardware
+/// @param hardware  hardware; equal poles in it are moved apart by 10⁻⁵ relative (three by 10⁻³),
+///                  which changes the response by a relative 10⁻¹⁰ (10⁻⁶)
+/// @return no poles where the plant has none, or shares one with the hardware
 /// @throws InvalidParameter where the hardware is not admissible
 inline std::vector<PlantPole> with_hardware(const std::vector<PlantPole>& poles,
                                             const LoopHardware& hardware) {

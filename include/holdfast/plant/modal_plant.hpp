@@ -17,12 +17,12 @@ namespace holdfast {
 /// where f is the force (N) on the conductor at that place and z its displacement (m).
 template <class Scalar>
 struct PlaceMode {
-  Scalar angular_frequency;  ///< ω_n (rad/s), > 0
-  Scalar damping_ratio;      ///< ζ_n, ≥ 0
-  Scalar shape;              ///< φ_n at the absorber, in any unit: M_n scales with its square
-  Scalar mass;               ///< M_n (kg), > 0
+  Scalar angular_frequency;  ///< angular frequency ω_n (rad/s), > 0
+  Scalar damping_ratio;      ///< damping ratio ζ_n, ≥ 0
+  Scalar shape;  ///< shape φ_n at the absorber, in any unit: M_n scales with its square
+  Scalar mass;   ///< modal mass M_n (kg), > 0
 
-  /// The response 1/(s² + 2 ζ_n ω_n s + ω_n²) (s²) of q_n to φ_n f/M_n.
+  /// The response (s²) of q_n to φ_n f/M_n, 1/(s² + 2 ζ_n ω_n s + ω_n²) at s (1/s).
   std::complex<Scalar> response(const std::complex<Scalar>& s) const {
     const std::complex<Scalar> divisor = s * (s + Scalar(2) * damping_ratio * angular_frequency) +
                                          angular_frequency * angular_frequency;
@@ -33,10 +33,10 @@ struct PlaceMode {
 /// The absorber on a conductor, without its drive.
 template <class Scalar>
 struct Absorber {
-  Scalar mass;            ///< m₂ (kg), > 0
-  Scalar stiffness;       ///< k₂ (N/m), ≥ 0
-  Scalar damping;         ///< c₂ (N s/m), ≥ 0
-  Scalar clamp_mass = 0;  ///< M_c (kg), ≥ 0: mass fixed to the conductor
+  Scalar mass;            ///< mass m₂ (kg), > 0
+  Scalar stiffness;       ///< stiffness k₂ of its spring (N/m), ≥ 0
+  Scalar damping;         ///< damping c₂ (N s/m), ≥ 0
+  Scalar clamp_mass = 0;  ///< mass M_c of the clamp, fixed to the conductor (kg), ≥ 0
 };
 
 /// Rejects modes and an absorber outside the ranges stated at their members.
@@ -56,8 +56,8 @@ inline void validate(const std::vector<PlaceMode<double>>& modes,
   require_non_negative("clamp mass", absorber.clamp_mass, "kg");
 }
 
-/// The receptance H(s) = Σ φ_n² / (M_n (s² + 2 ζ_n ω_n s + ω_n²)) (m/N) of the bare conductor at
-/// the absorber's place, from these modes (unchecked).
+/// The receptance of the bare conductor at the absorber's place (m/N; unchecked), H(s) = Σ φ_n² /
+/// (M_n (s² + 2 ζ_n ω_n s + ω_n²)).
 /// @param modes  modes at the absorber's place
 /// @param s      complex frequency (1/s)
 template <class Scalar>
@@ -79,8 +79,8 @@ std::complex<Scalar> transmitted_share(const Absorber<Scalar>& absorber,
   return inertia / (inertia + absorber.stiffness + absorber.damping * s);
 }
 
-/// The dynamic stiffness M_c s² + K_p(s), K_p = T_a (k₂ + c₂ s) (N/m), of the absorber without its
-/// drive.
+/// The dynamic stiffness M_c s² + K_p(s) (N/m) of the absorber without its drive, with K_p = T_a
+/// (k₂ + c₂ s).
 template <class Scalar>
 std::complex<Scalar> passive_stiffness(const Absorber<Scalar>& absorber,
                                        const std::complex<Scalar>& s) {
@@ -90,14 +90,14 @@ std::complex<Scalar> passive_stiffness(const Absorber<Scalar>& absorber,
 
 }  // namespace detail
 
-/// The responses of the conductor at the absorber's place to a force there and to the drive.
+/// The responses of the conductor at the absorber's place, to a force there and to the drive.
 template <class Scalar>
 struct PlaceResponse {
-  std::complex<Scalar> to_force;  ///< z/F (m/N)
-  std::complex<Scalar> to_drive;  ///< G_z = z/s (m/N), with the drive's reaction on the absorber
+  std::complex<Scalar> to_force;  ///< receptance z/F (m/N)
+  std::complex<Scalar> to_drive;  ///< response G_z = z/s (m/N) to the drive's force s
 };
 
-/// The responses of a conductor with its absorber, from the bare one's receptance H (unchecked):
+/// The responses of a conductor with absorber, from the bare conductor's receptance H (unchecked):
 ///
 ///     1/H′ = 1/H + M_c s²,  K_p = m₂ s² (k₂ + c₂ s)/(m₂ s² + c₂ s + k₂),  T_a = m₂ s²/(…)
 ///     z/F = H′/(1 + H′ K_p),   G_z = T_a z/F
@@ -118,7 +118,7 @@ PlaceResponse<Scalar> place_response(const std::complex<Scalar>& bare,
 
 namespace detail {
 
-/// Modal coordinates, N × 1, scaled so that the displacement at the place is 1.
+/// Coordinates of N modes, N × 1, scaled to a displacement of 1 at the absorber's place.
 /// @param share  function from a mode to its coordinate before scaling
 template <class Scalar, class Share>
 Vector<Scalar, Eigen::Dynamic> scaled_at_place(const std::vector<PlaceMode<Scalar>>& modes,
@@ -135,8 +135,8 @@ Vector<Scalar, Eigen::Dynamic> scaled_at_place(const std::vector<PlaceMode<Scala
 
 }  // namespace detail
 
-/// The modal coordinates q of the conductor bent by a force to 1 m at the place, N × 1 (unchecked).
-/// @param modes  modes at the place, at least one without a node there
+/// The modal coordinates q (N × 1) of a conductor bent to 1 m by a force at the absorber's place.
+/// @param modes  modes at the absorber's place, at least one without a node there (unchecked)
 template <class Scalar>
 Vector<Scalar, Eigen::Dynamic> bent_conductor(const std::vector<PlaceMode<Scalar>>& modes) {
   return detail::scaled_at_place(modes, [](const PlaceMode<Scalar>& mode) {
@@ -144,19 +144,19 @@ Vector<Scalar, Eigen::Dynamic> bent_conductor(const std::vector<PlaceMode<Scalar
   });
 }
 
-/// The modal velocities q̇ of the conductor after a blow that gives the place 1 m/s, N × 1
-/// (unchecked).
-/// @param modes  modes at the place
+/// The modal velocities q̇ (N × 1) of a conductor after a blow at the absorber's place that gives
+/// this place 1 m/s (unchecked).
+/// @param modes  modes at the absorber's place
 template <class Scalar>
 Vector<Scalar, Eigen::Dynamic> struck_conductor(const std::vector<PlaceMode<Scalar>>& modes) {
   return detail::scaled_at_place(
       modes, [](const PlaceMode<Scalar>& mode) { return mode.shape / mode.mass; });
 }
 
-/// The state of `modal_plant`, [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂], with given [z, ż, z₂, ż₂]: the
-/// conductor is bent to z by a force at the place, with the velocities after a blow there
-/// (unchecked).
-/// @param modes  modes at the place
+/// The state [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂] of `modal_plant` with given [z, ż, z₂, ż₂]
+/// (unchecked). The conductor is bent to z by a force at the absorber's place, and its velocities
+/// are those after a blow there.
+/// @param modes  modes at the absorber's place
 /// @param seen   observed state [z, ż, z₂, ż₂] (m, m/s, m, m/s)
 template <class Scalar>
 Vector<Scalar, Eigen::Dynamic> modal_state(const std::vector<PlaceMode<Scalar>>& modes,
@@ -171,7 +171,7 @@ Vector<Scalar, Eigen::Dynamic> modal_state(const std::vector<PlaceMode<Scalar>>&
 
 namespace detail {
 
-/// The equations of motion of a conductor's modes, with input and output at its place.
+/// The equations of motion of a conductor's modes, with input and output at the absorber's place.
 template <class Scalar>
 struct ModesAtPlace {
   Matrix<Scalar, Eigen::Dynamic> released;      // of the bare modes
@@ -206,7 +206,7 @@ struct ModesAtPlace {
 
 }  // namespace detail
 
-/// A conductor by N of its modes with the absorber, as a plant of order 2N + 2.
+/// The plant of order 2N + 2 that consists of N modes of a conductor and the absorber.
 ///
 ///     x = [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂]
 ///     f = F + s + k₂ (z₂ − z) + c₂ (ż₂ − ż) − M_c z̈,   m₂ z̈₂ = −s − k₂ (z₂ − z) − c₂ (ż₂ − ż)

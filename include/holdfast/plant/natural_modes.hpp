@@ -14,17 +14,17 @@ namespace holdfast {
 
 /// An oscillating mode, given by its eigenvalue s with positive imaginary part.
 struct NaturalMode {
-  std::complex<double> eigenvalue;  ///< s = −ζω + iω√(1 − ζ²), 1/s
+  std::complex<double> eigenvalue;  ///< eigenvalue s = −ζω + iω√(1 − ζ²) (1/s)
 
-  /// The natural frequency |s|/2π (Hz); for small damping also that of the free vibration.
+  /// The natural frequency |s|/2π (Hz); for small damping also the frequency of free vibration.
   double frequency() const { return std::abs(eigenvalue) / (2.0 * pi<double>); }
   /// The damping ratio ζ = −Re s/|s|, below 1; negative for a growing mode.
   double damping_ratio() const { return -eigenvalue.real() / std::abs(eigenvalue); }
 };
 
-/// The oscillating modes of a plant without control and force, the slowest first.
-/// An overdamped mode (ζ ≥ 1) has two real eigenvalues and is not among them.
-/// @param plant  plant with state_matrix(), in 1/s
+/// The oscillating modes of a plant without control and excitation, the slowest first. An
+/// overdamped mode (ζ ≥ 1) has two real eigenvalues and is left out.
+/// @param plant  plant whose `state_matrix()` is in 1/s
 /// @throws InvalidParameter where two masses are not admissible, or a matrix is not finite
 template <class Plant>
 std::vector<NaturalMode> natural_modes(const Plant& plant) {

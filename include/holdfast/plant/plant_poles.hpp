@@ -16,8 +16,8 @@ namespace holdfast {
 /// A pole s_k of a plant with its residue r_k in the transfer functions from the drive's force to
 /// the conductor's displacement and velocity, G_z = Σ r_k/(s − s_k), G_v = Σ s_k r_k/(s − s_k).
 struct PlantPole {
-  std::complex<double> s;        ///< s_k, 1/s
-  std::complex<double> residue;  ///< r_k, m/(N s)
+  std::complex<double> s;        ///< pole s_k (1/s)
+  std::complex<double> residue;  ///< residue r_k (m/(N s))
 };
 
 namespace detail {
@@ -58,12 +58,12 @@ class PoleFinder {
     BarePair other() const { return {partner, s}; }
   };
 
-  /// The data of a weakly coupled mode, one that the absorber hardly changes, for example since it
-  /// has a node there. Near its eigenvalue s_n the receptance is H = ρ/(s − s_n) + b.
+  /// The data of a weakly coupled mode, one that the absorber hardly changes, for example a mode
+  /// with a node there. Near the mode's eigenvalue s_n the receptance is H = ρ/(s − s_n) + b.
   struct Weak {
-    std::size_t mode;   ///< n
+    std::size_t mode;   ///< number n of the mode
     Complex apart;      ///< s_n minus the mode's other eigenvalue
-    Complex residue;    ///< ρ
+    Complex residue;    ///< residue ρ of H
     Complex stiffness;  ///< K, the passive stiffness at s_n
     Complex divisor;    ///< 1 + bK
   };
@@ -112,7 +112,7 @@ class PoleFinder {
             transmitted_share(absorber_, s) * mode->residue / (mode->divisor * mode->divisor)};
   }
 
-  /// The eigenvalues of a bare mode: the one with Im s > 0 first, or the slower one of two.
+  /// The eigenvalues of a bare mode: first the one with Im s > 0, or the slower real one.
   static BarePair bare(const PlaceMode<double>& mode) {
     const double omega = mode.angular_frequency, zeta = mode.damping_ratio;
     const double apart = std::sqrt(std::abs(1.0 - zeta * zeta));
@@ -161,8 +161,8 @@ class PoleFinder {
   const Absorber<double>& absorber_;
 };
 
-/// Whether these are all poles: as |s| → ∞, G_z ~ a/s² with the acceleration a per newton of the
-/// drive, so that Σ r = 0 and Σ s r = a.
+/// Whether the poles are complete. As |s| → ∞, G_z ~ a/s² with the acceleration a per newton of the
+/// drive, so that Σ r = 0 and Σ s r = a over all poles.
 inline bool are_all_poles(const std::vector<PlantPole>& poles, double acceleration) {
   std::complex<double> sum(0), moment(0);
   double size = 0.0, moment_size = 0.0;
@@ -175,11 +175,11 @@ inline bool are_all_poles(const std::vector<PlantPole>& poles, double accelerati
   return std::abs(sum) < 1e-7 * size && std::abs(moment - acceleration) < 1e-8 * moment_size;
 }
 
-/// Separates poles that coincide or were not found: each that is not distinct from an earlier one
-/// restarts near its start. Then all are improved together, each by Newton's step for the
-/// polynomial divided by the other roots (Ehrlich 1967, Aberth 1973). Poles of weakly coupled modes
-/// are not changed.
-/// @param begins  start of each pole
+/// Separates poles that coincide or were not found: a pole not distinct from an earlier pole is
+/// sought again near its starting value. Then all poles are improved together, each by Newton's
+/// step for the polynomial divided by the other roots (Ehrlich 1967, Aberth 1973). Poles of weakly
+/// coupled modes are not changed.
+/// @param begins  starting value of each pole
 inline void separate(std::vector<PlantPole>& poles, const std::vector<std::complex<double>>& begins,
                      const PoleFinder& finder) {
   using Complex = std::complex<double>;
@@ -217,13 +217,13 @@ inline void separate(std::vector<PlantPole>& poles, const std::vector<std::compl
 
 }  // namespace detail
 
-/// All 2N + 2 poles of a conductor, given by its modes, with the absorber. Each is continued from
-/// its value without coupling (`root_from_pole`). First comes for each mode the pole with Im s > 0,
-/// or the slower one of an overdamped mode; then the modes' other poles and the absorber's two.
-/// Where two continuations end at one pole, all are improved together, and which pole belongs to
-/// which mode is arbitrary. Two sums over the poles test that all were found. Work: N² operations;
+/// All 2N + 2 poles of a conductor, given by N modes, with the absorber. Each pole is continued
+/// from its value without coupling (`root_from_pole`). For each mode the pole with Im s > 0 comes
+/// first, or the slower pole of an overdamped mode; the modes' other poles and the absorber's two
+/// follow. Where two continuations end at one pole, all are improved together, and their assignment
+/// to modes is arbitrary. Two sums over the poles test that none is missing. Work: N² operations;
 /// the eigenvalues of `modal_plant` take N³.
-/// @return nothing where not all were found, for example with critical damping or equal poles
+/// @return no poles where not all were found, for example with critical damping or equal poles
 /// @throws InvalidParameter where modes or absorber are not admissible
 inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& modes,
                                           const Absorber<double>& absorber) {
@@ -262,8 +262,8 @@ inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& 
   return poles;
 }
 
-/// The longest sampling period (s) that resolves all given natural motions: π over their largest
-/// |s|.
+/// The longest sampling period (s) that resolves all given natural motions: π over the largest
+/// modulus |s| of their poles.
 inline double nyquist_period(const std::vector<PlantPole>& poles) {
   double fastest = 0.0;
   for (const PlantPole& pole : poles) fastest = std::max(fastest, std::abs(pole.s));

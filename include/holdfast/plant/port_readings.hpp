@@ -6,13 +6,13 @@
 
 namespace holdfast {
 
-/// The quantities that the ports of a plant of order N read from its state, and changes of them.
-/// @tparam Plant  plant with `ports()`; a specialisation serves the two masses
+/// The functions that read a plant's state by its ports, and functions that change such a state.
+/// @tparam Plant  plant of order N with `ports()`; the two masses have a specialisation
 template <class Plant>
 class PortReadings {
  public:
   using Scalar = ScalarOf<Plant>;  ///< the number type of the plant
-  using State = StateOf<Plant>;    ///< x, N × 1
+  using State = StateOf<Plant>;    ///< state x of the plant, N × 1
 
   /// Constructs the readings by copying the ports.
   explicit PortReadings(const Plant& plant) : ports_(plant.ports()) {}
@@ -27,59 +27,59 @@ class PortReadings {
     return {displacement, velocity, displacement + relative_displacement(x),
             velocity + relative_velocity(x)};
   }
-  /// The measured displacement, which P multiplies (m).
+  /// The measured displacement (m), which the gain P multiplies.
   Scalar measured_displacement(const State& x) const { return ports_.measured_displacement.dot(x); }
-  /// The measured velocity, which D multiplies (m/s).
+  /// The measured velocity (m/s), which the gain D multiplies.
   Scalar measured_velocity(const State& x) const { return ports_.measured_velocity.dot(x); }
-  /// The relative displacement Δz (m).
+  /// The relative displacement Δz (m) of the absorber against the conductor.
   Scalar relative_displacement(const State& x) const { return ports_.relative_displacement.dot(x); }
-  /// The relative velocity Δż (m/s).
+  /// The relative velocity Δż (m/s) of the absorber against the conductor.
   Scalar relative_velocity(const State& x) const { return ports_.relative_velocity.dot(x); }
-  /// The functional Δz of the state, N × 1.
+  /// The coefficients of Δz in the state, N × 1.
   State displacement_row() const { return ports_.relative_displacement.transpose(); }
-  /// The functional Δż of the state, N × 1.
+  /// The coefficients of Δż in the state, N × 1.
   State velocity_row() const { return ports_.relative_velocity.transpose(); }
 
-  /// Adds a displacement (m) to the conductor's z by the least change of the state.
+  /// Adds a displacement (m) to the conductor's z, by the smallest possible change of the state.
   void displace_conductor(State& x, const Scalar& by) const {
     x += ports_.displacement.transpose() * (by / ports_.displacement.squaredNorm());
   }
-  /// Sets Δż to zero without changing Δz.
+  /// Sets the relative velocity Δż to zero without changing Δz.
   void stop_relative_motion(State& x) const {
     x -= ports_.velocity_lift * ports_.relative_velocity.dot(x);
   }
-  /// Sets Δż to zero, and Δz to that of the state `before`.
+  /// Sets the relative velocity Δż to zero, and Δz to its value in the state `before`.
   void hold_relative_position(const State& before, State& x) const {
     x += ports_.displacement_lift * (relative_displacement(before) - relative_displacement(x));
     stop_relative_motion(x);
   }
 
-  /// The velocities ż of states, the columns of an N × M matrix. @return 1 × M
+  /// The velocities ż (m/s) of M states, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.velocity * x);
   }
-  /// The measured displacements of deviations, the columns of an N × M matrix. @return 1 × M
+  /// The measured displacements of M deviations, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto measured_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.measured_displacement * x);
   }
-  /// The measured velocities of deviations, the columns of an N × M matrix. @return 1 × M
+  /// The measured velocities of M deviations, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto measured_velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.measured_velocity * x);
   }
-  /// The relative displacements Δz of deviations, the columns of an N × M matrix. @return 1 × M
+  /// The relative displacements Δz of M deviations, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto relative_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.relative_displacement * x);
   }
-  /// The relative velocities Δż of deviations, the columns of an N × M matrix. @return 1 × M
+  /// The relative velocities Δż of M deviations, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto relative_velocities(const Columns& x) const {
     return (ports_.relative_velocity * x).eval();
   }
-  /// Sets Δż to zero in deviations, the columns of an N × M matrix.
+  /// Sets the relative velocity Δż of M deviations to zero, the columns of an N × M matrix.
   template <class Columns>
   void stop_relative_motions(Columns&& x) const {
     x -= ports_.velocity_lift * (ports_.relative_velocity * x).eval();
@@ -89,23 +89,23 @@ class PortReadings {
   Ports<Scalar, states_of<Plant>> ports_;
 };
 
-/// The readings of the two masses.
+/// The readings of the plant of two masses, whose state is x = [z₁, ż₁, z₂, ż₂].
 template <class Number>
 class PortReadings<TwoMass<Number>> {
  public:
   using Scalar = Number;            ///< the number type of the plant
-  using State = Vector<Number, 4>;  ///< [z₁, ż₁, z₂, ż₂]
+  using State = Vector<Number, 4>;  ///< state [z₁, ż₁, z₂, ż₂]
 
   /// Constructs the readings, which are the same for all plants of this type.
   PortReadings() = default;
   /// Constructs the readings, which are the same for all plants of this type.
   explicit PortReadings(const TwoMass<Number>&) {}
 
-  /// The displacement z₁ (m).
+  /// The displacement z₁ (m) of the conductor.
   const Scalar& displacement(const State& x) const { return x[0]; }
-  /// The velocity ż₁ (m/s).
+  /// The velocity ż₁ (m/s) of the conductor.
   const Scalar& velocity(const State& x) const { return x[1]; }
-  /// The state of both sides of the gap: x itself.
+  /// The state [z₁, ż₁, z₂, ż₂] of both sides of the gap: x itself.
   const State& both_sides(const State& x) const { return x; }
   /// The measured displacement z₁ (m).
   const Scalar& measured_displacement(const State& x) const { return x[0]; }
@@ -115,47 +115,47 @@ class PortReadings<TwoMass<Number>> {
   Scalar relative_displacement(const State& x) const { return holdfast::relative_displacement(x); }
   /// The relative velocity Δż = ż₂ − ż₁ (m/s).
   Scalar relative_velocity(const State& x) const { return holdfast::relative_velocity(x); }
-  /// The row [−1, 0, 1, 0] of Δz.
+  /// The coefficients [−1, 0, 1, 0] of Δz in the state.
   State displacement_row() const { return {Scalar(-1), Scalar(0), Scalar(1), Scalar(0)}; }
-  /// The row [0, −1, 0, 1] of Δż.
+  /// The coefficients [0, −1, 0, 1] of Δż in the state.
   State velocity_row() const { return {Scalar(0), Scalar(-1), Scalar(0), Scalar(1)}; }
 
-  /// Adds a displacement (m) to z₁.
+  /// Adds a displacement (m) to the conductor's z₁.
   void displace_conductor(State& x, const Scalar& by) const { x[0] += by; }
-  /// Sets Δż to zero: ż₂ = ż₁.
+  /// Sets the relative velocity Δż to zero, by ż₂ = ż₁.
   void stop_relative_motion(State& x) const { x[3] = x[1]; }
-  /// Sets ż₂ = ż₁, and z₂ − z₁ to that of the state `before`.
+  /// Sets ż₂ = ż₁, and the relative displacement z₂ − z₁ to its value in the state `before`.
   void hold_relative_position(const State& before, State& x) const {
     x[2] = x[0] + relative_displacement(before);
     x[3] = x[1];
   }
 
-  /// The velocities ż₁ of states, the columns of a 4 × M matrix. @return 1 × M
+  /// The velocities ż₁ (m/s) of M states, the columns of a 4 × M matrix. @return 1 × M
   template <class Columns>
   auto velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(1));
   }
-  /// The measured displacements of deviations, the columns of a 4 × M matrix. @return 1 × M
+  /// The measured displacements of M deviations, the columns of a 4 × M matrix. @return 1 × M
   template <class Columns>
   auto measured_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(0));
   }
-  /// The measured velocities of deviations: the second row.
+  /// The measured velocities of M deviations, the columns of a 4 × M matrix: its second row.
   template <class Columns>
   auto measured_velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(1));
   }
-  /// The relative displacements of deviations: the third row minus the first.
+  /// The relative displacements of M deviations (columns of a matrix): third row minus first row.
   template <class Columns>
   auto relative_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(2) - x.row(0));
   }
-  /// The relative velocities of deviations: the last row minus the second.
+  /// The relative velocities of M deviations (columns of a matrix): last row minus second row.
   template <class Columns>
   auto relative_velocities(const Columns& x) const {
     return (x.row(3) - x.row(1)).eval();
   }
-  /// Sets Δż to zero in deviations: the last row becomes the second.
+  /// Sets Δż to zero in M deviations, the columns of a matrix: copies the second row to the last.
   template <class Columns>
   void stop_relative_motions(Columns&& x) const {
     x.row(3) = x.row(1).eval();

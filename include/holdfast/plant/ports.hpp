@@ -14,7 +14,7 @@ struct Identity {
   using type = Type;
 };
 
-/// A parameter type from which no template argument is deduced, so that braces may replace it.
+/// A parameter type that deduces no template argument, so that a braced list may be passed.
 template <class Type>
 using Undeduced = typename Identity<Type>::type;
 
@@ -44,29 +44,29 @@ using ScalarOf = typename detail::StateMatrixOf<Plant>::Scalar;
 template <class Plant>
 inline constexpr int states_of = detail::StateMatrixOf<Plant>::RowsAtCompileTime;
 
-/// Whether a plant is the two masses, that is, has four states and no ports of its own. Their
-/// sampled loop has closed forms (order 4 + 1); any other loop is computed from its map.
+/// Whether a plant's loop can be analysed in closed form, by a `SampledLoop`: true for two masses
+/// and other plants of four states without `ports()`. Other loops are analysed by a `LoopMap`.
 template <class Plant>
 inline constexpr bool has_closed_forms = states_of<Plant> == 4 && !detail::HasPorts<Plant>::value;
 
-/// The state type of a plant, N × 1.
+/// The state type of a plant: a column of N numbers.
 template <class Plant>
 using StateOf = Vector<ScalarOf<Plant>, states_of<Plant>>;
 
-/// The connections of a loop to a plant of order N: sensor readings, the conductor's motion and the
-/// relative motion at the drive's gap. Rows are functionals of the state x, 1 × N.
+/// The connections of a plant of order N to its loop: sensor readings, the conductor's motion and
+/// the relative motion at the drive's gap. Each row, 1 × N, multiplies the state x.
 template <class Scalar, int States>
 struct Ports {
   RowVector<Scalar, States> displacement;           ///< z (m) of the conductor at the absorber
-  RowVector<Scalar, States> velocity;               ///< ż (m/s)
+  RowVector<Scalar, States> velocity;               ///< ż (m/s) of the conductor at the absorber
   RowVector<Scalar, States> measured_displacement;  ///< reading (m) that P multiplies
   RowVector<Scalar, States> measured_velocity;      ///< reading (m/s) that D multiplies
   RowVector<Scalar, States> relative_displacement;  ///< Δz (m), absorber against conductor
-  RowVector<Scalar, States> relative_velocity;      ///< Δż (m/s)
-  Vector<Scalar, States> displacement_lift;  ///< e_z, N × 1: changes Δz by 1 m without changing Δż
-  Vector<Scalar, States> velocity_lift;  ///< e_v, N × 1: changes Δż by 1 m/s without changing Δz
+  RowVector<Scalar, States> relative_velocity;      ///< Δż (m/s), absorber against conductor
+  Vector<Scalar, States> displacement_lift;  ///< vector e_z, N × 1: changes Δz by 1 m, not Δż
+  Vector<Scalar, States> velocity_lift;      ///< vector e_v, N × 1: changes Δż by 1 m/s, not Δz
 
-  /// The feedback row K = P h_z + D h_v, 1 × N, so that u = K x.
+  /// The feedback row K = P h_z + D h_v (1 × N) from the measured rows h_z and h_v; u = K x.
   RowVector<Scalar, States> feedback_row(const Scalar& proportional,
                                          const Scalar& differential) const {
     return proportional * measured_displacement + differential * measured_velocity;
@@ -80,8 +80,8 @@ struct Ports {
   }
 };
 
-/// The ports of a state that begins with [z₁, ż₁, z₂, ż₂], the two masses'; used for plants without
-/// ports of their own.
+/// The ports of the two masses, for a state that begins with [z₁, ż₁, z₂, ż₂]. Plants without
+/// `ports()` use these ports.
 template <class Scalar, int States = 4>
 Ports<Scalar, States> two_mass_ports(Eigen::Index states = States) {
   const auto unit = [&](Eigen::Index k) {
@@ -97,9 +97,9 @@ Ports<Scalar, States> two_mass_ports(Eigen::Index states = States) {
           unit(3).transpose()};
 }
 
-/// The ports of a plant: its own, or those of the two masses where it has four states and no
-/// `ports()`.
-/// @throws InvalidParameter where one of them has another order than the plant
+/// The ports of a plant: its own `ports()`, or the ports of the two masses if the plant has four
+/// states and no `ports()`.
+/// @throws InvalidParameter where a port has another order than the plant
 template <class Plant>
 Ports<ScalarOf<Plant>, states_of<Plant>> ports_of(const Plant& plant) {
   if constexpr (detail::HasPorts<Plant>::value) {
@@ -112,22 +112,22 @@ Ports<ScalarOf<Plant>, states_of<Plant>> ports_of(const Plant& plant) {
     return two_mass_ports<ScalarOf<Plant>>();
   } else {
     static_assert(detail::HasPorts<Plant>::value,
-                  "a plant of another order than 4 says what is measured: it has `ports()`");
+                  "a plant of an order other than 4 declares its measured quantities by `ports()`");
     return {};
   }
 }
 
 namespace detail {
 
-/// The state of a plant from any Eigen column.
-/// @throws InvalidParameter where it has another size
+/// The state of a plant, converted from any Eigen column.
+/// @throws InvalidParameter where the column has another size than the state
 template <class Plant, class Derived>
 StateOf<Plant> state_of(const Plant& plant, const Eigen::MatrixBase<Derived>& column) {
   constexpr int states = states_of<Plant>, size = Derived::RowsAtCompileTime;
   constexpr bool fits = Derived::ColsAtCompileTime == 1 &&
                         std::is_same_v<typename Derived::Scalar, ScalarOf<Plant>> &&
                         (size == states || size == Eigen::Dynamic || states == Eigen::Dynamic);
-  static_assert(fits, "a state of a plant is a column of as many numbers as it has states");
+  static_assert(fits, "the state of a plant is a column vector, one number per state variable");
   if constexpr (fits) {
     require_size("size of the initial state", column.size(), plant.excitation_input().size());
     return column;
@@ -136,7 +136,7 @@ StateOf<Plant> state_of(const Plant& plant, const Eigen::MatrixBase<Derived>& co
   }
 }
 
-/// Rejects a state of a plant that has another size or is not finite.
+/// Rejects a state that is not finite or has another size than the order of its plant.
 template <class Plant>
 void require_state(const StateOf<Plant>& state, const Plant& plant) {
   require_size("size of the initial state", state.size(), plant.excitation_input().size());

@@ -11,27 +11,27 @@
 
 namespace holdfast {
 
-/// The natural frequencies and the two parameters that a two-mass plant is to have.
+/// The prescribed natural frequencies and parameters of a two-mass plant.
 template <class Scalar>
 struct FrequencyReduction {
-  Scalar conductor_stiffness;  ///< k₁ (N/m), > 0
-  Scalar absorber_mass;        ///< m₂ (kg), > 0
-  Scalar first_frequency;      ///< ω₁/2π (Hz), > 0
-  Scalar second_frequency;     ///< ω₂/2π (Hz), > ω₁/2π
+  Scalar conductor_stiffness;  ///< stiffness k₁ (N/m), > 0
+  Scalar absorber_mass;        ///< mass m₂ (kg), > 0
+  Scalar first_frequency;      ///< first natural frequency ω₁/2π (Hz), > 0
+  Scalar second_frequency;     ///< second natural frequency ω₂/2π (Hz), > ω₁/2π
 };
 
-/// One plant that has the given natural frequencies, with its condition numbers.
+/// A two-mass plant with the prescribed natural frequencies, and its condition numbers.
 struct ReducedMasses {
-  double absorber_stiffness;  ///< k₂ (N/m)
-  double conductor_mass;      ///< m₁ (kg)
-  /// The condition number Σ |∂ ln k₂/∂ ln p| over p = k₁, m₂, ω₁, ω₂: the factor by which relative
-  /// errors of the inputs are amplified.
+  double absorber_stiffness;  ///< stiffness k₂ (N/m)
+  double conductor_mass;      ///< mass m₁ (kg)
+  /// The condition number of k₂, Σ |∂ ln k₂/∂ ln p| over p = k₁, m₂, ω₁, ω₂: the factor by which
+  /// relative errors of these inputs are amplified.
   double stiffness_condition;
   double mass_condition;     ///< condition number of m₁, Σ |∂ ln m₁/∂ ln p|
-  double damping_condition;  ///< condition number of c₁ by Eq. (3), without that of ζ, which is 1
+  double damping_condition;  ///< condition number of c₁ (Kollár 2022, Eq. 3) less the term 1 of ζ
 
-  /// Whether 1 % error of the inputs may cause 100 % error of k₂ or m₁, as near the double
-  /// solution, where the condition numbers are unbounded. False without solution.
+  /// Whether 1 % error of the inputs may cause 100 % error of k₂ or m₁. Near a double solution the
+  /// condition numbers grow without bound. The result is false where no solution exists.
   bool is_ill_conditioned() const {
     constexpr double largest_condition = 100.0;
     return stiffness_condition > largest_condition || mass_condition > largest_condition;
@@ -40,23 +40,23 @@ struct ReducedMasses {
 
 /// The number of two-mass plants with the prescribed natural frequencies.
 enum class ReductionOutcome {
-  two_solutions,    ///< both roots are real and distinct
-  double_solution,  ///< both roots coincide: outputs have unbounded condition numbers
+  two_solutions,    ///< two plants exist: both roots k₂ are real and distinct
+  double_solution,  ///< one plant exists, a double root k₂: condition numbers are unbounded
   no_solution,      ///< no real plant has these frequencies
 };
 
 /// The solutions of the reduction to two natural frequencies.
 struct ReductionResult {
-  ReductionOutcome outcome;  ///< number of solutions in `solutions`
-  /// The discriminant ((1/ω₁ − 1/ω₂)² k₁/m₂) − 1: 0 for a double root; negative without solution.
+  ReductionOutcome outcome;  ///< number of plants in `solutions`
+  /// The discriminant ((1/ω₁ − 1/ω₂)² k₁/m₂) − 1: 0 for a double solution, negative for none.
   double discriminant;
-  /// The solutions, smaller k₂ first; NaN without one. The paper's Table 1 uses the smaller k₂.
+  /// The plants, smaller k₂ first; NaN where none exists. Kollár 2022, Table 1, has the smaller k₂.
   std::array<ReducedMasses, 2> solutions;
-  double largest_absorber_mass;         ///< kg, largest m₂ for which a plant exists
-  double smallest_conductor_stiffness;  ///< N/m, smallest k₁ for which a plant exists
+  double largest_absorber_mass;         ///< largest m₂ (kg) for which a plant exists
+  double smallest_conductor_stiffness;  ///< smallest k₁ (N/m) for which a plant exists
 };
 
-/// The largest m₂ for which a plant exists, k₁ (1/ω₁ − 1/ω₂)² (kg).
+/// The largest mass m₂ (kg) for which a real plant exists, k₁ (1/ω₁ − 1/ω₂)².
 template <class Scalar>
 Scalar largest_absorber_mass(const FrequencyReduction<Scalar>& asked) {
   const Scalar room = (Scalar(1) / asked.first_frequency - Scalar(1) / asked.second_frequency) /
@@ -70,7 +70,7 @@ Scalar reduction_discriminant(const FrequencyReduction<Scalar>& asked) {
   return largest_absorber_mass(asked) / asked.absorber_mass - Scalar(1);
 }
 
-/// The stiffness k₂ (N/m), smaller or larger, with which the undamped plant has ω₁ and ω₂:
+/// The smaller or larger stiffness k₂ (N/m) with which the undamped plant has ω₁ and ω₂, a root of
 ///
 ///     k₂²/m₂ + k₂ (m₂ ω₁²ω₂²/k₁ − ω₁² − ω₂²) + m₂ ω₁²ω₂² = 0,
 ///
@@ -90,7 +90,7 @@ Scalar absorber_stiffness_root(const FrequencyReduction<Scalar>& asked, bool lar
   return larger ? Scalar(scale * grown) : Scalar(scale / grown);
 }
 
-/// The conductor mass m₁ = k₁ k₂/(m₂ ω₁²ω₂²) (kg), from the product of the squared frequencies.
+/// The conductor mass m₁ = k₁ k₂/(m₂ ω₁²ω₂²) (kg), from the product of ω₁² and ω₂².
 template <class Scalar>
 Scalar reduced_conductor_mass(const FrequencyReduction<Scalar>& asked,
                               const Scalar& absorber_stiffness) {
@@ -99,7 +99,7 @@ Scalar reduced_conductor_mass(const FrequencyReduction<Scalar>& asked,
   return asked.conductor_stiffness * absorber_stiffness / (asked.absorber_mass * product * product);
 }
 
-/// The conductor damping c₁ = 2 m₁ ω ζ (N s/m), Eq. (3), ω = √(k₁/m₁) without absorber.
+/// The conductor damping c₁ = 2 m₁ ω ζ (N s/m) with the bare ω = √(k₁/m₁) (Kollár 2022, Eq. 3).
 /// @throws InvalidParameter where m₁ or k₁ is not positive or ζ is outside 0 … 1
 inline double conductor_damping(double conductor_mass, double conductor_stiffness_value,
                                 double damping_ratio) {

@@ -7,25 +7,25 @@
 
 namespace holdfast {
 
-/// The two-degree-of-freedom plant: conductor (1), reduced to the place of the absorber, and
-/// absorber (2).
+/// The two-degree-of-freedom plant: the conductor (mass 1), reduced to the place of the absorber,
+/// and the absorber (mass 2).
 ///
 ///     m₁ z̈₁ = −k₁ z₁ − c₁ ż₁ + k₂ (z₂ − z₁) + c₂ (ż₂ − ż₁) + u + F
 ///     m₂ z̈₂ =                 − k₂ (z₂ − z₁) − c₂ (ż₂ − ż₁) − u
 ///
 /// With z = [z₁, ż₁, z₂, ż₂]ᵀ (m, m/s, m, m/s; positive downward) this is ż = A z + b u + c F.
-/// Source: Kollár 2022, Eqs. (9)–(10). The printed fourth row of A lost a sign and a column; the
-/// row used here, [k₂/m₂, c₂/m₂, −k₂/m₂, −c₂/m₂], follows from the equations of motion above.
+/// Source: Kollár 2022, Eqs. (9)–(10). The fourth row of A is printed there without a sign and a
+/// column; the row [k₂/m₂, c₂/m₂, −k₂/m₂, −c₂/m₂] used here follows from the equations above.
 template <class Scalar>
 struct TwoMass {
   static_assert(is_real<Scalar>, "the numbers of a plant are real: TwoMass<double>");
 
-  Scalar conductor_mass;       ///< m₁ (kg), > 0
-  Scalar conductor_stiffness;  ///< k₁ (N/m), > 0
-  Scalar conductor_damping;    ///< c₁ (N s/m), ≥ 0
-  Scalar absorber_mass;        ///< m₂ (kg), > 0
-  Scalar absorber_stiffness;   ///< k₂ (N/m), > 0
-  Scalar absorber_damping;     ///< c₂ (N s/m), ≥ 0
+  Scalar conductor_mass;       ///< mass m₁ (kg), > 0
+  Scalar conductor_stiffness;  ///< stiffness k₁ (N/m), > 0
+  Scalar conductor_damping;    ///< damping c₁ (N s/m), ≥ 0
+  Scalar absorber_mass;        ///< mass m₂ (kg), > 0
+  Scalar absorber_stiffness;   ///< stiffness k₂ (N/m), > 0
+  Scalar absorber_damping;     ///< damping c₂ (N s/m), ≥ 0
 
   /// The state matrix A of Eq. (10), 4 × 4.
   Matrix<Scalar, 4> state_matrix() const {
@@ -51,7 +51,7 @@ struct TwoMass {
   }
 };
 
-/// Rejects a plant outside the ranges stated at its members.
+/// Rejects a plant whose parameters are outside the ranges stated at the members.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const TwoMass<double>& plant) {
   require_positive("conductor mass m1", plant.conductor_mass, "kg");
@@ -62,7 +62,7 @@ inline void validate(const TwoMass<double>& plant) {
   require_non_negative("absorber damping c2", plant.absorber_damping, "N s/m");
 }
 
-/// Whether a plant passes `validate`.
+/// Whether the parameters of a plant are admissible, that is, `validate` accepts them.
 inline bool is_admissible(const TwoMass<double>& plant) {
   try {
     validate(plant);
@@ -84,7 +84,7 @@ Scalar relative_velocity(const Vector<Scalar, Size>& state) {
   return state[3] - state[1];
 }
 
-/// Converts the masses to another number type, for instance `long double`.
+/// Converts the plant of two masses to another number type, for instance `long double`.
 template <class To, class From>
 TwoMass<To> converted(const TwoMass<From>& plant) {
   return {To(plant.conductor_mass), To(plant.conductor_stiffness), To(plant.conductor_damping),

@@ -10,15 +10,15 @@
 
 namespace holdfast::simd {
 
-/// Computes find_basins() on SIMD packs and several threads.
+/// Computes basins of attraction as find_basins() does, on SIMD packs and several threads.
 ///
 ///     const BasinMap map = simd::find_basins(loop, states);
 ///     for (const auto& attractor : map.attractors) use(attractor.orbit.period());
 ///
 /// @param loop            the loop with its excitation and backlash
-/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be empty
+/// @param initial_states  list of finite states [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s); may be empty
 /// @param limits          limits of each search for the orbit of a single motion
-/// @param threads         ≥ 1, or 0 for all cores; the result does not depend on it
+/// @param threads         number of threads ≥ 1, or 0 for all cores; no effect on the result
 /// @throws InvalidParameter where loop, states or limits are not admissible
 inline BasinMap find_basins(const IdealLoop<double>& loop,
                             const std::vector<Vector<double, 4>>& initial_states,

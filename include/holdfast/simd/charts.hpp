@@ -12,7 +12,7 @@ namespace holdfast::simd {
 
 namespace detail {
 
-/// The number of chart rows that a thread computes at a time.
+/// Number of chart rows that a thread computes at a time.
 inline constexpr std::int64_t rows_of_tile = 32;
 
 /// Fills the cells of a chart.
@@ -40,15 +40,15 @@ inline std::size_t cells_of(const LoopChart& chart) {
 ///     const std::vector<std::uint8_t> stable = simd::stability_chart(chart);
 ///
 /// @param chart    the loop and the two parameters that vary
-/// @param stable   one entry for each cell, row by row, the fast axis along a row; memory not yet
-///                 written is fastest: its pages then lie close to the thread that fills them
-/// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
+/// @param stable   array of one entry for each cell, row by row, the fast axis along a row; fastest
+///                 if not yet written, as its pages are then placed near the writing thread
+/// @param threads  number of threads ≥ 1, or 0 for all cores; no effect on the result
 /// @throws InvalidParameter where the chart is not admissible
 inline void stability_chart(const LoopChart& chart, std::uint8_t* stable, int threads = 0) {
   detail::fill_chart<StabilityChartRows<Pack<double>>>(chart, stable, threads);
 }
 
-/// The stability chart as a vector.
+/// Stability chart as a vector of cells, 1 (stable) or 0, row by row.
 inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int threads = 0) {
   std::vector<std::uint8_t> stable(detail::cells_of(chart));
   stability_chart(chart, stable.data(), threads);
@@ -57,8 +57,8 @@ inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int thr
 
 /// Computes the spectral radius ρ = max |λ| for every cell of a chart, with an error below 1e−10.
 /// @param chart    the loop and the two parameters that vary
-/// @param radius   one entry for each cell, row by row, the fast axis along a row
-/// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
+/// @param radius   array with one entry for each cell, row by row, the fast axis along a row
+/// @param threads  number of threads ≥ 1, or 0 for all cores; no effect on the result
 /// @throws InvalidParameter where the chart is not admissible
 inline void radius_chart(const LoopChart& chart, double* radius, int threads = 0) {
   if (has_processing_delay(chart)) {
@@ -68,7 +68,7 @@ inline void radius_chart(const LoopChart& chart, double* radius, int threads = 0
   }
 }
 
-/// The radius chart as a vector.
+/// Chart of the spectral radius as a vector of cells, row by row.
 inline std::vector<double> radius_chart(const LoopChart& chart, int threads = 0) {
   std::vector<double> radius(detail::cells_of(chart));
   radius_chart(chart, radius.data(), threads);

@@ -7,12 +7,12 @@
 
 namespace holdfast::simd {
 
-/// Computes motion_metrics() on SIMD packs in the calling thread; `duration` in s, ≥ 0.
+/// Computes the metrics of a sweep's motions on SIMD packs in the calling thread. The duration of
+/// the motions is in s, ≥ 0.
 ///
 ///     simd::motion_metrics(motions.data(), motions.size(), 20.0, metrics.data());
 ///
-/// Several threads may compute disjoint parts of the motions at the same time; the results do not
-/// depend on the division into parts.
+/// Threads may compute disjoint parts of the motions at once, with the same results.
 /// @throws InvalidParameter where a motion or the duration is not admissible
 inline void motion_metrics(const SweepMotion* motions, std::size_t count, double duration,
                            MotionMetrics* results) {

@@ -9,11 +9,11 @@
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/select.hpp"
 
-/// The library's kernels on SIMD packs. `xsimd::batch` is made a number type like any other: a
-/// kernel written for `double` then computes as many cells at a time as a register has lanes. The
-/// instruction set is that of the translation unit: SSE2, AVX2, AVX-512, NEON, …. This set is part
-/// of the pack's type and thus of the name of every kernel. Units compiled for several instruction
-/// sets can therefore be linked into one program (bench/README.md).
+/// The library's kernels on SIMD packs. `xsimd::batch` becomes a number type: a kernel written for
+/// `double` then computes as many cells at a time as a register has lanes. The instruction set is
+/// that of the translation unit: SSE2, AVX2, AVX-512, NEON, …. This set is part of the pack's type
+/// and thus of the name of every kernel. Units compiled for several instruction sets can therefore
+/// be linked into one program (bench/README.md).
 
 namespace holdfast {
 
@@ -35,7 +35,7 @@ using Pack = xsimd::batch<Number, Architecture>;
 
 namespace detail {
 
-/// The mask as a number with one bit for each lane, lane 0 lowest.
+/// Mask as a number with one bit per lane; the lowest bit belongs to lane 0.
 template <class Architecture>
 std::uint64_t lane_bits(const xsimd::batch_bool<double, Architecture>& mask) {
   constexpr std::size_t count = xsimd::batch_bool<double, Architecture>::size;
@@ -73,9 +73,9 @@ struct Lanes<xsimd::batch<Number, Architecture>> {
   static constexpr std::size_t count = Pack::size;  ///< number of lanes
   static_assert(count <= 8, "a mask is spread to one 64-bit word");
 
-  /// Reads `count` neighbouring numbers, at any address that suits a `Value`.
+  /// Reads `count` consecutive numbers from any address valid for a `Value`.
   static Pack load(const Value* values) { return Pack::load_unaligned(values); }
-  /// Writes `count` neighbouring numbers, at any address that suits a `Value`.
+  /// Writes `count` consecutive numbers to any address valid for a `Value`.
   static void store(const Pack& pack, Value* values) { pack.store_unaligned(values); }
 
   /// Writes one byte for each lane: 1 where the mask is set, else 0.
@@ -84,7 +84,7 @@ struct Lanes<xsimd::batch<Number, Architecture>> {
     std::memcpy(flags, &bytes, count);
   }
 
-  /// Writes the flags of two masks, 2 `count` bytes: `first`, then `second`.
+  /// Writes the flags of two masks: `count` bytes for `first`, then `count` bytes for `second`.
   static void store_flags(const typename Pack::batch_bool_type& first,
                           const typename Pack::batch_bool_type& second, std::uint8_t* flags) {
     if constexpr (2 * count <= 8) {
@@ -103,7 +103,7 @@ struct Lanes<xsimd::batch<Number, Architecture>> {
 
 namespace Eigen {
 
-/// The properties of packs as entries of small vectors and matrices.
+/// Eigen's traits of packs as entries of small vectors and matrices.
 template <class Number, class Architecture>
 struct NumTraits<xsimd::batch<Number, Architecture>>
     : GenericNumTraits<xsimd::batch<Number, Architecture>> {
@@ -115,9 +115,9 @@ struct NumTraits<xsimd::batch<Number, Architecture>>
 
 namespace internal {
 
-/// The alignment that Eigen adds to arrays of packs: none, since the pack's own type has one.
+/// The alignment that Eigen adds to arrays of packs: none, since the pack's own type is aligned.
 /// EIGEN_MAX_ALIGN_BYTES may then be that of the narrowest instruction set, so that translation
-/// units compiled for several instruction sets agree on it.
+/// units compiled for several instruction sets agree on its value.
 template <class Number, class Architecture, int Size>
 struct compute_default_alignment<xsimd::batch<Number, Architecture>, Size> {
   enum { value = 0 };

@@ -21,8 +21,8 @@ namespace holdfast::simd {
 /// the results do not depend on the number of threads. An exception thrown in a tile is rethrown
 /// to the caller.
 /// @param rows     number of rows, ≥ 0
-/// @param tile     rows of a tile, ≥ 1
-/// @param threads  ≥ 1, or 0 for as many as the machine has cores
+/// @param tile     number of rows of a tile, ≥ 1
+/// @param threads  number of threads ≥ 1, or 0 for one per core of the machine
 /// @param kernel   object that computes rows, copied for each tile
 /// @param compute  called for each tile as compute(kernel, first row, number of rows)
 template <class Kernel, class Compute>

@@ -15,19 +15,19 @@ namespace holdfast {
 /// The response of an end of a span with its devices to incident waves of one frequency. Motions
 /// are relative to a free span that vibrates with 1 m at its antinodes.
 struct EndResponse {
-  std::complex<double> reflection;  ///< r of the displacement, at the outermost device
-  /// The impedance Z = Z_c (1 − r)/(1 + r) (N s/m) of the end at the outermost device's place;
-  /// infinite without a device, as at the support.
+  std::complex<double> reflection;  ///< reflection r of the displacement at the outermost device
+  /// Impedance Z = Z_c (1 − r)/(1 + r) (N s/m) of the end at the outermost device's place; infinite
+  /// without a device, as at the support.
   std::complex<double> impedance;
-  double support_angle;         ///< slope of the conductor at the support (rad/m)
+  double support_angle;         ///< slope of the conductor at the support (rad per m at antinodes)
   std::vector<double> motions;  ///< motions of the devices, outward from the support (m/m)
-  std::vector<double> kinks;    ///< kinks of the conductor at the devices, |Z v|/T (rad/m)
+  std::vector<double> kinks;    ///< jumps |Z v|/T of the slope at devices of velocity v (rad/m)
 
   /// The absorbed fraction 1 − |r|² of the incident power.
   double absorbed_fraction() const { return 1.0 - std::norm(reflection); }
 
   /// The inverse standing-wave ratio S = (1 − |r|)/(1 + |r|), the amplitude at a node over that at
-  /// an antinode. Negative where the devices supply power.
+  /// an antinode. S is negative where the devices supply power.
   double inverse_standing_wave_ratio() const {
     return (1.0 - std::abs(reflection)) / (1.0 + std::abs(reflection));
   }
@@ -41,14 +41,14 @@ struct EndResponse {
 
 /// An end of a span: its devices with their distances from the support, ascending.
 struct SpanEnd {
-  std::vector<double> distances;           ///< m, > 0
-  std::vector<const SpanDevice*> devices;  ///< devices at these distances
+  std::vector<double> distances;           ///< distances (m) from the support, > 0
+  std::vector<const SpanDevice*> devices;  ///< devices at the distances
 };
 
-/// The two ends of a span: [0] has the devices nearer to the left support, [1] those nearer to the
-/// right one.
-/// @param devices  sorted by `in_order`; they must outlive the result
-/// @param span     L (m)
+/// The two ends of a span: entry [0] has the devices nearer to the left support, entry [1] the
+/// devices nearer to the right support.
+/// @param devices  sorted by `in_order`; must outlive the result
+/// @param span     span L (m)
 inline std::array<SpanEnd, 2> span_ends(const std::vector<SpanDevice>& devices, double span) {
   std::array<SpanEnd, 2> ends;
   for (const SpanDevice& device : devices) {
@@ -66,11 +66,11 @@ inline std::array<SpanEnd, 2> span_ends(const std::vector<SpanDevice>& devices, 
 
 /// The response of an end of a taut string to waves e^{iωt}, integrated from the fixed support
 /// outward. Between devices y″ = −k² y with k = ω/c; at a device the slope jumps by Z iω y/T.
-/// Beyond the last one the incident wave and the reflected one are separated,
+/// Beyond the last device the incident and reflected waves are separated by the impedance Z_c ζ_t:
 ///
 ///     r = (1 − ζ_t)/(1 + ζ_t),  ζ_t = Z/Z_c − i cot ka   for one device at a
 ///
-/// The string is undamped: over the few metres of an end it absorbs nearly nothing.
+/// The string is taken as undamped, since the few metres of an end absorb nearly nothing.
 /// @param string             tension and mass; damping and bending stiffness are not used
 /// @param end                end with its devices (unchecked)
 /// @param angular_frequency  ω (rad/s), > 0

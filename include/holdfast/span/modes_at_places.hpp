@@ -9,20 +9,20 @@ namespace holdfast {
 
 /// A mode of a conductor with its shapes at several places.
 struct ModeAtPlaces {
-  double angular_frequency;    ///< ω_n (rad/s), > 0
-  double damping_ratio;        ///< ζ_n, ≥ 0, ≠ 1
-  double mass;                 ///< M_n (kg), > 0
-  std::vector<double> shapes;  ///< φ_n at each place
+  double angular_frequency;    ///< angular frequency ω_n (rad/s), > 0
+  double damping_ratio;        ///< damping ratio ζ_n, ≥ 0, ≠ 1
+  double mass;                 ///< modal mass M_n (kg), > 0
+  std::vector<double> shapes;  ///< mode shape φ_n at each place
 };
 
 /// The modes of a taut string at several places: the sines 1 … count, and higher modes in bundles
-/// (`bundled_string_modes`), separate for each place, since such short waves are damped out between
-/// two places. The bundles of successive places differ by a thousandth in frequency: equal
-/// frequencies could not be separated.
+/// (`bundled_string_modes`). Each place has its own bundles, as short waves are damped out between
+/// two places. The bundles of successive places differ by a thousandth in frequency, since poles of
+/// equal frequency could not be separated.
 /// @param string   a taut string
-/// @param places   m from the left support, inside the span
-/// @param count    sines, 1 … 10⁴
-/// @param highest  ω (rad/s) up to which bundles are formed
+/// @param places   distances (m) from the left support, inside the span
+/// @param count    number of sines, 1 … 10⁴
+/// @param highest  highest angular frequency ω (rad/s) of the bundles
 /// @throws InvalidParameter under the conditions of `bundled_string_modes`
 inline std::vector<ModeAtPlaces> string_modes_at(const TautString<double>& string,
                                                  const std::vector<double>& places, int count,

@@ -10,12 +10,12 @@
 
 namespace holdfast {
 
-/// The impedance Z* = Z_c (1 + i cot ka) (N s/m), k = ω/c, with which a device at a distance from a
-/// support reflects no wave of one frequency.
+/// The impedance Z* = Z_c (1 + i cot ka) (N s/m), k = ω/c, with which a device at a distance a from
+/// a support reflects no wave of one frequency.
 /// @param string             tension and mass
 /// @param distance           a (m) from the support, > 0; sin ka ≠ 0
 /// @param angular_frequency  ω (rad/s), > 0
-/// @throws InvalidParameter where the place is a node of that frequency
+/// @throws InvalidParameter where sin ka = 0: the device is at a node of this frequency
 inline std::complex<double> matched_impedance(const TautString<double>& string, double distance,
                                               double angular_frequency) {
   const double phase = angular_frequency * distance / string.wave_speed();
@@ -31,14 +31,14 @@ inline std::complex<double> matched_impedance(const TautString<double>& string, 
 ///     −(D d + P/s) Λ = Z_eff,   Λ = F(s) D(s) e^{−s(δ + τ/2)} sinc(ωτ/2)
 ///
 /// where d is 1, or (1 − e^{−sτ})/(sτ) for a velocity by difference: two real equations for P, D.
-/// F(s), D(s) are the lags of `LoopHardware`; K_p, T_a are those of `place_response`. Whether the
-/// loop is stable with these gains must be examined separately.
+/// The lags F(s), D(s) are defined at `LoopHardware`, K_p and T_a at `place_response`. Stability of
+/// the loop with these gains must be examined separately.
 /// @param string             tension and mass
 /// @param distance           a (m) from the support, > 0; sin ka ≠ 0
 /// @param device             absorber with its computer; its gains are not used
 /// @param angular_frequency  ω (rad/s), > 0, no multiple of 2π/τ; with a velocity by difference, no
 ///                           multiple of π/τ
-/// @throws InvalidParameter where the place is a node of that frequency or ω an excluded multiple
+/// @throws InvalidParameter where the device is at a node of the wave, or ω an excluded multiple
 inline PdGains<double> perfect_absorption(const TautString<double>& string, double distance,
                                           const ActiveAbsorber& device, double angular_frequency) {
   const std::complex<double> s(0.0, angular_frequency);

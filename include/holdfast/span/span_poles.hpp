@@ -41,7 +41,7 @@ class SpanPoles {
     for (const ModeAtPlaces& mode : modes) add(mode);
   }
 
-  /// The receptance H_il at s.
+  /// Receptance H_il (m/N) at the complex frequency s (1/s): force at place l, displacement at i.
   Complex receptance(std::size_t i, std::size_t l, const Complex& s) const {
     Complex sum(0.0);
     for (const Pole& pole : poles_) sum += part(pole, i, l, s);
@@ -66,8 +66,8 @@ class SpanPoles {
     }());
   }
 
-  /// Attaches an absorber and returns all poles, with residues from its drive to its place, as
-  /// `plant_poles` does: both poles of each pair; no pole where not all were found.
+  /// Attaches an absorber. @return all poles, both of each pair, with residues from its drive to
+  /// the displacement of its place, as from `plant_poles`; empty where a pole was not found
   /// @throws InvalidParameter where the absorber is not admissible
   std::vector<PlantPole> attach(const Absorber<double>& absorber, std::size_t place) {
     validate({{1.0, 0.0, 1.0, 1.0}}, absorber);
@@ -85,7 +85,7 @@ class SpanPoles {
     return found;
   }
 
-  /// The poles (1/s), of a pair the one with Im s > 0: of the modes, then of the devices in turn.
+  /// Poles (1/s) of the modes, then of the devices in turn; of a pair only the pole with Im s > 0.
   std::vector<Complex> roots() const {
     std::vector<Complex> found;
     for (const Pole& pole : poles_) found.push_back(pole.s);
@@ -198,7 +198,7 @@ class SpanPoles {
     return {change, is_weak, stiffness_here, denominator, shape, std::move(others)};
   }
 
-  /// The pole, to first order, with a device that hardly moves it.
+  /// First-order value of a pole that the attached device hardly moves.
   static Pole weakly(const Pole& pole, const PoleShift& shift) {
     Pole result{pole.s - shift.change, pole.is_pair, pole.shapes};
     for (std::size_t i = 0; i < result.shapes.size(); ++i)
@@ -207,7 +207,7 @@ class SpanPoles {
   }
 
   /// The new value (1/s) of a pole that moves little compared with its distance from all others, by
-  /// Newton's method from pole.s − shift.change; nothing where this is not certain.
+  /// Newton's method from pole.s − shift.change; nothing where the pole may move farther.
   template <class Stiffness>
   std::optional<Complex> next_to(const Pole& pole, const PoleShift& shift,
                                  const Stiffness& stiffness, std::size_t place) const {
@@ -223,7 +223,7 @@ class SpanPoles {
     return s;
   }
 
-  /// Adds the pole continued from `begin`. Where a pair becomes real, `separate` finds the second.
+  /// Adds the pole continued from `begin`. If a pair turns real, `separate` finds the second pole.
   template <class Stiffness>
   void follow(std::vector<Followed>& found, const Stiffness& stiffness, const Complex& begin,
               bool is_pair, std::size_t place) const {
@@ -236,10 +236,10 @@ class SpanPoles {
     if (is_pair && !stays) found.push_back({std::conj(begin), std::nan(""), false, std::nullopt});
   }
 
-  /// The one of s and its conjugate with Im s ≥ 0, which represents the pair.
+  /// The pole with Im s ≥ 0 of a conjugate pair; this pole represents the pair.
   static Complex upper(const Complex& s) { return s.imag() < 0.0 ? std::conj(s) : s; }
 
-  /// The sum Σ 1/(s − s_k) over all known s_k but number `but`, and over the conjugates of pairs.
+  /// Sum Σ 1/(s − s_k) over all known s_k except number `but`, and over the conjugates of pairs.
   template <class Motions>
   static Complex pull(const Motions& motions, const Complex& s, std::size_t but) {
     Complex sum(0.0);
@@ -251,8 +251,8 @@ class SpanPoles {
     return sum;
   }
 
-  /// Separates poles that coincide or were not found: each one that is not distinct from an earlier
-  /// one restarts, with Newton's steps for the polynomial of all poles divided by the other roots
+  /// Separates poles that coincide or were not found: each pole not distinct from an earlier pole
+  /// restarts, with Newton's steps for the polynomial of all poles divided by the other roots
   /// (Ehrlich 1967, Aberth 1973).
   template <class Stiffness>
   void separate(std::vector<Followed>& found, const std::vector<Complex>& own,
@@ -286,7 +286,7 @@ class SpanPoles {
     }
   }
 
-  /// Whether the k-th pole is known and distinct from all before it.
+  /// Whether the k-th pole is known and distinct from all earlier poles.
   static bool is_apart(const std::vector<Followed>& found, std::size_t k) {
     constexpr double same = 1e-7;
     if (!std::isfinite(std::abs(found[k].s))) return false;
@@ -300,7 +300,7 @@ class SpanPoles {
     return true;
   }
 
-  /// The pole refined by Newton's method on 1/H + K.
+  /// The pole refined by Newton's method on 1/H + K, H being the receptance H_jj at j = `place`.
   template <class Stiffness>
   Complex polished(Complex s, const Stiffness& stiffness, std::size_t place) const {
     for (int turn = 0; turn < 12; ++turn) {

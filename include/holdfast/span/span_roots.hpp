@@ -13,8 +13,8 @@
 
 namespace holdfast {
 
-/// The deflection at the right support of a string that leaves the left support with slope 1, for
-/// waves e^{st}: zero where s is an eigenvalue of the span with its devices.
+/// Deflection at the right support of a string that leaves the left support with slope 1, for waves
+/// e^{st}. The deflection is zero where s is an eigenvalue of the span with its devices.
 ///
 /// The string's damping is a complex stiffness, T e^{2iφ} with sin φ = ζ, so that each mode alone
 /// has s = iω e^{iφ} and exactly the damping ratio ζ; this is valid for Im s > 0.
@@ -23,7 +23,7 @@ class SpanWaves {
   using Complex = std::complex<double>;  ///< type of s and of deflections
 
   /// @param string   taut string; its bending stiffness is not used
-  /// @param devices  sorted by `in_order`; they must outlive this object
+  /// @param devices  sorted by `in_order`; must outlive this object
   /// @throws InvalidParameter where the string is not admissible
   SpanWaves(const TautString<double>& string, const std::vector<SpanDevice>& devices)
       : string_(string), devices_(devices) {
@@ -53,7 +53,7 @@ class SpanWaves {
   }
 
  private:
-  /// Propagates y and its slope over `way` (m) along the string.
+  /// Propagates y and its slope over the distance `way` (m) along the string.
   static void run(double way, const Complex& rate, Complex& y, Complex& slope) {
     const Complex sine = std::sinh(rate * way), cosine = std::cosh(rate * way);
     const Complex moved = y * cosine + slope * sine / rate;
@@ -68,20 +68,20 @@ class SpanWaves {
 
 /// An eigenvalue of a span with its devices.
 struct SpanRoot {
-  std::complex<double> bare;  ///< s of the mode without devices (1/s)
-  std::complex<double> root;  ///< s with devices; NaN where the continuation failed
-  /// The ζ of the bare mode plus that of light devices: Σ sin²(nπa/L) Re Z(iω_n)/(μ L ω_n).
+  std::complex<double> bare;  ///< eigenvalue s (1/s) of the mode without devices
+  std::complex<double> root;  ///< eigenvalue s with devices; NaN where the continuation failed
+  /// Damping ratio of the bare mode plus that of light devices, Σ sin²(nπa/L) Re Z(iω_n)/(μ L ω_n).
   double first_order;
-  /// The ζ of the bare mode plus that of devices near the supports by Krenk's asymptote, Σ (a/L) Im
-  /// iη/(1 + iη), with η = (Z/Z_c) nπ a/L and a from the nearer support.
+  /// Damping ratio of the bare mode plus that of devices near the supports by Krenk's asymptote,
+  /// Σ (a/L) Im iη/(1 + iη), with η = (Z/Z_c) nπ a/L and the distance a from the nearer support.
   double asymptotic;
 
   double damping() const { return -root.real() / std::abs(root); }          ///< ζ = −Re s/|s|
   double frequency() const { return std::abs(root) / (2.0 * pi<double>); }  ///< |s|/2π (Hz)
 };
 
-/// The damping of mode n of a taut string by the laws for light and near devices; `root` is NaN.
-/// @param string   its bending stiffness is not used; its damping is that of mode n
+/// The damping ratios `first_order` and `asymptotic` of mode n of a taut string; `root` is NaN.
+/// @param string   taut string with the damping ratio of mode n; bending stiffness is not used
 /// @param devices  inside the span (unchecked)
 /// @param n        number of half-waves, ≥ 1
 inline SpanRoot span_root_laws(const TautString<double>& string,
@@ -102,9 +102,9 @@ inline SpanRoot span_root_laws(const TautString<double>& string,
   return found;
 }
 
-/// The root of mode n of a taut string with devices, see `span_roots`.
-/// @param string   its bending stiffness is not used; its damping is that of mode n
-/// @param devices  `in_order` (unchecked)
+/// Eigenvalue of mode n of a taut string with devices, see `span_roots`.
+/// @param string   taut string with the damping ratio of mode n; bending stiffness is not used
+/// @param devices  sorted by `in_order` (unchecked)
 /// @param n        number of half-waves, ≥ 1
 /// @throws InvalidParameter where the string is not admissible
 inline SpanRoot span_root(const TautString<double>& string, const std::vector<SpanDevice>& devices,
@@ -121,15 +121,15 @@ inline SpanRoot span_root(const TautString<double>& string, const std::vector<Sp
 ///
 ///     sinh γL + Σ_j (Z_j/Z_c) sinh γa_j sinh γ(L − a_j) + …,   γ = s/c
 ///
-/// for example, with one dashpot to the ground, sin βL + i (c/Z_c) sin βa sin β(L − a) = 0, s = iβc
-/// (Krenk, J. Eng. Mech. 126 (2000)). Each is continued from a mode of the bare string.
+/// for example, with one dashpot c_d to the ground, sin βL + i (c_d/Z_c) sin βa sin β(L − a) = 0,
+/// s = iβc (Krenk, J. Eng. Mech. 126 (2000)). Each root is continued from a bare mode.
 ///
 /// The continuation proves nothing: if two roots meet during it, their modes may be exchanged.
 /// For an ActiveAbsorber only the part of its force at the frequency of the motion is included. A
 /// measured device acts with its impedance at ω = |s|.
 /// @param string   taut string; its bending stiffness is not used
 /// @param devices  in any order
-/// @param count    modes 1 … count
+/// @param count    number of modes
 /// @throws InvalidParameter where the string is not admissible, a device is outside it or the count
 /// is outside 1 … 10⁵
 inline std::vector<SpanRoot> span_roots(const TautString<double>& string,

@@ -15,7 +15,7 @@ namespace holdfast::cvode {
 
 namespace detail {
 
-/// Whether a system has a banded Jacobian: half_bandwidth() and jacobian(state, set).
+/// Whether a system provides a banded Jacobian by half_bandwidth() and jacobian(state, set).
 template <class System, class = void>
 struct HasBandedJacobian : std::false_type {};
 template <class System>
@@ -71,7 +71,7 @@ class Integrator : public detail::Session {
     if constexpr (bounded) watch_margin();
   }
 
-  /// Integrates to the instant `time` (s). After a failure it only returns that outcome again.
+  /// Integrates to the instant `time` (s). After a failure every call returns that failure again.
   IntegrationOutcome advance_to(double time) {
     if (outcome_ != IntegrationOutcome::completed) return outcome_;
     check(CVode(memory_.get(), time, state_.get(), &time_, CV_NORMAL));
@@ -84,7 +84,7 @@ class Integrator : public detail::Session {
       check(CVodeReInit(memory_.get(), time_, state_.get()));
   }
 
-  /// The state (states() numbers) at the instant last reached.
+  /// The state at the instant last reached, an array of states() numbers.
   const double* state() const { return N_VGetArrayPointer(state_.get()); }
   /// The instant last reached (s).
   double time() const { return time_; }

@@ -24,7 +24,7 @@ namespace holdfast::cvode {
 
 /// Outcome of an integration; each value stands for several of CVODE's return flags.
 enum class IntegrationOutcome {
-  completed,           ///< CV_SUCCESS and CV_TSTOP_RETURN
+  completed,           ///< CV_SUCCESS and CV_TSTOP_RETURN: no failure
   model_ended,         ///< CV_ROOT_RETURN: the system's margin() reached zero
   too_much_work,       ///< CV_TOO_MUCH_WORK: the limit of steps was reached
   too_much_accuracy,   ///< CV_TOO_MUCH_ACC: the tolerances are finer than round-off
@@ -32,12 +32,12 @@ enum class IntegrationOutcome {
   convergence_failed,  ///< CV_CONV_FAILURE and the like: Newton or the fixed point did not converge
   linear_solver_failed,    ///< CV_LINIT_FAIL, CV_LSETUP_FAIL, CV_LSOLVE_FAIL
   right_hand_side_failed,  ///< CV_RHSFUNC_FAIL and the like: the rates were not finite
-                           ///< (after the start, Adams' method gives convergence_failed for it)
+                           ///< (after the start, Adams' method gives convergence_failed instead)
   out_of_memory,           ///< an object of SUNDIALS could not be allocated
   refused,                 ///< any other flag, for example for an illegal input
 };
 
-/// The outcome that a flag of CVODE means.
+/// Outcome that corresponds to a return flag of CVODE.
 inline IntegrationOutcome outcome_of_flag(int flag) {
   using Outcome = IntegrationOutcome;
   struct Family {
@@ -62,7 +62,7 @@ inline IntegrationOutcome outcome_of_flag(int flag) {
   return Outcome::refused;
 }
 
-/// CVODE's name of a flag, for example "CV_TOO_MUCH_WORK".
+/// Name of a return flag in CVODE, for example "CV_TOO_MUCH_WORK".
 inline std::string name_of_flag(int flag) {
   const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
   return name ? std::string(name.get()) : "flag " + std::to_string(flag);
@@ -72,14 +72,14 @@ inline std::string name_of_flag(int flag) {
 struct IntegrationCost {
   long steps = 0;                 ///< internal steps of the integrator
   long rate_evaluations = 0;      ///< calls of the right-hand side
-  long jacobian_evaluations = 0;  ///< 0 for a system without a banded Jacobian
+  long jacobian_evaluations = 0;  ///< evaluations of a banded Jacobian; 0 without one
 };
 
 /// Local error per step and the limit of steps between two outputs.
 struct Tolerances {
-  double relative = 1e-6;  ///< > 0
-  double absolute = 1e-9;  ///< > 0, in the units of the states (m, m/s)
-  /// Limit (> 0) of the steps from one output to the next; beyond it: `too_much_work`.
+  double relative = 1e-6;  ///< relative tolerance, > 0
+  double absolute = 1e-9;  ///< absolute tolerance in the units of the states (m, m/s), > 0
+  /// Limit (> 0) of the steps from one output to the next; more steps give `too_much_work`.
   long largest_number_of_steps = 2000000;
 };
 
@@ -134,7 +134,7 @@ class Session {
   const std::string& words() const { return words_; }
 
  protected:
-  /// @throws InvalidParameter for tolerances that are not positive
+  /// Session before open(). @throws InvalidParameter for tolerances that are not positive
   explicit Session(const Tolerances& tolerances) {
     require_positive("relative tolerance", tolerances.relative, "");
     require_positive("absolute tolerance", tolerances.absolute, "");
@@ -177,8 +177,8 @@ class Session {
     return false;
   }
 
-  /// Tries whether memory for SUNDIALS' own vectors is lacking, which version 6 does not check, by
-  /// allocating and freeing as much. lacks_memory_for_matrix() does this for a matrix.
+  /// Whether memory for SUNDIALS' own vectors is lacking, which version 6 does not check. The test
+  /// allocates and frees as much memory. For a matrix see lacks_memory_for_matrix().
   bool lacks_memory_for_vectors(sunindextype states, sunindextype vectors) {
     const SerialVector spare(N_VNew_Serial(states * vectors, context_.get()));
     return lacks_memory(spare != nullptr);

@@ -20,25 +20,25 @@ namespace holdfast::cvode {
 
 /// The controller, its drive and the excitation of a cable in finite elements.
 struct ElementsLoop {
-  Sampling<double> sampling;              ///< τ and δ ≤ τ
-  PdGains<double> gains;                  ///< P and D
-  HarmonicExcitation<double> excitation;  ///< F_m and f of the force at the absorber's place
-  double backlash_width = 0.0;            ///< r₀ (m), ≥ 0
-  ForceHold hold = ForceHold::sampled;    ///< harmonic force: held over a sample or continuous
+  Sampling<double> sampling;              ///< sampling period τ and processing delay δ ≤ τ
+  PdGains<double> gains;                  ///< gains P and D
+  HarmonicExcitation<double> excitation;  ///< force at the absorber's place: amplitude, frequency
+  double backlash_width = 0.0;            ///< width r₀ (m) of the backlash, ≥ 0
+  ForceHold hold = ForceHold::sampled;    ///< whether the harmonic force is held between samples
 };
 
-/// The motion of a nonlinear cable in finite elements with the absorber on its spring, with
-/// the sampled drive and its backlash between the two. It includes large sag, large motion and
-/// waves, and serves as reference for models with fewer states.
+/// The motion of a nonlinear cable in finite elements and of the absorber on its spring.
+/// The sampled drive with its backlash acts between cable and absorber. The model includes large
+/// sag, large motion and waves, and serves as reference for models with fewer states.
 ///
 /// As in `SampledMotion`, `sense()` decides contact and force at t_j and `advance()` moves to
 /// t_{j+1}. CVODE integrates between the instants at which a force jumps and restarts at each. Work
 /// per sample: some tens of BDF steps, each linear in the number of elements.
 class ElementsMotion {
  public:
-  static constexpr int states = 4;                 ///< size of State
-  using State = Vector<double, 4>;                 ///< [z, ż, z₂, ż₂] (m, m/s, m, m/s)
-  using Readings = PortReadings<TwoMass<double>>;  ///< readings of a State
+  static constexpr int states = 4;                 ///< number of entries of State
+  using State = Vector<double, 4>;                 ///< state [z, ż, z₂, ż₂] (m, m/s, m, m/s)
+  using Readings = PortReadings<TwoMass<double>>;  ///< functions that read a State
 
   /// @param cable       cable with the absorber as a spring–mass; must outlive this object
   /// @param loop        loop; τ, δ and r₀ are checked
@@ -60,7 +60,7 @@ class ElementsMotion {
     system_.amplitude = loop.hold == ForceHold::exact ? loop.excitation.amplitude : 0.0;
   }
 
-  /// Takes sample j: decides the contact and the drive's force. To be called once per sample.
+  /// Takes sample j and decides the contact and the drive's force; to be called once per sample.
   MotionSample<double> sense() {
     const State seen = state();
     const bool engaged = law_.step(seen[2] - seen[0], seen[3] - seen[1]);
@@ -81,13 +81,13 @@ class ElementsMotion {
     previous_force_ = present_force_;
   }
 
-  /// Index j of the next sample for `sense()`, or of the one taken since the last `advance()`.
+  /// Index j of the present sample, which `sense()` takes and `advance()` leaves.
   std::int64_t index() const { return index_; }
   /// Time t_j (s) of sample j.
   double time() const { return static_cast<double>(index_) * loop_.sampling.period; }
-  /// State [z, ż, z₂, ż₂] at the instant last reached.
+  /// State [z, ż, z₂, ż₂] (m, m/s, m, m/s) at the instant last reached.
   State state() const { return system_.cable.at_absorber(integrator_.state()); }
-  /// The readings of state().
+  /// Functions that read displacements and velocities from a State.
   Readings readings() const { return {}; }
   /// Outcome: completed while all bars are in tension and CVODE has not failed, else the reason.
   IntegrationOutcome outcome() const { return integrator_.outcome(); }
@@ -97,7 +97,7 @@ class ElementsMotion {
   IntegrationCost cost() const { return integrator_.cost(); }
 
  private:
-  /// The elements under the drive and the excitation.
+  /// Differential equations of the cable's elements with the forces of drive and excitation.
   struct System {
     const CableElements& cable;
     double angular_frequency;

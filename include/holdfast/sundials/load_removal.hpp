@@ -22,20 +22,20 @@ enum class LoadRemovalOutcome {
 /// The vibration at the absorber's place after a force is removed at t = 0.
 struct LoadRemoval {
   LoadRemovalOutcome outcome;  ///< whether the record is complete, or why not
-  std::string words;           ///< CVODE's message where it failed
+  std::string words;           ///< message of CVODE if CVODE failed
   double last_time;  ///< instant (s) of the record's end, of slackness, or of CVODE's failure
-  double initial_displacement;  ///< m: drop under the force, from rest under the weight
+  double initial_displacement;  ///< drop (m) caused by the force, from the equilibrium without it
   DecayRecord record;           ///< displacements at t = 0, interval, 2 interval, …
-  IntegrationCost cost;         ///< zeros where there is no equilibrium
+  IntegrationCost cost;         ///< cost of the integration; zeros without an equilibrium
 };
 
 /// The free vibration of a cable at rest under a force, after this force is removed at t = 0.
 /// @param cable       `CableElements`, or a type with its members
-/// @param force       N, downward positive
-/// @param duration    s, > 0; the record ends at the last multiple of the interval not after it
-/// @param interval    s between the record's instants, > 0
+/// @param force       removed force (N), downward positive
+/// @param duration    duration (s), > 0; the record ends at the last whole multiple of the interval
+/// @param interval    time (s) between the record's instants, > 0
 /// @param tolerances  local error per step, and the limit of steps in an interval
-/// @param at_each     called before each instant; an exception of it ends the run
+/// @param at_each     called before each instant; an exception thrown by `at_each` ends the run
 /// @throws InvalidParameter outside these ranges, and for 2⁵³ instants or more
 template <class Cable>
 LoadRemoval load_removal(const Cable& cable, double force, double duration, double interval,

@@ -23,12 +23,12 @@ namespace holdfast {
 /// One motion of a sweep with exact switching: its loop and its initial state.
 struct EventSweepMotion {
   const ImplementedLoop* loop;      ///< loop for which has_event_pack() is true
-  Vector<double, 4> initial_state;  ///< [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
+  Vector<double, 4> initial_state;  ///< initial state [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 };
 
 namespace detail {
 
-/// A motion of a batch, with its start and its range of samples.
+/// A motion of a batch: its start and its range of samples.
 struct PreparedEventMotion {
   EventStart start;
   SampleSpan span;
@@ -39,7 +39,7 @@ struct PreparedEventMotions {
   std::vector<PreparedEventMotion> motions;
   std::vector<std::unique_ptr<EventTable>> tables;
 
-  /// @throws InvalidParameter where a motion or the duration is not admissible
+  /// Prepares a batch. @throws InvalidParameter where a motion or the duration is not admissible
   PreparedEventMotions(const EventSweepMotion* of, std::size_t count, double duration) {
     std::vector<SampleSpan> spans(count);
     for (std::size_t k = 0; k < count; ++k) {
@@ -56,7 +56,7 @@ struct PreparedEventMotions {
     }
   }
 
-  /// The table for a loop: the latest one that serves it, or a new one.
+  /// Table for a loop: the latest table that is valid for this loop, or a new one.
   EventTable& table_of(const ImplementedLoop& loop) {
     const auto serving = std::find_if(tables.rbegin(), tables.rend(),
                                       [&](const auto& table) { return table->serves(loop); });
@@ -71,7 +71,7 @@ class EventMetricTrack {
  public:
   static constexpr std::size_t lanes = Lanes<Scalar>::count;
 
-  /// @param motions  first of `count` motions, 1 ≤ count ≤ lanes
+  /// Starts a pack of motions. @param motions  first of `count` motions, 1 ≤ count ≤ lanes
   EventMetricTrack(const PreparedEventMotion* motions, std::size_t count)
       : pack_(starts_of(motions, count)) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -203,8 +203,8 @@ void group_event_metrics(const PreparedEventMotion* motions, std::size_t count,
 /// as many at a time as `Scalar` has lanes.
 ///
 /// The metrics equal those of event_metrics() for one motion except for rounding, and do not depend
-/// on the other motions of the batch. Work: that of EventPack, and a few matrix exponentials for
-/// each different plant, sampling and force.
+/// on the other motions of the batch. Work: the work of EventPack, and a few matrix exponentials
+/// for each different plant, sampling and force.
 /// @param motions   motions, each with has_event_pack() true for its loop and a finite state
 /// @param count     number of motions, ≥ 0
 /// @param duration  length of each motion (s), ≥ 0

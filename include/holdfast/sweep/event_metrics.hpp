@@ -33,7 +33,7 @@ double drive_velocity(const PortReadings<Plant>& readings, const StateOf<Plant>&
   return velocity;
 }
 
-/// Whether a motion has SwitchCounts::accumulates; never for a SampledMotion.
+/// Whether contact changes of a motion accumulate (SwitchCounts); possible for EventMotion only.
 template <class Motion>
 bool accumulates(const Motion&) {
   return false;
@@ -74,14 +74,14 @@ MotionMetrics metrics_of_motion(Motion& motion, const SampleSpan& span,
 
 /// The metrics of sweep/motion_metrics.hpp for one motion of an implemented loop.
 ///
-/// They are evaluated only at the samples t_j of the loop's clock, although the drive may switch in
-/// between. The drive transmits at a sample where it is `engaged` (in stick it is not); u_j is
-/// the force transmitted at the sample. For the loop of the paper's model the metrics equal those
-/// of `motion_metrics` except for rounding.
+/// The metrics are evaluated only at the samples t_j of the loop's clock, although the drive may
+/// switch in between. The drive transmits at a sample where its mode is `engaged`, not `stick`; u_j
+/// is the force transmitted at the sample. For the loop of the paper's model the metrics equal
+/// those of `motion_metrics` except for rounding.
 ///
 ///     event_metrics(implemented_loop(loop), Vector<double, 4>::Zero(), 20.0).steady_peak;
 ///
-/// Work: that of EventMotion, and about 30 operations a sample. The loop over samples allocates
+/// Work: the work of EventMotion, and about 30 operations a sample. The loop over samples allocates
 /// nothing.
 /// @param loop           loop with its excitation and backlash
 /// @param initial_state  x, N × 1; for the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)

@@ -15,7 +15,7 @@ namespace holdfast {
 namespace detail {
 
 /// The spans of all motions, sorted by their numbers of samples. Motions with equal numbers keep
-/// their order, so that neighbours in that order can share matrices.
+/// their order, so that successive motions can share matrices.
 /// @throws InvalidParameter where a motion or the duration is not admissible
 inline std::vector<SampleSpan> ordered_spans(const SweepMotion* motions, std::size_t count,
                                              double duration) {
@@ -48,15 +48,15 @@ void group_metrics(const SweepMotion* motions, const SampleSpan* spans, std::siz
 ///     std::vector<MotionMetrics> metrics(motions.size());
 ///     motion_metrics<double>(motions.data(), motions.size(), 20.0, metrics.data());
 ///
-/// A motion's metrics do not depend on the other motions, to the last bit. Packs and scalars give
-/// the same metrics except for rounding. Memory: some 50 bytes per motion beside the results. Work:
+/// A motion's metrics do not depend on the rest of the batch, to the last bit. Packs and scalars
+/// give equal metrics except for rounding. Memory: some 50 bytes per motion plus the results. Work:
 /// see `detail::MetricTrack`, and a few matrix exponentials for each motion whose plant or sampling
 /// differs from that of the motion before it.
 /// @param motions   motions, each with an admissible loop and a finite state
 /// @param count     number of motions, ≥ 0
 /// @param duration  length of each motion (s), ≥ 0
 /// @param results   metrics, as many as motions and in their order
-/// @param source    SweepMatrices, or a class derived from it that observes: it is called at every
+/// @param source    SweepMatrices, or a derived class that observes: `source` is called at every
 ///                  sample with the numbers of the motions in the lanes, the sample's index and the
 ///                  mask of the lanes that transmit. Lanes may be past their motion's last sample
 ///                  or repeat a motion. Its pause() is called every some hundred samples and may

@@ -25,7 +25,7 @@
 
 namespace holdfast::detail {
 
-/// The observations needed in a stretch of samples; those that no lane needs are left out.
+/// Observations that at least one lane needs in the next samples; other observations are omitted.
 struct Watch {
   bool extremum;    ///< some lane has not yet had its first extremum
   bool steady;      ///< some lane is in its steady samples
@@ -75,8 +75,8 @@ class MetricTrack {
         lanes, is_reversal(motion_.law().memory().previous_velocity, velocity(motion_.state())));
   }
 
-  /// Starts the checks for divergence, which count the samples with finite states. In lanes that
-  /// are still finite all samples so far are counted.
+  /// Starts the checks for divergence and the count of samples with a finite state. In a lane that
+  /// is still finite, the count begins with all samples so far.
   void begin_watching_divergence() {
     finite_samples_ =
         select(finite_, Scalar(static_cast<double>(motion_.index())), finite_samples_);
@@ -113,8 +113,8 @@ class MetricTrack {
 /// Computes the metrics of several motions in SIMD lanes, each with its own loop and number of
 /// samples.
 ///
-/// All lanes advance together. The loop over samples is left where a lane comes to its first steady
-/// sample or its end, so that it has no branches on lanes. No result depends on the other lanes.
+/// All lanes advance together. The loop over samples is left where a lane reaches its first steady
+/// sample or its end, so that it has no branches on lanes. Results are independent of other lanes.
 /// @tparam Source  type with the members of SweepMatrices: matrices of a loop, calls at samples
 template <class Scalar, class Source = SweepMatrices>
 class MetricGroup {
@@ -257,8 +257,8 @@ class MetricGroup {
     }
   }
 
-  /// The loop over samples. It works on copies of the tracks, so that the compiler keeps them in
-  /// registers; for that, every function called here must be inlined.
+  /// Loop over samples. Copies of the tracks are used, which the compiler keeps in registers; for
+  /// this, every function called here must be inlined.
   template <bool Extremum, bool Steady, bool Divergence, std::size_t... Pack>
   [[gnu::flatten]] void take(std::int64_t end, std::index_sequence<Pack...> /*packs*/) {
     constexpr auto block = static_cast<std::int64_t>(PhasorTable<Scalar>::block);
@@ -298,7 +298,7 @@ class MetricGroup {
     }
   }
 
-  /// Ends motions beyond `unseen_state`, to be computed again with checks at every sample.
+  /// Ends motions beyond `unseen_state`. They are computed again with checks at every sample.
   void close_unseen() {
     const auto seen = flags([](const auto& track) { return track.size() < Scalar(unseen_state); });
     for (std::size_t k = 0; k < lanes; ++k) {

@@ -24,25 +24,25 @@ Mask<Scalar> is_reversal(const Scalar& before, const Scalar& now) {
 }
 
 /// The sums and peaks from which the metrics of a motion are computed; for packs, of one motion per
-/// lane. Its callers, such as MetricTrack and event_metrics(), decide which samples are steady.
+/// lane. The callers, such as MetricTrack and event_metrics(), decide which samples are steady.
 template <class Scalar>
 struct MetricObserver {
-  static constexpr double infinity = std::numeric_limits<double>::infinity();  ///< ∞
+  static constexpr double infinity = std::numeric_limits<double>::infinity();  ///< infinity ∞
 
   Scalar before_last = Scalar(MotionMetrics::unknown);  ///< z₁ (m) two samples ago; NaN: none yet
-  Scalar last = Scalar(MotionMetrics::unknown);         ///< z₁ (m) one sample ago or NaN
+  Scalar last = Scalar(MotionMetrics::unknown);         ///< z₁ (m) one sample ago; NaN: none yet
   Scalar first_peak = Scalar(MotionMetrics::unknown);   ///< |z₁| (m) at its first strict extremum
-  Scalar force_peak = Scalar(0);                        ///< max |u| (N)
-  Scalar highest = Scalar(-infinity);                   ///< max Δz (m)
-  Scalar lowest = Scalar(infinity);                     ///< min Δz (m)
+  Scalar force_peak = Scalar(0);                        ///< largest control force |u| (N)
+  Scalar highest = Scalar(-infinity);                   ///< largest relative displacement Δz (m)
+  Scalar lowest = Scalar(infinity);                     ///< smallest relative displacement Δz (m)
   Scalar steady_peak = Scalar(0);                       ///< max |z₁| (m) of the steady samples
   Scalar squares = Scalar(0);                           ///< Σ z₁² (m²) of the steady samples
   Scalar force_squares = Scalar(0);                     ///< Σ u² (N²) of the steady samples
   Scalar engaged = Scalar(0);    ///< number of steady samples at which the drive transmits
   Scalar reversals = Scalar(0);  ///< number of reversals of Δż between successive steady samples
 
-  /// Takes z₁ (m) of a sample; an extremum is found at the sample after it. Work: about 4
-  /// comparisons and 3 selects.
+  /// Takes the displacement z₁ (m) of a sample; an extremum is detected one sample later. Work:
+  /// about 4 comparisons and 3 selects.
   void observe_extremum(const Scalar& displacement) {
     using std::abs;
     // At the first two samples the comparisons are with NaN and therefore false.
@@ -56,7 +56,7 @@ struct MetricObserver {
   /// The lanes whose first extremum has been found.
   Mask<Scalar> extremum_found() const { return first_peak == first_peak; }
 
-  /// Takes u (N) and Δz (m) of a sample.
+  /// Takes the control force u (N) and the relative displacement Δz (m) of a sample.
   void observe_load(const Scalar& force, const Scalar& relative_displacement) {
     using std::abs;
     using std::max;
@@ -66,11 +66,11 @@ struct MetricObserver {
     lowest = min(lowest, relative_displacement);
   }
 
-  /// Takes a steady sample.
-  /// @param displacement  z₁ (m)
-  /// @param force         u (N)
+  /// Adds a steady sample to the sums and peaks.
+  /// @param displacement  conductor's displacement z₁ (m)
+  /// @param force         control force u (N)
   /// @param transmits     whether the drive transmits
-  /// @param reverses      whether Δż changed its sign since the sample before
+  /// @param reverses      whether Δż reversed (is_reversal()) since the previous sample
   void observe_steady(const Scalar& displacement, const Scalar& force,
                       const Mask<Scalar>& transmits, const Mask<Scalar>& reverses) {
     using std::abs;
@@ -119,7 +119,7 @@ struct SampleSpan {
   double steady_time;         ///< time (s) from the first steady sample to the last
 };
 
-/// The samples of a motion up to `duration` (s). Samples from duration/2 on are steady.
+/// Range of samples of a motion up to `duration` (s). Samples at or after duration/2 are steady.
 /// @throws InvalidParameter where the duration, the period or the number is not admissible
 inline SampleSpan sample_span(std::size_t motion, double duration, const SamplingClock& clock) {
   std::int64_t samples = samples_within(duration, clock.period());
@@ -153,7 +153,7 @@ inline MotionMetrics completed_metrics(const MetricObserver<double>& seen, const
   return metrics;
 }
 
-/// @param samples  number of samples with a finite state
+/// Metrics of a diverged motion. @param samples  number of samples with a finite state
 inline MotionMetrics diverged_metrics(const MetricObserver<double>& seen, std::int64_t samples) {
   MotionMetrics metrics{MotionEnd::diverged, samples, seen.first_peak};
   for (double* number : {&metrics.steady_peak, &metrics.steady_rms, &metrics.force_peak,

@@ -12,10 +12,10 @@
 namespace holdfast {
 
 /// The metrics of sweep/motion_metrics.hpp for one motion of a conductor given by its modes. Here
-/// z₁ is the conductor's displacement at the absorber. Work: that of ModalMotion.
+/// z₁ is the conductor's displacement at the absorber. Work: the work of ModalMotion.
 /// @param loop      loop, which is not checked
 /// @param poles     all `plant_poles` of the loop's modes and absorber
-/// @param state     initial state, laid out as that of `modal_plant`
+/// @param state     initial state in the order of `modal_plant`
 /// @param duration  length of the motion (s), ≥ 0
 /// @param pause     called every 2¹⁴ samples; may throw to stop the computation
 /// @throws InvalidParameter where the duration or the sampling is not admissible

@@ -16,24 +16,24 @@ enum class MotionEnd {
 
 /// The metrics of one motion of the sampled loop with backlash in a sweep.
 ///
-/// The samples are t_j = j τ, j = 0, 1, …, up to the duration. The steady samples are those from
-/// half the duration on, up to round-off; without any, their metrics are NaN. For a motion that
+/// The samples are t_j = j τ, j = 0, 1, …, up to the duration. Samples at or after half the
+/// duration, up to round-off, are steady; without any, their metrics are NaN. For a motion that
 /// diverged, `first_peak` keeps its value, `engaged_fraction` and `reversals_per_s` are NaN, and
-/// all other metrics infinite. For MotionEnd::accumulates all metrics are NaN, and `samples`
+/// all other metrics are infinite. For MotionEnd::accumulates all metrics are NaN, and `samples`
 /// counts the samples taken before the period with those changes ended.
 struct MotionMetrics {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///< NaN
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no value
 
-  MotionEnd end;                 ///< decides which of the numbers below are finite
+  MotionEnd end;                 ///< outcome, which decides which numbers below are finite
   std::int64_t samples;          ///< number of samples; if diverged, of samples with a finite state
   double first_peak = unknown;   ///< |z₁| (m) at its first strict local extremum at j ≥ 1
   double steady_peak = unknown;  ///< max |z₁| (m) of the steady samples
   double steady_rms = unknown;   ///< √(mean z₁²) (m) of the steady samples
   double engaged_fraction = unknown;  ///< share of the steady samples at which the drive transmits
-  double force_peak = unknown;        ///< max |u_j| (N) of all samples, required of the drive
+  double force_peak = unknown;        ///< largest |u_j| (N) of all samples, required of the drive
   double force_rms = unknown;         ///< √(mean u_j²) (N) of the steady samples
-  /// Reversals of the drive per second (1/s): how often Δż ≠ 0 changed its sign or became zero
-  /// between successive steady samples, over the time from the first to the last; NaN for 0 s
+  /// Reversals of the drive per second (1/s): number of times that Δż ≠ 0 changed sign or became 0
+  /// between steady samples, over the time from the first to the last steady sample; NaN for 0 s
   double reversals_per_s = unknown;
   double absorber_stroke = unknown;  ///< max Δz − min Δz (m) of all samples, Δz = z₂ − z₁
 };

@@ -14,9 +14,9 @@
 
 namespace holdfast::detail {
 
-/// The matrices of the loops of a sweep. They are computed only if they differ from the matrices
-/// of the loop before, since exponentials cost some microseconds. A derived class may observe the
-/// samples by its own operator() and pause(), which hide those of this class.
+/// The matrices of the loops of a sweep. A loop's matrices are computed only if they differ from
+/// those of the previous loop, since exponentials cost some microseconds. A derived class may
+/// observe the samples by its own operator() and pause(), which hide those of this class.
 class SweepMatrices {
  public:
   struct Matrices {
@@ -42,12 +42,12 @@ class SweepMatrices {
     return matrices_;
   }
 
-  /// Called at every sample with the numbers of the motions in the lanes, the sample's index and
-  /// the lanes that transmit.
+  /// Hook called at every sample with the numbers of the motions in the lanes, the sample's index
+  /// and the lanes that transmit.
   template <class LaneMask>
   void operator()(const std::size_t* /*motions*/, std::int64_t /*index*/,
                   const LaneMask& /*engaged*/) const {}
-  /// Called every some hundred samples; may throw in a derived class.
+  /// Hook called every few hundred samples; in a derived class it may throw.
   void pause() const {}
 
  private:

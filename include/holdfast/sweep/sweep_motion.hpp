@@ -12,7 +12,7 @@ namespace holdfast {
 /// One motion of a sweep: its loop and its initial state.
 struct SweepMotion {
   IdealLoop<double> loop;           ///< loop, which may differ from motion to motion
-  Vector<double, 4> initial_state;  ///< [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
+  Vector<double, 4> initial_state;  ///< initial state [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 };
 
 /// The parameters m₁, k₁, c₁, m₂, k₂, c₂ of a plant in SI units.

@@ -79,7 +79,7 @@ class OptionText {
     const std::int64_t points = count(found[2]);
     // at() weighs the ends with whole numbers up to the count.
     const double largest = std::max(std::abs(ends.min), std::abs(ends.max));
-    if (!std::isfinite(2.0 * largest * static_cast<double>(points))) refuse("too large a range");
+    if (!std::isfinite(2.0 * largest * static_cast<double>(points))) refuse("range too large");
     return {ends.min, ends.max, points};
   }
 

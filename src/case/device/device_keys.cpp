@@ -29,32 +29,32 @@ DeviceKey key(ValueKind kind, const char* name, ValuePlace (*place)(Device&), co
 }
 
 const std::vector<DeviceKey> listed_keys = {
-    key(ValueKind::word, "kind", where<&Device::kind>, "", {}, "what it is",
+    key(ValueKind::word, "kind", where<&Device::kind>, "", {}, "kind of the device",
         {"dashpot", "tuned_mass", "stockbridge", "measured", "inerter", "stiffness"}),
     key(ValueKind::number, "position", where<&Device::position>, "m", positive,
         "distance from the left support, inside the span"),
     key(ValueKind::word, "to", where<&Device::to>, "", {},
-        "what it pushes against: the ground, or a mass that hangs on the conductor by it",
+        "body that the device acts against: the ground, or a mass that hangs on the conductor",
         {"ground", "conductor"}),
     key(ValueKind::number, "damping", where<&Device::damping>, "N s/m", not_negative,
-        "force over velocity"),
+        "damping of the device, force over velocity"),
     key(ValueKind::number, "stiffness", where<&Device::stiffness>, "N/m", any_number,
-        "force over displacement; below 0 of the kind stiffness alone"),
+        "stiffness of the device, force over displacement; below 0 only for kind stiffness"),
     key(ValueKind::number, "inertance", where<&Device::inertance>, "kg", not_negative,
-        "force over acceleration"),
+        "inertance of the device, force over acceleration"),
     key(ValueKind::number, "mass", where<&Device::mass>, "kg", positive,
-        "what hangs on the conductor by it; of a stockbridge its weights together"),
+        "mass that the device hangs on the conductor; for a stockbridge the sum of its weights"),
     key(ValueKind::number, "clamp_mass", where<&Device::clamp_mass>, "kg", not_negative,
-        "what of it moves with the conductor"),
+        "mass of the part of the device that moves with the conductor"),
     key(ValueKind::numbers, "frequencies", where<&Device::frequencies>, "Hz", positive,
-        "its resonances, ascending: two of a stockbridge, one of a tuned_mass in place of "
+        "resonances, ascending: two for a stockbridge, one for a tuned_mass in place of "
         "stiffness"),
     key(ValueKind::numbers, "damping_ratios", where<&Device::damping_ratios>, "", not_negative,
-        "of each resonance; of a tuned_mass in place of damping"),
+        "damping ratio of each resonance; for a tuned_mass in place of damping"),
     key(ValueKind::number, "mass_share", where<&Device::mass_share>, "", inside_one,
-        "part of a stockbridge's mass that swings at its first frequency"),
+        "share of a stockbridge's mass that swings at the first of its frequencies"),
     key(ValueKind::file, "file", where<&Device::file>, "", {},
-        "CSV file of its impedance: columns frequency_Hz, magnitude_N_s_per_m and phase_deg"),
+        "CSV file of impedance: columns frequency_Hz, magnitude_N_s_per_m and phase_deg"),
 };
 
 /// Keys that a kind of device takes beside kind, position, to and clamp_mass.
@@ -110,7 +110,7 @@ std::string used_keys_text(const Kind& kind) {
 CaseFault missing(std::string_view key, const std::string& of_what) {
   const DeviceKey& known = *find_device_key(key);
   return {{},
-          known.name + " is missing" + of_what + ": " + known.description + "; admissible is " +
+          known.name + " is missing" + of_what + ": " + known.description + "; must be " +
               known.admissible()};
 }
 
@@ -131,7 +131,7 @@ CaseFault unused_key_fault(const Device& device, const Kind& kind,
                            const std::set<std::string>& given) {
   for (const std::string& key : given)
     if (!kind.uses(key))
-      return {{key}, with_article(device) + " has no such key; its keys: " + used_keys_text(kind)};
+      return {{key}, with_article(device) + " has no such key; it has " + used_keys_text(kind)};
   if (device.to == "ground" && kind.has_own_mass)
     return {{"to"}, "a " + device.kind + " hangs on the conductor: to must be \"conductor\""};
   if (device.to == "ground" && has(given, "mass"))

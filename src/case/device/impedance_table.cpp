@@ -30,9 +30,9 @@ void require_passive(const CsvTable& table, std::size_t row, double magnitude, d
   throw table.fault(row, "at " + format_number(table.number(row, frequency_column)) +
                              " Hz the real part of the impedance is " +
                              format_rounded(magnitude * share) +
-                             " N s/m, below 0, but a passive device gives no power; is phase_deg "
-                             "that of the force on the device over its velocity, not over "
-                             "displacement or acceleration, and not of the reaction force?");
+                             " N s/m, below 0, but a passive device gives no power; phase_deg must "
+                             "be the phase of the force on the device over its velocity, not over "
+                             "displacement or acceleration, and not of the reaction force");
 }
 
 /// Keeps the imaginary part alone where the real part is below 0.

@@ -117,15 +117,14 @@ void require_reading_range(const Case& the_case) {
   const ReadingRange range = reading_range_of(the_case);
   const double highest = highest_reading(the_case);
   if (!(-range.above > highest))
-    throw WrongInput(
-        blame_for_range(the_case, "absorber.position", "reduction.reading_above") +
-        "reduction.reading_above = " + format_number(range.above) +
-        " m: the static model cannot lift the absorber's place so far; admissible is less than " +
-        format_rounded(-highest) + " m");
+    throw WrongInput(blame_for_range(the_case, "absorber.position", "reduction.reading_above") +
+                     "reduction.reading_above = " + format_number(range.above) +
+                     " m: must be less than " + format_rounded(-highest) +
+                     " m, the highest that the static model can lift the absorber's place");
   if (!(range.below <= the_case.conductor.sag))
     throw WrongInput(blame_for_range(the_case, "conductor.sag", "reduction.reading_below") +
                      "reduction.reading_below = " + format_number(range.below) +
-                     " m: admissible is at most the sag, " + format_number(the_case.conductor.sag) +
+                     " m: must be at most the sag, " + format_number(the_case.conductor.sag) +
                      " m");
 }
 
@@ -157,8 +156,8 @@ void require_force_within_statics(const Case& the_case, double force) {
   const double lowest = irvine_statics_of(the_case).lowest_force();
   if (force > lowest) return;
   throw WrongInput("a force of " + format_number(force) +
-                   " N lifts half of the cable's own weight or more, beyond the static model: "
-                   "admissible is greater than " +
+                   " N lifts half of the cable's own weight or more, beyond the static model: the "
+                   "force must be greater than " +
                    format_rounded(lowest) + " N");
 }
 

@@ -29,13 +29,13 @@ std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& f
   return "the boundary nearly has a cusp at P = " +
          format_rounded(static_cast<double>(near->gains.proportional)) +
          " N/m, D = " + format_rounded(static_cast<double>(near->gains.differential)) +
-         " N s/m: there a small change of the loop makes stable intervals appear or vanish";
+         " N s/m: near these gains small changes make stable intervals appear or vanish";
 }
 
 std::string near_border_warning(double border_share) {
   if (!(border_share < near_border)) return "";
   return "the orbit passes a switching surface at a distance of " + format_rounded(border_share) +
-         " of its own size: a relative change of the loop by as little may destroy the orbit";
+         " of the orbit's size: a relative change of the loop by as little may destroy the orbit";
 }
 
 std::string shifted_copies_warning(std::int64_t period, std::int64_t coincidence) {
@@ -51,15 +51,15 @@ std::string open_sign_warning(const LyapunovResult& result) {
   if (result.sign_is_known()) return "";
   return "the largest exponent, " + format_rounded(result.exponents[0]) + " per sample with the " +
          "standard error " + format_rounded(result.standard_errors[0]) +
-         ", cannot be told from zero: a longer --duration may show its sign";
+         ", may be zero: a longer --duration may show its sign";
 }
 
 std::string stepped_reading_warning(const Case& the_case) {
   const auto& control = the_case.control;
   if (control.displacement_quantum == 0.0 && control.velocity_quantum == 0.0) return "";
   return "control.displacement_quantum or control.velocity_quantum rounds the readings to steps: "
-         "the exponents hold only for neighbours within one step; holdfast deviation follows "
-         "neighbours farther apart";
+         "the exponents hold only for motions closer than one step; holdfast deviation compares "
+         "motions farther apart";
 }
 
 std::string short_average_warning(const Case& the_case, double averaged) {
@@ -67,8 +67,8 @@ std::string short_average_warning(const Case& the_case, double averaged) {
   const double periods = averaged * effective_excitation(the_case).frequency;
   if (!(periods < least_periods)) return "";
   return "the exponents are averaged over only " + format_rounded(periods) +
-         " forcing periods: below 20 they describe the transient, not the settled motion; take a "
-         "longer --duration";
+         " forcing periods: averages over fewer than 20 describe the transient, not the settled "
+         "motion; give a longer --duration";
 }
 
 double held_share(const Case& the_case, double sampling_period, double frequency) {
@@ -87,7 +87,7 @@ std::string held_force_warning(const Case& the_case, double sampling_period, dou
   if (std::abs(share - 1.0) <= noticeable) return "";
   return "excitation.hold = \"sampled\": held over samples of " + format_rounded(sampling_period) +
          " s, the force of " + format_rounded(frequency) + " Hz gives " + format_rounded(share) +
-         " times the uncontrolled amplitude of the true force; " + shown;
+         " times the amplitude without control that it gives if not held; " + shown;
 }
 
 std::string held_force_warning(const Case& the_case, const std::string& shown) {

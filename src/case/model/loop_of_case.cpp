@@ -127,7 +127,7 @@ std::string divergence_warning(const Case& the_case, bool controlled, double kic
   const std::string grown = "the motion diverges: by t = " + format_rounded(time) +
                             " s it has grown to " + format_rounded(size) + " (m, m/s)";
   if (!(size < divergence_bound(the_case, kick)))
-    return grown + ", which no bounded motion of this loop reaches";
+    return grown + ", more than any bounded motion of this loop reaches";
   const bool has_play =
       law_of(the_case.backlash.law) != ContactLaw::none && the_case.backlash.width > 0.0;
   if (!controlled || has_play || !has_ideal_computer(the_case) || size == 0.0) return "";

@@ -62,8 +62,8 @@ std::string distant_force_text(const Case& the_case) {
   return "the excitation is at " + format_rounded(frequency) +
          " Hz, far from the natural frequencies of " + format_rounded(first) + " and " +
          format_rounded(second) +
-         " Hz of the reduced plant: set reduction.second_frequency near the excitation, "
-         "reduction.first_frequency near that of the absorber on its spring";
+         " Hz of the reduced plant: set reduction.second_frequency near the excitation frequency, "
+         "and reduction.first_frequency near the natural frequency of the absorber on its spring";
 }
 
 std::string joined_texts(const std::vector<std::string>& texts) {

@@ -59,8 +59,8 @@ ConductorCurves conductor_curves_of(const Case& the_case) {
   if (std::isfinite(c.thermal_expansion) || named == nullptr) {
     if (!has_expansion(the_case))
       throw MissingKeys(
-          "the case does not give what [stringing] needs: conductor.thermal_expansion (1/K); "
-          "conductor.name takes a conductor's data from the library");
+          "[stringing] needs conductor.thermal_expansion (1/K); conductor.name takes a conductor's "
+          "data from the library");
     curves.outer = linear_wires(modulus, c.thermal_expansion);
     return curves;
   }
@@ -128,14 +128,15 @@ SpanTension tension_in(const Case& the_case, const StrungSpan& span, const SpanW
   if (!tension.within_curves)
     throw WrongInput("[stringing]: " + state + " the conductor would be stretched by " +
                      format_rounded(tension.strain) +
-                     " of its length, beyond what its stress-strain law holds for");
+                     " of its length, beyond the range of its stress-strain curves");
   return tension;
 }
 
 CaseFault stringing_fault(const Case& the_case) {
   const case_tables::Stringing& s = the_case.stringing;
   if (!has_stringing(the_case)) {
-    for (const char* key : {"stringing.ruling_span", "weather.temperature", "weather.temperatures"})
+    for (const char* key :
+         {"stringing.ruling_span", "weather.temperature", "weather.temperatures", "weather.hours"})
       if (the_case.is_given(key))
         return {{key},
                 std::string(key) +
@@ -160,7 +161,7 @@ CaseFault stringing_fault(const Case& the_case) {
   if (strain > 0.02)
     return {{"stringing.tension"},
             "stringing.tension would stretch the conductor by " + format_rounded(strain) +
-                " of its length; admissible is at most 0.02"};
+                " of its length, more than the limit of 0.02"};
   if (needs_change_of_state(the_case) && !has_expansion(the_case))
     return {{"weather.temperature", "stringing.temperature"},
             "[stringing] needs conductor.thermal_expansion (1/K) for another temperature; "

@@ -187,7 +187,7 @@ CaseFault impossible_fault(const Case& the_case) {
   for (const PlausibleQuantity& quantity : quantities_of_case()) {
     const double value = quantity.of(the_case);
     if (is_beyond(quantity.possible, value) && !is_half_borrowed(the_case, quantity.keys))
-      return {quantity.keys, found_text(quantity, value) + "; admissible is " +
+      return {quantity.keys, found_text(quantity, value) + "; must be " +
                                  quantity.possible.in_words(quantity.unit) + ": " +
                                  quantity.reason};
   }
@@ -222,7 +222,7 @@ std::vector<std::string> doubts_about(const Case& the_case, const Quantities& qu
       for (const std::string& key : quantity.keys)
         if (the_case.is_given(key)) keys.push_back(key);
     if (keys.empty()) continue;
-    doubts.push_back(given_text(read, keys) + ": " + found_text(quantity, value) + ", usual is " +
+    doubts.push_back(given_text(read, keys) + ": " + found_text(quantity, value) + ", usually " +
                      quantity.usual.in_words(quantity.unit) + ": " + quantity.reason + guess.text);
     if (!guess.keys.empty()) read = guess.corrected;
   }
@@ -262,7 +262,7 @@ std::string contradicted_conductor_text(const Case& the_case) {
                 " " + pair.unit;
   if (differ.empty()) return "";
   return "every key of [plant] is given, so [conductor], [absorber] and [reduction] are not used "
-         "for the plant, and they contradict it: " +
+         "for the plant, and they contradict [plant]: " +
          differ + "; remove [plant] to compute the plant from the conductor";
 }
 
@@ -292,8 +292,8 @@ std::string borrowed_damping_text(const Case& the_case) {
       the_case.is_given("conductor.damping_ratio"))
     return "";
   return "conductor.damping_ratio is " + format_number(the_case.conductor.damping_ratio) +
-         ", that of the built-in cable: a stranded conductor under tension has about 0.0001 to "
-         "0.002, which the library does not list; give it";
+         ", the value of the built-in cable: the library lists no ratio, and a stranded conductor "
+         "under tension has about 0.0001 to 0.002; give conductor.damping_ratio";
 }
 
 std::string borrowed_control(const Case& the_case) {

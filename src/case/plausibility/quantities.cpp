@@ -87,7 +87,7 @@ const Quantities listed_of_case = {
         at_most(1e5)),
     number_of(
         "conductor.gravity", "m/s2", [](const Case& c) { return c.conductor.gravity; }, {0.05, 30},
-        "9.81 on earth, less across a steep stay"),
+        "gravity is 9.81 on earth, its part across a steep stay is less"),
     number_of(
         "conductor.damping_ratio", "", [](const Case& c) { return c.conductor.damping_ratio; },
         at_most(0.2), "cables have 0.0001 to 0.03"),
@@ -113,16 +113,17 @@ const Quantities listed_of_case = {
         [](const Case& c) {
           return of_own_cable(c, of_wind<&Wind::effective_length>(c) / c.conductor.span);
         },
-        at_most(1.01), "the wind acts on the span and nowhere else"),
+        at_most(1.01), "the wind acts on no more than the span"),
     number_of("wind.strouhal", "", of_wind<&Wind::strouhal>, {0.05, 0.6},
               "a circular cylinder has 0.18 to 0.22, beyond the drag crisis up to 0.5"),
     number_of("wind.lift_coefficient", "", of_wind<&Wind::lift_coefficient>, at_most(5),
-              "a cylinder at rest has 0.3 to 0.6, one that moves up to 2"),
+              "a cylinder at rest has 0.3 to 0.6, a moving cylinder up to 2"),
     number_of("wind.air_density", "kg/m3", of_wind<&Wind::air_density>, {0.3, 1100},
               "air has 0.4 at 10 km to 1.4, water 1000"),
     number_of(
         "site.weibull_scale", "m/s", [](const Case& c) { return known(c.site.weibull_scale); },
-        {0.5, 25}, "the mean speed is 0.89 of it; sheltered places have 2, mountain tops 15"),
+        {0.5, 25},
+        "the mean speed is 0.89 of the scale; sheltered places have 2, mountain tops 15"),
     number_of(
         "site.weibull_shape", "", [](const Case& c) { return c.site.weibull_shape; }, {0.8, 6},
         "wind has 1.2 to 3, trade winds 4"),
@@ -139,7 +140,7 @@ const Quantities listed_of_case = {
         "control.processing_delay over control.sampling_period", "",
         {"control.processing_delay", "control.sampling_period"},
         [](const Case& c) { return c.control.processing_delay / c.control.sampling_period; },
-        at_most(10), "a computer answers within a sample, with a bus or a camera within a few"),
+        at_most(10), "computers answer in a sampling period, with a bus or a camera in a few"),
     number_of(
         "backlash.width", "m", [](const Case& c) { return c.backlash.width; }, at_most(0.01),
         "belts and gears have 1e-5 to 0.005"),
@@ -159,15 +160,15 @@ const Quantities listed_of_case = {
                                      (c.conductor.youngs_modulus * area * area));
         },
         at_most(3), "a strand bends at least as easily as one rod of its area, E A^2/(4 pi)"),
+    quantity("conductor.mass_per_length / conductor.area", "kg/m3",
+             {"conductor.area", "conductor.mass_per_length"},
+             [](const Case& c) { return c.conductor.mass_per_length / c.conductor.area; },
+             {800, 30000},
+             "polymer ropes have 900, aluminium 2700, steel 7900, grouted stays up to 12000, "
+             "tungsten 19300, models with added masses more",
+             {10, 1e6}),
     quantity(
-        "conductor.mass_per_length / conductor.area", "kg/m3",
-        {"conductor.area", "conductor.mass_per_length"},
-        [](const Case& c) { return c.conductor.mass_per_length / c.conductor.area; }, {800, 30000},
-        "polymer ropes have 900, aluminium 2700, steel 7900, grouted stays up to 12000, tungsten "
-        "19300, models with masses fixed to them more",
-        {10, 1e6}),
-    quantity(
-        "the share of its circle that the conductor fills, 4 conductor.area / (pi "
+        "the metal share of the circle of this diameter, 4 conductor.area / (pi "
         "conductor.diameter^2),",
         "", {"conductor.diameter", "conductor.area"},
         [](const Case& c) { return of_own_cable(c, filled_share(c, known(c.conductor.diameter))); },
@@ -192,8 +193,8 @@ const Quantities listed_of_case = {
         "conductor.sag over conductor.span", "", {"conductor.sag", "conductor.span"},
         [](const Case& c) { return of_own_cable(c, c.conductor.sag / c.conductor.span); },
         at_most(0.125),
-        "Eq. 1 and Irvine's modes hold only for shallow cables, the exact statics and the finite "
-        "elements for all",
+        "the paper's Eq. 1 and Irvine's modes hold only for shallow cables; exact statics and "
+        "finite elements hold for all",
         whatever, asks_no_unit),
     quantity(
         "the speed of waves, conductor.span sqrt(conductor.gravity / (8 conductor.sag)),", "m/s",
@@ -201,30 +202,29 @@ const Quantities listed_of_case = {
         [](const Case& c) {
           return std::sqrt(parabolic_tension_of(c) / c.conductor.mass_per_length);
         },
-        {0.2, 1500}, "lines have 130, stays 260, steel at its strength 530, aramid 1400"),
+        {0.2, 1500}, "lines have 130, stays 260, steel near breaking 530, aramid 1400"),
     quantity(
         "the stress under the conductor's own weight", "Pa",
         {"conductor.sag", "conductor.area", "conductor.mass_per_length", "conductor.span"},
         [](const Case& c) { return parabolic_tension_of(c) / c.conductor.area; }, at_most(5e9),
         "steel wire breaks at 2.2e9, carbon fibre at 5e9"),
     quantity(
-        "absorber.position over conductor.span, or over 100 m of a longer one,", "",
+        "absorber.position over conductor.span, or over 100 m if the span is longer,", "",
         {"absorber.position", "conductor.span"},
         [](const Case& c) { return c.absorber.position / std::min(c.conductor.span, 100.0); },
         at_least(1e-3), "absorbers sit at 0.005 to 0.5; at its support a conductor does not move",
         at_least(5e-5)),
     quantity(
-        "absorber.mass over that of the conductor", "",
+        "absorber.mass over the mass of the conductor", "",
         {"absorber.mass", "conductor.mass_per_length"},
         [](const Case& c) {
           return has_own_cable(c) && has_absorber(c)
                      ? c.absorber.mass * c.conductor.gravity / weight_of(c)
                      : unknown;
         },
-        {2e-5, 3}, "dampers have 0.0001 to 0.1 of it, in models up to 1"),
+        {2e-5, 3}, "dampers have 0.0001 to 0.1 of the conductor's mass, in models up to 1"),
     quantity(
-        "the share of its circle that the conductor fills, 4 conductor.area / (pi "
-        "wind.diameter^2),",
+        "the metal share of the circle of this diameter, 4 conductor.area / (pi wind.diameter^2),",
         "", {"wind.diameter", "conductor.area"},
         [](const Case& c) {
           return c.conductor_given ? filled_share(c, of_wind<&Wind::diameter>(c)) : unknown;
@@ -233,7 +233,7 @@ const Quantities listed_of_case = {
     quantity(
         "wind.diameter over conductor.diameter", "", {"wind.diameter", "conductor.diameter"},
         [](const Case& c) { return of_wind<&Wind::diameter>(c) / known(c.conductor.diameter); },
-        {0.9, 10}, "the wind meets the conductor, or the ice around it"),
+        {0.9, 10}, "the wind meets the conductor, or the thicker ice around it"),
     quantity(
         "plant.absorber_mass over absorber.mass", "", {"plant.absorber_mass", "absorber.mass"},
         [](const Case& c) {
@@ -246,7 +246,7 @@ const Quantities listed_of_case = {
         "control.sampling_period over the period of the force", "",
         {"control.sampling_period", "excitation.frequency", "wind.speed", "wind.diameter"},
         [](const Case& c) { return c.control.sampling_period * force_frequency(c); }, at_most(2),
-        "from 0.5 on the computer does not see the vibration"),
+        "at 0.5 or more the samples do not show the vibration"),
     quantity(
         "the largest initial displacement over the reach of the absorber's place", "",
         {"initial.z1", "initial.z2"},
@@ -297,7 +297,7 @@ double damping_ratio(double damping, double stiffness, double mass) {
 
 const Quantities listed_of_plant = {
     quantity(
-        "plant.conductor_mass over that of the conductor", "",
+        "plant.conductor_mass over the mass of the conductor", "",
         {"plant.conductor_mass", "conductor.mass_per_length", "reduction.first_frequency"},
         [](const Case& c) {
           return c.conductor_given ? c.plant.conductor_mass * c.conductor.gravity / weight_of(c)
@@ -336,27 +336,27 @@ const Quantities listed_of_plant = {
           const auto& p = c.plant;
           return damping_ratio(p.absorber_damping, p.absorber_stiffness, p.absorber_mass);
         },
-        at_most(30), "so strong a damper locks the absorber"),
+        at_most(30), "a damper this strong locks the absorber"),
     quantity(
-        "the frequency of the force over the higher one of the plant", "",
+        "the frequency of the force over the higher natural frequency of the plant", "",
         {"excitation.frequency", "wind.speed", "wind.diameter", "plant.conductor_stiffness",
          "plant.absorber_stiffness", "plant.conductor_mass", "plant.absorber_mass"},
         [](const Case& c) {
           return plant_is_reduced(c) ? unknown
                                      : force_frequency(c) / undamped_frequencies(c.plant)[1];
         },
-        at_most(5), "so fast a force hardly moves a plant of two masses"),
+        at_most(5), "a force this fast hardly moves a plant of two masses"),
     quantity(
         "control.sampling_period over the longest period of the plant", "",
         {"control.sampling_period", "plant.conductor_stiffness"},
         [](const Case& c) { return c.control.sampling_period * undamped_frequencies(c.plant)[0]; },
-        at_most(1), "from 0.5 on the computer sees none of its vibrations"),
-    quantity("control.proportional_gain beside that of Eq. 6", "", {"control.proportional_gain"},
-             proportional_share, {1.6e-3, 200},
-             "a gain so much smaller does nothing, one so much larger only disturbs"),
+        at_most(1), "at 0.5 or more the samples show none of the plant's vibrations"),
+    quantity("control.proportional_gain over the P of the paper's Eq. 6", "",
+             {"control.proportional_gain"}, proportional_share, {1.6e-3, 200},
+             "a gain far below this range has no effect, a gain far above it only disturbs"),
     quantity("control.differential_gain over m2 omega", "", {"control.differential_gain"},
              differential_share, {3e-3, 500},
-             "a gain so much smaller does nothing, one so much larger only disturbs"),
+             "a gain far below this range has no effect, a gain far above it only disturbs"),
     quantity(
         "the vibration without control over the reach of the absorber's place", "",
         {"excitation.amplitude", "wind.speed", "wind.diameter", "wind.effective_length",

@@ -339,7 +339,7 @@ std::vector<double> CsvTable::ascending(const std::string& column) const {
   for (std::size_t row = 0; row < rows(); ++row) {
     values.push_back(finite(row, column));
     if (row > 0 && values[row] <= values[row - 1])
-      throw fault(row, column + " = " + format_number(values[row]) + " is not above " +
+      throw fault(row, column + " = " + format_number(values[row]) + " must exceed " +
                            format_number(values[row - 1]) + " of the row before");
   }
   return values;

@@ -29,7 +29,7 @@ std::size_t row_length(std::int64_t columns) {
   if (columns > most)
     throw WrongInput("a row of the chart would have " + std::to_string(columns) +
                      " values: give at most " + std::to_string(most) +
-                     " along the second axis; the first may have any number");
+                     " along the second axis; the first axis may have any number of values");
   return static_cast<std::size_t>(columns);
 }
 

@@ -32,8 +32,8 @@ std::vector<EnclosedPole> proved_poles_of(const Case& the_case) {
   std::vector<EnclosedPole> poles = possible_poles_of(the_case);
   if (poles.empty())
     throw NoAnswer(
-        "two natural motions of conductor, absorber and hardware are too close to be proved apart: "
-        "change plant.absorber_damping or absorber.position by a thousandth");
+        "two natural motions of conductor, absorber and hardware are too close to be proved "
+        "distinct: change plant.absorber_damping or absorber.position by a thousandth");
   if (!all_decay(poles))
     throw NoAnswer(
         "it cannot be proved that every natural motion of conductor and absorber decays: give "

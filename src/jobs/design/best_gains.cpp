@@ -80,8 +80,8 @@ std::string play_warning(const Case& the_case, const PdGains<double>& gains, dou
   const double left = metrics[0].steady_peak / metrics[1].steady_peak;
   if (left <= noticeable * ideal) return "";
   return "D = " + format_rounded(gains.differential) + " N s/m leaves " + format_rounded(ideal) +
-         " of the vibration without play, but " + format_rounded(left) +
-         " with the case's play of " + format_rounded(backlash.width) + " m in a motion of " +
+         " of the uncontrolled vibration without play, but " + format_rounded(left) +
+         " of it with the case's play of " + format_rounded(backlash.width) + " m, computed over " +
          format_rounded(duration) + " s";
 }
 

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "case/uncertain.hpp"
+#include "jobs/family/family_proof.hpp"
 #include "jobs/job_texts.hpp"
 #include "output/table.hpp"
 #include "process/errors.hpp"
@@ -71,8 +72,8 @@ std::vector<Deciding> deciding_columns(const std::string& job) {
       all.push_back({text_of(row[0]), text_of(row[1]) == "largest"});
     }
   if (all.empty())
-    throw WrongInput("--family: of " + job +
-                     " no worst member is told; jobs of the linear loop have one: holdfast "
+    throw WrongInput("--family: " + job +
+                     " does not compare members; jobs of the linear loop do: holdfast "
                      "stability, boundary --stable-interval, response, margins, max-delay and "
                      "modal-damping");
   return all;
@@ -128,14 +129,14 @@ class WorstRows {
       if (const auto place = worst_.place_of(one.column))
         deciding_.emplace_back(*place, one.largest);
     if (deciding_.empty())
-      throw WrongInput("--family: this table has no column that tells which member is worst");
+      throw WrongInput("--family: this table has no column that decides which member is worst");
   }
 
   void add(Rows rows, const FamilyMember& member) {
     if (rows.rows.size() != worst_.rows.size())
-      throw NoAnswer("--family: the members " + members_.front() + " and " + member.text() +
-                     " are answered with " + std::to_string(worst_.rows.size()) + " and " +
-                     std::to_string(rows.rows.size()) + " rows, which cannot be compared");
+      throw NoAnswer("--family: member " + members_.front() + " gives " +
+                     std::to_string(worst_.rows.size()) + " rows and member " + member.text() +
+                     " gives " + std::to_string(rows.rows.size()) + ": they cannot be compared");
     for (std::size_t k = 0; k < rows.rows.size(); ++k) {
       if (!is_worse(rows.rows[k], worst_.rows[k])) continue;
       worst_.rows[k] = std::move(rows.rows[k]);
@@ -146,7 +147,7 @@ class WorstRows {
   void write(const JobContext& context) const {
     std::vector<Column> columns = worst_.columns;
     columns.push_back(
-        {"worst_member", "", "the member of the family that the row is of", "string"});
+        {"worst_member", "", "member of the family with the values of the row", "string"});
     Table table(context, columns);
     for (std::size_t k = 0; k < worst_.rows.size(); ++k) {
       for (std::size_t n = 0; n < worst_.columns.size(); ++n)
@@ -205,14 +206,14 @@ GainIntervals intervals_of(const Rows& table, const FamilyMember& member) {
 }
 
 void write_common_intervals(const JobContext& context, const std::vector<FamilyMember>& members,
-                            const MemberAnswer& answer) {
+                            bool prove, const MemberAnswer& answer) {
   GainIntervals common;
   std::vector<Column> columns;
   for (const FamilyMember& member : members) {
     const Rows table(answer(member));
     columns = table.columns;
     if (columns.front().name != "gain")
-      throw WrongInput("--family: give boundary --stable-interval; curves have no worst member");
+      throw WrongInput("--family: boundary compares members only with --stable-interval; add it");
     GainIntervals own = intervals_of(table, member);
     if (&member == &members.front())
       common = std::move(own);
@@ -220,15 +221,26 @@ void write_common_intervals(const JobContext& context, const std::vector<FamilyM
       for (auto& [gain, intervals] : common) intervals = common_part(intervals, own[gain]);
   }
   columns.push_back(
-      {"worst_member", "", "the members that have the lower and the upper end", "string"});
+      {"worst_member", "", "members that determine the lower and the upper end", "string"});
   Table table(context, columns);
   for (const auto& [gain, intervals] : common) {
     if (intervals.empty())
       report_warning("no " + gain.first + " is stable for all members of the family",
                      context.quiet);
-    for (const auto& [lower, upper] : intervals)
-      table.row(gain.first, gain.second, lower.value, upper.value,
-                lower.member == upper.member ? lower.member : lower.member + " | " + upper.member);
+    for (const auto& [lower, upper] : intervals) {
+      std::optional<Interval<double>> interval = Interval<double>{lower.value, upper.value};
+      if (prove) interval = proved_interval(context, gain.first, gain.second, *interval);
+      if (interval)
+        table.row(
+            gain.first, gain.second, interval->lower, interval->upper,
+            lower.member == upper.member ? lower.member : lower.member + " | " + upper.member);
+      else
+        report_warning("the interval of the " + gain.first + " from " + format_number(lower.value) +
+                           " to " + format_number(upper.value) +
+                           " has no row: the members drawn are stable there, but stability of all "
+                           "members is not proved",
+                       context.quiet);
+    }
   }
   table.commit();
 }
@@ -263,14 +275,16 @@ std::vector<FamilyMember> family_members(const Case& the_case, int draws) {
   return members;
 }
 
-void write_worst_of_family(const JobContext& context, int draws, const MemberAnswer& answer) {
+void write_worst_of_family(const JobContext& context, int draws, bool prove,
+                           const MemberAnswer& answer) {
   const std::vector<FamilyMember> members = family_members(context.case_data, draws);
   const std::vector<Deciding> deciding = deciding_columns(context.job);
-  report_warning("the worst of " + std::to_string(members.size()) +
-                     " members of the family; nothing is proved of those between them",
-                 context.quiet);
+  if (!prove)
+    report_warning("each row is the worst of " + std::to_string(members.size()) +
+                       " members of the family; other members are not covered",
+                   context.quiet);
   const bool intersects = deciding.front().column == "intersection";
-  if (intersects) return write_common_intervals(context, members, answer);
+  if (intersects) return write_common_intervals(context, members, prove, answer);
   std::optional<WorstRows> worst;
   for (const FamilyMember& member : members) {
     Rows rows(answer(member));

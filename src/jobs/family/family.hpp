@@ -34,9 +34,10 @@ using MemberAnswer = std::function<ReceivedTable(const FamilyMember&)>;
 /// Writes a job's table over a family: of each row that of the member which is worst, and which
 /// member that is. What is worst, texts/jobs.toml says of each job; stable intervals are
 /// intersected. Says on standard error that members were drawn, and that nothing is proved between
-/// them.
+/// them, unless intervals are to be proved, see proved_interval().
 /// Throws WrongInput where the job has no worst, NoAnswer where members answer with other rows, and
 /// what a member's answer throws, with the member named.
-void write_worst_of_family(const JobContext& context, int draws, const MemberAnswer& answer);
+void write_worst_of_family(const JobContext& context, int draws, bool prove,
+                           const MemberAnswer& answer);
 
 }  // namespace holdfast::program

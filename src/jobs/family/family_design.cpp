@@ -36,7 +36,7 @@ class DesignedFamily {
       if (range.key == question.schedule) whole_ = range;
     }
     if (!question.schedule.empty() && whole_.key.empty())
-      throw WrongInput("--schedule " + question.schedule + ": [uncertain] has no range of it");
+      throw WrongInput("--schedule " + question.schedule + ": [uncertain] gives no range for it");
     std::stable_sort(members_.begin(), members_.end(),
                      [this](const auto& one, const auto& other) { return at(one) < at(other); });
     cases_.reserve(members_.size());  // loops refer to them
@@ -149,13 +149,13 @@ class DesignedFamily {
                              : alone
                                  ? members_[first].text()
                                  : members_[first].text() + " and " + members_[first + 1].text();
-    std::string remedy = p_ ? "; --both-gains looks for another P" : "";
+    std::string remedy = p_ ? "; --both-gains also searches for P" : "";
     if (!alone)
-      remedy += whole_.key.empty() ? "; --schedule KEY divides the range of a key"
-                                   : "; more --draws make neighbours more alike";
+      remedy += whole_.key.empty() ? "; --schedule KEY divides the range of KEY"
+                                   : "; more --draws make successive members more alike";
     return "design --family: no " +
            std::string(p_ ? "D at the case's P" : "P and D that were tried") +
-           " keeps what is asked of margin and amplitude for " + whom + remedy;
+           " meets --margin and --largest-ratio for " + whom + remedy;
   }
 
   FamilyDesign question_;
@@ -176,8 +176,8 @@ void write_family_gains(const JobContext& context, const FamilyDesign& question,
   double largest_radius = 0.0;
   for (const auto& piece : family.pieces())
     family.write(table, piece, context_with, largest_radius);
-  report_warning("the gains are those that serve " + std::to_string(question.draws) +
-                     " members of the family best; nothing is proved of the amplitude between them",
+  report_warning("the gains are the best for the " + std::to_string(question.draws) +
+                     " members drawn from the family; other members may have a larger amplitude",
                  context.quiet);
   warn_of_edge(largest_radius, context.case_data.control.sampling_period, context.quiet);
   table.commit();

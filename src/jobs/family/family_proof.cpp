@@ -76,8 +76,8 @@ class FamilyBox {
 
   const ParameterBox<N>& box() const { return box_; }
 
-  /// "control.sampling_period=0.001;…" of the uncertain keys.
-  std::string text_of(const std::array<double, N>& loop) const {
+  /// The member with the parameters of a loop.
+  FamilyMember member_of(const std::array<double, N>& loop) const {
     FamilyMember member;
     for (const UncertainRange& range : ranges_) {
       double value = loop[number_of(range)];
@@ -85,7 +85,7 @@ class FamilyBox {
         value = temperature_of(the_case_, value, range.lowest, range.highest);
       member.values.emplace_back(range.key, value);
     }
-    return member.text();
+    return member;
   }
 
  private:
@@ -100,8 +100,8 @@ class FamilyBox {
     const bool is_string = std::string_view(keys_.front()) == string_keys.front();
     std::string known(is_string ? temperature_key : "");
     for (const char* name : keys_) known += (known.empty() ? "" : ", ") + std::string(name);
-    throw WrongInput("uncertain." + range.key + ": --prove takes ranges of " + known +
-                     "; --family alone takes any");
+    throw WrongInput("uncertain." + range.key + ": --prove allows ranges only of " + known +
+                     "; --family without --prove allows any");
   }
 
   const Case& the_case_;
@@ -134,7 +134,7 @@ ParameterBox<N> slice_of(const ParameterBox<N>& box, int i, int slices) {
 
 /// The slices of a box, side by side: the same on any number of threads.
 template <class Family>
-FamilyProof proof_of(const JobContext& context, const Family& family,
+FamilyProof proof_of(const JobContext& context, std::size_t parts, const Family& family,
                      const FamilyBox<Family::parameters>& box) {
   constexpr std::size_t period = Family::place_of_period, delay = period + 1;
   if (box.box().highest[delay] > box.box().lowest[period])
@@ -145,29 +145,29 @@ FamilyProof proof_of(const JobContext& context, const Family& family,
   std::array<ProvedFamily<Family::parameters>, slices> proofs;
   side_by_side(context, "stability, slices", slices, [&](std::int64_t i) {
     const int number = static_cast<int>(i);
-    const FamilyLimits limits{FamilyLimits{}.parts / slices};
+    const FamilyLimits limits{parts / slices};
     proofs[static_cast<std::size_t>(i)] = prove_family(family, slice_of(box.box(), number, slices),
                                                        limits, [] { throw_if_interrupted(); });
   });
-  FamilyProof whole{ProvedStability::stable, 0.0, 0.0, 0, ""};
+  FamilyProof whole{ProvedStability::stable, 0.0, 0.0, 0, {}};
   for (const auto& proof : proofs) {
     whole.stable_share += proof.stable_share / slices;
     whole.undecided_share += proof.undecided_share / slices;
     whole.parts += proof.parts;
-    if (proof.unstable_loop && whole.worst_member.empty())
-      whole.worst_member = box.text_of(*proof.unstable_loop);
+    if (proof.unstable_loop && whole.unstable.values.empty())
+      whole.unstable = box.member_of(*proof.unstable_loop);
   }
-  whole.verdict = !whole.worst_member.empty()   ? ProvedStability::unstable
-                  : whole.undecided_share > 0.0 ? ProvedStability::undecided
-                                                : ProvedStability::stable;
+  whole.verdict = !whole.unstable.values.empty() ? ProvedStability::unstable
+                  : whole.undecided_share > 0.0  ? ProvedStability::undecided
+                                                 : ProvedStability::stable;
   return whole;
 }
 
-FamilyProof proof_of_string(const JobContext& context) {
+FamilyProof proof_of_string(const JobContext& context, std::size_t parts) {
   const Case& the_case = context.case_data;
   if (!std::isfinite(the_case.plant.modes))
     throw WrongInput(
-        "--family --prove on a string is of the modes that plant.modes tells: give --set "
+        "--family --prove on a string needs a number of modes: give, for example, --set "
         "plant.modes=40");
   const TautString<double> string = string_of(the_case);
   const auto& plant = the_case.plant;
@@ -181,12 +181,19 @@ FamilyProof proof_of_string(const JobContext& context) {
        the_case.absorber.clamp_mass, plant.absorber_mass, plant.absorber_stiffness,
        plant.absorber_damping, sampling.period, sampling.processing_delay, gains.proportional,
        gains.differential});
-  return proof_of(context, family, box);
+  return proof_of(context, parts, family, box);
+}
+
+/// The value of a key in a member.
+double value_in(const FamilyMember& member, const std::string& key) {
+  for (const auto& [name, value] : member.values)
+    if (name == key) return value;
+  return std::nan("");
 }
 
 }  // namespace
 
-FamilyProof family_proof_of(const JobContext& context) {
+FamilyProof family_proof_of(const JobContext& context, std::size_t parts) {
   const Case& the_case = context.case_data;
   const bool is_ideal = has_ideal_computer(the_case) && !has_hardware(the_case) &&
                         the_case.devices.empty() && !has_own_plant(the_case);
@@ -194,17 +201,48 @@ FamilyProof family_proof_of(const JobContext& context) {
   if (is_ideal && is_prompt && is_two_masses(the_case)) {
     const OperatingPoint own{plant_of(the_case), sampling_of(the_case), gains_of(the_case)};
     return proof_of(
-        context, TwoMassFamily(),
+        context, parts, TwoMassFamily(),
         FamilyBox<TwoMassFamily::parameters>(the_case, two_mass_keys(), TwoMassFamily::of(own)));
   }
   if (is_ideal && is_prompt && !is_cable(the_case) && !is_infinite(the_case) &&
       the_case.conductor.damping != "rayleigh")
-    return proof_of_string(context);
+    return proof_of_string(context, parts);
   throw WrongInput(
-      "--family --prove is of two masses, or of plant.model = \"string\" with one damping ratio, "
-      "under an ideal computer without filter, lag and devices, the delay at most a sample; "
-      "--family "
-      "alone compares members of any loop");
+      "--family --prove works only for two masses, or plant.model = \"string\" with one damping "
+      "ratio, without devices, under an ideal computer without filter or lag and with a delay of "
+      "at most a sampling period; --family without --prove compares members of any loop");
+}
+
+std::optional<Interval<double>> proved_interval(JobContext context, const std::string& gain,
+                                                double other, Interval<double> interval) {
+  using case_tables::Uncertain;
+  const std::string key = "control." + gain;
+  const std::string held = key == "control.differential_gain" ? "control.proportional_gain"
+                                                              : "control.differential_gain";
+  std::vector<Uncertain>& uncertain = context.case_data.uncertain;
+  uncertain.erase(
+      std::remove_if(uncertain.begin(), uncertain.end(),
+                     [&](const Uncertain& one) { return one.key == key || one.key == held; }),
+      uncertain.end());
+  context.case_data = case_with(context.case_data, held, other);
+  context.case_data.uncertain.push_back({key, Uncertain::Form::interval, 0.0, 0.0});
+  Uncertain& range = context.case_data.uncertain.back();
+  constexpr std::size_t parts = 1000;
+  for (const double share : {0.002, 0.005, 0.02, 0.1}) {
+    while (std::isfinite(interval.upper - interval.lower) && interval.lower < interval.upper) {
+      const double left_out = share * (interval.upper - interval.lower);
+      range.below = interval.lower + left_out;
+      range.above = interval.upper - left_out;
+      const FamilyProof proof = family_proof_of(context, parts);
+      if (proof.verdict == ProvedStability::stable)
+        return Interval<double>{range.below, range.above};
+      if (proof.verdict == ProvedStability::undecided) break;
+      // A member between those that were drawn is the new end.
+      const double at = value_in(proof.unstable, key);
+      (at < 0.5 * (interval.lower + interval.upper) ? interval.lower : interval.upper) = at;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace holdfast::program

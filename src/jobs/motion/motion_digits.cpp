@@ -54,8 +54,8 @@ std::string rate_text(const TrustedDigits& trusted) {
   const auto& [value, error] = *trusted.rate;
   const ExponentEstimate estimate = exponent_estimate(value, error);
   return std::string("; ") +
-         (estimate.positive()   ? "neighbouring motions part, "
-          : estimate.negative() ? "neighbouring motions come together except at single contacts, "
+         (estimate.positive()   ? "neighbouring motions separate, "
+          : estimate.negative() ? "neighbouring motions converge except at some contacts, "
                                 : "") +
          "the largest exponent is " + format_rounded(value) + " +- " + format_rounded(error) +
          " per second";

@@ -53,8 +53,8 @@ std::vector<FollowedKey> map_keys(const Case& the_case, const std::vector<std::s
   if (keys[0].name == keys[1].name) throw WrongInput("--map: both keys are " + keys[0].name);
   if (moves_the_coincidence(keys[0].name) && moves_the_coincidence(keys[1].name))
     throw WrongInput(
-        "--map: control.sampling_period and excitation.frequency together change how sampling and "
-        "excitation coincide, so the orbit cannot be followed over both");
+        "--map: control.sampling_period and excitation.frequency together change the ratio of "
+        "sampling and excitation period, so that the orbit cannot be followed over both");
   for (const FollowedKey& key : keys)
     if (moves_the_coincidence(key.name) && !the_case.excitation.harmonics.empty())
       throw WrongInput("--map " + key.name +
@@ -186,8 +186,8 @@ FollowedKey followed_key(const Case& the_case, const std::string& option, const 
   const double value = case_value(the_case, key);
   if (moves_the_coincidence(key) && !of_map)
     throw WrongInput(option + " " + key +
-                     ": another value changes how sampling and excitation coincide, so the orbit "
-                     "cannot be followed along this key: give another key");
+                     ": another value changes the ratio of sampling and excitation period, so that "
+                     "the orbit cannot be followed along this key: give another key");
   if (!moves_the_orbit(key) && !moves_the_coincidence(key))
     throw WrongInput(
         option + " " + key +

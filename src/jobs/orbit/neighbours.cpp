@@ -38,7 +38,7 @@ SettledMotion settled(const IdealLoop<double>& loop, const Vector<double, 4>& st
 std::string meeting_text(const IdealLoop<double>& loop, const SettledMotion& reference,
                          const SettledMotion& other) {
   const PeriodicOrbit *first = reference.orbit(), *second = other.orbit();
-  if (first == nullptr || second == nullptr) return "not both have a certified orbit";
+  if (first == nullptr || second == nullptr) return "unknown: no two certified orbits";
   if (!is_phase_shifted_copy(*first, *second)) return "different orbits";
   const std::int64_t period = first->period_samples();
   // Long enough for either motion to be far nearer to its own phase than to the next one.
@@ -65,17 +65,17 @@ std::string apart_text(const IdealLoop<double>& loop, const Vector<double, 4>& r
   const PeriodicOrbit *first = one.orbit(), *second = two.orbit();
   if (first == nullptr || second == nullptr)
     return "no certified orbit was found for " +
-           std::string(first == second ? "either motion" : "one of them") +
+           std::string(first == second ? "either motion" : "one of the two motions") +
            ", so the reason is unknown";
   const std::string period = std::to_string(first->period_samples()) + " samples";
   if (!is_phase_shifted_copy(*first, *second))
-    return "they come to two different certified orbits, of " + period + " and of " +
+    return "the motions settle on two different certified orbits, of " + period + " and of " +
            std::to_string(second->period_samples());
   const std::string meeting = meeting_text(loop, one, two);
-  const std::string orbit = "both come to one certified orbit of " + period;
+  const std::string orbit = "both motions settle on one certified orbit of " + period;
   if (meeting.rfind("meet", 0) != 0)
-    return orbit + ", which has copies shifted in time, and " + meeting;
-  return orbit + " in the same phase, so they will meet: its largest multiplier is " +
+    return orbit + ", but to copies shifted in time, and " + meeting;
+  return orbit + " in the same phase, so they will meet: the orbit's largest multiplier is " +
          format_rounded(first->largest_multiplier()) + " per period";
 }
 

@@ -175,12 +175,12 @@ std::string RangeCount::text() const {
   std::string text;
   if (below_ > 0)
     text = std::to_string(below_) +
-           " row(s) vibrate below the measured range of the law of the wind: its lower end, a "
-           "hundredth of the diameter, is given (amplitude_range)";
+           " row(s) vibrate below the measured range of the wind law: they give the lower end of "
+           "this range, a hundredth of the diameter (amplitude_range)";
   if (above_ > 0)
-    text +=
-        (text.empty() ? "" : "; ") + std::to_string(above_) +
-        " row(s) vibrate above the measured range of the law of the wind: its upper end is given";
+    text += (text.empty() ? "" : "; ") + std::to_string(above_) +
+            " row(s) vibrate above the measured range of the wind law: they give the upper end of "
+            "this range";
   return text;
 }
 

@@ -1,10 +1,13 @@
 #include "jobs/span/fatigue_life.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
 
+#include "case/case_keys.hpp"
+#include "case/model/cable_of_case.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "jobs/span/aeolian_amplitudes.hpp"
 #include "process/errors.hpp"
@@ -56,8 +59,11 @@ struct Years {
         ->frequency;
   }
 
-  /// The part that each wind speed has in damage(), by the laws that make up its three numbers.
-  std::vector<Band> parts(const SafeBorderLine& line) const {
+  /// The part that each group of entries, a wind speed or a temperature, has in damage(), by the
+  /// laws that make up its three numbers.
+  /// @param group_of  the group of each entry
+  std::vector<Band> parts(const SafeBorderLine& line, const std::vector<std::size_t>& group_of,
+                          std::size_t groups) const {
     const auto order =
         laws_in_order([&](const LawYear& year) { return miner_damage(year.at_most, line); });
     const std::size_t half = order.size() / 2, other = order.size() % 2 == 1 ? half : half - 1;
@@ -65,14 +71,16 @@ struct Years {
     const LawYear& least = of_laws[laws_in_order([&](const LawYear& year) {
                                      return miner_damage(year.at_least, line);
                                    }).front()];
-    std::vector<Band> parts;
+    std::vector<Band> parts(groups, {0.0, 0.0, 0.0});
     for (std::size_t k = 0; k < most.at_most.size(); ++k) {
       const auto part = [&](const std::vector<StressCycles>& year) {
         return miner_damage({year[k]}, line);
       };
-      const double middle =
+      Band& here = parts[group_of[k]];
+      here.value +=
           0.5 * (part(of_laws[order[half]].at_most) + part(of_laws[order[other]].at_most));
-      parts.push_back({middle, part(least.at_least), part(most.at_most)});
+      here.lowest += part(least.at_least);
+      here.highest += part(most.at_most);
     }
     return parts;
   }
@@ -106,12 +114,72 @@ void require_wires(const AeolianBalance& balance) {
         format_number(modulus) + " Pa is of steel: the life of such strands cannot be computed");
 }
 
-/// Gives the parts that each wind speed has in the damages.
-void share_out(const std::vector<Band>& bare, const std::vector<Band>& damped, FatigueLife& life) {
-  for (std::size_t k = 0; k < damped.size(); ++k) {
-    life.by_speed[k].damage_bare = bare[k].value;
-    life.by_speed[k].damage = damped[k];
+/// A temperature of the year.
+struct Season {
+  Case at;       // the case at it
+  double hours;  // a year
+  double share;  // of all hours
+};
+
+std::vector<Season> seasons_of(const Case& the_case) {
+  const case_tables::Weather& weather = the_case.weather;
+  const double all = std::accumulate(weather.hours.begin(), weather.hours.end(), 0.0);
+  if (!(all > 0.0)) return {{the_case, 0.0, 1.0}};
+  std::vector<Season> seasons;
+  for (std::size_t k = 0; k < weather.hours.size(); ++k)
+    seasons.push_back({case_with(the_case, "weather.temperature", weather.temperatures[k]),
+                       weather.hours[k], weather.hours[k] / all});
+  return seasons;
+}
+
+/// The year of a span, entry by entry: a wind speed at a temperature.
+struct SpanYear {
+  Years bare, damped;
+  std::vector<std::size_t> speed_of, season_of;  // of each entry
+  bool grows = false;
+
+  void add(const std::vector<AeolianRow>& laws, double modulus, double cycles, double frequency) {
+    bare.of_laws.resize(laws.size());
+    damped.of_laws.resize(laws.size());
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+      bare.of_laws[k].add(laws[k].bare, modulus, cycles, frequency);
+      damped.of_laws[k].add(laws[k].damped, modulus, cycles, frequency);
+    }
   }
+
+  /// Gives the rows of speeds or temperatures their parts of the damages.
+  template <class Row>
+  void share_out(const SafeBorderLine& line, const std::vector<std::size_t>& group_of,
+                 std::vector<Row>& rows) const {
+    if (rows.empty()) return;
+    const auto without = bare.parts(line, group_of, rows.size());
+    const auto with = damped.parts(line, group_of, rows.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      rows[k].damage_bare = without[k].value;
+      rows[k].damage = grows ? unknown : with[k];
+    }
+  }
+
+  static inline const Band unknown{std::nan(""), std::nan(""), std::nan("")};
+};
+
+/// Adds a temperature's winds.
+void add_season(const Season& season, std::size_t number, const std::vector<WindHours>& hours,
+                const AeolianBalance& balance, const std::array<double, 2>& counted, SpanYear& year,
+                FatigueLife& life) {
+  constexpr double seconds = 3600.0;
+  std::size_t speed = 0;
+  for (const WindHours& row : hours) {
+    const double frequency = balance.frequency_of(row.speed);
+    if (!(frequency >= counted[0] && frequency <= counted[1]) || !(row.hours > 0.0)) continue;
+    const double cycles = seconds * season.share * row.hours * frequency;
+    year.add(balance.rows(frequency), balance.outer_wire_modulus(), cycles, frequency);
+    year.speed_of.push_back(speed++);
+    year.season_of.push_back(number);
+    life.cycles += cycles;
+    if (number == 0) life.by_speed.push_back({row.speed, row.hours, 0.0, {}});
+  }
+  year.grows = year.grows || balance.is_growing();
 }
 
 }  // namespace
@@ -129,41 +197,31 @@ Band years_of(const Band& damage) {
 }
 
 FatigueLife fatigue_life_of(const Case& the_case, bool controlled, double lowest, double highest) {
-  const AeolianBalance balance(the_case, controlled);
-  require_wires(balance);
-  const double modulus = balance.outer_wire_modulus();
-  const auto hours = wind_hours_of(the_case, balance.speed_of(lowest), balance.speed_of(highest));
-  Years bare, damped;
+  SpanYear year;
   FatigueLife life{};
-  constexpr double seconds = 3600.0;
-  for (const WindHours& row : hours) {
-    const double frequency = balance.frequency_of(row.speed);
-    if (!(frequency >= lowest && frequency <= highest) || !(row.hours > 0.0)) continue;
-    const double cycles = seconds * row.hours * frequency;
-    const auto laws = balance.rows(frequency);
-    bare.of_laws.resize(laws.size());
-    damped.of_laws.resize(laws.size());
-    life.cycles += cycles;
-    life.by_speed.push_back({row.speed, row.hours, 0.0, {}});
-    for (std::size_t k = 0; k < laws.size(); ++k) {
-      bare.of_laws[k].add(laws[k].bare, modulus, cycles, frequency);
-      damped.of_laws[k].add(laws[k].damped, modulus, cycles, frequency);
-    }
+  const std::vector<Season> seasons = seasons_of(the_case);
+  for (std::size_t k = 0; k < seasons.size(); ++k) {
+    const AeolianBalance balance(seasons[k].at, controlled);
+    require_wires(balance);
+    const auto hours = wind_hours_of(the_case, balance.speed_of(lowest), balance.speed_of(highest));
+    add_season(seasons[k], k, hours, balance, {lowest, highest}, year, life);
+    if (the_case.weather.hours.empty()) continue;
+    const Case& at = seasons[k].at;
+    life.by_temperature.push_back(
+        {at.weather.temperature, seasons[k].hours, parabolic_tension_of(at), 0.0, {}});
   }
-  if (damped.of_laws.empty())
+  if (year.damped.of_laws.empty())
     throw WrongInput(
         "no wind of [site] sheds vortices within --frequency: give other speeds, or a wider "
         "--frequency");
   const SafeBorderLine line = life_line_of(the_case);
-  life.damage_bare = bare.damage(line);
-  life.stress_bare = bare.stress();
-  const bool is_known = !balance.is_growing();
-  const Band none{std::nan(""), std::nan(""), std::nan("")};
-  life.damage = is_known ? damped.damage(line) : none;
-  life.stress = is_known ? damped.stress() : none;
-  life.worst_frequency = is_known ? damped.worst_frequency() : none.value;
-  share_out(bare.parts(line),
-            is_known ? damped.parts(line) : std::vector<Band>(life.by_speed.size(), none), life);
+  life.damage_bare = year.bare.damage(line);
+  life.stress_bare = year.bare.stress();
+  life.damage = year.grows ? SpanYear::unknown : year.damped.damage(line);
+  life.stress = year.grows ? SpanYear::unknown : year.damped.stress();
+  life.worst_frequency = year.grows ? std::nan("") : year.damped.worst_frequency();
+  year.share_out(line, year.speed_of, life.by_speed);
+  year.share_out(line, year.season_of, life.by_temperature);
   return life;
 }
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
-#include <utility>
 
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
@@ -13,9 +11,7 @@
 #include "holdfast/math/roots/root_from_pole.hpp"
 #include "holdfast/span/span_roots.hpp"
 #include "holdfast/stability/response/modal_damping.hpp"
-#include "process/errors.hpp"
 #include "process/interrupt.hpp"
-#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -129,77 +125,8 @@ std::string growth_text(const Case& the_case, const std::vector<ModeRow>& modes)
   // A pair each.
   if (outside > 2 * growing || growing == 0)
     text += std::string(growing > 0 ? ", and " : "") +
-            "a root grows that belongs to none of these modes: it is of a faster mode, or of "
-            "the absorber's clamp under control";
+            "a faster mode or the absorber's clamp under control grows";
   return text;
-}
-
-namespace {
-
-/// The device of the chart. Throws WrongInput where it is none, or has no damping.
-const case_tables::Device& charted_device(const Case& the_case, int number) {
-  const auto count = static_cast<int>(the_case.devices.size());
-  if (number > count)
-    throw WrongInput("--device " + std::to_string(number) + ": no such device, the case has " +
-                     std::to_string(count) + " [[device]] table(s)");
-  const auto& device = the_case.devices[static_cast<std::size_t>(number) - 1];
-  if (device.table || device.kind == "stockbridge")
-    throw WrongInput("--device " + std::to_string(number) + ": a " + device.kind +
-                     " has no damping to vary; name another device");
-  return device;
-}
-
-void require_on_span(const Case& the_case, const Axis& positions, const Axis& dampings) {
-  const double span = string_of(the_case).span;
-  if (!(positions.min > 0.0 && positions.max < span))
-    throw WrongInput("--position: places must lie inside the span, between 0 and " +
-                     format_number(span) + " m");
-  if (!(dampings.min >= 0.0)) throw WrongInput("--damping: must be at least 0 N s/m");
-}
-
-PlaceStrength least_damped(const Case& the_case, const std::vector<SpanDevice>& devices,
-                           int modes) {
-  PlaceStrength found{0.0, 0.0, std::numeric_limits<double>::infinity(), 0};
-  TautString<double> string = string_of(the_case);
-  for (int n = 1; n <= modes; ++n) {
-    const double frequency = n * string.wave_speed() / (2.0 * string.span);
-    string.damping_ratio = bare_damping_of(the_case, turn * frequency);
-    const double ratio = span_root(string, devices, n).damping();
-    if (ratio >= found.ratio) continue;
-    found.ratio = ratio;
-    found.mode = n;
-  }
-  return found;
-}
-
-}  // namespace
-
-std::vector<PlaceStrength> place_strength_chart(const Case& the_case, int number,
-                                                const Axis& positions, const Axis& dampings,
-                                                int modes) {
-  case_tables::Device device = charted_device(the_case, number);
-  require_on_span(the_case, positions, dampings);
-  device.damping_ratios.clear();
-  std::vector<SpanDevice> others;
-  for (std::size_t k = 0; k < the_case.devices.size(); ++k)
-    if (k + 1 != static_cast<std::size_t>(number))
-      others.push_back(span_device_of(the_case.devices[k]));
-  if (has_active_absorber(the_case)) others.push_back(active_device_of(the_case, false));
-  std::vector<PlaceStrength> chart;
-  for (std::int64_t i = 0; i < positions.count; ++i)
-    for (std::int64_t j = 0; j < dampings.count; ++j) {
-      throw_if_interrupted();
-      device.position = positions.at(i);
-      device.damping = dampings.at(j);
-      auto devices = others;
-      devices.push_back(span_device_of(device));
-      PlaceStrength cell =
-          least_damped(the_case, in_order(std::move(devices), the_case.conductor.span), modes);
-      cell.position = device.position;
-      cell.damping = device.damping;
-      chart.push_back(cell);
-    }
-  return chart;
 }
 
 }  // namespace holdfast::program

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "case/case.hpp"
-#include "holdfast/core/axis.hpp"
 
 namespace holdfast::program {
 
@@ -29,24 +28,5 @@ std::vector<ModeRow> mode_rows_of(const Case& the_case, int count, bool controll
 
 /// Which of the modes grow, of a loop that is unstable; empty otherwise.
 std::string growth_text(const Case& the_case, const std::vector<ModeRow>& modes);
-
-/// One dashpot strength at one place: the least damping ratio of some modes, and which has it.
-struct PlaceStrength {
-  double position;  ///< m from the left support
-  double damping;   ///< N s/m
-  double ratio;     ///< ζ
-  int mode;
-};
-
-/// The place–strength chart of a device: the damping of the case's taut string with every device as
-/// it is but for one, which has another place and another damping. Throws WrongInput where there is
-/// no such device, or a measured one.
-/// @param number     of the device, from 1
-/// @param positions  m, inside the span
-/// @param dampings   N s/m, ≥ 0
-/// @param modes      1 … so many count
-std::vector<PlaceStrength> place_strength_chart(const Case& the_case, int number,
-                                                const Axis& positions, const Axis& dampings,
-                                                int modes);
 
 }  // namespace holdfast::program

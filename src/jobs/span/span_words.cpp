@@ -47,7 +47,7 @@ void require_frequencies(std::string_view option, std::string_view text, double 
   constexpr double fastest = 1000.0;
   if (lowest > 0.0 && highest <= fastest) return;
   throw WrongInput(std::string(option) + " " + std::string(text) +
-                   (lowest > 0.0 ? ": no span vibrates so fast in the wind; give at most 1000 Hz"
+                   (lowest > 0.0 ? ": no span vibrates this fast in the wind; give at most 1000 Hz"
                                  : ": a frequency must be greater than 0 Hz"));
 }
 
@@ -65,7 +65,7 @@ std::string unknown_strain_note(const AeolianBalance& balance) {
 
 std::string instability_note(const Case& the_case, bool controlled) {
   if (!comes_back(string_of(the_case), span_devices_of(the_case, false)))
-    return "a negative stiffness pushes the conductor away faster than its tension brings it back: "
+    return "a negative stiffness pushes the conductor away more than the tension pulls it back: "
            "the span is unstable at rest, and the results for its vibration do not hold";
   if (!controlled || !has_active_absorber(the_case)) return "";
   for (const case_tables::Device& device : the_case.devices)
@@ -83,10 +83,10 @@ std::string self_damping_note(const Case& the_case) {
   if (conductor != nullptr && conductor->kind == "ACSR") return "";
   return "the laws of self-damping were measured only on steel-cored aluminium (ACSR), and " +
          (conductor != nullptr ? conductor->name + " is " + conductor->kind +
-                                     ": it may damp far less and vibrate more"
-                               : "conductor.name does not say that this is one: another conductor "
-                                 "may damp far less and vibrate more") +
-         " than they predict";
+                                     ": this conductor may damp far less and vibrate more"
+                               : "conductor.name does not name such a conductor: another kind may "
+                                 "damp far less and vibrate more") +
+         " than these laws predict";
 }
 
 std::string life_line_note(const Case& the_case) {
@@ -94,8 +94,8 @@ std::string life_line_note(const Case& the_case) {
   if (conductor == nullptr || conductor->kind == "ACSR") return "";
   return "the safe border line was measured on steel-cored aluminium (ACSR), but " +
          conductor->name + " is " + conductor->kind +
-         ": in published tests conductors of alloy only broke at 0.4 to 1.5 of its cycles; other "
-         "strands were not tested";
+         ": in published tests all-alloy conductors broke after 0.4 to 1.5 times the cycles of "
+         "this line; other strands were not tested";
 }
 
 std::string years_text(double years) {
@@ -110,19 +110,18 @@ std::string life_advice(const FatigueLife& life, double years) {
   const std::string shortest = years_text(served.lowest), longest = years_text(served.highest);
   const std::string band = range_text(shortest, longest);
   if (life.damage.lowest == 0.0 && served.lowest < years)
-    return "by some laws the vibration is everywhere below their measured range, and its damage is "
-           "unknown; the shortest life is for the lower end of that range, a hundredth of the "
-           "diameter (" +
+    return "by some laws the vibration is below their measured range at all frequencies, and the "
+           "damage is unknown; the shortest life assumes the lower end of that range, a hundredth "
+           "of the diameter (" +
            band + " years)";
   if (served.lowest >= years)
     return "by every pair of laws the conductor lives longer than the " + asked +
-           " that are asked for (" + band + " years)";
+           " of site.years (" + band + " years)";
   if (served.highest < years)
-    return "by no pair of laws does the conductor live the " + asked + " that are asked for (" +
-           band + " years): damp it more, or lower its tension";
-  return "whether the conductor lives the " + asked +
-         " that are asked for depends on the law: " + band +
-         " years; measure its vibration, or damp it until the shortest life is enough";
+    return "by every pair of laws the conductor lives less than the " + asked + " of site.years (" +
+           band + " years): damp the conductor more, or lower its tension";
+  return "whether the conductor lives the " + asked + " of site.years depends on the law: " + band +
+         " years; measure the vibration, or damp the conductor until the shortest life is enough";
 }
 
 }  // namespace holdfast::program

@@ -37,8 +37,8 @@ void append_long_name(Attributes& attributes, const Column& column) {
 // Multiply-adds are contracted in the wider instruction sets, and irregular motions make of the
 // last digit everything.
 constexpr const char* irregular_motions =
-    "Cells of regular motions are the same to rounding with every instruction set; in a chaotic or "
-    "undecided one (metric verdict) another set may give another motion";
+    "Cells of regular motions agree to rounding with all instruction sets; a cell with a chaotic "
+    "or undecided motion (metric verdict) may differ with another set";
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;

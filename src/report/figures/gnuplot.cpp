@@ -103,7 +103,7 @@ std::string heading_line(const Figure& figure) {
 
 /// Reason why gnuplot has not drawn a picture, by its first words.
 std::string reason_of(int status, const std::string& messages) {
-  if (status == 0) return "the picture is cut off; is the disk full?";
+  if (status == 0) return "the picture is incomplete; is the disk full?";
   return one_line(without_panels(messages).substr(0, 1000));
 }
 

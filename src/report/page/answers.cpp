@@ -107,7 +107,7 @@ std::string help_text(const Question& question, const LoopVibration& vibration) 
   const bool lives_on_play = unstable && backlash.width > 0.0 && backlash.law != "none";
   const char* helps = !(vibration.controlled < vibration.free) || (unstable && !lives_on_play)
                           ? "No"
-                      : lives_on_play                  ? "It lives on its play"
+                      : lives_on_play                  ? "Only thanks to the play"
                       : vibration.ratio() < worthwhile ? "Yes"
                                                        : "Hardly";
   const char* text = "vibration left";
@@ -195,7 +195,7 @@ std::string stretch_text(const TwoSidedMargin& margin, double unit, const std::s
   const bool walked = margin.above.outcome == MarginEndOutcome::beyond_search;
   if (is_end(margin.above)) return "up to " + above + " " + name;
   return (is_end(margin.below) ? "from " + below + " " + name + " on" : "of any size") +
-         (walked ? " as far as was looked, " + above + " " + name : "");
+         (walked ? ", searched up to " + above + " " + name : "");
 }
 
 std::string margins_text(const Case& the_case, const PdGains<double>& gains) {
@@ -422,7 +422,7 @@ Answer does_it_hold_for_all(const JobContext& context) {
     const char* const name = proof.verdict == ProvedStability::stable     ? "family stable"
                              : proof.verdict == ProvedStability::unstable ? "family unstable"
                                                                           : "family undecided";
-    answer.answer = page_text(name, {{"member", replaced(proof.worst_member, ";", ", ")},
+    answer.answer = page_text(name, {{"member", replaced(proof.unstable.text(), ";", ", ")},
                                      {"share", percent(proof.undecided_share)}});
   } catch (const WrongInput& refusal) {
     answer.answer = page_text("family not proved", {{"why", refusal.what()}});

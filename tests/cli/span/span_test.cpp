@@ -104,7 +104,7 @@ TEST(Span, ARangeOfOneNumberIsToldAsOne) {
   const std::string text = read_text(page + "/report.html");
   const std::string answers = text.substr(0, text.find("Is the absorber"));
   expect_holds(answers,
-               {"by every law", "The first 20 of them to 0.03 % of critical each", "ACSR"});
+               {"by every law", "first 20 modes have 0.03 % of critical damping each", "ACSR"});
   const std::regex twice(R"(([0-9][0-9.]*)( [%A-Za-z/]+)?( \([^)]*\))? (to|and) \1\b)");
   std::smatch found;
   EXPECT_FALSE(std::regex_search(answers, found, twice)) << found.str();
@@ -149,16 +149,6 @@ TEST(Span, AStayWithADashpotIsDampedAsKrenkSays) {
                                   " --set device.1.damping=" + std::to_string(best));
   EXPECT_NEAR(table.number(0, "damping_ratio") - 0.001, 0.0102114686718, 3e-5);
   EXPECT_NEAR(table.number(0, "damping_ratio_asymptotic") - 0.001, 0.01, 1e-6);
-  const CsvTable chart = table_of("modal-damping --count 1 --position 6:6:1 --damping 1e4:1e6:60" +
-                                  bare_stay + " --set device.1.damping=1");
-  double largest = 0.0, at = 0.0;
-  for (std::size_t row = 0; row < chart.rows(); ++row)
-    if (chart.number(row, "damping_ratio") > largest) {
-      largest = chart.number(row, "damping_ratio");
-      at = chart.number(row, "damping_N_s_per_m");
-    }
-  EXPECT_NEAR(at, best, 2e4);
-  EXPECT_NEAR(largest - 0.001, 0.0102, 1e-4);
 }
 
 // The spillover of the computer's drive into low modes is what a damper elsewhere takes.
@@ -178,14 +168,6 @@ TEST(Span, WhatIsMissingIsNamed) {
   expect_refused("absorption" + drake, {"no device"});
   expect_refused("absorption --end right" + drake + damper, {"--end right"});
   expect_refused("aeolian --frequency 0:10:3" + drake, {"--frequency", "greater than 0"});
-  expect_refused("modal-damping --position 1:2:2" + bare_stay + " --set device.1.damping=1",
-                 {"--damping"});
-  expect_refused("modal-damping --device 4 --position 1:2:2 --damping 1:2:2" + bare_stay +
-                     " --set device.1.damping=1",
-                 {"--device 4"});
-  expect_refused(
-      "modal-damping --position 0:2:2 --damping 1:2:2" + bare_stay + " --set device.1.damping=1",
-      {"inside the span"});
 }
 
 TEST(Span, MotionsWithoutDevicesRefuseThem) {

@@ -257,7 +257,7 @@ TEST(SweepMetrics, WithTheBestGainSayThatItsGainKnowsNoPlay) {
   const std::string sweep =
       "sweep --best-gain --axis excitation.frequency=10 --duration 1 --metric steady_peak";
   const auto tells = [&](const std::string& settings) {
-    return run_holdfast(sweep + settings).errors.find("without its play") != std::string::npos;
+    return run_holdfast(sweep + settings).errors.find("without play") != std::string::npos;
   };
   EXPECT_TRUE(tells(""));
   EXPECT_FALSE(tells(" --set backlash.width=0"));

@@ -52,7 +52,7 @@ TEST(SweepStore, KilledTwentyTimesAndDamagedItBecomesTheSame) {
   write_text(store / "steady_peak" / chunks_kept_for(store).begin()->first, "damaged");
   const Ending ending = swept(store, "--resume");
   expect_done(ending);
-  expect_holds(ending.errors, {"is damaged, and is computed anew"});
+  expect_holds(ending.errors, {"is damaged; this chunk is computed anew"});
   EXPECT_TRUE(files_in(store) == expected);
 }
 

@@ -220,10 +220,10 @@ TEST(CaseFile, WholeNumbersRefuseFractionsAndAdmitThemWrittenAsFloats) {
   EXPECT_EQ(from_text("[excitation]\nnoise_lines = 50\n").excitation.noise_lines, 50.0);
   EXPECT_EQ(from_text("[excitation]\nnoise_lines = 5e1\n").excitation.noise_lines, 50.0);
   EXPECT_EQ(refusal("[excitation]\nnoise_lines = 2.5\n"),
-            "case.toml:2: excitation.noise_lines = 2.5: admissible is a whole number, at least 1 "
+            "case.toml:2: excitation.noise_lines = 2.5: must be a whole number, at least 1 "
             "and at most 10000");
   EXPECT_TRUE(holds(refusal_of_override("control.jitter_seed=0.5"),
-                    "--set control.jitter_seed=0.5: admissible is a whole number"));
+                    "--set control.jitter_seed=0.5: must be a whole number"));
   EXPECT_TRUE(holds(refusal("[excitation]\nnoise_lines = 10001\n"), "at most 10000"));
 }
 
@@ -236,7 +236,7 @@ TEST(CaseFile, AMisspeltWordGetsTheNearestOne) {
   EXPECT_TRUE(
       holds(refusal_of_override("control.proportional_gain=tunde"), "did you mean \"tuned\"?"));
   EXPECT_TRUE(holds(refusal_of_override("control.largest_force=nun"),
-                    "admissible is greater than 0 N or \"none\"; did you mean \"none\"?"));
+                    "must be a number: greater than 0 N or \"none\"; did you mean \"none\"?"));
   EXPECT_FALSE(holds(refusal_of_override("initial.z1=fast"), "did you mean"));
   EXPECT_FALSE(holds(refusal_of_override("backlash.law=true"), "did you mean"));
 }
@@ -302,9 +302,9 @@ TEST(CaseFile, WhatIsNoNameOfAFileIsRefused) {
 
 TEST(CaseFile, NegativeQuantaAreRefusedWithTheirPlaceAndRange) {
   EXPECT_EQ(refusal("[control]\nvelocity_quantum = -1e-3\n"),
-            "case.toml:2: control.velocity_quantum = -0.001: admissible is at least 0 m/s");
+            "case.toml:2: control.velocity_quantum = -0.001: must be at least 0 m/s");
   EXPECT_EQ(refusal_of_override("control.displacement_quantum=-1"),
-            "--set control.displacement_quantum=-1: admissible is at least 0 m");
+            "--set control.displacement_quantum=-1: must be at least 0 m");
 }
 
 TEST(CaseFile, FaultsOfARealLoopPointAtTheValueGivenLast) {

@@ -53,7 +53,7 @@ TEST(ForceRecordFile, NamesFileAndLineOfAFault) {
   EXPECT_EQ(force_refusal(force_rows_and("1")), "force.csv:5: has 1 cells, the header has 2");
   for (const std::string time : {"0.25", "0.2"}) {
     EXPECT_EQ(force_refusal(force_rows_and(time + ",1")),
-              "force.csv:5: time_s = " + time + " is not above 0.25 of the row before");
+              "force.csv:5: time_s = " + time + " must exceed 0.25 of the row before");
   }
 }
 

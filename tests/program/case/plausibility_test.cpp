@@ -179,7 +179,7 @@ TEST(Plausibility, WhatNoCableHasIsRefusedAtItsLineWithTheAdmissibleRange) {
   std::string text = cardinal;
   text.replace(text.find("546e-6"), 6, "546");
   const std::string refusal = said_of(text, {});
-  for (const char* part : {"case.toml:5: conductor.area = 546", "kg/m3; admissible is at least 10",
+  for (const char* part : {"case.toml:5: conductor.area = 546", "kg/m3; must be at least 10",
                            "is it in mm2, 0.000546 m2?"})
     EXPECT_TRUE(holds(refusal, part)) << refusal;
   EXPECT_THROW(load_case(std::nullopt, {"initial.z1=-100"}), WrongInput);

@@ -52,9 +52,9 @@ TEST(Site, ListsOfNumbersAreRefusedNumberByNumber) {
   for (const std::string one : {"0", "-1", "151", "inf", "nan", "\"3\"", "[3]", "true"}) {
     const std::string message = refusal("[site]\nspeeds = [1.0, " + one + "]\nhours = [1, 2]\n");
     EXPECT_TRUE(holds(message, "case.toml:2: site.speeds = [1, ")) << message;
-    EXPECT_TRUE(holds(message, "admissible is [number, ...]")) << message;
+    EXPECT_TRUE(holds(message, "is not admissible: must be [number, ...]")) << message;
   }
-  EXPECT_TRUE(holds(override_refusal({"site.hours=[-1]"}), "--set site.hours=[-1]: not -1; "));
+  EXPECT_TRUE(holds(override_refusal({"site.hours=[-1]"}), "--set site.hours=[-1]: -1 is "));
   EXPECT_TRUE(holds(override_refusal({"site.hours=many"}), "must be [number, ...]"));
 }
 
@@ -130,7 +130,7 @@ TEST(Tension, BeyondTheRatedStrengthIsRefused) {
   EXPECT_EQ(from_text(span + "tension = 1.3e5\n").conductor.tension, 1.3e5);
   const std::string message = refusal(span + "tension = 1.45e5\n");
   EXPECT_TRUE(holds(message, "the tension over conductor.rated_strength is 1.0")) << message;
-  EXPECT_TRUE(holds(message, "admissible is at most 1")) << message;
+  EXPECT_TRUE(holds(message, "must be at most 1")) << message;
   const std::string in_kN = refusal(span + "tension = 28e3\nrated_strength = 140.1\n");
   EXPECT_TRUE(holds(in_kN, "is it in kN, 1.401e+05 N?")) << in_kN;
 }

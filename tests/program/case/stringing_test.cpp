@@ -8,7 +8,8 @@
 namespace holdfast::program {
 namespace {
 
-using tests::AnswerInMemory;
+using tests::answer_of, tests::AnswerInMemory;
+using Words = std::vector<std::string>;
 
 const std::string drake =
     "[conductor]\nname = \"Drake\"\nspan = \"700 ft\"\ndamping_ratio = 2e-4\n";
@@ -63,7 +64,7 @@ TEST(Stringing, RefusesWhatCannotBe) {
   EXPECT_TRUE(holds(refusal(strung, {"weather.temperature=-50", "conductor.rated_strength=36e3"}),
                     "at -50 degC the tension would be"));
   EXPECT_TRUE(holds(refusal(strung, {"stringing.tension=1.2e5", "weather.temperature=-50"}),
-                    "beyond what its stress-strain law holds for"));
+                    "beyond the range of its stress-strain curves"));
   EXPECT_TRUE(
       holds(refusal("[conductor]\nmass_per_length = 1.6\nspan = 300\narea = 4.7e-4\n"
                     "youngs_modulus = 7e10\n[stringing]\ntemperature = 15\ntension = 28e3\n",
@@ -74,6 +75,38 @@ TEST(Stringing, RefusesWhatCannotBe) {
 AnswerInMemory sag_tension(const std::string& text, std::vector<std::string> options) {
   options.insert(options.begin(), "sag-tension");
   return tests::answer_of(options, text);
+}
+
+TEST(Weather, HasTheDamageOfEachTemperatureInItsHours) {
+  const std::string line = strung +
+                           "[[device]]\nkind = \"dashpot\"\nposition = 1.5\ndamping = 300\n"
+                           "[site]\nspeeds = [2, 4]\nhours = [1000, 500]\n";
+  const Words of_year = {"weather.temperatures=[-20, 60]", "weather.hours=[2000, 6000]"};
+  AnswerInMemory rows = answer_of({"fatigue", "--by-temperature"}, line, of_year);
+  const auto parts = rows.numbers("damage_highest"), bare = rows.numbers("damage_bare");
+  ASSERT_EQ(parts.size(), 2U);
+  double whole = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::string at = "weather.temperature=" + std::string(k == 0 ? "-20" : "60");
+    AnswerInMemory alone = answer_of({"fatigue"}, line, {at});
+    const double damage = alone.numbers("highest")[4], share = k == 0 ? 0.25 : 0.75;
+    EXPECT_EQ(alone.word("quantity", 4), "damage_per_year");
+    EXPECT_NEAR(parts[k], share * damage, 1e-9 * damage) << at;
+    EXPECT_NEAR(bare[k], share * alone.numbers("value")[3], 1e-9 * bare[k]) << at;
+    EXPECT_NEAR(rows.numbers("horizontal_tension_N")[k],
+                parabolic_tension_of(from_text(line, {at})), 1e-6);
+    whole += parts[k];
+  }
+  AnswerInMemory year = answer_of({"fatigue"}, line, of_year);
+  EXPECT_NEAR(year.numbers("highest")[4], whole, 1e-9 * whole);
+  const auto by_speed =
+      answer_of({"fatigue", "--by-speed"}, line, of_year).numbers("damage_highest");
+  EXPECT_NEAR(by_speed[0] + by_speed[1], whole, 1e-9 * whole);
+  // Colder is tauter, and lives shorter.
+  EXPECT_GT(bare[0] / 0.25, bare[1] / 0.75);
+  EXPECT_TRUE(holds(refusal(line, {of_year[0], "weather.hours=[1]"}), "one number of hours"));
+  EXPECT_TRUE(holds(refusal(line, {of_year[0], "weather.hours=[8000, 800]"}), "a year has"));
+  EXPECT_THROW(answer_of({"fatigue", "--by-temperature"}, line, {}), WrongInput);
 }
 
 TEST(SagTension, HasARowForEachTemperatureAndOneForTheHeaviestLoad) {

@@ -45,7 +45,7 @@ TEST(DecayFile, NamesFileAndLineOfAFault) {
       {4, "0.4,", "6: displacement_m is missing"},
       {4, "0.4", "6: has 1 cells, the header has 2"},
       {4, ",0.001", "6: time_s is missing"},
-      {4, "0.3,0.001", "6: time_s = 0.3 is not above 0.3 of the row before"},
+      {4, "0.3,0.001", "6: time_s = 0.3 must exceed 0.3 of the row before"},
       {0, "0.0,0", "2: displacement_m = 0: a decay must start with a displacement other than 0"}};
   for (const auto& [row, text, said] : faults)
     EXPECT_EQ(refusal(record_with(row, text)), std::string("decay.csv:") + said);

@@ -62,6 +62,8 @@ TEST(Family, RefusesRangesThatNoCaseHas) {
                WrongInput);
   EXPECT_THROW(answer_of({"margins", "--family"}, "", {}), WrongInput);
   EXPECT_THROW(answer_of({"boundary", "--family"}, "", box), WrongInput);
+  EXPECT_THROW(answer_of({"boundary", "--prove"}, "", box), WrongInput);
+  EXPECT_THROW(answer_of({"boundary", "--stable-interval", "--prove"}, "", box), WrongInput);
   for (const char* other : {"--p=-4:0:3", "--d=-3:0:3", "--continuous", "--draws=9"})
     EXPECT_THROW(answer_of({"stability", "--family", "--prove", other}, "", box), WrongInput);
   EXPECT_TRUE(
@@ -75,7 +77,7 @@ TEST(Family, AnswersWithTheRowThatItsWorstMemberAloneHas) {
     Words of_family = job;
     of_family.insert(of_family.end(), {"--family", "--draws=20"});
     AnswerInMemory worst = answer_of(of_family, "", box);
-    EXPECT_TRUE(holds(worst.warnings.front(), "nothing is proved"));
+    EXPECT_TRUE(holds(worst.warnings.front(), "not covered"));
     const std::size_t rows = worst.table.columns.front().rows();
     for (std::size_t row = 0; row < rows; ++row) {
       const std::string member = worst.word("worst_member", row);
@@ -102,6 +104,65 @@ TEST(Family, IsStableWhereEachOfItsMembersIs) {
   }
   EXPECT_EQ(common.numbers("lower")[0], lower);
   EXPECT_EQ(common.numbers("upper")[0], upper);
+}
+
+/// The proved interval is that of its members but for a share at each end, and other members are
+/// stable in it.
+void expect_proved_interval(const std::string& text, const Words& uncertain) {
+  const Words job = {"boundary", "--stable-interval", "--p=-100"};
+  Words compared = job;
+  compared.insert(compared.end(), {"--family", "--draws=20"});
+  Words proved = compared;
+  proved.emplace_back("--prove");
+  AnswerInMemory common = answer_of(compared, text, uncertain);
+  AnswerInMemory inside = answer_of(proved, text, uncertain);
+  EXPECT_FALSE(holds(inside.warnings.empty() ? "" : inside.warnings.front(), "not covered"));
+  const double lower = inside.numbers("lower")[0], upper = inside.numbers("upper")[0];
+  const double width = common.numbers("upper")[0] - common.numbers("lower")[0];
+  EXPECT_GE(lower, common.numbers("lower")[0]);
+  EXPECT_LE(upper, common.numbers("upper")[0]);
+  EXPECT_GE(upper - lower, 0.98 * width);
+  for (const FamilyMember& member : family_members(tests::from_text(text, uncertain), 57)) {
+    AnswerInMemory alone = answer_of(job, text, settings_of(member.text()));
+    EXPECT_LE(alone.numbers("lower")[0], lower) << member.text();
+    EXPECT_GE(alone.numbers("upper")[0], upper) << member.text();
+  }
+}
+
+TEST(Family, HasAProvedIntervalNextToThatOfItsMembers) {
+  expect_proved_interval("", {box[0], box[2], "uncertain.control.sampling_period=[0.001, 0.0013]"});
+  expect_proved_interval(
+      "[conductor]\nname = \"Drake\"\nspan = 350\ndamping_ratio = 1e-3\n[stringing]\n"
+      "temperature = 15\ntension = 28020\n[absorber]\nmass = 4\nposition = 1.2\n[plant]\n"
+      "model = \"string\"\nmodes = 12\nabsorber_stiffness = 35530\nabsorber_damping = 75\n"
+      "[control]\nsampling_period = 1e-3\n",
+      {"uncertain.weather.temperature=[-30, 80]"});
+}
+
+TEST(Family, HasTheQuantilesOfItsMotions) {
+  const Words metrics = {"--duration=2", "--metric=steady_peak", "--metric=attenuates"};
+  Words of_family = {"sweep", "--family", "--draws=21"}, of_axis = {"sweep"};
+  of_axis.emplace_back("--axis=control.sampling_period=0.0005:0.03:21");
+  for (Words* words : {&of_family, &of_axis})
+    words->insert(words->end(), metrics.begin(), metrics.end());
+  const Words range = {"uncertain.control.sampling_period=[0.0005, 0.03]"};
+  AnswerInMemory quantiles = answer_of(of_family, "", range);
+  AnswerInMemory cells = answer_of(of_axis, "", {});
+  std::vector<double> peaks = cells.numbers("steady_peak");
+  const auto largest = std::max_element(peaks.begin(), peaks.end()) - peaks.begin();
+  EXPECT_NEAR(std::stod(quantiles.word("highest_member", 0).substr(24)),
+              0.0005 + 0.0295 * static_cast<double>(largest) / 20.0, 1e-12);
+  std::sort(peaks.begin(), peaks.end());
+  const std::vector<std::pair<const char*, std::size_t>> ranks = {
+      {"lowest", 0}, {"quantile_05", 1}, {"median", 10}, {"quantile_95", 19}, {"highest", 20}};
+  for (const auto& [name, rank] : ranks)
+    EXPECT_NEAR(quantiles.numbers(name)[0], peaks[rank], 1e-9 * peaks[rank]) << name;
+  EXPECT_LT(peaks.front(), 0.9 * peaks.back());
+  for (const char* other : {"--axis=backlash.width=0:1e-3:2", "--part=1/2", "--resume"}) {
+    Words more = of_family;
+    more.emplace_back(other);
+    EXPECT_THROW(answer_of(more, "", range), WrongInput) << other;
+  }
 }
 
 }  // namespace

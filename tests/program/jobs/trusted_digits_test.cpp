@@ -107,7 +107,7 @@ TEST(TrustedDigitsByRounding, AreLostWhereNeighboursPart) {
     EXPECT_GT(trusted.rate->per_second, 3.0 * trusted.rate->standard_error);
     EXPECT_NEAR(std::log(1e10) / trusted.rate->per_second, *trusted.until, 0.5 * *trusted.until);
     const std::string warning = trust_warning(trusted);
-    EXPECT_NE(warning.find("motions part, the largest exponent is "), std::string::npos);
+    EXPECT_NE(warning.find("motions separate, the largest exponent is "), std::string::npos);
     EXPECT_EQ(warning.find("another rounding") != std::string::npos, limited) << warning;
   }
 }
@@ -119,7 +119,7 @@ TEST(TrustedDigitsByRounding, HaveARateOnlyWhereTheyAreFew) {
   const auto found = with_rate(few, moving_loop_of(case_of({"backlash.width=0"}), {}), 100001);
   ASSERT_TRUE(found.rate);
   EXPECT_LT(found.rate->per_second, 0.0);
-  EXPECT_NE(rate_text(found).find("come together except at single contacts"), std::string::npos);
+  EXPECT_NE(rate_text(found).find("converge except at some contacts"), std::string::npos);
   EXPECT_FALSE(with_rate(few, moving_loop_of(case_of({}), {}), 1).rate) << "a single sample";
 }
 

@@ -29,7 +29,7 @@ TEST(Gnuplot, APictureThatIsCutOffIsNone) {
     const TemporaryFolder folder;
     const std::string words = message_of<OutputError>([&] { draw_line(folder.path()); });
     EXPECT_NE(words.find("line"), std::string::npos) << words;
-    EXPECT_NE(words.find("cut off"), std::string::npos) << words;
+    EXPECT_NE(words.find("incomplete"), std::string::npos) << words;
     EXPECT_FALSE(fs::exists(folder / "pictures/line.svg"));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder / "pictures"), {}), 1) << "its script";
   }

@@ -66,7 +66,7 @@ TEST(ProvedStringFamily, IsOfAYearAndSixUncertainNumbers) {
     box.lowest[k] *= 0.95;
     box.highest[k] *= 1.05;
   }
-  EXPECT_EQ(prove_family(family, box, {100}, [] {}).verdict(), ProvedStability::stable);
+  EXPECT_EQ(prove_family(family, box, {8}, [] {}).verdict(), ProvedStability::stable);
 }
 
 /// Largest stable −D of a loop, by bisection of its largest root.
@@ -97,6 +97,8 @@ TEST(ProvedStringFamily, SumsTheFrequenciesThatSamplesDoNotTellApart) {
   for (int draw = 0; draw < 60; ++draw) {
     Parameters values = line(random.uniform(-500.0, 100.0));
     values[9] = random.uniform(-1e4, 1e4);
+    // Slow samples: aliases among the modes, which the moments do not sum.
+    if (draw % 3 == 0) values[7] = random.log_uniform(1e-3, 0.4);
     values[8] = draw % 2 == 0 ? 0.0 : random.uniform(0.0, 0.9) * values[7];
     test::expect_function_of(
         family, values, random.log_uniform(1e-3, pi<double>),

@@ -13,8 +13,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// An upper bound of a non-negative number that was computed as x: a sum of up to ten products of
-/// up to four moduli, with at most 20 roundings.
+/// An upper bound of the exact value of a sum that was computed as x ≥ 0. The sum has up to ten
+/// terms, each a product of up to four moduli; at most 20 roundings occurred.
 inline double above_roundings(double x) {
   return rounded_up(x * (1.0 + 0x1.0p-48)) + std::numeric_limits<double>::denorm_min();
 }
@@ -28,18 +28,18 @@ inline double rounded_modulus(const std::complex<double>& z) {
 
 }  // namespace detail
 
-/// A complex number proved to lie within a radius of a centre: a disc, whose products do not widen
-/// by rotation.
+/// A complex number proved to lie in a disc, given by centre and radius. A rotation does not widen
+/// a disc, unlike a rectangle.
 ///
-/// Every operation gives a disc that contains its result for all numbers in its arguments; after a
-/// division by 0 or an overflow its radius is infinite.
+/// Every operation gives a disc that contains its result for all numbers in its arguments. After a
+/// division by 0 or an overflow the radius is infinite: the number is unknown.
 class ComplexEnclosure {
  public:
   /// The number 0.
   ComplexEnclosure() = default;
   /// The exact value of a double; implicit, so that doubles may be used in formulas.
   ComplexEnclosure(double exact) : centre_(exact) {}  // NOLINT(google-explicit-constructor)
-  /// The disc around a centre; with a NaN or a negative radius its radius becomes infinite.
+  /// The disc around a centre. A NaN, or a negative `radius`, gives an infinite radius.
   ComplexEnclosure(const std::complex<double>& centre, double radius)
       : centre_(centre), radius_(radius) {
     const bool known = std::isfinite(centre.real()) && std::isfinite(centre.imag());
@@ -47,7 +47,7 @@ class ComplexEnclosure {
     centre_ = 0.0;
     radius_ = std::numeric_limits<double>::infinity();
   }
-  /// The number x + iy; implicit without y, as a real number is complex too.
+  /// The number x + iy; implicit where y is left out, since a real number is complex too.
   ComplexEnclosure(const Enclosure& x, const Enclosure& y = {})  // NOLINT(google-explicit-*)
       : ComplexEnclosure({x.middle(), y.middle()}, (Enclosure(x.radius()) + y.radius()).upper()) {}
 
@@ -66,18 +66,18 @@ class ComplexEnclosure {
     // Neither where squares vanish nor where they overflow.
     return modulus > 2e-140 && modulus < 1e150 && below > 0.0 ? below : 0.0;
   }
-  /// The real part Re z.
+  /// The enclosure of the real part Re z.
   Enclosure real() const { return centre_.real() + Enclosure(-radius_, radius_); }
-  /// The imaginary part Im z.
+  /// The enclosure of the imaginary part Im z.
   Enclosure imaginary() const { return centre_.imag() + Enclosure(-radius_, radius_); }
 
   /// The negative −a, exact.
   ComplexEnclosure operator-() const { return {-centre_, radius_}; }
-  /// The product i a, exact.
+  /// The product i a with the imaginary unit, exact.
   ComplexEnclosure times_i() const { return {{-centre_.imag(), centre_.real()}, radius_}; }
-  /// Adds b.
+  /// Adds the complex number b.
   ComplexEnclosure& operator+=(const ComplexEnclosure& b) { return *this = *this + b; }
-  /// Multiplies by b.
+  /// Multiplies by the complex number b.
   ComplexEnclosure& operator*=(const ComplexEnclosure& b) { return *this = *this * b; }
 
   /// The sum a + b.
@@ -89,7 +89,7 @@ class ComplexEnclosure {
   friend ComplexEnclosure operator-(const ComplexEnclosure& a, const ComplexEnclosure& b) {
     return a + (-b);
   }
-  /// The product a b. Each part of the centres' product has an error of 2 roundings of its terms.
+  /// The product a b. Real and imaginary part of the product of the centres have 2 roundings each.
   friend ComplexEnclosure operator*(const ComplexEnclosure& a, const ComplexEnclosure& b) {
     const std::complex<double>&x = a.centre_, &y = b.centre_;
     const double of_x = detail::rounded_modulus(x), of_y = detail::rounded_modulus(y);
@@ -98,16 +98,16 @@ class ComplexEnclosure {
     return {{x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()},
             detail::above_roundings(radius) + least};
   }
-  /// The quotient a / b; unknown where b may be 0.
+  /// The quotient a / b; its radius is infinite where b may be 0.
   friend ComplexEnclosure operator/(const ComplexEnclosure& a, const ComplexEnclosure& b) {
     return a * inverse(b);
   }
 
-  /// The conjugate, exact.
+  /// The complex conjugate of a, exact.
   friend ComplexEnclosure conj(const ComplexEnclosure& a) {
     return {std::conj(a.centre_), a.radius_};
   }
-  /// The reciprocal 1/a; unknown where a may be 0. With y near 1/c, c being the centre,
+  /// The reciprocal 1/a; unknown where a may be 0. With the centre c of a, a = c + w and y ≈ 1/c,
   ///
   ///     |1/(c + w) − y| ≤ (|1 − c y| + |w y|)/|c + w|
   friend ComplexEnclosure inverse(const ComplexEnclosure& a) {
@@ -131,7 +131,7 @@ class ComplexEnclosure {
 };
 
 /// The exponential e^z of every number in a disc.
-/// @param z  disc; the result is unknown where it is not finite or its radius is 1 or more
+/// @param z  disc; the result is unknown where the disc is not finite or its radius is 1 or more
 inline ComplexEnclosure exponential(const ComplexEnclosure& z) {
   const double x = z.middle().real(), y = z.middle().imag();
   Matrix<Enclosure, 2> turning;

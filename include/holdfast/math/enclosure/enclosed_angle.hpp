@@ -9,13 +9,13 @@ namespace holdfast {
 
 namespace detail {
 
-/// The cosine and the sine of an angle.
+/// The enclosures of the cosine and the sine of an angle.
 struct EnclosedPhasor {
   Enclosure cosine, sine;
 };
 
-/// The series 1 − y²/(a (a + 1)) (1 − y²/((a + 2)(a + 3)) (1 − …)), y² ≤ 1; the innermost factors
-/// that are not computed are in [0, 1].
+/// The series 1 − y²/(a (a + 1)) (1 − y²/((a + 2)(a + 3)) (1 − …)) for y² = `squared` ≤ 1. The
+/// first bracket that is not computed is enclosed by [0, 1].
 inline Enclosure nested_series(const Enclosure& squared, double a, int factors = 10) {
   Enclosure sum(0.0, 1.0);
   for (int k = factors - 1; k >= 0; --k) {
@@ -25,7 +25,7 @@ inline Enclosure nested_series(const Enclosure& squared, double a, int factors =
   return sum;
 }
 
-/// The phasor of a double, |x| < 10⁶: the series at x − k π/2, then k quarter turns.
+/// The phasor of a double x (rad), |x| < 10⁶: series at x − k π/2, followed by k quarter turns.
 inline EnclosedPhasor phasor_at(double x) {
   const double quarters = std::nearbyint(x * (2.0 / pi<double>));
   const Enclosure rest = Enclosure(x) - Enclosure(0.5 * quarters) * pi<Enclosure>;
@@ -43,7 +43,7 @@ inline EnclosedPhasor phasor_at(double x) {
   }
 }
 
-/// The phasor of an angle: at the midpoint, widened by the radius, as no slope exceeds 1.
+/// The phasor of an angle (rad): that of its midpoint, widened by its radius, since |slope| ≤ 1.
 inline EnclosedPhasor phasor_of(const Enclosure& angle) {
   const Enclosure all(-1.0, 1.0);
   const double x = angle.middle(), radius = angle.radius();
@@ -55,9 +55,9 @@ inline EnclosedPhasor phasor_of(const Enclosure& angle) {
 
 }  // namespace detail
 
-/// The enclosure of cos x for every x (rad) in an angle.
+/// The enclosure of cos x for every x (rad) in an enclosed angle.
 inline Enclosure cos(const Enclosure& angle) { return detail::phasor_of(angle).cosine; }
-/// The enclosure of sin x for every x (rad) in an angle.
+/// The enclosure of sin x for every x (rad) in an enclosed angle.
 inline Enclosure sin(const Enclosure& angle) { return detail::phasor_of(angle).sine; }
 
 }  // namespace holdfast

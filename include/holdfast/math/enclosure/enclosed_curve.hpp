@@ -14,7 +14,7 @@ namespace holdfast {
 /// bound of |z″|. Every operation gives an enclosure of its result for all curves in its arguments.
 class EnclosedCurve {
  public:
-  /// The constant curve of a number; implicit, so that numbers may be used in formulas.
+  /// The constant curve z(t) = number; implicit, so that numbers may be used in formulas.
   EnclosedCurve(const ComplexEnclosure& number)  // NOLINT(google-explicit-constructor)
       : EnclosedCurve(number, {}, 0.0) {}
   /// @param value  value z(0)
@@ -27,9 +27,9 @@ class EnclosedCurve {
         slope_size_(slope.magnitude()),
         size_(value.magnitude()) {}
 
-  /// The value z(0).
+  /// The value z(0) of the curve at its middle.
   const ComplexEnclosure& value() const { return value_; }
-  /// The derivative z′(0).
+  /// The derivative z′(0) of the curve at its middle.
   const ComplexEnclosure& slope() const { return slope_; }
   /// An upper bound of |z| for all t.
   double most() const { return detail::above_roundings(size_ + slope_size_ + 0.5 * bend_); }
@@ -43,23 +43,23 @@ class EnclosedCurve {
   /// An upper bound of |z″| for all t.
   double bend() const { return bend_; }
 
-  /// The negative −z.
+  /// The curve −z(t).
   EnclosedCurve operator-() const { return {-value_, -slope_, bend_}; }
-  /// The sum a + b.
+  /// The sum of two curves, a(t) + b(t).
   friend EnclosedCurve operator+(const EnclosedCurve& a, const EnclosedCurve& b) {
     return {a.value_ + b.value_, a.slope_ + b.slope_, detail::above_roundings(a.bend_ + b.bend_)};
   }
-  /// The difference a − b.
+  /// The difference of two curves, a(t) − b(t).
   friend EnclosedCurve operator-(const EnclosedCurve& a, const EnclosedCurve& b) {
     return a + (-b);
   }
-  /// The product a b: (ab)″ = a″b + 2a′b′ + ab″.
+  /// The product of two curves, a(t) b(t), with (ab)″ = a″b + 2a′b′ + ab″.
   friend EnclosedCurve operator*(const EnclosedCurve& a, const EnclosedCurve& b) {
     const double bend = a.bend_ * b.most() + 2.0 * a.steepest() * b.steepest() + a.most() * b.bend_;
     return {a.value_ * b.value_, a.slope_ * b.value_ + a.value_ * b.slope_,
             detail::above_roundings(bend)};
   }
-  /// The reciprocal: (1/z)′ = −z′/z², |(1/z)″| ≤ (2|z′|²/|z| + |z″|)/|z|²; unknown if z may be 0.
+  /// The curve 1/z: (1/z)′ = −z′/z², |(1/z)″| ≤ (2|z′|²/|z| + |z″|)/|z|²; unknown if z may be 0.
   friend EnclosedCurve inverse(const EnclosedCurve& z) {
     const ComplexEnclosure inverted = inverse(z.value_);
     // 1/|z| and a rounding, 0 · ∞ being of no use.
@@ -73,7 +73,7 @@ class EnclosedCurve {
   double bend_, slope_size_, size_;
 };
 
-/// The spiral c e^{σt}, −1 ≤ t ≤ 1.
+/// A spiral z(t) = c e^{σt} in the complex plane, −1 ≤ t ≤ 1, with enclosed c and σ.
 class EnclosedSpiral {
  public:
   /// @param start  value c at t = 0
@@ -86,20 +86,20 @@ class EnclosedSpiral {
 
   /// The value c at t = 0.
   const ComplexEnclosure& start() const { return start_; }
-  /// The rate σ.
+  /// The rate σ of the spiral.
   const ComplexEnclosure& rate() const { return rate_; }
-  /// An upper bound of |z| for all t.
+  /// An upper bound of the modulus |z| for all t.
   double most() const { return most_; }
-  /// An upper bound of |z − c| for all t.
+  /// An upper bound of the distance |z − c| from the start value c for all t.
   double way() const { return detail::above_roundings(turn_ * most_); }
 
-  /// This spiral as a curve.
+  /// The spiral as an EnclosedCurve, with a bound of its second derivative.
   EnclosedCurve curve() const { return {start_, start_ * rate_, bend()}; }
-  /// The power cⁿ e^{nσt}.
+  /// The n-th power of the spiral, cⁿ e^{nσt}.
   EnclosedSpiral to_the(int n) const {
     return {power(start_, n), rate_ * ComplexEnclosure(static_cast<double>(n))};
   }
-  /// The conjugate spiral.
+  /// The complex conjugate of a spiral.
   friend EnclosedSpiral conj(const EnclosedSpiral& z) { return {conj(z.start_), conj(z.rate_)}; }
 
   /// The difference z = a − b as a curve, accurate for similar rates too. With ν = σ_a − σ_b,

@@ -28,7 +28,7 @@ Matrix<Enclosure, Size> ball(Eigen::Index order, double bound) {
   return Matrix<Enclosure, Size>::Constant(order, order, Enclosure(-bound, bound));
 }
 
-/// The exponential e^X of every enclosed matrix, ‖X‖∞ ≤ 1/2: Taylor polynomial and remainder,
+/// The exponential e^X of every enclosed matrix with ‖X‖∞ ≤ 1/2: Taylor polynomial and remainder,
 ///
 ///     ‖e^X − Σ_{k ≤ m} Xᵏ/k!‖ ≤ ‖X‖^{m+1}/(m+1)! / (1 − ‖X‖/(m+2))
 ///
@@ -48,7 +48,7 @@ Matrix<Enclosure, Size> exponential_series(const Matrix<Enclosure, Size>& matrix
   return sum + ball<Size>(n, rest.upper());
 }
 
-/// The exponential e^M from the series of M/2^s, ‖M‖/2^s ≤ 1/2, squared s times; `norm` bounds ‖M‖.
+/// The exponential e^M, from the series of M/2^s (norm ≤ 1/2) by s squarings; `norm` bounds ‖M‖.
 template <int Size>
 Matrix<Enclosure, Size> exponential_by_squarings(Matrix<Enclosure, Size> matrix, double norm) {
   int squarings = 0;
@@ -61,10 +61,10 @@ Matrix<Enclosure, Size> exponential_by_squarings(Matrix<Enclosure, Size> matrix,
 
 }  // namespace detail
 
-/// The exponential e^M of every matrix in an enclosure, entry by entry: the series of the balanced
-/// M/2^s, squared s times. Work: 20 + s products. The width of the result grows with that of M and,
-/// by a factor of about ‖e^M‖ n, with each squaring.
-/// @param matrix  square, of fixed or dynamic size; if not finite the result is unknown
+/// An enclosure of the matrix exponentials e^M of all n × n matrices M in an enclosure: the series
+/// of the balanced M/2^s, squared s times. Work: 20 + s matrix products. The result's width grows
+/// with that of M, and by a factor of about ‖e^M‖ n with each squaring.
+/// @param matrix  square, of fixed or dynamic size; the result is unbounded unless ‖M‖∞ < 10⁶
 template <int Size>
 Matrix<Enclosure, Size> exponential(const Matrix<Enclosure, Size>& matrix) {
   if (!(detail::norm_bound(matrix) < 1e6))

@@ -8,8 +8,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// An approximation of the largest eigenvalue of a form FᵀF ≠ 0, in doubles: the Rayleigh quotient
-/// of a column of a high power.
+/// An approximation, in doubles, of the largest eigenvalue of a symmetric matrix FᵀF ≠ 0: the
+/// Rayleigh quotient of a column of a high power of the matrix.
 template <int Size>
 double largest_eigenvalue_near(const Matrix<double, Size>& form) {
   Matrix<double, Size> power = form / form.trace();
@@ -28,10 +28,10 @@ double largest_eigenvalue_near(const Matrix<double, Size>& form) {
 
 }  // namespace detail
 
-/// An upper bound of ‖M‖₂ of every matrix in an enclosure: a σ with σ² I − M₀ᵀM₀ > 0, proved by
-/// elimination for the midpoint M₀, plus the Frobenius norm of the deviations from M₀.
-/// @param matrix  N × N
-/// @return ∞ where nothing was proved
+/// An upper bound of the norm ‖M‖₂ of all matrices M in an enclosure: σ plus the Frobenius norm of
+/// deviations from the midpoint M₀. By elimination σ² I − M₀ᵀM₀ is proved positive definite.
+/// @param matrix  enclosed matrix, N × N
+/// @return the bound; ∞ where nothing was proved
 template <int Size>
 double spectral_norm_bound(const Matrix<Enclosure, Size>& matrix) {
   const Matrix<double, Size> middle = matrix.template cast<double>();

@@ -10,8 +10,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// A bound of half the distance from a double to its neighbours, for 0 too: the largest error of a
-/// sum, product, quotient or root rounded to the nearest double.
+/// A bound of half the distance from a double x to its neighbours: the largest error of a sum,
+/// product, quotient or root that is rounded to x. It is valid for x = 0 too.
 /// Source: S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond, Computing predecessor and successor
 /// in rounding to nearest, BIT 49 (2009), Algorithm 1.
 inline double rounding_of(double x) {
@@ -31,13 +31,13 @@ inline double rounded_up(double x) {
 
 }  // namespace detail
 
-/// A real number x proved to satisfy lower ≤ x ≤ upper: interval arithmetic on doubles.
+/// A real number x proved to satisfy lower ≤ x ≤ upper: interval arithmetic with doubles as bounds.
 ///
 /// Every operation gives an enclosure of its result for all numbers in its arguments. Bounds are
-/// rounded outward by one neighbour, valid for every round-to-nearest mode of the processor, with
-/// or without fused multiply-adds. Division by 0 and overflow give ±∞. There is no `<`, since an
-/// unproved inequality need not be false. The class serves as a number type of Eigen's matrices and
-/// of the library's templates that need no order.
+/// rounded outward to the next double. This is valid in every round-to-nearest mode of the
+/// processor, with or without fused multiply-adds. Division by 0 and overflow give ±∞. There is no
+/// operator `<`, since an inequality that is not proved need not be false. The class serves as a
+/// number type of Eigen's matrices and of the library's templates that need no order.
 /// Source: IEEE 1788-2015 for the set that each operation encloses; see also `rounding_of`.
 class Enclosure {
  public:
@@ -45,21 +45,21 @@ class Enclosure {
   Enclosure() = default;
   /// The exact value of a double; implicit, so that doubles may be used in formulas.
   Enclosure(double exact) : Enclosure(exact, exact) {}  // NOLINT(google-explicit-constructor)
-  /// The interval between two doubles, lower ≤ upper; otherwise, or with a NaN, (−∞, ∞).
+  /// The interval between two doubles, lower ≤ upper; (−∞, ∞) if they descend or one is NaN.
   Enclosure(double lower, double upper) : lower_(lower), upper_(upper) {
     if (!(lower <= upper)) *this = unknown();
   }
 
-  /// The interval of all decimals whose nearest double is the given one; 0 is exact.
+  /// The interval of all decimal numbers whose nearest double is the given one; 0 is exact.
   static Enclosure of_decimal(double nearest) {
     if (nearest == 0.0) return {};
     return {detail::rounded_down(nearest), detail::rounded_up(nearest)};
   }
-  /// The interval of all decimals whose nearest double is one of two doubles or lies between them.
+  /// The interval of all decimal numbers whose nearest double is in the closed range `from` … `to`.
   static Enclosure of_decimals(double from, double to) {
     return {of_decimal(from).lower(), of_decimal(to).upper()};
   }
-  /// The interval (−∞, ∞).
+  /// The interval (−∞, ∞), in which nothing is known about the number.
   static Enclosure unknown() {
     Enclosure all;
     all.lower_ = -std::numeric_limits<double>::infinity();
@@ -88,20 +88,20 @@ class Enclosure {
   /// The middle of the interval, for messages and plausibility checks.
   explicit operator double() const { return middle(); }
 
-  /// Whether it is proved that the number is > 0.
+  /// Whether the number is proved to be > 0.
   bool is_positive() const { return lower_ > 0.0; }
-  /// Whether it is proved that the number is < 0.
+  /// Whether the number is proved to be < 0.
   bool is_negative() const { return upper_ < 0.0; }
 
   /// The negative −a, exact.
   Enclosure operator-() const { return {-upper_, -lower_}; }
-  /// Adds b.
+  /// Adds the number b.
   Enclosure& operator+=(const Enclosure& b) { return *this = *this + b; }
-  /// Subtracts b.
+  /// Subtracts the number b.
   Enclosure& operator-=(const Enclosure& b) { return *this = *this - b; }
-  /// Multiplies by b.
+  /// Multiplies by the number b.
   Enclosure& operator*=(const Enclosure& b) { return *this = *this * b; }
-  /// Divides by b.
+  /// Divides by the number b; unknown where b may be 0.
   Enclosure& operator/=(const Enclosure& b) { return *this = *this / b; }
 
   /// The sum a + b.
@@ -115,7 +115,7 @@ class Enclosure {
     return hull_of(a.lower_ * b.lower_, a.lower_ * b.upper_, a.upper_ * b.lower_,
                    a.upper_ * b.upper_);
   }
-  /// The quotient a / b; unknown where b may be 0.
+  /// The quotient a / b; (−∞, ∞) where b may be 0.
   friend Enclosure operator/(const Enclosure& a, const Enclosure& b) {
     if (b.contains(0.0)) return unknown();
     return hull_of(a.lower_ / b.lower_, a.lower_ / b.upper_, a.upper_ / b.lower_,
@@ -128,31 +128,31 @@ class Enclosure {
   /// Whether the bounds differ.
   friend bool operator!=(const Enclosure& a, const Enclosure& b) { return !(a == b); }
 
-  /// The square x².
+  /// The square a².
   friend Enclosure square(const Enclosure& a) {
     const double most = a.magnitude();
     const double least = a.contains(0.0) ? 0.0 : std::min(std::abs(a.lower_), std::abs(a.upper_));
     return {std::max(detail::rounded_down(least * least), 0.0), detail::rounded_up(most * most)};
   }
-  /// The root √a of the non-negative part of a; unknown where there is none.
+  /// The square root √a of the non-negative part of a; (−∞, ∞) where all of a is negative.
   friend Enclosure sqrt(const Enclosure& a) {
     if (a.upper_ < 0.0) return unknown();
     const double least = std::sqrt(std::max(a.lower_, 0.0));
     return {std::max(detail::rounded_down(least), 0.0), detail::rounded_up(std::sqrt(a.upper_))};
   }
-  /// The modulus |a|.
+  /// The absolute value |a|.
   friend Enclosure abs(const Enclosure& a) {
     if (a.contains(0.0)) return {0.0, a.magnitude()};
     return a.lower_ > 0.0 ? a : -a;
   }
-  /// The intersection of two enclosures; an empty one means a wrong premiss and gives an unknown
-  /// result.
+  /// The intersection of two enclosures of one number. An empty intersection means a wrong premiss
+  /// and gives (−∞, ∞).
   friend Enclosure intersection(const Enclosure& a, const Enclosure& b) {
     return {std::max(a.lower_, b.lower_), std::min(a.upper_, b.upper_)};
   }
 
  private:
-  /// The hull of the four products of bounds; 0 · ∞ makes it unbounded.
+  /// The interval spanned by four products of bounds; (−∞, ∞) if one of them is 0 · ∞.
   static Enclosure hull_of(double a, double b, double c, double d) {
     if (!(a == a && b == b && c == c && d == d)) return unknown();
     return {detail::rounded_down(std::min({a, b, c, d})),

@@ -21,12 +21,12 @@ int nearest_power_of_four(Scalar ratio, int most) {
 
 }  // namespace detail
 
-/// The powers of two t_i with which row i and column i of diag(t)⁻¹ M diag(t) are of similar size.
+/// The powers of two t_i for which row i and column i of diag(t)⁻¹ M diag(t) are of similar size.
 ///
-/// Scaling and squaring and the QR algorithm have errors relative to the matrix norm, which
-/// balancing reduces almost to the spectral radius. Powers of two cause no rounding. The number
-/// type needs the four operations and a comparison; for dual numbers the powers are constants.
-/// Source: B. N. Parlett, C. Reinsch, Balancing a matrix, Numer. Math. 13 (1969).
+/// The errors of scaling and squaring and of the QR algorithm are relative to the matrix norm.
+/// Balancing reduces this norm almost to the spectral radius. Powers of two cause no rounding. The
+/// number type needs the four operations and a comparison; for dual numbers the powers are
+/// constants. Source: B. N. Parlett, C. Reinsch, Balancing a matrix, Numer. Math. 13 (1969).
 /// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size>
 Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
@@ -63,16 +63,16 @@ Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
 /// diag(factors)⁻¹.
 template <class Scalar, int Size>
 struct BalancedMatrix {
-  Vector<Scalar, Size> factors;   ///< powers of two
-  Matrix<Scalar, Size> balanced;  ///< row i and column i of about the same size
+  Vector<Scalar, Size> factors;   ///< the powers of two t_i, n × 1
+  Matrix<Scalar, Size> balanced;  ///< balanced matrix: row i and column i of about the same size
 
-  /// Balances `original`, whose entries must be finite.
+  /// Balances the matrix `original`, whose entries must be finite.
   explicit BalancedMatrix(const Matrix<Scalar, Size>& original)
       : factors(balancing(original)),
         balanced(factors.cwiseInverse().asDiagonal() * original * factors.asDiagonal()) {}
 
-  /// Transforms a function of the balanced matrix back to that of the original: diag(factors) · f ·
-  /// diag(factors)⁻¹.
+  /// Transforms f, a function of the balanced matrix, to the same function of the original matrix:
+  /// diag(factors) · f · diag(factors)⁻¹.
   Matrix<Scalar, Size> restored(const Matrix<Scalar, Size>& function) const {
     return factors.asDiagonal() * function * factors.cwiseInverse().asDiagonal();
   }

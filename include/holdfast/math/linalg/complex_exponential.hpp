@@ -26,7 +26,7 @@ std::complex<Scalar> circle_increment(const Scalar& angle) {
   return complex_expm1(std::complex<Scalar>(0, angle));
 }
 
-/// The integral ∫₀^t e^{s r} dr = (e^{st} − 1)/s, accurate near s = 0 too.
+/// The integral ∫₀^t e^{s r} dr = (e^{st} − 1)/s, accurate near s = 0 as well.
 /// @param s  rate (1/s)
 /// @param t  time (s)
 template <class Scalar>
@@ -43,18 +43,18 @@ struct ComplexLanes {
   static constexpr int size = EIGEN_MAX_STATIC_ALIGN_BYTES > 16  ///< number of lanes
                                   ? EIGEN_MAX_STATIC_ALIGN_BYTES / sizeof(Scalar)
                                   : 2;
-  using Reals = Eigen::Array<Scalar, size, 1>;  ///< a real number in each lane
+  using Reals = Eigen::Array<Scalar, size, 1>;  ///< a real number for each lane
 
   Reals re = Reals::Zero(), im = Reals::Zero();
 
-  /// Sets one lane.
+  /// Sets the complex number in one lane.
   void set(Eigen::Index lane, const std::complex<Scalar>& value) {
     re[lane] = value.real();
     im[lane] = value.imag();
   }
-  /// The number in one lane.
+  /// The complex number in one lane.
   std::complex<Scalar> operator[](Eigen::Index lane) const { return {re[lane], im[lane]}; }
-  /// The sum of all lanes.
+  /// The sum of the complex numbers of all lanes.
   std::complex<Scalar> sum() const { return {re.sum(), im.sum()}; }
   /// The reciprocal 1/z in every lane.
   EIGEN_ALWAYS_INLINE ComplexLanes inverse() const {
@@ -87,13 +87,13 @@ struct ComplexLanes {
 template <class Scalar, std::size_t Columns>
 class ComplexRows {
  public:
-  using Row = std::array<std::complex<Scalar>, Columns>;    ///< one row
+  using Row = std::array<std::complex<Scalar>, Columns>;    ///< one row of complex numbers
   using Block = std::array<ComplexLanes<Scalar>, Columns>;  ///< one row for each lane
 
-  /// @param first  first-column value of the unused rows at the end of the last block
+  /// @param first  value in the first column of the unused rows at the end of the last block
   explicit ComplexRows(const Scalar& first = Scalar(0)) : first_(first) {}
 
-  /// Adds a row.
+  /// Adds a row at the end.
   void push_back(const Row& row) {
     if (size_ % lanes == 0) {
       blocks_.emplace_back();
@@ -101,7 +101,7 @@ class ComplexRows {
     }
     set(size_++, row);
   }
-  /// Sets the k-th row.
+  /// Replaces the k-th row.
   void set(std::size_t k, const Row& row) {
     for (std::size_t c = 0; c < Columns; ++c) blocks_[k / lanes][c].set(lane_of(k), row[c]);
   }

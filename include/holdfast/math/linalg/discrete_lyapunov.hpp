@@ -8,18 +8,18 @@
 
 namespace holdfast {
 
-/// A quadratic form that a linear map M decreases: V = Σ_l (Mˡ)ᵀ Mˡ, the solution of the discrete
-/// Lyapunov equation V − MᵀV M = I, so that eᵀVe falls by ‖e‖² from e to M e.
+/// A quadratic form that a linear map M decreases: V = Σ_l (Mˡ)ᵀ Mˡ. It solves the discrete
+/// Lyapunov equation V − MᵀV M = I, so that eᵀVe falls by ‖e‖² from a vector e to M e.
 ///
-/// The sum is doubled, V ← V + PᵀV P, P ← P², starting from P = M (R. A. Smith, Matrix equation XA
-/// + BX = C, SIAM J. Appl. Math. 16 (1968)). The result is checked in the equation: V − MᵀV M
-/// differs from I by less than a half, including rounding.
+/// Each step doubles the number of terms, V ← V + PᵀV P, P ← P², starting from P = M (R. A. Smith,
+/// Matrix equation XA + BX = C, SIAM J. Appl. Math. 16 (1968)). As a check, V − MᵀV M must differ
+/// from I by less than a half, including rounding.
 /// @param map     matrix M, n × n
-/// @param enough  the sum may end at a power of M whose ‖Mˡ‖²_F, the error of the equation, is less
-/// @return nothing where M does not contract, or so slowly that rounding hides it
+/// @param enough  limit of the equation's error ‖Mˡ‖²_F below which the sum may end after l terms
+/// @return form V; none where M does not contract, or so slowly that rounding hides the contraction
 /// @throws InvalidParameter where M is not square
-/// Work: 3 n³ multiply-adds for each doubling; their number is log₂ of the number of steps in which
-/// Mˡ decays.
+/// Work: 3 n³ multiply-adds per doubling; the number of doublings is log₂ of the number of steps in
+/// which Mˡ decays.
 template <class Scalar>
 std::optional<Matrix<Scalar, Eigen::Dynamic>> discrete_lyapunov(
     const Matrix<Scalar, Eigen::Dynamic>& map, double enough = 0.0) {

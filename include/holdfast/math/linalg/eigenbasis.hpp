@@ -15,15 +15,15 @@ namespace holdfast {
 
 namespace detail {
 
-/// The Schur form M = U T U* with T upper triangular and U unitary, from the real Schur form, whose
-/// 2 × 2 blocks are rotated into triangles.
+/// The Schur form M = U T U* with T upper triangular and U unitary. It is computed from the real
+/// Schur form, whose 2 × 2 blocks are rotated into triangles.
 template <class Scalar>
 struct TriangularForm {
   using Complex = std::complex<Scalar>;
   using Square = Matrix<Scalar, Eigen::Dynamic>;
 
-  Matrix<Complex, Eigen::Dynamic> triangle;  ///< T
-  Matrix<Complex, Eigen::Dynamic> basis;     ///< U
+  Matrix<Complex, Eigen::Dynamic> triangle;  ///< triangular matrix T
+  Matrix<Complex, Eigen::Dynamic> basis;     ///< unitary matrix U
   bool converged;                            ///< whether the QR algorithm converged
 
   /// @param matrix  matrix M, n × n, finite
@@ -74,32 +74,32 @@ struct TriangularForm {
 ///
 ///     η̇_k = s_k η_k + β_k u,   y = Σ γ_k η_k,   β = V⁻¹ b,   γ = h V
 ///
-/// They are computed from the real Schur form of the balanced matrix by back substitution; V is
+/// The basis is computed from the real Schur form of the balanced matrix by back substitution; V is
 /// triangular in the Schur basis, so that no dense matrix is inverted. Work: about 30 N³. For
 /// (nearly) coinciding eigenvalues V is (nearly) singular: see `is_sound()`.
 template <class Scalar>
 class EigenBasis {
  public:
   using Complex = std::complex<Scalar>;                   ///< type of eigenvalues and coordinates
-  using ComplexVector = Vector<Complex, Eigen::Dynamic>;  ///< N × 1
-  using ComplexMatrix = Matrix<Complex, Eigen::Dynamic>;  ///< N × N
+  using ComplexVector = Vector<Complex, Eigen::Dynamic>;  ///< column of N complex numbers
+  using ComplexMatrix = Matrix<Complex, Eigen::Dynamic>;  ///< matrix of N × N complex numbers
 
   /// @param matrix  matrix A, N × N, finite, N ≥ 1
   /// @throws InvalidParameter where A is empty or not square; `coordinates` and `readings` throw
   /// for arguments of another size
   explicit EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix);
 
-  /// The eigenvalues s, N × 1; conjugate pairs side by side.
+  /// The eigenvalues s, N × 1; the two of a conjugate pair are stored side by side.
   ComplexVector values() const { return triangle_.diagonal(); }
 
-  /// The coordinates β = V⁻¹ b, N × 1.
+  /// The coordinates β = V⁻¹ b (N × 1) of an input b.
   ComplexVector coordinates(const Vector<Scalar, Eigen::Dynamic>& b) const;
 
-  /// The readings γ = h V, as N × 1.
+  /// The coefficients γ = h V (N × 1) of a reading h.
   ComplexVector readings(const RowVector<Scalar, Eigen::Dynamic>& h) const;
 
-  /// Whether coordinates and readings have nine digits or more: no two eigenvectors nearly
-  /// coincide, and the QR algorithm has converged.
+  /// Whether coordinates and readings are accurate to nine digits or more: no two eigenvectors
+  /// nearly coincide, and the QR algorithm has converged.
   bool is_sound() const;
 
  private:

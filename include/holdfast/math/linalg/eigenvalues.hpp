@@ -43,7 +43,7 @@ Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1> eigenvalues_of_schur_fo
 /// The eigenvalues of a real square matrix of fixed, bounded or dynamic size, by the QR algorithm.
 ///
 /// The function compiles in half the time of Eigen's EigenSolver. The error is some 10⁻¹⁶ of the
-/// largest entry in `double`: where rows have different units, balance the matrix first, as
+/// largest entry in `double`: where rows have different units, first balance the matrix, as
 /// `spectral_radius` does. Work: about 10 n³.
 /// @param matrix  finite, square, not empty
 /// @return eigenvalues with their multiplicity, complex pairs side by side, otherwise unordered;

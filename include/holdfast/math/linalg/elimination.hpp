@@ -18,7 +18,7 @@ Scalar pivot_size(const Scalar& x) {
   return x < Scalar(0) ? Scalar(-x) : x;
 }
 
-/// The size |z|² by which complex pivots are compared; it needs no root.
+/// The squared modulus |z|², by which complex pivots are compared without a root.
 template <class Scalar>
 Scalar pivot_size(const std::complex<Scalar>& z) {
   return std::norm(z);
@@ -29,8 +29,8 @@ Scalar pivot_size(const std::complex<Scalar>& z) {
 /// The solution X of M X = B by Gaussian elimination with row exchanges, for real and complex
 /// numbers and any other type with the four operations and a comparison, such as dual numbers.
 ///
-/// For small systems; compiles faster than Eigen's decompositions. Work: n³/3 + n² c multiply-adds
-/// for c columns.
+/// The function is for small systems and compiles faster than Eigen's decompositions. Work: n³/3 +
+/// n² c multiply-adds for c columns.
 /// @param matrix  matrix M, n × n; where it is singular the result is not finite
 /// @param right   right side B, n × c
 /// @throws InvalidParameter where the sizes disagree
@@ -66,9 +66,9 @@ Columns eliminated(Square matrix, Columns right) {
   return right;
 }
 
-/// The derivative of an eigenvalue of M, λ′ = tr(R M′)/tr R with the resolvent R = (νI − M)⁻¹ at a
-/// ν close to λ. There R is almost a multiple of the projector on the eigenvectors of λ. Coinciding
-/// eigenvalues give the mean derivative. Relative accuracy: about 10⁻⁸ in `double`.
+/// The derivative λ′ = tr(R M′)/tr R of an eigenvalue λ of a matrix M, with the resolvent R = (νI −
+/// M)⁻¹ at a ν close to λ: this R is almost a multiple of the projector on the eigenvectors of λ.
+/// Coinciding eigenvalues give the mean derivative. Relative accuracy: about 10⁻⁸ in `double`.
 /// @param matrix  matrix M, n × n
 /// @param rate    derivative M′, n × n, per unit of the varying quantity
 /// @param value   eigenvalue λ

@@ -15,9 +15,9 @@ namespace detail {
 /// A diagonal Padé approximant of e^x, (Σ b_j x^j) / (Σ b_j (−x)^j), whose relative error is about
 /// `remainder` · |x|^{2 degree + 1}.
 struct PadeApproximant {
-  int degree;                    ///< m, odd
-  double remainder;              ///< (m!)² / ((2m)! (2m + 1)!)
-  std::array<double, 14> terms;  ///< b₀ … b_m, whole numbers
+  int degree;                    ///< degree m, odd
+  double remainder;              ///< factor (m!)² / ((2m)! (2m + 1)!) of the error
+  std::array<double, 14> terms;  ///< coefficients b₀ … b_m, whole numbers
 
   constexpr explicit PadeApproximant(int m) : degree(m), remainder(1.0 / (m + 1)), terms{} {
     for (int k = 1; k <= m; ++k) remainder /= double(m + k) * double(m + 1 + k);
@@ -28,8 +28,8 @@ struct PadeApproximant {
     }
   }
 
-  /// Whether the approximant is exact to round-off for a matrix of this norm: the error, relative
-  /// to x e^x, is below half a unit of the last digit.
+  /// Whether the approximant is exact to round-off for a matrix of norm x: the error, relative to x
+  /// e^x, is below half a unit of the last digit.
   template <class Scalar>
   bool suffices(const Scalar& norm) const {
     Scalar error(remainder);
@@ -41,7 +41,7 @@ struct PadeApproximant {
 inline constexpr std::array<PadeApproximant, 4> pade_approximants{
     PadeApproximant(3), PadeApproximant(5), PadeApproximant(7), PadeApproximant(13)};
 
-/// The product a b, column by column.
+/// The product a b of two square matrices, column by column.
 template <class Square>
 Square square_product(const Square& a, const Square& b) {
   Square product = Square::Zero(a.rows(), a.cols());
@@ -52,7 +52,7 @@ Square square_product(const Square& a, const Square& b) {
 }
 
 /// The sum Σ b_{2k + parity} M^{2k}: even part of the numerator, or odd part divided by M.
-/// @param powers  I, M², M⁴, M⁶ as far as the degree needs them
+/// @param powers  I, M², M⁴, M⁶; only powers up to the degree of the approximant are used
 template <class Square>
 Square pade_half(const PadeApproximant& approximant, int parity,
                  const std::array<Square, 4>& powers) {
@@ -70,7 +70,7 @@ Square pade_half(const PadeApproximant& approximant, int parity,
   return sum(parity, 0) + square_product(powers[3], sum(parity + 6, 1));
 }
 
-/// The value of the approximant at M.
+/// The value of the Padé approximant at the matrix M.
 template <class Square>
 Square approximated(const PadeApproximant& approximant, const Square& matrix) {
   const Square square = square_product(matrix, matrix);
@@ -87,10 +87,10 @@ Square approximated(const PadeApproximant& approximant, const Square& matrix) {
 /// The matrix exponential e^M for any number type with the four operations and a comparison, such
 /// as `long double` and the dual numbers of automatic differentiation.
 ///
-/// Scaling and squaring of the balanced matrix, e^M = (e^{M/2^s})^{2^s}, with the diagonal Padé
-/// approximant of the least degree among 3, 5, 7 and 13 that is exact to round-off; s > 0 only with
-/// degree 13. Without balancing, a norm far above the eigenvalues would need more squarings, each
-/// at a loss of accuracy. Work: up to 6 + s products and one elimination.
+/// The method is scaling and squaring of the balanced matrix, e^M = (e^{M/2^s})^{2^s}. The degree
+/// of the diagonal Padé approximant is the smallest of 3, 5, 7 and 13 that is exact to round-off,
+/// and s > 0 only with 13. Without balancing, a norm far above the largest |eigenvalue| would need
+/// more squarings, and each loses accuracy. Work: up to 6 + s matrix products and one elimination.
 /// Source: N. J. Higham, The scaling and squaring method for the matrix exponential revisited,
 /// SIAM J. Matrix Anal. Appl. 26 (2005).
 /// @param matrix  square, of fixed or dynamic size; if Σ |M_ij| is not finite the result is NaN

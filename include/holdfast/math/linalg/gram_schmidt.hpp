@@ -9,15 +9,15 @@
 
 namespace holdfast {
 
-/// The tangent vectors as columns, 5 × `Columns`; rows are contiguous.
+/// A set of tangent vectors, the columns of a 5 × `Columns` matrix; rows are contiguous in memory.
 template <class Number, int Columns>
 using TangentBasis =
     Eigen::Matrix<Number, 5, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
 
-/// Flags of the tangent vectors: true until a map annihilates the vector, then false.
+/// Flags of the tangent vectors: true until a map annihilates the vector, false afterwards.
 using Alive = std::array<bool, 5>;
 
-/// The squared diagonal of R in B = Q R, and the norm of R⁻¹.
+/// The squared diagonal of R in the factorisation B = Q R, and the norm of R⁻¹.
 template <class Number, int Columns>
 struct Stretches {
   Vector<Number, Columns> squares;  ///< R_ii²; 0 where a column vanishes, 1 where one is not alive
@@ -26,7 +26,7 @@ struct Stretches {
 
 namespace detail {
 
-/// The squared norm ‖(D N)⁻¹‖_F², N unit upper triangular and D diagonal.
+/// The squared norm ‖(D N)⁻¹‖_F² for a unit upper triangular N and a diagonal D.
 /// @param inverse_squares  1 / D_i²
 template <class Number, std::size_t Columns>
 Number inverse_square_norm(const Number (&unit_upper)[Columns][Columns],
@@ -48,12 +48,12 @@ Number inverse_square_norm(const Number (&unit_upper)[Columns][Columns],
 
 /// Orthonormalises the columns of B in place, B = Q R, by the modified Gram–Schmidt process.
 ///
-/// R = D N with D diagonal and N unit upper triangular, N_ij = ⟨b_i, b_j⟩ / D_i²: the products need
-/// no roots. The error of R is round-off times ‖B‖ ‖R⁻¹‖, column by column, and Q deviates from
-/// orthogonality by as much. Source: Å. Björck, BIT 7 (1967).
+/// R = D N with D diagonal and N unit upper triangular, N_ij = ⟨b_i, b_j⟩ / D_i²: no square roots
+/// are needed for N. The error of R is round-off times ‖B‖ ‖R⁻¹‖, column by column, and Q deviates
+/// from orthogonality by as much. Source: Å. Björck, BIT 7 (1967).
 /// @param basis  matrix B, replaced by Q
-/// @param alive  columns that are not alive are replaced by zeros; from the first vanishing column
-///               on they are set to not alive
+/// @param alive  flags of the columns: a column that is not alive is replaced by zeros; the flags
+///               of the first vanishing column and of all later ones are set to false
 template <class Number, int Columns>
 Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, Alive& alive) {
   Stretches<Number, Columns> result;
@@ -75,9 +75,9 @@ Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, 
   return result;
 }
 
-/// Orthonormalises columns of any length by the classical process, run twice for full accuracy.
-/// @param basis  matrix B, replaced by Q; a column that vanishes stays 0
-/// @return the triangle R
+/// Orthonormalises columns of any length by the classical Gram–Schmidt process, twice for accuracy.
+/// @param basis  matrix B, replaced by Q; a column that vanishes remains 0
+/// @return the upper triangular matrix R of B = Q R
 inline Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& basis) {
   Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(basis.cols(), basis.cols());
   for (Eigen::Index i = 0; i < basis.cols(); ++i) {

@@ -20,53 +20,53 @@ namespace holdfast {
 ///
 ///     S(x) = I + Σ_k terms[k] xᵏ + R(x),   |R_ij(x)| ≤ remainder_ij
 struct TaylorMatrix {
-  std::vector<Eigen::MatrixXd> terms;  ///< terms[0] = S(0) − I and so on, n × n each, at least two
-  Eigen::MatrixXd remainder;           ///< n × n, ≥ 0
+  std::vector<Eigen::MatrixXd> terms;  ///< coefficients of S − I by powers of x, n × n, two or more
+  Eigen::MatrixXd remainder;           ///< bound of |R_ij(x)|, n × n, ≥ 0
 };
 
-/// A complex vector of n entries as a function of a number x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ and a
-/// bound of the remainder of every entry.
+/// A complex vector of n entries as a function of x, −1 ≤ x ≤ 1: the polynomial Σ_k terms[k] xᵏ and
+/// a bound of the remainder of every entry.
 struct MovingVector {
-  std::vector<Eigen::VectorXcd> terms;  ///< n × 1 each, as many as the matrix has terms
-  Eigen::VectorXd remainder;            ///< n × 1, ≥ 0
+  std::vector<Eigen::VectorXcd> terms;  ///< coefficients, n × 1, as many as the TaylorMatrix has
+  Eigen::VectorXd remainder;            ///< bound of the remainder, n × 1, ≥ 0
 };
 
-/// A proof, which may fail, that all eigenvalues of a matrix S(x) (`TaylorMatrix`) stay inside the
+/// A test that may prove that all eigenvalues of a matrix S(x) (`TaylorMatrix`) stay inside the
 /// unit circle for −1 ≤ x ≤ 1.
 ///
 /// In the coordinates Q of a triangular form of S(0) the terms are T_k. A unit lower triangular
-/// W(x) = I + Σ W_k xᵏ and an upper triangular D(x) = Σ D_k xᵏ are found, order by order, so that
+/// W(x) = I + Σ W_k xᵏ and an upper triangular D(x) = Σ D_k xᵏ are found, order by order, with
 ///
-/// S W = W D + E,   E beginning with the first omitted order,
+/// S W = W D + E,   E beginning with the first omitted order.
 ///
-/// so that W⁻¹ S W = D + W⁻¹E and, W − I being nilpotent, |W⁻¹| ≤ (I − Σ|W_k|)⁻¹. The diagonal of D
+/// Hence W⁻¹ S W = D + W⁻¹E and, W − I being nilpotent, |W⁻¹| ≤ (I − Σ|W_k|)⁻¹. The diagonal of D
 /// approximates the moving eigenvalues; |D_ii|² is bounded by its own Taylor polynomial, so that a
 /// root moving along the circle does not widen the bound. With B ≥ |D| + |W⁻¹E| for all x,
 ///
 ///     ρ(S(x)) ≤ ρ(B) < 1   where (I − B) v = 1 has a solution v > 0       (Perron, Frobenius)
 ///
-/// Where two eigenvalues are so near to one another that their entry of W would not converge, that
-/// entry stays 0 and the entry of D below the diagonal is kept. No exit from the circle can be
-/// missed; R includes a bound of the products' round-off. Work: about 3 m² products n × n for m
-/// terms. Source: R. A. Horn, C. R. Johnson, Matrix Analysis, 2nd ed., 8.1 and 8.3.
+/// Where two eigenvalues are so close that their entry of W would not converge, this entry is 0 and
+/// the entry of D below the diagonal remains. No exit from the circle can be missed; R includes a
+/// bound of the products' round-off. Work: about 3 m² products n × n for m terms. Source: R. A.
+/// Horn, C. R. Johnson, Matrix Analysis, 2nd ed., 8.1 and 8.3.
 template <class Scalar = double>
 class MovingSpectrum {
  public:
-  using Complex = std::complex<Scalar>;  ///< type of the triangular form
+  using Complex = std::complex<Scalar>;  ///< complex type of the triangular form
 
   /// @param matrix  moving matrix S(x); if it is not finite nothing is proved
   /// @throws InvalidParameter for fewer than two terms, or where the sizes disagree
   explicit MovingSpectrum(const TaylorMatrix& matrix);
 
-  /// Whether all eigenvalues of S(0) are computed to lie inside the unit circle.
+  /// Whether all computed eigenvalues of S(0) lie inside the unit circle.
   bool inside_at_centre() const { return inside_at_centre_; }
 
   /// Whether all eigenvalues of S(x), −1 ≤ x ≤ 1, are proved to lie inside the unit circle.
   bool inside() const { return inside_; }
 
-  /// The responses c (λI − S(x))⁻¹ g(x) for rows c, term by term in the coordinates of the proof;
-  /// valid if |λ(x)| = 1 and `inside()`. The truncation error is bounded by |(λI − S)⁻¹| ≤ (I +
-  /// Σ|W_k|) (I − B)⁻¹ (I − Σ|W_k|)⁻¹; the round-off of these sums is not bounded.
+  /// The responses c (λI − S(x))⁻¹ g(x) for rows c, term by term in the coordinates of the proof.
+  /// They are valid if |λ(x)| = 1 and `inside()`. The remainder covers the truncation, bounded by
+  /// |(λI − S)⁻¹| ≤ (I + Σ|W_k|) (I − B)⁻¹ (I − Σ|W_k|)⁻¹, but not the round-off of these sums.
   /// @param from_one  λ(x) − 1, with as many terms as S
   /// @param source    g(x), with as many terms as S
   /// @param rows      rows c, any number of them, each n wide
@@ -117,8 +117,8 @@ class MovingSpectrum {
            std::numeric_limits<Scalar>::epsilon();
   }
 
-  /// Adds to the remainder the error of `back` as the inverse of the basis V: with back·V = I + G
-  /// the similarity gives (I + G)⁻¹T in place of T. Nothing is proved where |G| is not small.
+  /// Adds to the remainder the effect of the error G of `back` as an inverse of the basis V: with
+  /// back·V = I + G the similarity gives (I + G)⁻¹T, not T. Nothing is proved unless |G| is small.
   void count_inverse(const Form& back, const Form& basis) {
     const Bound identity = Bound::Identity(size(), size());
     off_ = (back * basis - Form::Identity(size(), size())).cwiseAbs() +

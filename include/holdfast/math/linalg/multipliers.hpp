@@ -14,14 +14,14 @@
 
 namespace holdfast {
 
-/// An eigenvalue of a product of many matrices, as a logarithm since it may underflow.
+/// An eigenvalue λ of a product of many matrices, stored as a logarithm since λ may underflow.
 struct Multiplier {
-  double log_modulus;  ///< ln |λ|; −∞ for a null direction
-  double angle;        ///< arg λ (rad), in (−π, π]
+  double log_modulus;  ///< logarithm ln |λ|; −∞ for a null direction
+  double angle;        ///< argument arg λ (rad), in (−π, π]
 
-  /// The eigenvalue λ itself; 0 where it underflows.
+  /// The eigenvalue λ, computed from its logarithm; 0 where it underflows.
   std::complex<double> value() const { return std::polar(std::exp(log_modulus), angle); }
-  /// Whether the first of two has the larger modulus.
+  /// Whether the multiplier a has a larger modulus than b.
   static bool is_larger(const Multiplier& a, const Multiplier& b) {
     return a.log_modulus > b.log_modulus;
   }
@@ -35,7 +35,7 @@ template <class Scalar, int Size>
 struct ScaledTriangle {
   Vector<Scalar, Size> logarithms, signs;
   Matrix<Scalar, Size> unit;
-  Eigen::Index rank;  ///< number of leading rows that no map annihilates
+  Eigen::Index rank;  ///< number of leading directions that no map annihilates
 
   /// Constructs the unit matrix, order × order.
   explicit ScaledTriangle(Eigen::Index order)
@@ -44,7 +44,7 @@ struct ScaledTriangle {
         unit(Matrix<Scalar, Size>::Identity(order, order)),
         rank(order) {}
 
-  /// Replaces R by next · R. The first diagonal entry below the round-off of `size` ends the rank.
+  /// Replaces R by next · R. A diagonal entry of `next` below round-off of `size` limits the rank.
   void multiply_from_left(const Matrix<Scalar, Size>& next, const Scalar& size) {
     const Scalar round_off = Scalar(8) * std::numeric_limits<Scalar>::epsilon() * size;
     for (Eigen::Index i = 0; i < rank; ++i) {
@@ -101,8 +101,8 @@ bool decoupled(const Matrix<Scalar, Size>& turn, Eigen::Index leading) {
          turn.bottomLeftCorner(others, leading).cwiseAbs().maxCoeff() < Scalar(1e-10);
 }
 
-/// Whether for every odd k the turn is decoupled after the first k or k + 1 directions. Pairs
-/// usually remain coupled: no further cycle separates them.
+/// Whether the turn decouples after the first 1 or 2, after the first 3 or 4, … directions. The two
+/// of a conjugate pair usually stay coupled, however many cycles follow.
 template <class Scalar, int Size>
 bool settled(const Matrix<Scalar, Size>& turn, Eigen::Index rank) {
   for (Eigen::Index k = 1; k == 1 || k < rank; k += 2)
@@ -150,10 +150,10 @@ std::vector<Multiplier> multipliers_of_turn(const Matrix<Scalar, Size>& turn,
 /// The eigenvalues of M = M_K … M₁, by descending modulus, without forming the product.
 ///
 /// Orthogonal iteration around the period, Q₀ → Q_K with M_k Q_{k−1} = Q_k R_k, transforms M to Q₀ᵀ
-/// M Q₀ = (Q₀ᵀQ_K) R_K … R₁, where Q₀ᵀQ_K is block diagonal for groups of eigenvalues with distinct
-/// moduli. Each block is scaled by its own exponent.
-/// @param maps  at least one, N × N, N ≥ 2; each conditioned well enough for its factorisation
-/// @return N eigenvalues; those of null directions have log_modulus −∞
+/// M Q₀ = (Q₀ᵀQ_K) R_K … R₁, where Q₀ᵀQ_K has a diagonal block for each group of eigenvalues of
+/// similar modulus. Each block has its own scale.
+/// @param maps  at least one, N × N, N ≥ 2; each conditioned well enough for a QR factorisation
+/// @return N eigenvalues; an eigenvalue of a null direction has log_modulus −∞
 /// @throws InvalidParameter where there is no map, or the sizes disagree
 template <class Scalar = double, int Size = 5>
 std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<Scalar, Size>>& maps) {

@@ -10,12 +10,12 @@ namespace holdfast {
 
 namespace detail {
 
-/// The Householder reflection H = I − τ v vᵀ of the last rows of a matrix. It maps the entries of
-/// one column in these rows to β e₁, |β| being their Euclidean norm.
+/// The Householder reflection H = I − τ v vᵀ of the last rows of a matrix. The part of one column
+/// in these rows becomes β e₁, where |β| is the Euclidean norm of the part.
 ///
-/// It works column by column: for small matrices this is faster than blocks, compiles in a
-/// twentieth of the time, and avoids the packets that GCC 12 reports as reads out of bounds.
-/// Source: A. S. Householder, J. ACM 5 (1958).
+/// The reflection is applied column by column. For small matrices this is faster than Eigen's
+/// blocks, compiles in a twentieth of the time, and avoids the SIMD packets that GCC 12 reports as
+/// reads out of bounds. Source: A. S. Householder, J. ACM 5 (1958).
 template <class Any>
 class Reflection {
  public:
@@ -36,7 +36,7 @@ class Reflection {
     factor_ = -Scalar(1) / (matrix(first, column) * direction_[0]);
   }
 
-  /// Replaces the columns of M from `column` on by H M.
+  /// Replaces a matrix M by H M in column `column` and all later columns.
   template <class Square>
   void reflect_columns(Square& matrix, Eigen::Index column) const {
     if (factor_ == Scalar(0)) return;
@@ -50,7 +50,7 @@ class Reflection {
     }
   }
 
-  /// Replaces M by M H; M has as many columns as the matrix given to the constructor has rows.
+  /// Replaces a matrix M by M H; M has as many columns as the reflected matrix has rows.
   template <class Square>
   void reflect_rows(Square& matrix) const {
     using Column = Vector<Scalar, Square::RowsAtCompileTime>;
@@ -70,7 +70,7 @@ class Reflection {
 
 }  // namespace detail
 
-/// Replaces A by R = QᵀA with R upper triangular, and B by QᵀB, with Q orthogonal.
+/// Replaces a matrix A by R = QᵀA with R upper triangular, and B by QᵀB, with Q orthogonal.
 ///
 /// The method is backward stable for matrices of any rank; |R_ii| need not decrease. Work: 2 n m²
 /// for A of n × m and 4 n m c for c columns of B.
@@ -85,7 +85,7 @@ void reflect_to_triangle(Tall& matrix, Others& others) {
   }
 }
 
-/// Replaces A by the upper triangular R of A = Q R. @return Q
+/// Replaces a matrix A by the upper triangular R of A = Q R. @return the orthogonal factor Q
 template <class Square>
 Square orthogonal_factor(Square& matrix) {
   Square transposed = Square::Identity(matrix.rows(), matrix.rows());
@@ -97,11 +97,11 @@ Square orthogonal_factor(Square& matrix) {
 /// @tparam Square  a square matrix of fixed, bounded or dynamic size
 template <class Square>
 struct HessenbergForm {
-  Square form;   ///< H
-  Square basis;  ///< Q; I if not computed
+  Square form;   ///< Hessenberg matrix H
+  Square basis;  ///< orthogonal matrix Q; I if it is not computed
 
   /// @param matrix      matrix M, finite
-  /// @param with_basis  whether Q is computed, a third of the work
+  /// @param with_basis  whether Q is computed too, which is a third of the work
   explicit HessenbergForm(const Square& matrix, bool with_basis = true)
       : form(matrix), basis(Square::Identity(matrix.rows(), matrix.rows())) {
     for (Eigen::Index k = 0; k + 2 < matrix.rows(); ++k) {

@@ -13,7 +13,7 @@ namespace holdfast {
 ///     adjugate(x)    = adj(xI − M) = A₀ + A₁ x + … + A_{N−1} x^{N−1}
 template <class Scalar, int Size>
 struct Resolvent {
-  Polynomial<Scalar, Size> determinant;  ///< d₀ … d_N, d_N = 1
+  Polynomial<Scalar, Size> determinant;  ///< coefficients d₀ … d_N, d_N = 1
   std::array<Matrix<Scalar, Size>, static_cast<std::size_t>(Size)> adjugate;  ///< A₀ … A_{N−1}
 
   /// The polynomial row · adj(xI − M) · column, of degree N − 1.
@@ -27,7 +27,7 @@ struct Resolvent {
   }
 };
 
-/// The resolvent polynomials by the Faddeev–LeVerrier recurrence, N matrix products.
+/// The resolvent polynomials by the Faddeev–LeVerrier recurrence, in N matrix products.
 ///
 ///     A_{N−1} = I,   d_{k} = −tr(M A_k) / (N − k),   A_{k−1} = M A_k + d_k I
 ///

@@ -7,11 +7,11 @@
 
 namespace holdfast {
 
-/// The quantities that a loop stores beside the state z of its plant until they act.
+/// The quantities that a loop stores beside the state z of its plant until they affect z.
 enum class Carried : unsigned {
   in_force = 1,  ///< the command in force
-  pending = 2,   ///< the command decided, which is not in force yet
-  anchor = 4,    ///< position of the gap
+  pending = 2,   ///< the command that is computed but not in force yet
+  anchor = 4,    ///< position of the gap: Δz (m) at the last reversal of the drive
   reading = 8,   ///< the displacement read at the last sample
 };
 
@@ -21,8 +21,7 @@ enum class Carried : unsigned {
 /// rank of their product is the number of disjoint paths from its inputs to its outputs, which is
 /// the smallest number of variables that cut all paths. Every cut consists of the independent
 /// directions of z at some instant (four, or three in stick) and of the stored quantities that act
-/// later. Among the cuts with the same set of quantities that may still act only the smallest is
-/// kept.
+/// later. For each set of quantities that may still act only the smallest cut is kept.
 ///
 /// No tolerance is involved; a coincidence of the entries themselves is not detected.
 /// Sources: B. Lindström, Bull. London Math. Soc. 5 (1973); K. Murota, Matrices and Matroids for
@@ -30,7 +29,7 @@ enum class Carried : unsigned {
 /// Work: 16 comparisons for each call.
 class StructuralRank {
  public:
-  /// @param carried  stored quantities that are inputs of the first map beside z, as bits
+  /// @param carried  stored quantities that are inputs of the first map in addition to z, as bits
   explicit StructuralRank(unsigned carried) : carried_(carried) { least_.fill(none); }
 
   /// Adds an instant at which z has the given number of independent directions.
@@ -39,19 +38,19 @@ class StructuralRank {
     cut = std::min(cut, directions);
   }
 
-  /// Begins to store a quantity, a function of z and of the quantities stored at this instant.
+  /// Begins to store a quantity, which depends on z and on the quantities stored at this instant.
   void begin(Carried quantity) { carried_ |= bit(quantity); }
 
-  /// Lets a quantity act on z; it may act again later.
+  /// Lets a stored quantity affect z; the quantity remains stored.
   void act(Carried quantity) { eliminate(quantity, 1, 0); }
 
-  /// Ends the storage of a quantity.
+  /// Ends the storage of a quantity that will not affect z any more.
   void end(Carried quantity) {
     eliminate(quantity, 0, 0);
     carried_ &= ~bit(quantity);
   }
 
-  /// Renames a stored quantity: it is continued as another quantity.
+  /// Renames a stored quantity to `other`, under which it stays stored.
   void become(Carried quantity, Carried other) {
     eliminate(quantity, 0, bit(other));
     if ((carried_ & bit(quantity)) != 0) carried_ = (carried_ & ~bit(quantity)) | bit(other);
@@ -73,7 +72,7 @@ class StructuralRank {
     return static_cast<int>((set & 1U) + (set >> 1U & 1U) + (set >> 2U & 1U) + (set >> 3U & 1U));
   }
 
-  /// Removes a quantity from all sets that contain it, at `cost`, or replaces it by `other` (bits).
+  /// Replaces a quantity by `other` (bits; 0: none) in all sets and raises their cuts by `cost`.
   void eliminate(Carried quantity, int cost, unsigned other) {
     for (unsigned set = 0; set < sets; ++set) {
       if ((set & bit(quantity)) == 0 || least_[set] == none) continue;

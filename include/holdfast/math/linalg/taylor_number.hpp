@@ -11,10 +11,10 @@
 
 namespace holdfast {
 
-/// A complex number as a function of x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ and a bound of the remainder.
+/// A complex number as a function of x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ with a bound of the remainder.
 struct TaylorNumber {
-  std::vector<std::complex<double>> terms;  ///< at least one
-  double remainder;                         ///< ≥ 0
+  std::vector<std::complex<double>> terms;  ///< coefficients of x⁰, x¹, …, at least one
+  double remainder;                         ///< bound of the remainder, ≥ 0
 
   /// The sum Σ |terms|, an upper bound of the polynomial's modulus.
   double size() const {
@@ -34,7 +34,7 @@ inline TaylorNumber operator*(const TaylorNumber& a, const TaylorNumber& b) {
   return product;
 }
 
-/// The sum of two Taylor numbers, the second one multiplied by `factor`.
+/// The sum a + factor · b of two Taylor numbers.
 inline TaylorNumber sum_of(TaylorNumber a, const TaylorNumber& b, double factor) {
   a.terms.resize(std::max(a.terms.size(), b.terms.size()));
   for (std::size_t k = 0; k < b.terms.size(); ++k) a.terms[k] += factor * b.terms[k];
@@ -42,7 +42,7 @@ inline TaylorNumber sum_of(TaylorNumber a, const TaylorNumber& b, double factor)
   return a;
 }
 
-/// The difference |a|² − |b|² at x = 0, and its lower bound for all x.
+/// The difference |a|² − |b|² of two functions of x: value at x = 0 and lower bound for all x.
 struct SquaresDifference {
   double at_centre,  ///< value at x = 0
       least;         ///< lower bound for −1 ≤ x ≤ 1

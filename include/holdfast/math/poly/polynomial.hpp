@@ -11,12 +11,12 @@
 
 namespace holdfast {
 
-/// The coefficients of p(x) = c₀ + c₁ x + … + c_n xⁿ, constant term first.
+/// A polynomial p(x) = c₀ + c₁ x + … + c_n xⁿ, as its coefficients, constant term first.
 template <class Scalar, int Degree>
 using Polynomial = Vector<Scalar, Degree + 1>;
 
-/// The value p(x) by Horner's rule: `degree` multiply-adds. `Point` may be complex with real
-/// coefficients.
+/// The value p(x) by Horner's rule: `degree` multiply-adds. The point x may be complex while the
+/// coefficients are real.
 template <class Coefficients, class Point>
 Point evaluate(const Eigen::MatrixBase<Coefficients>& polynomial, const Point& x) {
   Point value = Point(polynomial[polynomial.size() - 1]);
@@ -25,7 +25,7 @@ Point evaluate(const Eigen::MatrixBase<Coefficients>& polynomial, const Point& x
   return value;
 }
 
-/// The product of two polynomials; the degrees add.
+/// The product of two polynomials, whose degrees add.
 template <class Scalar, int DegreePlusOneA, int DegreePlusOneB>
 Vector<Scalar, DegreePlusOneA + DegreePlusOneB - 1> multiply(
     const Vector<Scalar, DegreePlusOneA>& a, const Vector<Scalar, DegreePlusOneB>& b) {
@@ -45,7 +45,7 @@ Vector<Scalar, Size - 1> derivative(const Vector<Scalar, Size>& polynomial) {
   return result;
 }
 
-/// The polynomial p(x₀ + x) in powers of x (Taylor shift): from μ = λ − 1 to λ with x₀ = −1.
+/// The polynomial p(by + x) in powers of x (Taylor shift); by = −1 gives p(λ − 1) in powers of λ.
 template <class Coefficients>
 Coefficients shifted(Coefficients p, const typename Coefficients::Scalar& by) {
   for (Eigen::Index start = 0; start + 1 < p.size(); ++start)
@@ -53,7 +53,7 @@ Coefficients shifted(Coefficients p, const typename Coefficients::Scalar& by) {
   return p;
 }
 
-/// The polynomial p(unit · x).
+/// The polynomial p(unit · x), in powers of x.
 template <class Coefficients>
 Coefficients rescaled(Coefficients p, const typename Coefficients::Scalar& unit) {
   typename Coefficients::Scalar power(1);
@@ -75,7 +75,7 @@ std::complex<Scalar> inverse(const std::complex<Scalar>& z) {
   return std::conj(z) / std::norm(z);
 }
 
-/// The Newton step p(x) / p′(x), and whether p(x) is within its rounding error.
+/// The Newton step p(x)/p′(x), with a flag whether p(x) is within its rounding error.
 template <class Scalar>
 struct NewtonStep {
   std::complex<Scalar> ratio;
@@ -97,7 +97,7 @@ NewtonStep<Scalar> newton_step(const std::vector<Scalar>& coefficients,
   return {plain_product(value, inverse(slope)), std::norm(value) <= rounding * rounding};
 }
 
-/// Updates all approximate roots once, in Gauss–Seidel order; true when none changes any more.
+/// Updates all approximate roots once, in Gauss–Seidel order. @return whether all are final
 template <class Scalar>
 bool aberth_sweep(const std::vector<Scalar>& coefficients,
                   std::vector<std::complex<Scalar>>& roots) {
@@ -117,7 +117,7 @@ bool aberth_sweep(const std::vector<Scalar>& coefficients,
   return settled;
 }
 
-/// The starting points for roots of moduli about one: on the unit circle, without symmetry.
+/// The starting points for roots of moduli about one: on the unit circle, no two conjugate.
 template <class Scalar>
 std::vector<std::complex<Scalar>> spread_circle(std::size_t count) {
   std::vector<std::complex<Scalar>> points;
@@ -134,11 +134,11 @@ std::vector<std::complex<Scalar>> spread_circle(std::size_t count) {
 
 /// All roots of a real polynomial of low degree, by the Aberth–Ehrlich iteration.
 ///
-/// Coefficients at either end that are at most `negligible` times the largest are dropped: leading
-/// ones mean roots at infinity, which are left out; trailing ones mean roots at zero, which are
-/// returned. The other roots are scaled to geometric mean one and iterated until each value of the
-/// polynomial is down to its rounding error. A constant has no roots. Source: O. Aberth, Iteration
-/// methods for finding all zeros of a polynomial simultaneously, 1973.
+/// Coefficients at either end that are at most `negligible` times the largest are dropped. Dropped
+/// leading coefficients mean roots at ∞, which are left out; trailing ones mean roots at 0, which
+/// are returned. The other roots, scaled to geometric mean one, are iterated until each value of
+/// the polynomial is within its rounding error. A constant has no roots. Source: O. Aberth,
+/// Iteration methods for finding all zeros of a polynomial simultaneously, 1973.
 template <class Coefficients>
 std::vector<std::complex<typename Coefficients::Scalar>> roots(
     const Eigen::MatrixBase<Coefficients>& polynomial,
@@ -165,10 +165,10 @@ std::vector<std::complex<typename Coefficients::Scalar>> roots(
   return result;
 }
 
-/// The positive roots of a real polynomial of low degree, ascending. A double root that round-off
-/// has split into a pair, by √ε off the real axis, counts as two roots.
+/// The positive roots of a real polynomial of low degree, ascending. A double root that round-off ε
+/// has split into a complex pair, about √ε off the real axis, counts as two roots.
 /// @param polynomial  coefficients, lowest degree first
-/// @param split       the largest |Im x/Re x| of such a pair
+/// @param split       largest |Im x/Re x| of a pair that counts as a split double root
 template <class Coefficients>
 std::vector<typename Coefficients::Scalar> positive_roots(
     const Eigen::MatrixBase<Coefficients>& polynomial, double split = 1e-5) {
@@ -182,8 +182,8 @@ std::vector<typename Coefficients::Scalar> positive_roots(
   return result;
 }
 
-/// The number of roots in the open right half-plane Re w > 0, from all roots.
-/// @param polynomial  degree 4 or 5, in s, or in w after `in_half_plane`, where Re w > 0 is |λ| > 1
+/// The number of roots in the open right half-plane Re w > 0; all roots are computed.
+/// @param polynomial  degree 4 or 5 in s, or in w of `in_half_plane`, where |λ| > 1 means Re w > 0
 template <class Coefficients>
 int unstable_roots(const Eigen::MatrixBase<Coefficients>& polynomial) {
   using Scalar = typename Coefficients::Scalar;
@@ -192,7 +192,7 @@ int unstable_roots(const Eigen::MatrixBase<Coefficients>& polynomial) {
   return count;
 }
 
-/// The polynomial divided by x − root, its last coefficient set to 0; the remainder is dropped.
+/// The quotient of a polynomial by x − root, without the remainder; its last coefficient is 0.
 template <class Scalar, int Size>
 Vector<Scalar, Size> without_root(const Vector<Scalar, Size>& polynomial, const Scalar& root) {
   Vector<Scalar, Size> quotient = Vector<Scalar, Size>::Zero();
@@ -212,17 +212,17 @@ Vector<Scalar, 3> parity_part(const Vector<Scalar, Size>& a, int parity) {
   return part;
 }
 
-/// The mean modulus of the roots, (|a₀| / |a_n|)^{1/n}, the unit in which w is of order one; 1
-/// where that is 0 or not finite.
+/// The geometric mean (|a₀| / |a_n|)^{1/n} of the moduli of all roots w, a unit in which they are
+/// of order one; 1 where this mean is 0 or not finite.
 template <class Scalar, int Size>
 Scalar mean_root_modulus(const Vector<Scalar, Size>& a) {
   const Scalar modulus = std::pow(std::abs(a[0] / a[Size - 1]), Scalar(1) / Scalar(Size - 1));
   return std::isfinite(modulus) && modulus > Scalar(0) ? modulus : Scalar(1);
 }
 
-/// Replaces coefficients that are mere round-off by zeros, w being in units of `unit`: the first
-/// and the last below 1e−12 of the largest, which are small differences of large numbers with fast
-/// sampling, others below 1e−14.
+/// Replaces coefficients that are mere round-off by zeros, w being in units of `unit`. The limit is
+/// 1e−14 of the largest coefficient. For the first and the last it is 1e−12: with fast sampling
+/// both are small differences of large numbers.
 template <class Scalar, int Size>
 Vector<Scalar, Size> without_round_off(Vector<Scalar, Size> a, const Scalar& unit) {
   const Vector<Scalar, Size> size = rescaled(a, unit).cwiseAbs();
@@ -236,15 +236,15 @@ Vector<Scalar, Size> without_round_off(Vector<Scalar, Size> a, const Scalar& uni
 
 }  // namespace detail
 
-/// A polynomial on the imaginary axis, a(iy) = even(Y) + iy odd(Y) with Y = y²; each part of degree
-/// ≤ 2.
+/// The even and odd parts of a polynomial on the imaginary axis, each of degree ≤ 2 in Y = y²:
+/// a(iy) = even(Y) + iy odd(Y).
 template <class Scalar>
 struct ParityParts {
-  Vector<Scalar, 3> even;  ///< a_e: coefficients of Y⁰, Y¹, Y²
-  Vector<Scalar, 3> odd;   ///< a_o: coefficients of Y⁰, Y¹, Y²; degree ≤ 1 if a has degree 4
+  Vector<Scalar, 3> even;  ///< even part a_e: coefficients of Y⁰, Y¹, Y²
+  Vector<Scalar, 3> odd;   ///< odd part a_o, as a_e; its degree is ≤ 1 if a has degree 4
 
-  /// @param a     degree 4 or 5, constant coefficient first
-  /// @param unit  modulus of w that is the unit of y
+  /// @param a     polynomial of degree 4 or 5, constant coefficient first
+  /// @param unit  modulus of w that is taken as the unit of y
   template <int Size>
   ParityParts(const Vector<Scalar, Size>& a, const Scalar& unit)
       : even(detail::parity_part<Scalar, Size>(rescaled(a, unit), 0)),
@@ -255,10 +255,10 @@ struct ParityParts {
 ///
 ///     λ = (1 + w) / (1 − w),   μ = 2w / (1 − w),   q(w) = (1 − w)ⁿ p(2w / (1 − w))
 ///
-/// It maps |λ| < 1 onto Re w < 0, so that Hurwitz's conditions on q decide the sampled loop: q₀ = 0
-/// is a root λ = +1, q_n = 0 a root λ = −1 (w = ∞), and H_{n−1} = 0 a pair on the unit circle.
-/// Source: Kollár 2022, §4.1; for δ = 0 the root λ = 0, thus a factor (1 + w), is missing there.
-/// @return q, constant coefficient first, same degree as p
+/// As |λ| < 1 becomes Re w < 0, Hurwitz's conditions on q decide the stability of the loop: q₀ = 0
+/// is a root λ = +1, q_n = 0 a root λ = −1 (w = ∞), and H_{n−1} = 0, a Hurwitz determinant, a pair
+/// on the unit circle. Source: Kollár 2022, §4.1, without the root λ = 0 (factor 1 + w) at δ = 0.
+/// @return polynomial q, constant coefficient first, of the degree of p
 template <class Scalar, int Size>
 Vector<Scalar, Size> in_half_plane(const Vector<Scalar, Size>& in_powers_of_mu) {
   Vector<Scalar, Size> result = Vector<Scalar, Size>::Zero();

@@ -5,9 +5,9 @@
 
 namespace holdfast {
 
-/// Whether all roots of a polynomial have Re s < 0, lane by lane, for either sign of a_n.
+/// Whether all roots s of a polynomial a have Re s < 0, in every lane, for either sign of a_n.
 ///
-/// Liénard and Chipart's half of Hurwitz's conditions (Kollár 2022, Eq. (15)) is sufficient:
+/// Liénard and Chipart's conditions suffice (Kollár 2022, Eq. (15)); H_k are Hurwitz determinants:
 ///
 ///     a_n a_j > 0 for j = 0, 2 and n − 1,
 ///     H₂ > 0 (degree 3),   a_n H₃ > 0 (degree 4),   H₂ > 0 and H₄ > 0 (degree 5)
@@ -39,8 +39,8 @@ Mask<Scalar> lienard_chipart_stable(const Vector<Scalar, Size>& a) {
   }
 }
 
-/// The test `lienard_chipart_stable` for one polynomial with coefficients of any size: they are
-/// divided by the largest first, so that no product overflows.
+/// Whether all roots of one polynomial have Re s < 0, by `lienard_chipart_stable`. The coefficients
+/// may be of any size: they are first divided by the largest, so that no product overflows.
 template <class Scalar, int Size>
 bool is_hurwitz(const Vector<Scalar, Size>& a) {
   const Scalar largest = a.cwiseAbs().maxCoeff();

@@ -12,10 +12,10 @@ namespace holdfast {
 /// A bracket: two arguments between which a function changes sign, with its values there.
 template <class Scalar>
 struct SignChange {
-  Scalar lower,           ///< the smaller argument
-      upper;              ///< the larger one, or equal where the function is exactly zero
-  Scalar value_at_lower;  ///< of the sign opposite to value_at_upper, or zero
-  Scalar value_at_upper;  ///< of the sign opposite to value_at_lower, or zero
+  Scalar lower,           ///< smaller argument
+      upper;              ///< larger argument; equal to `lower` where the function is exactly zero
+  Scalar value_at_lower;  ///< value, zero or of the sign opposite to value_at_upper
+  Scalar value_at_upper;  ///< value, zero or of the sign opposite to value_at_lower
   int evaluations = 0;    ///< number of function calls so far
 };
 
@@ -26,8 +26,8 @@ struct Ordinate {
   Scalar x, value;
 };
 
-/// The next position between `near` (0) and `far` (1): by inverse quadratic interpolation through
-/// the last three points if it is monotone there, else the middle.
+/// The next argument, as a share 0 … 1 of the distance from `near` to `far`: by inverse quadratic
+/// interpolation through the last three points if it is monotone between them, otherwise 1/2.
 template <class Scalar>
 Scalar chandrupatla_share(const Ordinate<Scalar>& near, const Ordinate<Scalar>& far,
                           const Ordinate<Scalar>& old) {
@@ -46,10 +46,10 @@ Scalar chandrupatla_share(const Ordinate<Scalar>& near, const Ordinate<Scalar>& 
 /// method: inverse quadratic interpolation where three points make it reliable, bisection
 /// elsewhere.
 ///
-/// The order of convergence is about 1.8 at a simple zero; at a jump it bisects. Where the function
-/// is exactly zero, both ends become that argument.
+/// The order of convergence is about 1.8 at a simple zero; at a jump the method bisects. If the
+/// function is exactly zero at an argument, both ends become this argument.
 /// @param function   Scalar → Scalar; zero, negative values and NaN count as negative
-/// @param bracket    lower < upper, values of opposite sign; otherwise returned unchanged
+/// @param bracket    lower < upper, values of opposite sign; any other is returned unchanged
 /// @param tolerance  ≥ 0, in the unit of the argument
 /// Source: T. R. Chandrupatla, A new event quadratic/bisection algorithm for finding the zero of
 /// a nonlinear function without using derivatives, Advances in Engineering Software 28 (1997).

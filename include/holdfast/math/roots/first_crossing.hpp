@@ -8,42 +8,42 @@
 
 namespace holdfast {
 
-/// The outcome of a test on an interval |x − centre| ≤ radius.
+/// The outcome of testing a condition on an interval |x − centre| ≤ radius.
 enum class Stretch {
   holds,  ///< the condition is proved on the whole interval
   fails,  ///< the condition fails at the centre
-  open,   ///< undecided: a shorter interval may be decided
+  open,   ///< the condition is undecided; a shorter interval may decide it
 };
 
-/// The outcome of the walk of first_crossing().
+/// The outcome of first_crossing(), which proves a condition step by step along an interval.
 enum class WalkOutcome {
   clear,    ///< the condition is proved up to the end
-  exit,     ///< it fails at `first_outside`, within `smallest` of the proved range
-  open,     ///< from `last_inside` on it is undecided, by round-off or by the limit of work
-  blocked,  ///< it fails at the start
+  exit,     ///< the condition fails at `first_outside`, within `smallest` of the proved range
+  open,     ///< undecided beyond `last_inside`: round-off or the limit of work stopped the proof
+  blocked,  ///< the condition fails at the start
 };
 
-/// The end of the walk of first_crossing().
+/// The result of first_crossing().
 struct FirstCrossing {
-  WalkOutcome outcome;   ///< outcome; `first_outside` is a number for `exit` only
-  double last_inside;    ///< the condition is proved from the start to here
-  double first_outside;  ///< the nearest argument where it fails; NaN without an exit
+  WalkOutcome outcome;   ///< outcome of the search
+  double last_inside;    ///< argument up to which the condition is proved
+  double first_outside;  ///< nearest known argument where the condition fails; NaN unless `exit`
   int evaluations;       ///< number of intervals examined, ≥ 1
 };
 
-/// The resolution and the work of the walk of first_crossing().
+/// The resolution of first_crossing() and the limit of its work.
 struct WalkLimits {
-  double smallest;  ///< > 0; largest unproved range before an exit, as a share of |argument| or, if
-                    ///< larger, of the first step
-  int most_evaluations;  ///< ≥ 1; most intervals to be examined
+  double smallest;  ///< largest unproved range before an `exit`, > 0, as a share of |argument| or,
+                    ///< if that is smaller, of the first step
+  int most_evaluations;  ///< largest number of intervals to be examined, ≥ 1
 };
 
-/// The first argument on the way from `from` to `to` (which may be smaller) at which a condition
-/// fails, found by proofs on successive intervals: no exit is passed over.
+/// The first argument at which a condition fails between `from` and `to`, where `to` may be
+/// smaller. It is found by proofs on successive intervals, so that no exit is missed.
 ///
 /// Each interval adjoins the proved range. After a proof the next interval is twice as long, else
-/// half as long. Once a failing argument is known, the intervals approach the edge before it, each
-/// leaving about a tenth of the distance.
+/// half as long. Once a failing argument is known, the intervals approach the edge estimated by
+/// `edge`; each covers at most nine tenths of the distance to it.
 /// @param examine  (centre, radius ≥ 0) → Stretch
 /// @param edge     (proved, failing) → estimate of the argument where the condition begins to fail
 /// @param from     argument at the start

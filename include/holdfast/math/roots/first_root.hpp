@@ -9,18 +9,18 @@
 
 namespace holdfast {
 
-/// The ways in which a polynomial that begins above zero reaches zero.
+/// The ways in which a polynomial that starts above zero may reach zero.
 enum class RootOutcome {
-  none,      ///< it stays above zero up to x = 1
-  crossing,  ///< it falls through zero
-  grazing,   ///< it comes so near to zero with so small a slope that within rounding it may
-             ///< cross zero, touch it or turn back before
+  none,      ///< the polynomial stays above zero up to x = 1
+  crossing,  ///< the polynomial falls through zero
+  grazing,   ///< the polynomial comes so near to zero with so small a slope that, within rounding,
+             ///< it may cross, touch or not reach zero
 };
 
-/// The first zero in [0, 1] of a polynomial that begins above zero.
+/// The first zero in [0, 1] of a polynomial that starts above zero.
 struct FirstRoot {
   RootOutcome outcome;  ///< existence and kind of the zero
-  double at;            ///< 0 ≤ x ≤ 1; 1 without a zero
+  double at;            ///< position x of the zero, 0 ≤ x ≤ 1; 1 without a zero
   int evaluations;      ///< number of evaluations of polynomial and slope
 };
 
@@ -34,8 +34,8 @@ inline double safe_step(const ValueAndSlope& at, double height, double bend) {
   return std::isnan(step) ? 1.0 : step;
 }
 
-/// The first root of a polynomial in 0 ≤ x ≤ 1, or the length that is free of roots.
-/// @param rounding  rounding error of its values
+/// The first root of a polynomial q in [0, 1], or the end of the part [0, x] proved free of roots.
+/// @param rounding  rounding error of the values of q
 inline FirstRoot root_in_stretch(const Series& q, double rounding, int most_evaluations) {
   double bend = 0.0;
   for (Eigen::Index k = 2; k < q.size(); ++k)
@@ -57,8 +57,8 @@ inline FirstRoot root_in_stretch(const Series& q, double rounding, int most_eval
 
 /// The first root of q(x), q(0) > 0.
 ///
-/// Where cancelling terms make the bound of |q″| far too large, the steps are too short: then the
-/// polynomial is expanded again about the point reached, over a shorter interval.
+/// Where terms of q cancel, the bound of |q″| is far too large and the steps are too short. In this
+/// case q is expanded again about the point reached, over a shorter interval.
 inline FirstRoot first_root_of_positive(const Series& q) {
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * q.cwiseAbs().sum();
   constexpr int most_evaluations = 2048, patience = 16;
@@ -80,16 +80,16 @@ inline FirstRoot first_root_of_positive(const Series& q) {
 
 }  // namespace detail
 
-/// The first root in [0, 1] of a polynomial that is above zero just after x = 0; no root is passed
-/// over.
+/// The first root in [0, 1] of a polynomial p that is above zero just after x = 0. No root is
+/// missed.
 ///
-/// With M = Σ k (k − 1) |c_k| ≥ |p″| on [0, 1], p(x + s) ≥ p(x) + p′(x) s − M s²/2. The search
-/// moves from x to the root of that parabola, before which p has no root: it converges
-/// quadratically to a crossing, linearly to a touching. Leading coefficients that are exactly zero
-/// are divided out; a polynomial that is or falls below zero at 0 has its root there.
+/// With the coefficients c_k and M = Σ k (k − 1) |c_k| ≥ |p″| on [0, 1], p(x + s) ≥ p(x) + p′(x) s
+/// − M s²/2. The search moves from x to the root of this parabola, before which p has no root. It
+/// converges quadratically to a crossing, linearly where p touches zero. Leading zero coefficients
+/// are divided out; a polynomial that is negative just after x = 0 has its root at 0.
 ///
 /// Work: one Horner evaluation of p and p′ per step; some five for a crossing, at most 2048.
-/// @param p  one coefficient or more; if one is not finite there is no root
+/// @param p  one coefficient or more; if one is not finite, no root is reported
 inline FirstRoot first_root(const Series& p) {
   Eigen::Index first = 0;
   while (first < p.size() && p[first] == 0.0) ++first;

@@ -16,11 +16,11 @@ namespace holdfast {
 template <class Scalar>
 using LaneSeries = std::array<Scalar, most_terms>;
 
-/// The first zero in [0, 1] of each lane's polynomial, as in `FirstRoot`.
+/// The first zero in [0, 1] of the polynomial in each lane, as in `FirstRoot`.
 template <class Scalar>
 struct FirstRoots {
-  Mask<Scalar> found;  ///< whether there is a zero, crossing or grazing
-  Scalar at;           ///< 0 ≤ x ≤ 1; 1 without a zero
+  Mask<Scalar> found;  ///< whether the lane's polynomial has a zero, crossing or grazing
+  Scalar at;           ///< position x of the zero, 0 ≤ x ≤ 1; 1 without a zero
 };
 
 namespace detail {
@@ -78,7 +78,7 @@ struct RootSearch {
   }
 
  private:
-  /// The distance s > 0 at which height + slope s + sag s²/2 is zero; infinite without one.
+  /// The distance s > 0 at which height + slope s + sag s²/2 is zero, sag ≤ p″; ∞ without one.
   Scalar safe_way(const Scalar& height, const Scalar& slope) const {
     using std::max;
     using std::sqrt;
@@ -129,7 +129,7 @@ struct RootSearch {
   }
 };
 
-/// Runs the scalar search in a lane whose polynomial is difficult.
+/// Runs the scalar search in one lane, for a polynomial that needs many steps.
 template <class Scalar>
 void search_alone(RootSearch<Scalar>& search, int terms, std::size_t lane) {
   typename Lanes<Scalar>::Value at[Lanes<Scalar>::count], found[Lanes<Scalar>::count];
@@ -187,12 +187,12 @@ void search_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
 
 }  // namespace detail
 
-/// The search first_root() for `Count` polynomials in every lane. The lanes step together until
-/// each is decided; a lane that needs more than 16 steps continues alone.
+/// The first roots of `Count` polynomials in every lane, found as by first_root(). The lanes step
+/// together until each is decided; a lane that needs more than 16 steps continues alone.
 ///
 /// Work: 2 `terms` multiply-adds for each step and polynomial; some five steps if any lane has a
 /// root, mostly none otherwise.
-/// @param polynomials  one or two, coefficients in all lanes; they are modified
+/// @param polynomials  one or two polynomials, in all lanes; the function modifies them
 /// @param terms        common number of terms, 1 … `most_terms`
 /// @param lanes        lanes to be searched, for each polynomial; other lanes report no root
 template <class Scalar, std::size_t Count>

@@ -13,44 +13,44 @@
 
 namespace holdfast {
 
-/// A characteristic function given by its poles, for a sampled plant in a loop:
+/// A characteristic function p of a sampled loop, given by the poles of the sampled plant:
 ///
 ///     p(λ) = 1 − λ^{−n} w(rλ) (g/λ + Σ (a_k + b_k/λ)/(λ − 1 − ε_k)),   w(λ) = c + d (1 − 1/λ)
 template <class Scalar>
 struct PoleSum {
   using Complex = std::complex<Scalar>;  ///< type of poles and residues
 
-  /// The term of one pole.
+  /// The term of one pole in the sum.
   struct Part {
-    Complex increment;  ///< ε, the pole λ less 1, accurate with fast sampling too
-    Complex present;    ///< a
-    Complex past;       ///< b
+    Complex increment;  ///< ε = λ − 1 of the pole λ, accurate also for fast sampling
+    Complex present;    ///< coefficient a
+    Complex past;       ///< coefficient b
   };
 
-  /// A filter of the readings.
+  /// The filter w(λ) of the readings.
   struct Weight {
-    Scalar constant;  ///< c, factor of the reading
-    Scalar change;    ///< d, factor of its change per sample
+    Scalar constant;  ///< factor c of the reading
+    Scalar change;    ///< factor d of the reading's change per sample
   };
 
   std::vector<Part> parts;              ///< terms of all poles
-  Complex past{0};                      ///< g
-  Weight weight{Scalar(1), Scalar(0)};  ///< w, common to all terms
-  Scalar radius{1};                     ///< r; the loop has the roots rλ
-  int power = 0;                        ///< n ≥ 0
+  Complex past{0};                      ///< coefficient g
+  Weight weight{Scalar(1), Scalar(0)};  ///< filter w, common to all terms
+  Scalar radius{1};                     ///< radius r: a root λ of p is the root rλ of the loop
+  int power = 0;                        ///< exponent n ≥ 0
 };
 
 namespace detail {
 
 /// The simultaneous iteration for all roots of a PoleSum (Ehrlich 1967, Aberth 1973): each root is
-/// improved by Newton's step for the polynomial divided by all other roots. Each root but the extra
-/// ones is stored as its distance d from a pole, which is accurate for a root close to the pole.
+/// improved by a Newton step for p with all other roots divided out. Except for the extra roots, a
+/// root λ is stored as the difference d = λ − e from a pole e, so that a small d is accurate.
 template <class Scalar>
 class RootIteration {
  public:
   using Complex = std::complex<Scalar>;
 
-  /// @param extra     number of roots beyond one for each pole: order of the pole at λ = 0
+  /// @param extra     number of roots in excess of the poles: order of the pole of p at λ = 0
   /// @param mirrored  whether roots of conjugate poles are first assumed to be conjugate
   RootIteration(const PoleSum<Scalar>& sum, int extra, bool mirrored)
       : weight_(sum.weight),
@@ -109,7 +109,7 @@ class RootIteration {
   using Row = typename ComplexRows<Scalar, 4>::Row;  // e − 1, a, b and d
   static constexpr Scalar parked{-8};                // an e − 1 that no root is near
 
-  /// The sums over all poles at λ = e + d, with their derivatives.
+  /// The sums over all poles e at a given λ, with their derivatives by λ.
   struct Sums {
     Complex a, b, slope_a, slope_b;  ///< Σ a/(λ − e) and g + Σ b/(λ − e)
     Complex divided_out;             ///< Σ (1/(λ − e) − 1/(λ − z)), z being the roots
@@ -130,7 +130,7 @@ class RootIteration {
     Complex value, slope;
   };
 
-  /// Finds for each pole its conjugate, or itself.
+  /// Finds the conjugate of each pole; a pole without a conjugate is paired with itself.
   void find_mirrors(bool mirrored) {
     for (std::size_t i = 0; i < poles_; ++i) mirrors_.push_back(i);
     std::size_t begin = 0;  // both kinds mostly come in the same order
@@ -147,7 +147,7 @@ class RootIteration {
     }
   }
 
-  /// The first estimate of root i, off the real axis, which a pair could not leave by symmetry.
+  /// The first estimate of root i, off the real axis: by symmetry iterates on it would stay real.
   Complex first_of(std::size_t i) {
     Row own = parts_[i];
     own[3] = Complex(0);
@@ -157,7 +157,7 @@ class RootIteration {
     return std::isfinite(std::abs(first)) ? first : Complex(1e-3, 1e-3);
   }
 
-  /// Restarts, one by one, the unconverged roots of conjugate poles: they may be real.
+  /// Restarts unconverged roots of conjugate poles one by one: they may be real, not conjugate.
   void part_mirrors(std::vector<char>& settled) {
     for (std::size_t i = 0; i < poles_; ++i) {
       const std::size_t other = std::exchange(mirrors_[i], i);
@@ -246,8 +246,8 @@ class RootIteration {
     return settled;
   }
 
-  /// Moves a root λ, or its distance from a pole, by one step (`unknown`); a root at 0 stays.
-  /// @return whether the root has converged: this step, or the next shrinking one, is negligible
+  /// Changes `unknown`, a root λ or its difference from a pole, by one step; a root at 0 stays.
+  /// @return whether the root has converged: this step, or the shorter one to follow, is negligible
   bool take(std::size_t i, Complex& unknown, const Value& p, const Sums& others,
             const Complex& lambda) {
     const Complex divided_out = others.divided_out + extras_divided_out(i, lambda);
@@ -260,7 +260,7 @@ class RootIteration {
            size < enough_ * std::abs(Scalar(1) - std::abs(lambda));
   }
 
-  /// Whether the roots' sum is right: Σ z = Σ e + w(∞) (g + Σ a), or Σ e where n > 0.
+  /// Whether the roots z have the right sum: that of the poles, plus w(∞) (g + Σ a) where n = 0.
   bool has_their_sum() const {
     const Scalar weight = weight_.constant + weight_.change;
     Complex sum = power_ == 0 ? -weight * past_ : Complex(0);
@@ -294,14 +294,14 @@ class RootIteration {
 
 }  // namespace detail
 
-/// All roots λ of a PoleSum, in some 3 to 30 sweeps of N² operations; the eigenvalues of a matrix
-/// take N³.
-/// @param sum   the function; complex poles are in conjugate pairs
-/// @param late    whether there are coefficients b
+/// All roots λ of a PoleSum of N poles, in some 3 to 30 sweeps of N² operations. The eigenvalues of
+/// an equivalent matrix would take N³ operations.
+/// @param sum     function p; complex poles are in conjugate pairs
+/// @param late    whether any coefficient b differs from zero
 /// @param enough  admissible error of a root, as a share of its distance from the unit circle; 0:
 ///                full precision
-/// @return no roots where they do not converge or their sum is wrong: for coinciding roots, or n >
-///         19
+/// @return all roots; an empty vector if n > 19, or if the roots do not converge or their sum is
+///         wrong, as happens for coinciding roots
 template <class Scalar>
 std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late,
                                                  const Scalar& enough = Scalar(0)) {

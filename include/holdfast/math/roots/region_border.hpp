@@ -12,49 +12,49 @@
 
 namespace holdfast {
 
-/// A point of a plane.
+/// A point of the plane.
 struct PlanePoint {
-  double x = 0.0;  ///< coordinate to the right
-  double y = 0.0;  ///< coordinate upward
+  double x = 0.0;  ///< coordinate x, to the right
+  double y = 0.0;  ///< coordinate y, upward
 };
 
 /// The margin of a point in a region, with the condition nearest to failing.
 /// @tparam Label  name of a condition that ends the region; compared by ==
 template <class Label>
 struct RegionLook {
-  double margin = -1.0;  ///< > 0 inside; a continuous margin makes the search fast
-  Label label{};         ///< condition with this margin
+  double margin = -1.0;  ///< margin, > 0 inside; a continuous margin makes the tracing fast
+  Label label{};         ///< condition that is nearest to failing
 };
 
 /// A point of a region's border, on its inner side.
 template <class Label>
 struct BorderPoint {
   PlanePoint at;  ///< position
-  Label label{};  ///< condition that ends the region; at a jump of the margin, the one outside
+  Label label{};  ///< condition that ends the region; at a jump of the margin, the label outside it
 };
 
 /// The border of a region, with the region on its left.
 template <class Label>
 struct RegionBorder {
   std::vector<BorderPoint<Label>> points;  ///< if closed, the last point repeats the first one
-  bool closed = false;  ///< whether the border returned to its start; else it was lost, or the
-                        ///< walk changed to another part that touches this one
+  bool closed = false;  ///< whether the border returned to its start; if not, it was lost, or
+                        ///< followed into another part that touches this one
   int looks = 0;        ///< number of points examined
 };
 
-/// The parameters for following a border.
+/// The step lengths, accuracies and limits for following a border.
 struct BorderSteps {
   double longest = 0.02;       ///< longest step, in the unit of the plane
-  double shortest = 1e-9;      ///< shortest step, the accuracy of a corner
-  double tolerance = 1e-13;    ///< accuracy of a point
-  double jump = 1e-4;          ///< smallest margin just inside the border that is a jump
-  int most_looks = 1'000'000;  ///< limit of points examined, after which the border is left open
+  double shortest = 1e-9;      ///< shortest step, which is the accuracy of a corner
+  double tolerance = 1e-13;    ///< accuracy of a border point
+  double jump = 1e-4;          ///< smallest margin just inside the border that counts as a jump
+  int most_looks = 1'000'000;  ///< number of points examined after which the border is left open
 };
 
 namespace detail {
 
-/// The walk along a border by circles. On a circle about the last point the next point is the first
-/// exit from the region, going clockwise from the direction of the point before.
+/// Tracer of a border by circles. The next point is the first exit from the region on a circle
+/// about the last point, found clockwise from the direction of the point before.
 template <class Label, class Look>
 class BorderWalk {
  public:
@@ -98,8 +98,8 @@ class BorderWalk {
   }
   static double turned(double angle) { return std::remainder(angle, 2.0 * pi<double>); }
 
-  /// The last point inside on the path place(parameter) from `in` (inside) to `out` (outside); none
-  /// where rounding contradicts this.
+  /// The last point inside the region on the path place(parameter), from parameter `in` (inside) to
+  /// `out` (outside); none if rounding moves either end of the path across the border.
   template <class Place>
   std::optional<BorderPoint<Label>> last_inside(double in, double out, double tolerance,
                                                 const Place& place) {
@@ -140,7 +140,7 @@ class BorderWalk {
     return std::nullopt;
   }
 
-  /// The largest extent of the region from a point along the axes.
+  /// The largest distance from a point to the border along the directions ±x and ±y.
   double reach_from(const PlanePoint& start) {
     double reach = 0.0;
     for (const double angle : {0.0, pi<double> / 2.0, pi<double>, -pi<double> / 2.0})
@@ -156,7 +156,7 @@ class BorderWalk {
                        [&](double angle) { return moved(here, step, angle); });
   }
 
-  /// The next point of the border, `step` from the last; none without an exit on the circle.
+  /// The next border point, on a circle of radius `step` about the last; none without an exit.
   std::optional<BorderPoint<Label>> next(double step) {
     const PlanePoint here = border_.points.back().at;
     const auto is_inside = [&](double angle) { return inside(moved(here, step, angle)); };
@@ -201,8 +201,8 @@ class BorderWalk {
     return least ? longest_ : std::min(2.0 * step, longest_);
   }
 
-  /// Whether a corner was passed before and is reached again: where parts of a region touch, the
-  /// walk may have changed to another part and would never leave it.
+  /// Whether the border has come back to a corner that it had left. Where parts of a region touch,
+  /// it may have changed to another part; then it would circle that part and never close.
   bool meets_again(const BorderPoint<Label>& before, const BorderPoint<Label>& after) {
     const auto is_left = [&](const BorderPoint<Label>& point) {
       return distance(point.at, after.at) > 100.0 * steps_.shortest;
@@ -241,15 +241,14 @@ class BorderWalk {
 
 /// Follows the border of the plane region {margin > 0} around an inner point until it closes.
 ///
-/// Each point is the root of the margin on a circle about the previous point. Corners, where
-/// another condition takes over, need no special treatment: the circles shrink until two successive
-/// points of different labels are `shortest` apart. Parts narrower than a step may be missed, and
-/// holes of the region too.
+/// Each point is the root of the margin on a circle about the previous point. At a corner, where
+/// the failing condition changes, the circles shrink until two successive points of different
+/// labels are `shortest` apart. Parts narrower than a step and holes of the region may be missed.
 ///
 ///     const auto border = region_border<int>(look, {0.5, 0.5});
-/// @tparam Label  name of a condition
+/// @tparam Label  name of a condition that ends the region
 /// @param look   PlanePoint ↦ RegionLook<Label>; the region must be bounded
-/// @param start  inner point; otherwise the border is empty
+/// @param start  point inside the region; otherwise the border is empty
 /// @param steps  lengths of steps and accuracy of points
 template <class Label, class Look>
 RegionBorder<Label> region_border(const Look& look, const PlanePoint& start,

@@ -9,18 +9,18 @@
 
 namespace holdfast {
 
-/// The root of 1 − ε g(s) at ε = 1 that starts at a pole p of g at ε = 0: the change of a natural
-/// motion while the acting device grows from zero to its full size.
+/// The root s of 1 − ε g(s) at ε = 1, continued from a pole p of g at ε = 0. It shows the change of
+/// a natural motion while an added device grows from zero to its full size.
 ///
-/// The root is continued along 1/g(s) = ε, which is smooth at the pole, by Euler's step and the
-/// secant. ε takes a path slightly off the real axis, so that a root meeting its conjugate has a
-/// unique direction. Steps are shortened while the root turns. A pole that moves by less than 10⁻⁷
-/// of itself is moved by its residue alone.
+/// The function 1/g is smooth at the pole: the root of 1/g(s) = ε is continued by Euler's step and
+/// the secant method. ε takes a path slightly off the real axis, so that a root meeting its
+/// conjugate has a unique direction. Steps are shortened while the root turns. A root less than
+/// 10⁻⁷ |p| from the pole follows from the pole's residue alone.
 ///
-/// The continuation is no proof: where two roots meet, their assignment is arbitrary.
+/// The continuation is no proof: where two roots meet, it may follow either of them.
 /// @param loop_gain  function g of a complex number; it is evaluated some hundred times
 /// @param pole       p ≠ 0, simple, exact to round-off
-/// @return root s at ε = 1, not verified; NaN where 1000 steps are not sufficient
+/// @return root s at ε = 1, not verified; NaN where 1000 steps do not suffice
 template <class LoopGain>
 std::complex<double> root_from_pole(const LoopGain& loop_gain, const std::complex<double>& pole) {
   using Complex = std::complex<double>;

@@ -9,13 +9,13 @@ namespace holdfast {
 /// The largest number of coefficients of a series.
 inline constexpr int most_terms = 20;
 
-/// The coefficients of p(x) = c₀ + c₁ x + … , at most `most_terms`; not on the heap.
+/// A power series c₀ + c₁ x + …, as its coefficients: at most `most_terms`, not on the heap.
 using Series = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_terms, 1>;
 
-/// The value p(x) and the slope p′(x).
+/// A value p(x) of a polynomial with its slope p′(x).
 struct ValueAndSlope {
-  double value,  ///< p(x)
-      slope;     ///< p′(x)
+  double value,  ///< value p(x)
+      slope;     ///< slope p′(x)
 };
 
 /// The value p(x) and the slope p′(x) by Horner's rule.
@@ -31,7 +31,7 @@ ValueAndSlope value_and_slope(const Eigen::MatrixBase<Coefficients>& polynomial,
   return result;
 }
 
-/// The series on the rest of [0, 1] from some x on: coefficients of p(from + y (1 − from)).
+/// The polynomial p on [from, 1], as coefficients of p(from + y (1 − from)), 0 ≤ y ≤ 1.
 inline Series rest_of(const Series& p, double from) {
   return rescaled(shifted(p, from), 1.0 - from);
 }

@@ -10,32 +10,32 @@
 
 namespace holdfast {
 
-/// The displacement of one point over time.
+/// A record of the displacement of one point over time.
 struct DecayRecord {
-  std::vector<double> times;          ///< s, ascending
-  std::vector<double> displacements;  ///< m, from the equilibrium, downward positive
+  std::vector<double> times;          ///< instants (s), ascending
+  std::vector<double> displacements;  ///< displacements (m) from the equilibrium, downward positive
 };
 
-/// The measures of the decay after a load is removed; NaN where the record is too short.
+/// The measures of the free decay after a load is removed; those that need a longer record are NaN.
 struct DecayMeasures {
-  double first_peak;       ///< m, the opposite peak: extreme between the first two crossings
-  double first_peak_time;  ///< t₁ (s)
-  double period;  ///< T (s), mean of two cycles from the first crossing of the equilibrium on
-  double logarithmic_decrement;  ///< δ per cycle, from the first four peaks
+  double first_peak;       ///< peak (m) opposite to the start, between the first two crossings
+  double first_peak_time;  ///< time t₁ (s) of first_peak, from the start of the record
+  double period;           ///< period T (s), mean of the two cycles after the first crossing
+  double logarithmic_decrement;  ///< decrement δ per cycle, from the first four peaks
 };
 
-/// One extremum between two crossings of the equilibrium.
+/// An extremum between two successive crossings of the equilibrium.
 struct DecayPeak {
-  double time;   ///< s
-  double value;  ///< m
+  double time;   ///< instant (s)
+  double value;  ///< displacement (m)
 };
 
 /// The times (s) at which a record crosses the equilibrium, interpolated linearly between samples,
-/// and the extrema between successive crossings, from a parabola through three samples.
+/// and the extrema between successive crossings, found by a parabola through three samples.
 ///
-/// A swing counts as soon as it reaches a twentieth of the previous one. Where noise makes several
-/// crossings before that, their time is midway between the first and the last. Noise raises each
-/// peak by about two of its standard deviations.
+/// A swing to one side counts as soon as it reaches a twentieth of the previous swing. Several
+/// crossings before this instant, caused by noise, are recorded as one, midway between the first
+/// and the last. Noise of standard deviation σ raises each peak by about 2σ.
 struct DecayEvents {
   std::vector<double> crossings;  ///< times of crossing (s), ascending
   std::vector<DecayPeak> peaks;   ///< peaks[k] is between crossings[k] and crossings[k + 1]
@@ -43,7 +43,7 @@ struct DecayEvents {
 
 namespace detail {
 
-/// Validates instants. @throws InvalidParameter unless they are finite and ascend
+/// Validates instants (s). @throws InvalidParameter unless they are finite and ascending
 inline void require_ascending(const std::vector<double>& times) {
   for (std::size_t k = 0; k < times.size(); ++k) {
     require_finite("time", times[k], "s");
@@ -67,8 +67,8 @@ inline DecayPeak vertex(const DecayRecord& record, std::size_t k) {
 
 }  // namespace detail
 
-/// Finds the crossings and the extrema of a record. @throws InvalidParameter where the columns
-/// differ in length, the times are not finite and ascending, or a displacement is not finite
+/// Finds the crossings and the extrema of a record. @throws InvalidParameter where times and
+/// displacements differ in number, times are not finite and ascending, or a displacement not finite
 inline DecayEvents decay_events(const DecayRecord& record) {
   const auto& t = record.times;
   const auto& z = record.displacements;
@@ -101,9 +101,9 @@ inline DecayEvents decay_events(const DecayRecord& record) {
   return events;
 }
 
-/// The logarithmic decrement δ per cycle of four successive peaks of alternating sign: twice the
-/// slope of the least-squares line through ln |peak|, a cycle having two peaks: δ = −2 [−3 l₁ − l₂
-/// + l₃ + 3 l₄]/10, l = ln |peak|.
+/// The logarithmic decrement δ per cycle of four successive peaks of alternating sign: minus twice
+/// the slope per peak of the least-squares line through l = ln |peak|, as a cycle has two peaks: δ
+/// = −2 [−3 l₁ − l₂ + l₃ + 3 l₄]/10.
 template <class Scalar>
 Scalar logarithmic_decrement(const std::array<Scalar, 4>& peaks) {
   using std::abs;
@@ -112,7 +112,7 @@ Scalar logarithmic_decrement(const std::array<Scalar, 4>& peaks) {
   return (Scalar(3) * outer + inner) / Scalar(5);
 }
 
-/// The measures of a decay that starts displaced at the record's first instant.
+/// The measures of a free decay that starts from a displacement at the record's first instant.
 /// @throws InvalidParameter under the conditions of decay_events()
 inline DecayMeasures decay_measures(const DecayRecord& record) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();

@@ -13,16 +13,16 @@
 
 namespace holdfast {
 
-/// The weighting of the samples before the transform.
+/// The weights of the samples in a Fourier transform.
 enum class SpectralWindow {
-  rectangular,  ///< exact amplitudes for whole periods
+  rectangular,  ///< w_n = 1: exact amplitudes for a record of whole periods
   hann,         ///< w_n = ½ (1 − cos 2πn/N): for motions whose period does not fit the record
 };
 
 /// One line of a one-sided amplitude spectrum.
 struct SpectralLine {
-  double frequency;  ///< Hz
-  double amplitude;  ///< unit of the signal: a sine of amplitude a on this line gives a
+  double frequency;  ///< frequency (Hz)
+  double amplitude;  ///< amplitude in the signal's unit; a sine of amplitude a on this line gives a
 };
 
 /// The one-sided amplitude spectrum of a real signal:
@@ -62,8 +62,8 @@ std::vector<SpectralLine> amplitude_spectrum(std::vector<Scalar> signal, double 
   return lines;
 }
 
-/// The number q of samples after which sampling and forcing coincide, f τ = p/q in lowest terms.
-/// @return 0 where f τ is no fraction with q ≤ `largest`
+/// The smallest number q of samples that last a whole number p of forcing periods: f τ = p/q.
+/// @return q; 0 where f τ is no fraction with q ≤ `largest`
 /// @throws InvalidParameter unless f is finite and ≥ 0, τ finite and > 0
 inline std::int64_t samples_per_common_period(double frequency, double sampling_period,
                                               std::int64_t largest = 1'000'000) {
@@ -75,7 +75,7 @@ inline std::int64_t samples_per_common_period(double frequency, double sampling_
 }
 
 /// The length of the longest record, at most `available` samples, with a whole number of forcing
-/// periods and of sampling periods, so that a rectangular window does not leak at the forcing and
+/// periods and of sampling periods: a rectangular window does not leak at the forcing frequency and
 /// its harmonics.
 /// @return `available` itself where no common period is short enough
 /// @throws InvalidParameter under the conditions of samples_per_common_period()

@@ -11,10 +11,10 @@
 
 namespace holdfast {
 
-/// The power of each line, its share of the mean square of the signal: ½ a², but a² at zero and at
-/// the Nyquist frequency.
+/// The power of each spectral line, its part of the mean square of the signal: ½ a² for the
+/// amplitude a, but a² at zero and at the Nyquist frequency.
 /// @param lines    spectrum of amplitude_spectrum()
-/// @param samples  N of the record of the lines; there are N/2 + 1 lines
+/// @param samples  number N of samples of the record; the spectrum has N/2 + 1 lines
 /// @throws InvalidParameter where the numbers of samples and of lines disagree
 inline std::vector<double> line_powers(const std::vector<SpectralLine>& lines,
                                        std::size_t samples) {
@@ -30,27 +30,27 @@ inline std::vector<double> line_powers(const std::vector<SpectralLine>& lines,
   return powers;
 }
 
-/// The shares of a record's power on the multiples of f/m.
+/// The shares of a record's power on the multiples of f/m, for m = 1, 2, …
 struct SubharmonicShares {
-  std::vector<double> shares;  ///< share on the multiples of f/m at [m − 1]; 1 without power
-  int division = 0;            ///< smallest m with at least the required share, 0 without one
+  std::vector<double> shares;  ///< shares[m − 1]: share on the multiples of f/m; 1 without power
+  int division = 0;            ///< smallest m with at least the required share, 0 without such m
 };
 
 /// The options of a search for subharmonic lines.
 struct SubharmonicOptions {
-  double base_frequency;      ///< f (Hz), > 0
-  int largest_division = 16;  ///< largest m, ≥ 1
+  double base_frequency;      ///< base frequency f (Hz), > 0
+  int largest_division = 16;  ///< largest division m, ≥ 1
   double share = 0.999;       ///< required share of the power, 0 < share ≤ 1
 };
 
 /// The shares of the power, without the mean, on the multiples of f/m, m = 1, 2, …
 ///
-/// A line is on a multiple if it is at most half a line away. The record should contain whole
-/// periods of f/m, with a rectangular window, so that nothing leaks. Multiples fewer than three
-/// lines apart would contain any spectrum: for such m the share is 0.
+/// A line is on a multiple if the two are at most half the line spacing apart. The record should
+/// contain whole periods of f/m, with a rectangular window, so that nothing leaks. Multiples less
+/// than three line spacings apart would cover almost every line: for such m the share is 0.
 ///
-/// Frequencies above the Nyquist frequency fold: with f τ = p/q, the multiples of f appear on
-/// multiples of f/p = 1/(q τ), the base frequency to be given. Work: one comparison per line and m.
+/// Frequencies above the Nyquist frequency are aliased: with f τ = p/q, multiples of f appear on
+/// those of f/p = 1/(q τ), the right base frequency. Work: one comparison per line and m.
 /// @throws InvalidParameter where an option is out of range or the lines do not match N
 inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lines,
                                             std::size_t samples,
@@ -80,8 +80,8 @@ inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lin
 /// The smallest number of lines, without the mean, that together contain `share` of the power; 0
 /// for a signal without power.
 /// @param lines    spectrum of amplitude_spectrum()
-/// @param samples  N of the record of the lines
-/// @param share    0 < share ≤ 1
+/// @param samples  number N of samples of the record
+/// @param share    required share of the power, 0 < share ≤ 1
 /// @throws InvalidParameter where the share is out of range or the lines do not match N
 inline std::size_t lines_holding(const std::vector<SpectralLine>& lines, std::size_t samples,
                                  double share) {
@@ -100,10 +100,10 @@ inline std::size_t lines_holding(const std::vector<SpectralLine>& lines, std::si
 ///
 ///     (1 / ln 2) Σ over bands of [median power of a line in the band · lines of the band] / total
 ///
-/// with bands of 32 lines. The mean and the first line, into which a Hann window spreads it, are
-/// left out. Powers of noise are distributed exponentially, with a median of ln 2 of their mean;
-/// separate lines do not change a median. Use a Hann window; a rectangular one leaks a floor of its
-/// own. Lines closer than eight apart are counted as a floor.
+/// with bands of 32 lines. The mean and the first line, into which a Hann window spreads the mean,
+/// are left out. Powers of noise are distributed exponentially, with a median of ln 2 of their
+/// mean; separate lines do not change a median. Use a Hann window: the leakage of a rectangular
+/// window looks like a floor. Lines fewer than eight apart count as floor.
 /// @return 0 … 1; 0 for a signal without power
 /// @throws InvalidParameter where the numbers of samples and of lines disagree
 inline double continuous_share(const std::vector<SpectralLine>& lines, std::size_t samples) {

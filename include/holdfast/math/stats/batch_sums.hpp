@@ -10,12 +10,12 @@
 
 namespace holdfast {
 
-/// The means and standard errors of several long correlated series, in constant memory, from sums
-/// over steps.
+/// The means and standard errors of several long correlated series. They are computed in constant
+/// memory, from sums over the steps.
 ///
-/// The steps are divided into batches of equal length; when all `Batches` are full, neighbours are
-/// merged. A sum may cover several steps, but not beyond the end of a batch (`steps_left()`). The
-/// errors are reliable once a batch is longer than the correlation.
+/// The steps are divided into batches of equal length. When all `Batches` batches are full,
+/// successive ones are merged in pairs. A sum may cover several steps, but not beyond the end of a
+/// batch (`steps_left()`). The errors are reliable once a batch is longer than the correlation.
 /// Source: P. W. Glynn, D. L. Iglehart, Simulation output analysis using standardized time series,
 /// 1990.
 /// @tparam Number  type of a sum
@@ -25,7 +25,7 @@ class BatchSums {
   static_assert(Batches % 2 == 0 && Batches >= 4, "batches are merged in pairs");
 
  public:
-  using Sums = Vector<Number, Series>;  ///< one number for each series
+  using Sums = Vector<Number, Series>;  ///< one sum for each series
 
   /// Constructs empty sums. The first argument is the number of steps in a batch before the first
   /// merging, ≥ 1; the second the number of series, if known at run time only.
@@ -41,18 +41,18 @@ class BatchSums {
     if (open_steps_ == length_) close();
   }
 
-  /// The number of steps so far, including the open batch.
+  /// The number of steps added so far, including the open batch.
   std::int64_t steps() const {
     return static_cast<std::int64_t>(complete_) * length_ + open_steps_;
   }
   /// The number of steps to the end of the open batch, ≥ 1.
   std::int64_t steps_left() const { return length_ - open_steps_; }
-  /// The number of full batches, < `Batches`: at that number they are merged into half as many.
+  /// The number of complete batches, < `Batches`; merging halves this number at `Batches`.
   std::size_t complete_batches() const { return complete_; }
 
-  /// The number of steps in a batch.
+  /// The number of steps in a complete batch.
   std::int64_t batch_length() const { return length_; }
-  /// The sums over the steps of a complete batch.
+  /// The sums over the steps of the k-th complete batch.
   const Sums& batch(std::size_t k) const { return sums_[k]; }
 
   /// The sums over all steps except those of the first `first` complete batches.
@@ -62,8 +62,8 @@ class BatchSums {
     return total;
   }
 
-  /// The standard errors of the means per step, from the complete batches without the first
-  /// `first`, with `merged` neighbours (≥ 1) combined; NaN with fewer than four left.
+  /// The standard errors of the means per step. They use the complete batches after the first
+  /// `first`, in groups of `merged` successive batches (≥ 1); NaN with fewer than four groups.
   Sums standard_errors(std::size_t merged = 1, std::size_t first = 0) const {
     using std::sqrt;
     const std::size_t batches = (complete_ - first) / merged;

@@ -10,13 +10,13 @@
 
 namespace holdfast {
 
-/// The means per step of series whose beginning may not be representative.
+/// The means per step of several series, without their initial transient.
 template <int Series>
 struct SettledMeans {
-  Vector<double, Series> means;            ///< means over the steps not left out
-  Vector<double, Series> standard_errors;  ///< NaN with fewer than four batches
+  Vector<double, Series> means;            ///< means over the averaged steps
+  Vector<double, Series> standard_errors;  ///< standard errors; NaN with fewer than four batches
   std::int64_t steps;                      ///< number of averaged steps
-  std::int64_t left_out;                   ///< unsettled steps left out at the beginning
+  std::int64_t left_out;                   ///< number of unsettled steps left out at the beginning
 };
 
 namespace detail {
@@ -47,16 +47,16 @@ class SettledBatches {
            (static_cast<double>(last - first) * static_cast<double>(sums_.batch_length()));
   }
 
-  /// The standard error by batches from `first` on, or by pairs of them where that is larger.
+  /// The standard errors from batches `first` and later, single or, if that is larger, in pairs.
   Means scatter(std::size_t first) const {
     const Means single = sums_.standard_errors(1, first);
     if (sums_.complete_batches() - first < 8) return single;
     return single.cwiseMax(sums_.standard_errors(2, first));
   }
 
-  /// Whether the beginning is unsettled: the next batches, as many as were left out but at least
-  /// one, differ from those after them by more than six standard errors (scatter of the second
-  /// half).
+  /// Whether the first series is still unsettled: its mean over the next batches (as many as are
+  /// left out, at least one) and its mean over all later ones differ by more than six standard
+  /// errors, as estimated from the second half of all batches.
   bool begins_otherwise() const {
     const std::size_t all = sums_.complete_batches(), half = all / 2;
     const std::size_t next = std::max<std::size_t>(1, 2 * from_);
@@ -68,7 +68,7 @@ class SettledBatches {
            6.0 * std::sqrt(static_cast<double>(all - half) * shares) * scatter(half)[0] + rounding;
   }
 
-  /// The range max − min of s_n − n mean over the ends of the batches, s_n being the sum over n
+  /// The range max − min of s_n − n · mean over the ends n of the batches, s_n being the sum over n
   /// steps.
   Means width(const Means& found) const {
     Means deviation = Means::Zero(found.size()), low = deviation, high = deviation;
@@ -81,8 +81,8 @@ class SettledBatches {
     return high - low;
   }
 
-  /// The difference of the means of the second quarter and the second half of the counted batches;
-  /// if over a quarter is left out, of the later half left out and all counted batches.
+  /// The difference of two means: of the second quarter and second half of the batches used or, if
+  /// over a quarter of all is left out, of the later half of those left out and all used.
   Means drift() const {
     const std::size_t all = sums_.complete_batches(), half = (from_ + all) / 2;
     if (from_ > all / 4) return (mean(from_ / 2, from_) - mean(from_, all)).cwiseAbs();
@@ -102,21 +102,21 @@ class SettledBatches {
 
 }  // namespace detail
 
-/// The means of series with standard errors that remain valid where the series settle first or stay
-/// bounded. The shortest beginning (of 0, 1, 2, 4, … batches, up to half of all) is left out after
-/// which the next part of equal length agrees with the rest within six standard errors in the first
-/// series. An error is the largest of three:
+/// The means of several series, with standard errors that remain valid for series with a transient
+/// and for bounded series. The first 0, 1, 2, 4, … batches, up to half of all, are left out. Their
+/// number is the smallest after which, in the first series, the next part of equal length and the
+/// rest agree within six standard errors. An error is the largest of three:
 ///
 /// - the scatter of batch means, or of pairs of them if that is larger because successive batches
 /// are correlated;
-/// - the range of the sums s_n − n mean over n: for bounded sums (a linear loop, a closed orbit)
-/// batch means of whole turns hardly scatter. For random-walk sums the range is below the quantile
-/// of their scatter;
-/// - the distance of the mean of the second quarter from that of the second half: a bias that
-/// decays like 1/n is of that size.
+/// - the range of the sums s_n − n · mean over n, s_n being the sum over n steps: batch means over
+/// whole periods of a bounded sum (a linear loop, a closed orbit) hardly scatter. For sums like a
+/// random walk the range is below the quantile of their scatter;
+/// - the difference of the means of the second quarter and of the second half: a bias that decays
+/// like 1/n has this size.
 ///
-/// The last two are multiplied by 1.1 over the normal 99 % quantile.
-/// @param sums  sums of the series, per step; at least one
+/// The last two are multiplied by 1.1 and divided by the normal 99 % quantile.
+/// @param sums  sums of the series over the steps; at least one step
 template <int Series, std::size_t Batches>
 SettledMeans<Series> settled_means(const BatchSums<double, Series, Batches>& sums) {
   return detail::SettledBatches<Series, Batches>(sums).means();

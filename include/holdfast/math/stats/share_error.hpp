@@ -11,7 +11,7 @@ namespace holdfast {
 ///
 ///     √(s (1 − s)/(n + 2)),   s = (count + ½)/(n + 1)
 ///
-/// the standard deviation of the share given the draws, with Jeffreys's prior. It equals the
+/// With Jeffreys's prior this is the standard deviation of the share given the draws. It equals the
 /// sample's standard error √(s (1 − s)/n) up to O(1/n), and is not 0 for no hits or only hits.
 /// Source: L. D. Brown, T. T. Cai, A. DasGupta, Interval estimation for a binomial proportion,
 /// Statistical Science 16 (2001).

@@ -9,20 +9,20 @@
 
 namespace holdfast::detail {
 
-/// The integrals of several functions over one interval, by the tanh–sinh rule:
+/// The integrals of several functions over one interval, computed by the tanh–sinh rule:
 ///
 ///     x = middle + half · tanh(½π sinh t),   ∫ f dx = half Σ h f(x) ½π cosh t / cosh²(½π sinh t)
 ///
-/// The ends may be branch points of square-root type, as at the extreme of an arc. The step h is
-/// halved until no integral changes by more than the tolerance; an interval that remains rough (a
-/// branch point close to it) is halved. Source: H. Takahasi, M. Mori, Double exponential formulas
-/// for numerical integration, 1974.
+/// The integrands may have branch points of square-root type at the ends. The step h of t is halved
+/// until no integral changes by more than the tolerance. If this fails, for instance with a branch
+/// point close to the interval, the interval is halved. Source: H. Takahasi, M. Mori, Double
+/// exponential formulas for numerical integration, 1974.
 template <class Scalar, class Integrand>
 class SlabQuadrature {
  public:
   using Values = std::vector<Scalar>;
 
-  /// @param integrand  x ↦ values, equally many for every x
+  /// @param integrand  function x ↦ values of the integrands, equally many for every x
   /// @param tolerance  absolute tolerance of each integral, ≥ 0
   SlabQuadrature(Integrand integrand, const Scalar& tolerance)
       : integrand_(integrand), tolerance_(tolerance) {}

@@ -8,11 +8,11 @@
 
 namespace holdfast {
 
-/// The number of decimal digits of a `double`, and the result for equal numbers.
+/// The largest number of trusted decimal digits, that of a `double`: the result for equal numbers.
 inline constexpr double most_trusted_digits = 17.0;
 
-/// Whether `long double` is wider than `double` here. Where it is not (Microsoft's compiler, macOS
-/// on ARM), a comparison with it shows nothing and gives `most_trusted_digits`.
+/// Whether `long double` is wider than `double` on this platform. Where it is not (Microsoft's
+/// compiler, macOS on ARM), a comparison of the two gives `most_trusted_digits` and shows nothing.
 inline constexpr bool long_double_is_wider =
     std::numeric_limits<long double>::digits > std::numeric_limits<double>::digits;
 
@@ -27,19 +27,19 @@ inline double digits_of(long double difference, long double scale) {
 
 }  // namespace detail
 
-/// The number of decimal digits in which a result agrees with a computation in a wider type:
+/// The number of decimal digits in which a result agrees with a computation in a wider number type:
 ///
 ///     d = −log₁₀(|value − reference|/scale),   0 ≤ d ≤ 17
 ///
-/// It is 17 where both are equal, both NaN, or the same infinity; 0 where only one is finite, where
-/// the difference is as large as the scale, and where the scale is 0 but the two differ.
+/// The result is 17 where value and reference are equal (infinities too) or both NaN. It is 0 where
+/// only one is finite, they differ by as much as the scale, or they differ and the scale is 0.
 ///
 ///     trusted_digits(3.14, 3.14159265L, 1.0L)   // 2.8
 ///
-/// @param value      computed in double
+/// @param value      result computed in double
 /// @param reference  result from the same inputs in the wider type
-/// @param scale      finite, ≥ 0, size of the quantity: for one that passes through zero its
-///               largest size
+/// @param scale      size of the quantity, finite, ≥ 0; for a quantity that passes through zero its
+///                   largest size
 inline double trusted_digits(double value, long double reference, long double scale) {
   const long double wide = value;
   if (wide == reference || (std::isnan(wide) && std::isnan(reference))) return most_trusted_digits;
@@ -47,14 +47,14 @@ inline double trusted_digits(double value, long double reference, long double sc
   return detail::digits_of(std::abs(wide - reference), scale);
 }
 
-/// The trusted digits relative to the reference itself; a reference of 0 gives 17 or 0.
+/// The trusted digits of a number relative to its reference; a reference of 0 gives 17 or 0.
 inline double trusted_digits(double value, long double reference) {
   return trusted_digits(value, reference, std::abs(reference));
 }
 
 /// The trusted digits of a vector or matrix as a whole, −log₁₀(‖value − reference‖/‖reference‖) in
-/// the Euclidean norm of all entries, with the same limits; 0 where an entry is not finite. Entries
-/// of different units must be scaled before.
+/// the Euclidean norm of all entries, limited to 0 … 17; 0 where an entry is not finite. Entries of
+/// different units must be scaled before.
 /// @param value      any shape
 /// @param reference  matrix or vector of the same shape
 template <class Value, class Reference>

@@ -23,8 +23,8 @@
 
 namespace holdfast {
 
-/// A pack of motions whose contact changes between the samples, as in EventMotion. Each motion has
-/// its own loop; all are at the same sample.
+/// A pack of motions, one in each SIMD lane, whose contact may change between the samples, as in
+/// EventMotion. Each motion has its own loop; all motions are at the same sample.
 ///
 /// Each lane takes the steps of EventMotion. Lanes in which a guard may reach zero advance together
 /// from one change of contact to the next, while the other lanes wait. The change itself is
@@ -39,15 +39,15 @@ class EventPack {
   using LaneMask = Mask<Scalar>;
 
  public:
-  static constexpr std::size_t lanes = Lane::count;  ///< number of motions at a time
+  static constexpr std::size_t lanes = Lane::count;  ///< number of lanes, with one motion each
 
-  /// A sample of all lanes, as `sense` returns it; the states are given by state().
+  /// A sample of all motions, returned by `sense`; the states are given by state().
   struct Sample {
-    Scalar control_force;  ///< the transmitted force (N)
+    Scalar control_force;  ///< transmitted force (N) of each lane
     LaneMask engaged;      ///< lanes whose drive transmits the command
   };
 
-  /// @param starts  one per lane; for a spare lane repeat another start, then call `sleep`
+  /// @param starts  one start per lane; for a spare lane copy another start, then call `sleep`
   explicit EventPack(const std::array<EventStart, lanes>& starts)
       : excitation_(
             [&](std::size_t lane) -> const DigitalLoop& { return starts[lane].loop->digital; }),
@@ -66,7 +66,7 @@ class EventPack {
     any_late_ = any(delay_.all() < period_.all());
   }
 
-  /// Takes sample j; to be called once for each sample.
+  /// Takes sample j in all lanes, which decides the commands u_j; to be called once per sample.
   Sample sense() {
     excitation_.begin_sample(index_);
     switches_.fill(0);
@@ -78,7 +78,7 @@ class EventPack {
     return sample;
   }
 
-  /// Observer of `advance` that does nothing.
+  /// The observer of `advance` that ignores what happens between the samples.
   struct IgnoreFlowOfLanes {
     /// Called at a change of contact: lane, mode before, mode after, number of the guard (−1: a
     /// jump), time (s) after the sample.
@@ -104,7 +104,7 @@ class EventPack {
 
   /// The number j of the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
-  /// Renumbers the present sample; the excitation must have the same phase at both numbers.
+  /// Renumbers the present sample; the excitation must have the same phase at both sample numbers.
   void restart_index(std::int64_t index) { index_ = index; }
   /// The states z_j of all lanes.
   std::array<Scalar, 4> state() const {
@@ -114,18 +114,18 @@ class EventPack {
   Vector<double, 4> state(std::size_t lane) const {
     return {state_[0][lane], state_[1][lane], state_[2][lane], state_[3][lane]};
   }
-  /// The contact of a lane, in its present mode.
+  /// The contact between conductor and absorber in a lane, in its present mode.
   const DriveContact<>& contact(std::size_t lane) const { return modes_.contact(lane); }
-  /// Whether a lane's motion has SwitchCounts::accumulates: too many changes in one period.
+  /// Whether a lane had more than EventMotion::most_switches changes of contact in one period.
   bool accumulates(std::size_t lane) const { return accumulates_[lane]; }
-  /// Whether `accumulates` is true for any lane.
+  /// Whether `accumulates` holds for at least one lane.
   bool some_accumulate() const { return accumulates_.any(); }
-  /// Starts a motion of the lane's loop from z (m, m/s, m, m/s), with u_{j−1} = 0.
+  /// Restarts a lane's motion from the state z (m, m/s, m, m/s), with u_{j−1} = 0.
   void restart(std::size_t lane, const Vector<double, 4>& z) {
     modes_.restart(lane, z);
     begin(lane, z);
   }
-  /// Ends a lane's motion: its state is zero from now on, and other lanes do not wait for it.
+  /// Ends the motion of a lane: its state is zero from now on, and other lanes do not wait for it.
   void sleep(std::size_t lane) {
     awake_[lane] = 0.0;
     for (auto& number : state_) number[lane] = 0.0;
@@ -154,8 +154,8 @@ class EventPack {
     return {state(lane), detail::lane_of(command, lane), detail::lane_of(force, lane)};
   }
 
-  /// Applies a jump of the command or force to the contact of lanes in stick whose guards are no
-  /// longer positive, and of lanes whose contact has just changed.
+  /// Applies a jump of the command or force to the contact of two kinds of lanes: those in stick
+  /// with a guard that is no longer positive, and those with a contact that has just changed.
   /// @param instant_number  0: at the sample, 1: at the end of the delay
   template <class Observer>
   void jump(std::size_t instant_number, const Scalar& command, const LaneMask& which,
@@ -196,7 +196,7 @@ class EventPack {
     return numbers.all();
   }
 
-  /// Enters a lane's new mode after a change of contact.
+  /// Enters the new mode of a lane after a change of contact.
   void enter(std::size_t lane) {
     modes_.enter(lane);
     if (++switches_[lane] <= EventMotion<>::most_switches) return;
@@ -221,8 +221,8 @@ class EventPack {
     }
   }
 
-  /// Advances over the whole part in the lanes where it is certain that no contact changes in it.
-  /// @return those lanes
+  /// Advances lanes over a whole part of the period where a bound proves that no contact changes.
+  /// @return the lanes that were advanced
   LaneMask flow_without_event(const Part& part, const LaneMask& which) {
     const LaneStep<Scalar>& step = modes_.step(part.number);
     const std::array<Scalar, 4> before = state();
@@ -293,7 +293,7 @@ class EventPack {
       change(event, part.command, series.value(series.force, event.at), reached, observer);
   }
 
-  /// Notes in the lanes of a mask that some time has passed since the last change.
+  /// Marks, in the lanes of a mask, that time has passed since the last change of contact.
   void tell_flowed(const LaneMask& passed) {
     const auto lane_passed = detail::lane_flags<Scalar>(passed);
     for (std::size_t lane = 0; lane < lanes; ++lane)

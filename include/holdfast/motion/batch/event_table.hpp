@@ -31,8 +31,8 @@ inline bool has_event_pack(const ImplementedLoop& loop) {
 }
 
 /// The growth rate of the powers of A (1/s): the largest ‖Aᵏ‖^{1/k}, k = 10 … most_terms, in
-/// balanced coordinates. A series of e^{A h} with terms_for(rate h) terms has the same truncation
-/// error as with balanced_norm(); this rate is nearer than that norm to the spectral radius.
+/// balanced coordinates. It is nearer to the spectral radius than balanced_norm(). With either of
+/// the two as the rate, terms_for(rate h) terms of e^{A h} have the same truncation error.
 /// @tparam States  N, the order of the plant
 template <int States>
 double rate_of_powers(const Matrix<double, States>& a) {
@@ -51,12 +51,12 @@ double rate_of_powers(const Matrix<double, States>& a) {
   return rate * size;
 }
 
-/// The data shared by motions whose loops differ only in their gains and, unless it is a dead zone,
-/// in their backlash: the dynamics of the two masses in each mode of the contact.
+/// The dynamics of the two masses in each mode of the contact, shared by several motions. Their
+/// loops may differ in the gains and, unless the contact is a dead zone, in the backlash.
 class EventTable {
  public:
-  using Motion = ModeMotion<TwoMass<double>>;  ///< motion in one mode
-  using Drop = Motion::Bound::Drop;            ///< terms of drop_below_chord()
+  using Motion = ModeMotion<TwoMass<double>>;  ///< motion of the two masses in one mode
+  using Drop = Motion::Bound::Drop;            ///< terms of NoEventBoundOf::drop_below_chord()
 
   /// @throws InvalidParameter under the conditions of EventMotion
   explicit EventTable(const ImplementedLoop& loop)
@@ -73,7 +73,7 @@ class EventTable {
         alike_[mode][other] = alike(motions_[mode].dynamics(), motions_[other].dynamics());
   }
 
-  /// Whether the table is valid for another loop too.
+  /// Whether the table is valid for the motions of another loop too.
   bool serves(const ImplementedLoop& other) const {
     const auto& [mine, its] = std::pair(loop_.digital.sampling, other.digital.sampling);
     return numbers_of_plant(loop_.plant) == numbers_of_plant(other.plant) &&
@@ -83,19 +83,19 @@ class EventTable {
            same_stops(loop_.backlash, other.backlash);
   }
 
-  /// The motion of the two masses in a mode.
+  /// The motion of the two masses in a mode of the contact, given by its number.
   const Motion& motion(int mode) const { return motions_[at(mode)]; }
-  /// Whether two modes differ only in the effect of the command; −1 means no mode.
+  /// Whether the motion in two modes differs only in the effect of the command; −1 means no mode.
   bool move_alike(int mode, int other) const {
     return mode == other || (mode >= 0 && other >= 0 && alike_[at(mode)][at(other)]);
   }
   /// The rate (1/s) of a mode: a Taylor series may cover a time of up to 1/rate.
   double rate(int mode) const { return rates_[at(mode)]; }
-  /// The excitation, before any sample is selected.
+  /// The excitation force over the samples; no sample is selected in this object yet.
   const ForceOverSamples& force() const { return force_; }
 
-  /// The bound of the guards' depth below their chords over part 0 or 1 of the period, in the
-  /// contact's present mode; not to be called for a contact that cannot change.
+  /// The largest depth of a guard below its chord (the line between its values at the ends) over
+  /// part 0 or 1 of the period, in the contact's present mode. The mode must have a guard.
   Drop drop(const DriveContact<>& contact, std::size_t part) {
     const int mode = contact.mode();
     std::optional<std::array<Drop, 2>>& known = drops_[at(mode)];

@@ -18,13 +18,13 @@
 
 namespace holdfast {
 
-/// Whether a function g is proved to stay above zero between two of its values, in every lane. With
-/// |g̈| ≤ M over the length h between them, it is bounded by
+/// Whether a function g is proved to stay above zero between two given values, in every lane. If
+/// |g̈| ≤ M over the length h between these values, g is bounded by
 ///
 ///     g(x h) ≥ g_0 + (g_1 − g_0) x − 4 d x (1 − x),   d = M h²/8,   0 ≤ x ≤ 1,
 ///
 /// whose minimum is min(g_0, g_1) if |g_1 − g_0| ≥ 4 d, and else min(g_0, g_1) − (4 d − |g_1 −
-/// g_0|)² / 16 d. It is never below min(g_0, g_1) − d, and far above that where g changes fast.
+/// g_0|)² / 16 d. It is never below min(g_0, g_1) − d, and far above this value if g changes fast.
 /// @param begin  value g_0, in any unit
 /// @param end    value g_1, in the same unit
 /// @param drop   d > 0, from NoEventBoundOf; for d = 0 the result is false
@@ -37,12 +37,12 @@ Mask<Scalar> stays_above_zero(const Scalar& begin, const Scalar& end, const Scal
   return Scalar(16) * drop * min(begin, end) > rest * rest;
 }
 
-/// The first change of contact over a stretch, in every lane.
+/// The first change of contact in each lane within one stretch (time interval) of the motion.
 template <class Scalar>
 struct LaneEvent {
   Mask<Scalar> found;   ///< whether a guard reaches zero
-  Scalar at;            ///< place, 0 … 1 of the stretch; 1 without an event
-  Mask<Scalar> second;  ///< whether the second of the two guards is the one at zero
+  Scalar at;            ///< position, as a share 0 … 1 of the stretch; 1 without a change
+  Mask<Scalar> second;  ///< whether the second of the two guards is at zero
 };
 
 namespace detail {
@@ -55,7 +55,7 @@ std::array<std::uint8_t, Lanes<Scalar>::count> lane_flags(const Mask<Scalar>& ma
   return flags;
 }
 
-/// A guard along a stretch of the motion.
+/// A guard as a function of time over a stretch (time interval) of the motion.
 template <class Scalar>
 struct GuardOnStretch {
   const LaneGuard<Scalar>& guard;
@@ -83,7 +83,7 @@ struct GuardOnStretch {
   }
 
  private:
-  /// Sets leading coefficients that are mere rounding to zero, as next_event() does.
+  /// Sets leading coefficients to zero where they are rounding errors, as next_event() does.
   void clear_rounding(const Mask<Scalar>& which, LaneSeries<Scalar>& g) const {
     using std::abs;
     const Scalar rounding(4.0 * std::numeric_limits<double>::epsilon());
@@ -100,7 +100,7 @@ struct GuardOnStretch {
   }
 };
 
-/// Determines the sign that a lane's guard takes first, where it is unknown (first_sign()), and
+/// Determines the first nonzero sign of a lane's guard (first_sign()) if this sign is unknown, and
 /// stores it in the contact.
 template <class Scalar>
 void learn_sign(LaneModes<Scalar>& modes, std::size_t lane, int terms, LaneSeries<Scalar>& g) {
@@ -127,10 +127,10 @@ void learn_signs(LaneModes<Scalar>& modes, const Mask<Scalar>& which, int terms,
 
 }  // namespace detail
 
-/// The search of next_event() in every lane: the first root of any guard over a stretch.
+/// The search for the first root of any guard in a stretch of motion, in every lane at once.
 ///
-/// No root is passed over. Work: 5 multiply-adds for each guard and term, and first_roots(). The
-/// object owns its working memory.
+/// Each lane is searched as by next_event(): no root is missed. Work: 5 multiply-adds for each
+/// guard and term, and first_roots(). The object owns its working memory.
 template <class Scalar>
 class LaneEventSearch {
  public:

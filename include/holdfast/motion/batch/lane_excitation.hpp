@@ -24,7 +24,7 @@ namespace holdfast {
 template <class Scalar>
 class LaneExcitation {
  public:
-  /// @param of_lane  function of the lane's number, returns its const DigitalLoop&
+  /// @param of_lane  function that returns the DigitalLoop (const&) of a lane, from its number
   template <class OfLane>
   explicit LaneExcitation(const OfLane& of_lane) {
     std::size_t lines = 1;
@@ -37,7 +37,7 @@ class LaneExcitation {
     phases_.resize(lines);
   }
 
-  /// Selects sample j = `index`; the samples follow one another or restart from 0.
+  /// Selects sample j = `index`; successive calls have ascending j or restart from 0.
   void begin_sample(std::int64_t index) {
     const auto k = static_cast<std::size_t>(index) % RotatingPhasor<Scalar>::block;
     Scalar held_force(0);
@@ -54,31 +54,31 @@ class LaneExcitation {
                     select(held, Scalar(0), phases_[l].sine)};
   }
 
-  /// Whether the force of a lane is held over its samples.
+  /// Whether the force in a lane is held constant over each sampling period.
   bool is_held(std::size_t lane) const { return held_[lane] > 0.5; }
   /// The largest number of harmonics in any lane.
   std::size_t lines() const { return lines_.size(); }
-  /// The phasor F_l cos ω_l t_j, F_l sin ω_l t_j of a harmonic; F_j and 0 for a held force.
+  /// The phasor (F_l cos ω_l t_j, F_l sin ω_l t_j) (N) of harmonic l, or (F_j, 0), F_j being held.
   const ExcitationSample<Scalar>& phase(std::size_t line) const { return phases_[line]; }
 
-  /// Computes the phasors of the harmonics at the time `after` (s) since the sample.
+  /// Computes the phasors of all harmonics at the time `after` (s) since the sample.
   void turned(const Scalar& after, std::vector<LanePhasor<Scalar>>& phasors) const {
     for (std::size_t l = 0; l < lines_.size(); ++l)
       phasors[l] = {lines_[l].angular_frequency, turned_by(turn_of(lines_[l], after), l)};
   }
 
-  /// Defines fixed times (s) after the sample, for turned_to() and force_at().
+  /// Stores fixed times (s) after the sample, for which turned_to() and force_at() may be called.
   void fix_instants(const std::vector<Scalar>& after) {
     fixed_.clear();
     for (const Scalar& one : after)
       for (const Line& line : lines_) fixed_.push_back(turn_of(line, one));
   }
-  /// Computes the phasors of the harmonics at the fixed time number `instant` of fix_instants().
+  /// Computes the phasors of all harmonics at a fixed time, by its number in fix_instants().
   void turned_to(std::size_t instant, std::vector<LanePhasor<Scalar>>& phasors) const {
     for (std::size_t l = 0; l < lines_.size(); ++l)
       phasors[l] = {lines_[l].angular_frequency, turned_by(fixed_turn(instant, l), l)};
   }
-  /// The force F (N) at the fixed time number `instant` of fix_instants().
+  /// The force F (N) at a fixed time, given by its number in fix_instants().
   Scalar force_at(std::size_t instant) const {
     Scalar sum(0);
     for (std::size_t l = 0; l < lines_.size(); ++l)

@@ -21,42 +21,42 @@
 
 namespace holdfast {
 
-/// The start of one motion of an EventPack.
+/// The start of one motion of an EventPack: its loop, its table and its initial state.
 struct EventStart {
   const ImplementedLoop* loop;  ///< loop for which has_event_pack() is true
   EventTable* table;            ///< table valid for that loop; it must outlive the pack
-  Vector<double, 4> state;      ///< z_0 (m, m/s, m, m/s), finite
+  Vector<double, 4> state;      ///< initial state z_0 (m, m/s, m, m/s), finite
 };
 
-/// A guard in all lanes (GuardOf): g = state · z + command u + force F + constant.
+/// A guard function (GuardOf) in every lane, g = state · z + command u + force F + constant.
 template <class Scalar>
 struct LaneGuard {
   std::array<LaneNumbers<Scalar>, 4> state;  ///< coefficients of z₁, ż₁, z₂, ż₂
   LaneNumbers<Scalar> command;               ///< coefficient of u, per newton
   LaneNumbers<Scalar> force;                 ///< coefficient of F, per newton
   LaneNumbers<Scalar> constant;              ///< constant, in the unit of g
-  LaneNumbers<Scalar> zeros;  ///< how many of g, ġ, … are zero just after a change
+  LaneNumbers<Scalar> zeros;  ///< number of g, ġ, g̈, … that are zero just after a change
 
-  /// The value of g without its force term.
+  /// The value of g without its force term, for the state z and the command u (N).
   Scalar at(const std::array<Scalar, 4>& z, const Scalar& u) const {
     return state[0].all() * z[0] + state[1].all() * z[1] + state[2].all() * z[2] +
            state[3].all() * z[3] + (command.all() * u + constant.all());
   }
 };
 
-/// The exact step over a part of the period in all lanes, with the terms of NoEventBoundOf.
+/// The exact step over a part of the period in every lane, with the terms of NoEventBoundOf.
 template <class Scalar>
 struct LaneStep {
-  using Numbers = LaneNumbers<Scalar>;                       ///< one number for each lane
-  std::array<std::array<Numbers, 4>, 4> transition;          ///< rows of e^{A h}
-  std::array<Numbers, 4> command;                            ///< response per newton of u
-  std::array<Numbers, 4> drift;                              ///< contribution of the drift
-  std::vector<std::array<std::array<Numbers, 4>, 2>> lines;  ///< g_c and g_s of each harmonic
-  Numbers drop_by_norm;                                      ///< Drop::by_norm
-  Numbers drop_by_command;                                   ///< Drop::by_command
-  Numbers drop_constant;                                     ///< Drop::constant
+  using Numbers = LaneNumbers<Scalar>;               ///< one number for each lane
+  std::array<std::array<Numbers, 4>, 4> transition;  ///< rows of the matrix e^{A h}
+  std::array<Numbers, 4> command;                    ///< response to the command, per newton of u
+  std::array<Numbers, 4> drift;                      ///< contribution of the drift
+  std::vector<std::array<std::array<Numbers, 4>, 2>> lines;  ///< responses g_c, g_s to harmonics
+  Numbers drop_by_norm;                                      ///< factor of ‖z‖ (Drop::by_norm)
+  Numbers drop_by_command;                                   ///< factor of |u| (Drop::by_command)
+  Numbers drop_constant;                                     ///< constant term (Drop::constant)
 
-  /// The state at the end of the part from z under the command u.
+  /// The state at the end of the part, from the state z at its beginning, under the command u (N).
   std::array<Scalar, 4> state(const std::array<Scalar, 4>& z, const Scalar& u,
                               const LaneExcitation<Scalar>& excitation) const {
     std::array<Scalar, 4> after{drift[0].all(), drift[1].all(), drift[2].all(), drift[3].all()};
@@ -75,16 +75,16 @@ struct LaneStep {
   }
 };
 
-/// The contacts of a pack of motions, each in its own mode, with the numbers that describe the
-/// motion in these modes.
+/// The contacts of a pack of motions, each in its own mode, with the coefficients of the motions in
+/// these modes.
 template <class Scalar>
 class LaneModes {
   using Numbers = LaneNumbers<Scalar>;
 
  public:
-  static constexpr std::size_t lanes = Lanes<Scalar>::count;  ///< number of motions at a time
+  static constexpr std::size_t lanes = Lanes<Scalar>::count;  ///< number of lanes (motions)
 
-  /// @param starts      start of each lane's motion
+  /// @param starts      starts of the motions, one per lane
   /// @param excitation  excitation of the same motions
   LaneModes(const std::array<EventStart, lanes>& starts, const LaneExcitation<Scalar>& excitation)
       : starts_(starts) {
@@ -98,20 +98,20 @@ class LaneModes {
     }
   }
 
-  /// Restarts a lane with the contact that corresponds to an initial state.
+  /// Restarts a lane with the contact that belongs to an initial state.
   void restart(std::size_t lane, const Vector<double, 4>& state) {
     contacts_[lane] = contact_of(lane, state);
     ignored_.reset(lane);
     enter(lane);
   }
 
-  /// The contact of a lane. After changing it, `enter` or `refresh_guards` must be called.
+  /// The contact of a lane, which may be changed: call `enter` or `refresh_guards` afterwards.
   DriveContact<>& contact(std::size_t lane) { return contacts_[lane]; }
-  /// The contact of a lane.
+  /// The contact of a lane, for reading only.
   const DriveContact<>& contact(std::size_t lane) const { return contacts_[lane]; }
 
-  /// Takes over the mode of a lane's contact after a change; the lane's steps are computed when
-  /// next needed.
+  /// Adopts the new mode of a lane's contact after a change. The steps of the lane are computed
+  /// when they are next needed.
   void enter(std::size_t lane) {
     const DriveContact<>& contact = contacts_[lane];
     const int mode = contact.mode();
@@ -129,7 +129,7 @@ class LaneModes {
     refresh_guards(lane);
   }
 
-  /// Copies the guards of a lane's contact to `guard()`.
+  /// Copies the guards of a lane's contact, so that `guard()` returns their present coefficients.
   void refresh_guards(std::size_t lane) {
     constexpr double far = 1e90;
     const Guards guards = ignored_[lane] ? Guards() : contacts_[lane].guards();
@@ -152,13 +152,13 @@ class LaneModes {
     has_guard_[lane] = guards.count > 0 ? 1.0 : 0.0;
   }
 
-  /// Ignores all further changes of a lane's contact.
+  /// Ignores all further changes of the contact in a lane.
   void ignore_guards(std::size_t lane) {
     ignored_.set(lane);
     refresh_guards(lane);
   }
 
-  /// Notes that time has passed in a lane since its last change, for freshly_changed().
+  /// Marks that time has passed in a lane since its last change of contact.
   void flowed(std::size_t lane) {
     contacts_[lane].flowed();
     if (unsigned_[lane]) return refresh_guards(lane);
@@ -177,7 +177,7 @@ class LaneModes {
     return {row(0), row(1)};
   }
 
-  /// The steps of all lanes, in their present modes, over part 0 or 1 of the period.
+  /// The exact steps of all lanes, in their present modes, over part 0 or 1 of the period.
   const LaneStep<Scalar>& step(std::size_t part) {
     if (stale_.any()) refresh_steps();
     return steps_[part];
@@ -191,7 +191,7 @@ class LaneModes {
                        energy_[1].all() * z[1] * z[1] + energy_[3].all() * z[3] * z[3]));
   }
 
-  /// The first (0) or second (1) guard; a lane without that guard has the constant 10⁹⁰.
+  /// The first (0) or second (1) guard of all lanes; a missing guard has the constant 10⁹⁰.
   const LaneGuard<Scalar>& guard(std::size_t number) const { return guards_[number]; }
   /// The rate (1/s) of each lane: a Taylor series may cover a time of up to 1/rate.
   Scalar rate() const { return rate_.all(); }
@@ -199,19 +199,19 @@ class LaneModes {
   Mask<Scalar> engaged() const { return engaged_.all() > Scalar(0.5); }
   /// The lanes in stick, where Δż = 0.
   Mask<Scalar> sticks() const { return sticks_.all() > Scalar(0.5); }
-  /// The lanes whose contact has just changed, or in which a sign is still unknown.
+  /// The lanes whose contact has just changed, or in which the sign of a guard is unknown.
   Mask<Scalar> fresh() const { return fresh_.all() > Scalar(0.5); }
-  /// The lanes that are not fresh().
+  /// The lanes outside fresh(), the complement of that mask.
   Mask<Scalar> settled() const { return fresh_.all() < Scalar(0.5); }
-  /// The lanes without a guard.
+  /// The lanes without a guard: their contact cannot change between samples.
   Mask<Scalar> unguarded() const { return has_guard_.all() < Scalar(0.5); }
-  /// The lanes with a guard.
+  /// The lanes with a guard: their contact may change between samples.
   Mask<Scalar> guarded() const { return has_guard_.all() > Scalar(0.5); }
-  /// The lanes of sticks(), as bits.
+  /// The lanes in stick (those of sticks()), as bits.
   const std::bitset<lanes>& sticking() const { return sticking_; }
-  /// The lanes of fresh(), as bits.
+  /// The lanes whose contact has just changed (those of fresh()), as bits.
   const std::bitset<lanes>& freshly_changed() const { return fresh_lanes_; }
-  /// The lanes with two guards.
+  /// The lanes whose contact has two guards.
   const std::bitset<lanes>& with_two_guards() const { return two_guards_; }
   /// The lanes in which the sign of the first guard is unknown.
   const std::bitset<lanes>& without_sign() const { return unsigned_; }

@@ -7,7 +7,7 @@
 
 namespace holdfast {
 
-/// One number for each lane, accessible as a pack or lane by lane.
+/// An array with one number for each lane, accessible as a pack or lane by lane.
 template <class Scalar>
 class LaneNumbers {
  public:
@@ -17,9 +17,9 @@ class LaneNumbers {
   Scalar all() const { return Lanes<Scalar>::load(numbers_.data()); }
   /// Sets the numbers of all lanes.
   void set(const Scalar& numbers) { Lanes<Scalar>::store(numbers, numbers_.data()); }
-  /// The number of one lane.
+  /// The number of one lane, for writing.
   double& operator[](std::size_t lane) { return numbers_[lane]; }
-  /// The number of one lane.
+  /// The number of one lane, for reading.
   double operator[](std::size_t lane) const { return numbers_[lane]; }
 
  private:

@@ -30,16 +30,16 @@ constexpr std::array<double, most_terms> inverse_factorials() {
 
 }  // namespace detail
 
-/// The number of terms of the series in each lane. It depends only on the lane's rate times length,
-/// so that the results of a lane do not depend on other lanes, to the last bit.
+/// The number of Taylor terms in each lane. It depends only on the rate of the lane times the
+/// length of its series, so that other lanes do not change the results of a lane, to the last bit.
 template <class Scalar>
 struct TermsOfLanes {
-  int most;        ///< largest number of all lanes, 1 … most_terms
-  int least;       ///< smallest number of all lanes
-  Scalar of_lane;  ///< number of each lane
+  int most;        ///< largest number of terms in any lane, 1 … most_terms
+  int least;       ///< smallest number of terms in any lane
+  Scalar of_lane;  ///< number of terms in each lane
 };
 
-/// The function terms_for() in all lanes.
+/// The computation of terms_for(), the required number of Taylor terms, in all lanes at once.
 template <class Scalar>
 class LaneTerms {
  public:
@@ -80,7 +80,7 @@ class LaneTerms {
     return longest;
   }
 
-  /// The number of terms that suffices at the beginning of each of the `parts` of 0 … 1.
+  /// The number of terms needed for rate times length = k/`parts`, for k = 0 … `parts` (64).
   std::array<int, static_cast<std::size_t>(parts) + 1> fewest() const {
     std::array<int, static_cast<std::size_t>(parts) + 1> result{};
     for (std::size_t k = 0; k < result.size(); ++k) {
@@ -99,9 +99,9 @@ class LaneTerms {
 /// [z₁, ż₁, z₂, ż₂] + constant + force F (m/s²).
 template <class Scalar>
 struct LaneAcceleration {
-  std::array<Scalar, 4> state;  ///< coefficients of z₁, ż₁, z₂, ż₂: a row of A
+  std::array<Scalar, 4> state;  ///< coefficients of z₁, ż₁, z₂, ż₂: a row of the matrix A
   Scalar constant;              ///< drift + b u (m/s²)
-  Scalar force;                 ///< coefficient of F, per newton
+  Scalar force;                 ///< coefficient of F (1/kg)
 };
 
 /// A harmonic of the excitation at the beginning of a stretch, in every lane.
@@ -111,13 +111,13 @@ struct LanePhasor {
   ExcitationSample<Scalar> phase;  ///< F_l cos and F_l sin (N) of the harmonic's angle
 };
 
-/// The Taylor series of two masses over a length h, in every lane: TaylorStep on packs, with the
-/// series of the force,
+/// The Taylor series of the two masses' motion over a length h (s), in every lane. It is a
+/// TaylorStep on packs, with the force's series:
 ///
 ///     d_{k+1} = h (A d_k + w_k),   z(t + x h) = Σ d_k x^k / k!
 ///
-/// with w_k of TaylorStep. Two of the four rows of A are dz/dt = ż and cost one product each. Work
-/// per term: 8 multiply-adds and 9 products, 3 for each harmonic.
+/// with w_k of TaylorStep. Two of the four rows of A mean dz/dt = ż and take one product each.
+/// Work per term: 8 multiply-adds and 9 products, and 3 more for each harmonic.
 template <class Scalar>
 struct TwoMassSeries {
   std::array<LaneSeries<Scalar>, 4> state;  ///< series of z₁, ż₁, z₂, ż₂
@@ -158,7 +158,7 @@ struct TwoMassSeries {
     for (auto k = static_cast<std::size_t>(count.least); k < most; ++k) end_lanes(k);
   }
 
-  /// The state [z₁, ż₁, z₂, ż₂] at x, 0 … 1.
+  /// The state [z₁, ż₁, z₂, ż₂] at the share x of the length, 0 … 1.
   std::array<Scalar, 4> state_at(const Scalar& x) const {
     auto k = static_cast<std::size_t>(terms.most - 1);
     std::array<Scalar, 4> sum{state[0][k], state[1][k], state[2][k], state[3][k]};
@@ -167,7 +167,7 @@ struct TwoMassSeries {
     return sum;
   }
 
-  /// The value of one of the series at x, 0 … 1.
+  /// The value of a series at the share x of the length, 0 … 1.
   Scalar value(const LaneSeries<Scalar>& series, const Scalar& x) const {
     auto k = static_cast<std::size_t>(terms.most - 1);
     Scalar sum = series[k];
@@ -200,7 +200,7 @@ struct TwoMassSeries {
     }
   }
 
-  /// The next d_k by one row of A, from the present d_k, the constant and the force.
+  /// The next coefficient of one variable: row of A times the present d_k, plus constant and force.
   static Scalar rate(const LaneAcceleration<Scalar>& row, const std::array<Scalar, 4>& now,
                      const Scalar& constant, const Scalar& force) {
     const Scalar early =

@@ -12,28 +12,28 @@
 
 namespace holdfast {
 
-/// The deviations of a ModalMotion, one in each column, as long as they change no contact:
+/// Deviations from a ModalMotion, one in each column, as long as they change no contact:
 ///
 ///     δξ_{j+1} = e^{sτ} δξ_j + γ₁ δu_{j−1} + γ₀ δu_j,   δu_j = P δz_j + D δż_j or 0 in the
 ///     backlash.
 ///
-/// The coordinates are [Re ξ; Im ξ of the pairs; u_{j−1}] in metres. A natural motion is measured
-/// by its share of the conductor's displacement at the absorber, a force by the displacement that
-/// it causes in a sampling period.
+/// The coordinates are [Re ξ; Im ξ of the pairs; u_{j−1}], all in metres: a natural motion by its
+/// share of the conductor's displacement at the absorber, a force by the displacement that it
+/// causes in a sampling period.
 ///
-/// They advance by blocks of samples: each force and reading in a block is a row times the
-/// deviations at its start, so that a block of many deviations takes two products of matrices.
-/// Work per sample, of m coordinates: up to 2 m multiply-adds per deviation, m per reading of each
-/// deviation, and 60 m.
+/// The deviations advance by blocks of samples. Each force or reading is a row times the deviations
+/// at the start of the block, so that a block of many deviations takes two matrix products. Work
+/// per sample, for m coordinates: up to 2 m multiply-adds per deviation, m per reading of each
+/// deviation, and 60 m more.
 class ModalDeviations {
  public:
-  using Columns = Eigen::MatrixXd;  ///< order() × the number of deviations
-  using Readings = Columns;         ///< a row for each reading, a number for each deviation
-  static constexpr int block = 64;  ///< most samples between two calls of take_readings()
+  using Columns = Eigen::MatrixXd;  ///< deviations in columns, order() × their number
+  using Readings = Columns;         ///< a row for each reading, a column for each deviation
+  static constexpr int block = 64;  ///< largest number of samples between two take_readings()
 
-  /// Constructs the deviations as unit vectors.
+  /// Constructs unit vectors as deviations, one for each coordinate.
   /// @param motions  natural motions of the loop
-  /// @param gains    P and D while the drive transmits
+  /// @param gains    gains P and D, in effect while the drive transmits
   ModalDeviations(const NaturalMotions& motions, const PdGains<double>& gains)
       : count_(static_cast<Eigen::Index>(motions.size())),
         pairs_(static_cast<Eigen::Index>(motions.pairs())),
@@ -82,14 +82,14 @@ class ModalDeviations {
   /// The values of [Re ξ; Im ξ; u_{j−1}] that correspond to 1 m in each coordinate.
   const Eigen::VectorXd& units() const { return units_; }
 
-  /// Restarts from given deviations, in metres.
+  /// Restarts from given deviations, in metres, order() × their number.
   void begin(const Columns& deviations) {
     start_ = units_.asDiagonal() * deviations;
     taken_ = read_ = 0;
     commanded_.clear();
   }
 
-  /// The deviations, in metres.
+  /// The deviations at the present sample, in metres.
   Columns columns() {
     end_block();
     return units_.cwiseInverse().asDiagonal() * start_;
@@ -99,7 +99,7 @@ class ModalDeviations {
   void read_displacement() { readings_.row(read_++) = reading(relative_z_); }
   /// Reads the deviations of Δż (m/s) at the present sample, at most once.
   void read_velocity() { readings_.row(read_++) = reading(relative_v_); }
-  /// The readings since the last call, in their order.
+  /// The readings since the last call, in the order in which they were made.
   Readings take_readings() {
     const Readings all = readings_.topRows(read_) * start_;
     read_ = 0;
@@ -109,8 +109,8 @@ class ModalDeviations {
 
   /// Advances over one sampling period.
   /// @param engaged  whether the drive transmits the new command
-  /// @param most     samples of a block, 1 … 64: deviations that shrink much within one lose their
-  ///                 digits, which are those of its start
+  /// @param most     largest number of samples in a block, 1 … 64; a deviation that shrinks
+  ///                 strongly within a block loses accuracy
   void advance(bool engaged, int most = block) {
     if (engaged) {
       commands_.row(static_cast<Eigen::Index>(commanded_.size())) = reading(command_);
@@ -120,8 +120,8 @@ class ModalDeviations {
   }
 
  private:
-  /// The weights of Σ Re(w ξ) after 0, 1, … samples: of the coordinates at the start of the block,
-  /// a row each, and of a command 1, 2, … samples earlier.
+  /// The weights of Σ Re(w ξ): `of_start` for the coordinates at the start of the block, one row
+  /// for each sample since; `of_command` for a command 1, 2, … samples earlier.
   struct Sensor {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> of_start;
     Eigen::VectorXd of_command;

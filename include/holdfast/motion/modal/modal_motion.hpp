@@ -23,14 +23,14 @@ namespace holdfast {
 /// Each natural motion e^{st} of conductor and absorber together is independent (NaturalMotion).
 /// The displacements are sums over all natural motions: z = Σ r ξ with the residues r of
 /// `plant_poles`, ż = Σ s r ξ, z₂ = Σ θ r ξ, θ = (k₂ + c₂ s)/(m₂ s² + c₂ s + k₂). Computer and
-/// gap are those of `SampledMotion`. Work per sample: 20 multiply-adds per natural motion, in whole
-/// vectors. No memory is allocated.
+/// backlash act as in `SampledMotion`. Work per sample: 20 multiply-adds per natural motion, by
+/// SIMD vectors. No memory is allocated.
 class ModalMotion {
  public:
-  static constexpr int states = 4;                 ///< number of observed states
-  using State = Vector<double, 4>;                 ///< [z, ż, z₂, ż₂] (m, m/s, m, m/s)
-  using Readings = PortReadings<TwoMass<double>>;  ///< readings of these states
-  using Full = NaturalMotions::Full;               ///< [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂]
+  static constexpr int states = 4;  ///< number of observed states
+  using State = Vector<double, 4>;  ///< observed state [z, ż, z₂, ż₂] (m, m/s, m, m/s)
+  using Readings = PortReadings<TwoMass<double>>;  ///< readings of the observed states
+  using Full = NaturalMotions::Full;  ///< state [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂] of `modal_plant`
 
   using Memory = MotionMemory<double, BacklashMemory<double>>;  ///< memory before a sample
 
@@ -81,8 +81,8 @@ class ModalMotion {
     ++index_;
   }
 
-  /// Displaces the conductor at the absorber by a length (m), in the shape that a force there
-  /// causes; to be called before `sense()`.
+  /// Displaces the conductor by a length (m) at the absorber, in the shape of its deflection under
+  /// a force at the absorber; to be called before `sense()`.
   void displace_conductor(double by) {
     for (Block& block : motions_.blocks()) {
       Part &state = block.front(), &bent = block.back();
@@ -98,9 +98,9 @@ class ModalMotion {
   double time() const { return static_cast<double>(index_) * loop_.sampling.period; }
   /// The observed state [z, ż, z₂, ż₂] at t_j.
   const State& state() const { return seen_; }
-  /// The readings of the observed state.
+  /// The functions that read displacements and velocities from the observed state.
   const Readings& readings() const { return readings_; }
-  /// The memory for the coming samples: the observed state, u_{j−1} and the backlash.
+  /// The memory at t_j, read before `sense()`: observed state, u_{j−1} and memory of the backlash.
   Memory memory() const { return {seen_, previous_force_, law_.memory()}; }
   /// The amplitudes ξ of all natural motions, in the order of NaturalMotions.
   Eigen::VectorXcd amplitudes() const {
@@ -148,11 +148,11 @@ class ModalMotion {
   std::int64_t index_ = 0;
 };
 
-/// The motion from a state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂].
+/// The motion of a modal loop from an initial state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂].
 /// @param loop   the loop with its excitation and backlash
 /// @param poles  `plant_poles` of the loop's modes and absorber
 /// @param state  the initial state
-/// @return nothing where `poles` is empty, which means that not all were found. Then use
+/// @return no motion where `poles` is empty, that is, not all poles were found. Then use
 ///         `harmonically_forced_motion` of the plant, at N² operations per sample
 /// @throws InvalidParameter where the loop is not admissible, or the state is not finite or of
 ///         another size
@@ -167,10 +167,10 @@ inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
   return ModalMotion(loop, poles, state);
 }
 
-/// The motion from a state of `modal_plant`, whose poles are computed here.
+/// The motion of a modal loop from an initial state of `modal_plant`; computes the poles too.
 /// @param loop   the loop with its excitation and backlash
 /// @param state  the initial state
-/// @return nothing where not all poles were found
+/// @return no motion where not all poles were found
 /// @throws InvalidParameter where the loop is not admissible, or the state is not finite or of
 ///         another size
 inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,

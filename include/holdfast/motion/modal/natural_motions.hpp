@@ -23,11 +23,11 @@ namespace holdfast {
 struct ModalLoop {
   std::vector<PlaceMode<double>> modes;   ///< modes at the absorber's place
   Absorber<double> absorber;              ///< absorber with its clamp
-  Sampling<double> sampling;              ///< τ and δ ≤ τ
-  PdGains<double> gains;                  ///< P and D
-  HarmonicExcitation<double> excitation;  ///< F_m and f of the force at the absorber's place
-  double backlash_width = 0.0;            ///< r₀ (m), ≥ 0
-  ForceHold hold = ForceHold::sampled;    ///< hold of the harmonic force over a sample
+  Sampling<double> sampling;              ///< sampling period τ and processing delay δ ≤ τ (s)
+  PdGains<double> gains;                  ///< gains P (N/m) and D (N s/m)
+  HarmonicExcitation<double> excitation;  ///< F_m (N) and f (Hz) of the force at the absorber
+  double backlash_width = 0.0;            ///< width r₀ of the backlash (m), ≥ 0
+  ForceHold hold = ForceHold::sampled;    ///< whether the force is held over a sampling period
 };
 
 /// Validates a loop. @throws InvalidParameter where it is not admissible
@@ -44,21 +44,21 @@ inline void validate(const ModalLoop& loop) {
 ///     ξ_{j+1} = e^{sτ} ξ_j + γ₁ u_{j−1} + γ₀ u_j + g_c F_m cos ωt_j + g_s F_m sin ωt_j ,
 ///
 /// with its weights w in the readings: z = Re Σ w_z ξ over all natural motions, and likewise ż, z₂
-/// and ż₂. One motion of a conjugate pair represents both.
+/// and ż₂. A conjugate pair is represented by one of its two motions.
 struct NaturalMotion {
-  std::complex<double> decay;    ///< e^{sτ}
+  std::complex<double> decay;    ///< factor e^{sτ} of one sampling period
   std::complex<double> present;  ///< γ₀, factor of the present command u_j
   std::complex<double> past;     ///< γ₁, factor of the previous command u_{j−1}
-  std::complex<double> cosine;   ///< g_c
-  std::complex<double> sine;     ///< g_s
+  std::complex<double> cosine;   ///< g_c, response to F_m cos ωt_j
+  std::complex<double> sine;     ///< g_s, response to F_m sin ωt_j
   std::complex<double> z;        ///< weight w of the conductor's displacement
   std::complex<double> v;        ///< weight w of the conductor's velocity
   std::complex<double> z2;       ///< weight w of the absorber's displacement
   std::complex<double> v2;       ///< weight w of the absorber's velocity
 };
 
-/// The natural motions of conductor and absorber. They are independent of each other, and every
-/// motion of a ModalLoop is a sum of them.
+/// The natural motions of conductor and absorber, independent of each other. Every motion of a
+/// ModalLoop is a sum of these.
 class NaturalMotions {
  public:
   /// The state [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂] of `modal_plant`.
@@ -81,14 +81,14 @@ class NaturalMotions {
     }
   }
 
-  /// The number of natural motions, pairs counted once.
+  /// The number of natural motions; a conjugate pair counts as one.
   std::size_t size() const { return motions_.size(); }
-  /// The number of pairs, which come first; the other motions are real.
+  /// The number of conjugate pairs, which come first; all other natural motions are real.
   std::size_t pairs() const { return pairs_; }
   /// The k-th natural motion.
   const NaturalMotion& operator[](std::size_t k) const { return motions_[k]; }
 
-  /// The k-th natural motion over `length` (s) from a sample on, instead of a whole period.
+  /// The k-th natural motion over a time `length` (s) after a sample instead of a sampling period.
   NaturalMotion over(std::size_t k, double length) const {
     return numbers_of(shapes_[k], k >= pairs_,
                       {length, std::min(loop_.sampling.processing_delay, length)});
@@ -120,8 +120,8 @@ class NaturalMotions {
     return state;
   }
 
-  /// The amplitude ξ = ψᵀ((sM + C) q + M q̇) of the k-th natural motion in a state. M and C are the
-  /// matrices of mass and damping, ψ is the shape of the motion.
+  /// The amplitude ξ = ψᵀ((sM + C) q + M q̇) of the k-th natural motion in a given state. M is the
+  /// mass matrix, C the damping matrix, ψ the shape of the natural motion.
   std::complex<double> amplitude(std::size_t k, const Full& state) const {
     const Shape& natural = shapes_[k];
     const Absorber<double>& absorber = loop_.absorber;
@@ -157,8 +157,8 @@ class NaturalMotions {
     bool weak = false;
   };
 
-  /// The shape for f = 1. For a weak mode n, whose own component would be unbounded, the whole
-  /// shape is multiplied by (s − s_n)/φ_n.
+  /// The shape for f = 1. A weakly coupled mode n has an almost unbounded component in it: for such
+  /// a mode the whole shape is multiplied by (s − s_n)/φ_n, with s_n and φ_n of the bare mode.
   Shape shape_of(const PlantPole& pole, const std::optional<detail::PoleFinder::Weak>& weak) const {
     Shape shape{pole.s, 1.0, receptance(loop_.modes, pole.s), 0.0, 0.0};
     if (weak) {

@@ -16,12 +16,12 @@
 
 namespace holdfast {
 
-/// The periodic motion of one loop near that of another loop: it has the same period and the same
-/// modes in the same order; the instants of its switches may differ.
+/// The periodic motion of a loop near to the motion of another loop, with the same period and the
+/// same contact modes in the same order. The instants of the switches may differ.
 /// @param loop   the loop to be solved, with the same f τ
-/// @param orbit  orbit of a nearby loop; its drive is engaged or in the gap at some sample, and it
-///               does not stay in the gap for ever
-/// @return not `certified` where there is no such motion, or it switches otherwise
+/// @param orbit  orbit of a nearby loop; at one sample or more the drive is engaged or in the gap,
+///               and the drive leaves every gap
+/// @return an outcome other than `certified` where no such motion exists or its modes differ
 template <class Plant>
 OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
     const ImplementedLoopOf<Plant>& loop, const EventOrbitOf<states_of<Plant>>& orbit) {
@@ -80,7 +80,7 @@ bool mirrors_itself(const EventOrbitOf<States>& orbit) {
   return (open.array() <= rounding * largest.array()).all();
 }
 
-/// The least margin, as a share of the motion's size, and the kind of border where it reaches zero.
+/// The least margin of an orbit, as a share of its size, and the border where that margin is zero.
 template <int States>
 RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
   const SwitchingMargins& margins = orbit.margins;
@@ -105,7 +105,7 @@ RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
   return look;
 }
 
-/// Continues a motion with exact switching over two parameters, from the nearest known solution.
+/// Continuation of an exactly switched orbit over two parameters, from the nearest known solution.
 template <class Family, class Orbit>
 class EventContinuation {
  public:
@@ -130,7 +130,7 @@ class EventContinuation {
     return look;
   }
 
-  /// Sets the lengths along x and y that count as 1 in distances; initially 1.
+  /// Sets the units of x and y for distances between parameter points; initially 1.
   void set_unit(const PlanePoint& unit) { unit_ = unit; }
   int solutions() const { return solutions_; }
 
@@ -140,15 +140,15 @@ class EventContinuation {
     Orbit orbit;
   };
 
-  /// The kind of border where a motion jumps, judged from the motion on the near side.
+  /// The kind of border beyond which a motion is lost, judged from the nearest known orbit.
   static MotionBorder beyond(const Orbit& orbit) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const BorderKind kind = nears_sample(orbit) ? BorderKind::switch_at_sample : BorderKind::jump;
     return {kind, {}, -1, 0, {none, none}};
   }
 
-  /// Whether a switch lies just beside a sample, not on it; switches that a sample itself causes
-  /// lie on the sample.
+  /// Whether a switch occurs within 10⁻³ τ of a sample, but not at that sample. A switch that the
+  /// sample itself causes occurs exactly at the sample.
   static bool nears_sample(const Orbit& orbit) {
     constexpr double near = 1e-3, rounding = 1e-12;
     return std::any_of(orbit.switches.begin(), orbit.switches.end(), [&](const auto& change) {
@@ -177,9 +177,9 @@ class EventContinuation {
 
 }  // namespace detail
 
-/// The region of two parameters in which a periodic motion that switches between the samples exists
-/// and attracts, given by its border: the motion keeps its period and the order of its modes, and
-/// all multipliers, saltation included, lie inside the unit circle.
+/// Computes the border of the region of two parameters in which a periodic motion with exact
+/// switching exists and attracts. Inside, the motion keeps its period and the order of its modes,
+/// and all multipliers, saltation included, lie inside the unit circle.
 ///
 /// The least margin of EventOrbit decides the kind of the border. Where a switch passes a sample
 /// the motion continues, but its multipliers jump. A motion that is its own mirror image half a
@@ -188,7 +188,7 @@ class EventContinuation {
 /// @param orbit   certified orbit of family(at); its drive does not stay in the gap for ever
 /// @param window  range of the parameters that is searched, around `at`
 /// @param at      parameters (x, y) of the orbit
-/// @param steps   steps along the border, as shares of the window; tolerance: accuracy of a jump
+/// @param steps   steps along the border, as shares of the window; `tolerance` also locates a jump
 /// @throws InvalidParameter where the window is not finite or does not contain `at`
 template <class Family, int States>
 MotionRegion motion_region(const Family& family, const EventOrbitOf<States>& orbit,

@@ -22,52 +22,52 @@
 
 namespace holdfast {
 
-/// The margins by which an orbit avoids other switching; +∞ for events that never occur.
+/// The margins of an orbit from a different switching sequence; +∞ for events that never occur.
 ///
 /// At a margin of zero the motion grazes: neighbouring motions switch in different ways, and
-/// multipliers do not describe them. The margins belong to the guards of the contact between the
-/// samples. A law that decides at the samples only has no margins here.
+/// multipliers do not describe them. The margins are those of the guards of the contact between the
+/// samples. A contact law that decides only at the samples has none.
 struct SwitchingMargins {
   /// The margin of an event that never occurs.
   static constexpr double none = std::numeric_limits<double>::infinity();
 
-  /// Least distance of Δz from an end of its gap, where Δz turns before it reaches that end (m).
+  /// Least distance (m) between an end of the gap and a turning point of Δz before that end.
   double border_distance = none;
   /// Least distance that Δz covers between leaving a gap and the next reversal (m).
   double shortest_travel = none;
-  /// Least |Δż| with which Δz passes an end of its gap (m/s).
+  /// Least |Δż| with which Δz passes an end of the gap (m/s).
   double exit_velocity = none;
-  /// Least |Δż| at a minimum where the engaged drive does not reverse (m/s).
+  /// Least |Δż| at minima of |Δż| at which the engaged drive does not reverse (m/s).
   double reversal_velocity = none;
-  /// Least |a(u)|, the relative acceleration at a reversal under the transmitted force (m/s²).
+  /// Least |a(u)|, the relative acceleration under the transmitted force u, at a reversal (m/s²).
   double reversal_acceleration = none;
-  /// Least |a(0)| at a reversal (m/s²); the sign of a(0), without force, decides: stick or gap.
+  /// Least |a(0)|, with no force, at a reversal (m/s²); the sign of a(0) selects stick or gap.
   double stick_acceleration = none;
 };
 
 /// A periodic motion of the sampled loop whose contact switches between the samples, with its
 /// numerical certificate.
 ///
-/// Certified, in double precision: the motion of EventMotion closes after N samples to the stated
-/// error; it switches alike in three successive periods; all its multipliers, with the saltation at
-/// every switch, lie inside the unit circle; and its margins from switching otherwise are known.
-/// That a true orbit lies within a bound of the computed one is proved by prove_event_orbit() only.
+/// The certificate, in double precision: the motion of EventMotion closes after N samples up to
+/// `closure_error`; it has the same switches in three successive periods; all its multipliers,
+/// saltation included, lie inside the unit circle; `margins` are the margins from other switching.
+/// Only prove_event_orbit() proves that a true orbit lies within a bound of the computed one.
 ///
-/// There is one multiplier for each entry of [x; u_{j−1}; the gap; the displacement as last read]
-/// on which the coming samples depend, and at least five in all.
+/// There is one multiplier for each entry of [x; u_{j−1}; gap position; last measured displacement]
+/// that affects later samples, and at least five in all.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct EventOrbitOf : LoopOrbit<States> {
-  std::vector<ContactMode> modes;  ///< contact mode from each sample on
-  /// At each sample (N): u_j where the drive is engaged, in force from t_j + δ on; 0 in the gap; in
-  /// stick the force that keeps both sides together at t_j.
+  std::vector<ContactMode> modes;  ///< contact mode after each sample
+  /// Force of the drive at each sample (N): while engaged the command u_j, which acts from t_j + δ;
+  /// in the gap 0; in stick the force that keeps both sides together at t_j.
   std::vector<double> forces;
-  std::vector<ContactSwitch> switches;  ///< switches of one period, s after its first sample
-  /// For each sample: Δz (m) of the reversal at which the gap began that the drive is in. It has no
-  /// meaning at samples outside a gap and for laws other than exact play (contact/contact.hpp).
+  std::vector<ContactSwitch> switches;  ///< switches of one period, timed from its first sample (s)
+  /// Δz at the reversal where the present gap began (m), for each sample. The value has no meaning
+  /// at samples outside a gap and for laws other than exact play (contact/contact.hpp).
   std::vector<double> reversals;
-  SwitchingMargins margins;          ///< least margins over all switches and all near events
-  std::array<double, 3> time_share;  ///< time in each ContactMode, as shares; their sum is 1
+  SwitchingMargins margins;          ///< least margins over all switches and turning points
+  std::array<double, 3> time_share;  ///< share of the time in each ContactMode; sum 1
   double largest_displacement;       ///< max |z(t)| (m), between the samples too
   double largest_sample;             ///< max |z_j| (m), at the samples
   StateScale extent;                 ///< extent of both sides of the gap, at the samples
@@ -81,9 +81,9 @@ struct EventOrbitOf : LoopOrbit<States> {
     return static_cast<double>(engaged) / static_cast<double>(modes.size());
   }
 
-  /// The least margin from switching otherwise as a share of the orbit's size: margins are divided
-  /// by the largest displacement x, the largest velocity v or v²/x. Infinite where no margin is
-  /// finite.
+  /// The least margin from a different switching sequence, as a share of the orbit's size. Margins
+  /// are divided by the largest displacement x, the largest velocity v or the acceleration v²/x.
+  /// The result is infinite where no margin is finite.
   double border_share() const {
     const double acceleration = extent.velocity * extent.velocity / extent.displacement;
     return std::min({extent.share_of_displacement(margins.border_distance),
@@ -114,7 +114,7 @@ inline Series series_derivative(const Series& p) {
 }
 
 /// Calls visit(x, rises) for every x in (0, 1] at which a series changes its sign, in ascending
-/// order. There are at most as many as the series has terms.
+/// order. The number of calls is at most the number of terms of the series.
 template <class Visit>
 void for_each_sign_change(Series p, Visit&& visit) {
   double from = 0.0;
@@ -149,9 +149,9 @@ bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
 ///     measures.begin();
 ///     motion.advance(measures);
 ///
-/// The motion must outlive the measures and not be moved; its samples must follow one another.
+/// The motion must outlive the measures and keep its address; its samples must be consecutive.
 /// Turning points are roots of the derivatives of the same series by which the motion finds its
-/// switches, so that none is missed.
+/// switches, so that no turning point is missed.
 /// @tparam Contact  contact of the motion
 template <class Contact>
 class EventOrbitMeasures {
@@ -162,7 +162,7 @@ class EventOrbitMeasures {
   using Instant = typename Motion::Instant;
 
  public:
-  /// Measures from the motion's present sample on.
+  /// Starts the measurement at the motion's present sample.
   explicit EventOrbitMeasures(const EventMotion<Contact>& motion)
       : motion_(&motion),
         readings_(motion.readings()),
@@ -188,7 +188,7 @@ class EventOrbitMeasures {
 
   // The observer of EventMotion::advance.
 
-  /// Measures a stretch in one mode, from `begin` (s after the sample) over `length` (s).
+  /// Measures the motion in one mode, from `begin` (s after the sample) over `length` (s).
   void flowed(int mode, double begin, double length) {
     guards_ = motion_->contact().guards();
     time_[static_cast<std::size_t>(motion_->contact().word())] += length;
@@ -201,10 +201,10 @@ class EventOrbitMeasures {
       for (ModeGuard& guard : guards.guard) guard.zeros = 0;
     }
   }
-  /// Notes that u_j is in force from now on.
+  /// Records that the command u_j takes effect at this instant.
   void commanded() { trace_.commanded(); }
-  /// Measures the speed or the accelerations at a guard that was reached; a switch caused by a jump
-  /// of the force or the command, guard −1, has no margin.
+  /// Records the speed or the accelerations at the zero of a guard. A switch by a jump of the force
+  /// or the command has guard −1 and no margin.
   void switched(int from, int, int guard, const Instant& instant) {
     last_slope_ = {};
     if (guard < 0) return;
@@ -240,8 +240,8 @@ class EventOrbitMeasures {
     return nullptr;
   }
 
-  /// Notes the local minima of a guard that does not end the mode: its slope rises through zero,
-  /// continuously or by a jump.
+  /// Records the local minima of a guard that does not end the mode. At a minimum the guard's slope
+  /// rises through zero, continuously or by a jump.
   void look_at_guard(const ModeGuards& guards, std::size_t g, const Expansion& part) {
     const ModeGuard& guard = guards.guard[g];
     double* const margin = margin_of(guard);

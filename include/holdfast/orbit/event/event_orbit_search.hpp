@@ -31,7 +31,7 @@ struct EventOrbitResult : OrbitResultOf<EventOrbitOf<EventMotion<Contact>::state
 
 namespace detail {
 
-/// Records the samples and switches of a motion in an orbit, and measures the motion.
+/// Records the samples and switches of a motion as an orbit, and passes them to the measures.
 template <class Contact>
 class PeriodRecorder {
  public:
@@ -77,8 +77,8 @@ class PeriodRecorder {
 
 /// A sample of an orbit and its distance in time from the nearest switch.
 struct FarSample {
-  std::int64_t sample = -1;  ///< −1: every sample lies at a switch
-  double distance = 0.0;     ///< s
+  std::int64_t sample = -1;  ///< sample j; −1: none lies apart from the switches
+  double distance = 0.0;     ///< time from the nearest switch (s)
 };
 
 /// The sample in a contact mode that is farthest in time from any switch.
@@ -104,7 +104,7 @@ FarSample sample_far_from_switches(const EventOrbitOf<States>& orbit, ContactMod
   return best;
 }
 
-/// The sample at which an orbit's return map begins, −1: none. It is the engaged sample farthest in
+/// The sample at which an orbit's return map begins, −1 for none: the engaged sample farthest in
 /// time from any switch, or the farthest sample in the gap if that is at least ten times as far.
 template <int States>
 std::int64_t section_of(const EventOrbitOf<States>& orbit) {
@@ -125,7 +125,7 @@ bool switch_alike(const EventOrbitOf<States>& one, const EventOrbitOf<States>& o
                     });
 }
 
-/// The solver for the orbit of N samples near a point; it measures that orbit too.
+/// The solver for an orbit of N samples near a given state; also measures the orbit.
 template <class Contact>
 class EventOrbitSolver {
  public:
@@ -195,8 +195,8 @@ class EventOrbitSolver {
     return way;
   }
 
-  /// Measures the orbit from a point over three periods, which must switch alike.
-  /// @param extent  extent of the states in the search, as the orbit's own may be mere rounding
+  /// Measures the orbit over three periods from its first state, and compares their switches.
+  /// @param extent  extent of the states in the search; the orbit's own may be mere rounding
   Result measured(const Point& first, std::int64_t samples, const Extent& extent) {
     motion_.go_to(first);
     EventOrbitMeasures<Contact> measures(motion_.motion());
@@ -228,9 +228,9 @@ class EventOrbitSolver {
   Rational ratio_;
 };
 
-/// The model of an EventMotion for ReturnSearch. A near return is solved for its fixed point. The
-/// motion has come to an orbit once it was within a millionth of its extent from the orbit and did
-/// not move away from it over each of two successive periods with the modes of the orbit.
+/// The model of an EventMotion for ReturnSearch. After a near return the fixed point is solved for.
+/// The motion has settled on an orbit once it was near the orbit (within 10⁻⁶ of the motion's
+/// extent) and then, for two periods, had the orbit's contact modes and did not move away.
 template <class Contact>
 class EventSearchModel {
  public:
@@ -242,7 +242,7 @@ class EventSearchModel {
   using Result = EventOrbitResult<Contact>;
   using Seen = SeenMotion<Symbol, Plant>;
 
-  /// The cost of solving for one sample of an orbit, in samples of followed motion: 16 … 60.
+  /// The estimated cost of solving, in simulated samples per orbit sample; measured: 16 … 60.
   static std::int64_t samples_per_solved() { return 32; }
 
   /// @param start  motion at a stroboscopic instant
@@ -264,7 +264,7 @@ class EventSearchModel {
     return motion_.motion().contact().mode() == other.contact.mode();
   }
 
-  /// Whether to look for a return: not while the motion settles on a proposed orbit.
+  /// Whether a near return is worth solving for; false while the motion settles on an orbit.
   bool may_repeat(const Seen&, std::int64_t) const { return periods_on_orbit_ == 0; }
 
   Result solve(const Seen&, std::int64_t period, const Memory&) {
@@ -284,7 +284,7 @@ class EventSearchModel {
     periods_on_orbit_ = 0;
   }
 
-  /// Compares the motion with the orbit whenever whole periods have passed since approach().
+  /// Whether the motion has stayed on the orbit for two periods; judged at the end of each period.
   bool has_come(const Result& found, const Seen& seen) {
     const std::vector<ContactMode>& modes = found.orbit->modes;
     const auto period = static_cast<std::int64_t>(modes.size());
@@ -310,17 +310,17 @@ class EventSearchModel {
 
 }  // namespace detail
 
-/// The periodic orbit that a motion comes to, with its numerical certificate (EventOrbit).
+/// Finds the periodic orbit that a motion settles on, with its numerical certificate (EventOrbit).
 ///
 ///     const auto motion = event_motion(loop, state);
 ///     const auto found = find_event_orbit(motion);
 ///     if (found.outcome == OrbitOutcome::certified) use(found.orbit->period());
 ///
-/// `certified` means, beside the statements of EventOrbit: the motion was within a millionth of its
-/// extent from the orbit and did not move away from the orbit over two further periods. With
-/// `neutral` the result names the state of an integrator without restoring term. The outcome is
-/// `none_found` also where changes of contact accumulate. It is `incommensurate` where sampling and
-/// forcing never come into phase again, as under a recorded force or with jittering samples.
+/// With `certified`, beyond the statements of EventOrbit, the motion was within a millionth of its
+/// extent from the orbit and did not move away over two further periods. With `neutral` the result
+/// gives the index of a state variable that has no restoring term. The outcome is `none_found` also
+/// where changes of contact accumulate. It is `incommensurate` where sampling and forcing never
+/// return to the same phase, as under a recorded force or with sampling jitter.
 ///
 /// Bounded work: at most `limits.most_samples` samples of the motion and as much again for solving.
 /// Memory: one byte per sample of the motion, some 150 bytes per sample of the orbit.

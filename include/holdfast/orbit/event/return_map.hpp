@@ -20,20 +20,20 @@
 
 namespace holdfast {
 
-/// The stroboscopic state of an EventMotion: everything that its coming samples depend on.
-/// Sampling and forcing are in phase at stroboscopic instants, every q samples.
+/// The stroboscopic state of an EventMotion: all that its later samples depend on. Sampling and
+/// forcing are in phase at stroboscopic instants, every q samples.
 template <class Contact>
 struct StroboscopicState {
   std::int64_t phase;  ///< samples since the last stroboscopic instant, 0 … q − 1
-  typename EventMotion<Contact>::State state;  ///< x_j, N × 1; of two masses z_j (m, m/s, m, m/s)
-  double previous_command;                     ///< u_{j−1} (N)
-  double previous_reading;                     ///< the displacement at t_{j−1} as read (m)
+  typename EventMotion<Contact>::State state;  ///< plant state x_j, N × 1 (two masses: m, m/s)
+  double previous_command;                     ///< command of the last sample, u_{j−1} (N)
+  double previous_reading;                     ///< displacement measured at t_{j−1} (m)
   Contact contact;                             ///< contact with its memory before sample j
 };
 
 namespace detail {
 
-/// A deviation of X = [x (N); u_{j−1}; the gap; the displacement as last read] (VariationalFlow).
+/// A deviation of X = [x; u_{j−1}; gap position; last measured displacement], x with N entries.
 template <class Contact>
 using PointDeviation = Vector<double, larger_size(EventMotion<Contact>::states, 3)>;
 
@@ -62,8 +62,8 @@ StroboscopicState<Contact> shifted(StroboscopicState<Contact> point,
 
 }  // namespace detail
 
-/// An EventMotion whose forcing repeats exactly every q samples. Its index is set to zero at each
-/// stroboscopic instant, so that the rounding of late instants cannot shift sampling against
+/// An EventMotion whose forcing repeats exactly every q samples. The sample index is reset to zero
+/// at each stroboscopic instant, so that the rounding of large times cannot shift sampling against
 /// forcing.
 template <class Contact>
 class RepeatingMotion {
@@ -87,7 +87,7 @@ class RepeatingMotion {
     if (motion_.index() == period_) turn_to(0);
   }
 
-  /// The present stroboscopic state; to be asked for before `sense()`.
+  /// The present stroboscopic state; to be read before `sense()`.
   StroboscopicState<Contact> point() const {
     double reading = 0.0;
     if constexpr (!own_controller) reading = motion_.controller().memory().previous_displacement;
@@ -95,7 +95,7 @@ class RepeatingMotion {
             motion_.contact()};
   }
 
-  /// Sets the motion to a state and restarts its counts.
+  /// Sets the motion to a stroboscopic state and restarts the counts of contact changes.
   void go_to(const StroboscopicState<Contact>& point) {
     if constexpr (!own_controller) {
       if (motion_.loop().limits.velocity == VelocitySensing::difference)
@@ -124,8 +124,8 @@ class RepeatingMotion {
 
 namespace detail {
 
-/// The units of X = [x; u_{j−1}; the gap; the displacement as last read], powers of two: for two
-/// masses those of plant_scaling() and 1 m, else just below the largest values of a motion, or 1.
+/// The units of the state X of VariationalFlow, powers of two: plant_scaling() and 1 m for two
+/// masses; for others just below the motion's largest values, or 1 if these are 0.
 /// @param seen    extent of the motion's states
 /// @param forces  forces of the drive in the motion (N)
 template <class Contact>
@@ -151,10 +151,10 @@ PointDeviation<Contact> return_units(
 
 }  // namespace detail
 
-/// The map X_0 → X_N of a motion, N a multiple of q, with its derivative, which includes the
-/// saltation at every switch; X as in VariationalFlow.
+/// The return map X_0 → X_N of a motion over N samples, N a multiple of q, with its derivative. X
+/// is the state of VariationalFlow; the derivative includes the saltation at every switch.
 ///
-/// The derivative is stored as a sequence of maps of blocks of samples; it is their product.
+/// The derivative is stored as the factors of a product: one map for each block of samples.
 /// @tparam Contact  contact of the motion
 template <class Contact>
 class ReturnMap {
@@ -163,7 +163,7 @@ class ReturnMap {
   using Motion = EventMotion<Contact>;
   /// A deviation of X: as many entries as the plant has states, and three more.
   using Deviation = detail::PointDeviation<Contact>;
-  /// The state X with its contact.
+  /// A stroboscopic state: X and the contact of the drive.
   using Point = StroboscopicState<Contact>;
 
   /// @param motion     any motion of the loop
@@ -175,7 +175,7 @@ class ReturnMap {
       : motion_(motion), samples_(samples), units_(units), gap_opens_(gap_opens) {}
 
   /// The fixed point near a given state, by Newton's method with the linear steps of CyclicSystem.
-  /// It ends when further steps bring no improvement.
+  /// The iteration ends when further steps bring no improvement.
   /// @param near  a state that is not in stick
   /// @return nothing where 1 is a multiplier, where the motion touches a guard, or where X_N − X_0
   ///         does not decrease to rounding
@@ -206,8 +206,8 @@ class ReturnMap {
     return least <= 1e-10 ? best : std::nullopt;
   }
 
-  /// The coordinate of x in which a neutral deviation is largest, in the units; a neutral deviation
-  /// is unchanged after N samples. The controller's states are preferred if it moves them.
+  /// The index of the plant state with the largest entry, in the units of X, in a neutral deviation
+  /// (unchanged after N samples). Entries of the controller, if not 0, take precedence.
   /// @return nothing without a neutral deviation or where other deviations grow
   std::optional<Eigen::Index> neutral_coordinate(const Point& point) {
     Extent unused(motion_.motion().readings());
@@ -232,8 +232,8 @@ class ReturnMap {
     return which;
   }
 
-  /// The multipliers of a fixed point, largest first: one for each number that the coming samples
-  /// depend on, at least five; those of null directions have log_modulus −∞.
+  /// The multipliers of a fixed point, largest first: one for each state variable of the loop, its
+  /// memory included, and at least five; a null direction has log_modulus −∞.
   std::vector<Multiplier> multipliers(const Point& point) {
     Extent unused(motion_.motion().readings());
     const Linearised flow = linearised(point, samples_that_keep_digits(), unused);
@@ -262,7 +262,7 @@ class ReturnMap {
   Eigen::Index order() const { return units_.size() - 3; }
   Eigen::Index gap_row() const { return order() + 1; }
 
-  /// Follows the motion over N samples in blocks of at most `most`, with the maps of deviations.
+  /// Follows the motion over N samples; multiplies its maps in blocks of up to `most` samples.
   /// @param extent  extended by the states of the motion
   Linearised linearised(const Point& point, std::size_t most, Extent& extent) {
     motion_.go_to(point);
@@ -283,7 +283,7 @@ class ReturnMap {
     return {motion_.point(), products.blocks(), tangent.rank_of_product()};
   }
 
-  /// The count of the numbers on which the motion after a state depends.
+  /// The number of state variables, memory included, that the motion from a state depends on.
   std::size_t memory_of(const Point& point) const {
     const DigitalLoop& loop = motion_.motion().loop();
     auto size = static_cast<std::size_t>(order());
@@ -293,7 +293,7 @@ class ReturnMap {
     return size;
   }
 
-  /// The coordinates of X that at least one block depends on.
+  /// The coordinates of X on which the map of at least one block depends.
   std::vector<int> counting_coordinates(const Blocks& blocks) const {
     std::vector<int> counting;
     for (int i = 0; i < static_cast<int>(units_.size()); ++i)
@@ -315,8 +315,8 @@ class ReturnMap {
     return maps;
   }
 
-  /// The number of samples in which no direction of x contracts to rounding against another; 1
-  /// where the loop remembers more than x, since that memory may decay within a few samples.
+  /// The number of samples whose maps may be multiplied without loss of digits in any direction of
+  /// x; 1 for a loop with memory beside x, since that memory may decay within a few samples.
   std::size_t samples_that_keep_digits() const {
     const EventMotion<Contact>& motion = motion_.motion();
     const DigitalLoop& loop = motion.loop();

@@ -23,12 +23,12 @@
 
 namespace holdfast {
 
-/// The counterpart of ItineraryMaps for a conductor given by its modes: maps of the natural motions
-/// over one sampling period, engaged or in the backlash; state [Re ξ; Im ξ of the pairs; u_{j−1}].
+/// The maps of a modal conductor's natural motions ξ over one sampling period, engaged or in the
+/// backlash: the counterpart of ItineraryMaps. The state is [Re ξ; Im ξ of the pairs; u_{j−1}].
 class ModalItineraryMaps {
  public:
-  using State = Eigen::VectorXd;                        ///< [Re ξ; Im ξ of the pairs; u_{j−1}]
-  using Map = Eigen::MatrixXd;                          ///< map of deviations
+  using State = Eigen::VectorXd;  ///< state [Re ξ; Im ξ of the pairs; u_{j−1}]
+  using Map = Eigen::MatrixXd;    ///< map of deviations
   using System = CyclicSystem<double, Eigen::Dynamic>;  ///< solver for a periodic motion
 
   /// @param loop   the loop; its backlash width is not used
@@ -42,14 +42,14 @@ class ModalItineraryMaps {
     watch_ = watch;
   }
 
-  /// Calls the function `watch`, if one is given.
+  /// Calls the function `watch` of the constructor, if one was given.
   void look() const {
     if (watch_) watch_();
   }
 
-  /// The deviations in their units; none of them is begun yet.
+  /// The deviations of a motion of the loop, in units(); call their begin() before use.
   const ModalDeviations& deviations() const { return deviations_; }
-  /// The units of the deviations.
+  /// The units of the deviations, one for each coordinate of the state.
   const Eigen::VectorXd& units() const { return deviations_.units(); }
   /// The state of rest.
   State rest() const { return State::Zero(units().size()); }
@@ -64,8 +64,8 @@ class ModalItineraryMaps {
     return read;
   }
 
-  /// The first state of the steady motion of a drive that is always engaged, ξ_j = A e^{iωτj} + B
-  /// e^{−iωτj}; not finite where e^{iωτ} is a root of the loop.
+  /// The first state of the steady motion ξ_j = A e^{iωτj} + B e^{−iωτj} with the drive always
+  /// engaged, A and B being complex; not finite where e^{iωτ} is a characteristic root of the loop.
   State steady() const {
     using Phasors = Eigen::ArrayXcd;
     const std::complex<double> i(0.0, 1.0), back = std::conj(turn_);
@@ -88,8 +88,8 @@ class ModalItineraryMaps {
     return state;
   }
 
-  /// The multipliers per sample of a drive that is always engaged; empty where they cannot be
-  /// separated numerically.
+  /// The characteristic roots of the loop with the drive always engaged (multipliers per sample);
+  /// empty where the roots cannot be separated numerically.
   std::vector<std::complex<double>> roots() const {
     PoleSum<double> loop;
     for (Eigen::Index k = 0; k < decay_.size(); ++k) {
@@ -108,9 +108,9 @@ class ModalItineraryMaps {
 
   /// Follows an itinerary from a first state and records the observed part at all its samples.
   /// @param first      the state before the first sample
-  /// @param itinerary  its first sample at phase 0 of the forcing
+  /// @param itinerary  contacts, the first sample at phase 0 of the forcing
   /// @param states     filled with [z_j; u_{j−1}], one for each sample
-  /// @return the state after its last sample
+  /// @return the state after the last sample
   State follow(const State& first, const Itinerary& itinerary,
                std::vector<Vector<double, 5>>& states) const {
     State state = first;
@@ -152,7 +152,7 @@ class ModalItineraryMaps {
     }
   }
 
-  /// @param seen   observed part of the state
+  /// Advances a state by one sample; `seen` is the observed part of the state.
   /// @param force  F_m e^{iωt_j}
   void step(State& state, const Vector<double, 5>& seen, bool engaged,
             const std::complex<double>& force) const {
@@ -176,9 +176,9 @@ class ModalItineraryMaps {
   std::function<void()> watch_;
 };
 
-/// The maps of stretches of an itinerary, in the units of `maps`. A stretch ends within sixteen
-/// samples after its product grew a thousandfold.
-/// @return empty for more than 64 stretches: such an orbit cannot be told from rounding
+/// The maps of blocks of an itinerary, in the units of `maps`. A block ends at most sixteen samples
+/// after an entry of its map has reached 1000.
+/// @return empty for more than 64 blocks: such an orbit cannot be distinguished from rounding
 /// Work: 2 n² multiply-adds a sample, n being the number of coordinates of a deviation.
 inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& maps,
                                                    const Itinerary& itinerary) {
@@ -201,8 +201,8 @@ inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& map
 
 /// The ten largest multipliers of one period, or all where there are fewer.
 ///
-/// They are the eigenvalues of a single block where these exceed its rounding; else they result
-/// from orthogonal iteration of sixteen deviations around the period, accurate for any contraction.
+/// If the period is one block, they are the eigenvalues of the block, provided that these exceed
+/// rounding. Else they result from orthogonal iteration of sixteen deviations, for any contraction.
 /// @param maps       maps of the loop
 /// @param itinerary  contacts of one period
 /// @param blocks     maps_of_blocks() of the itinerary

@@ -26,31 +26,31 @@
 
 namespace holdfast {
 
-/// A neighbourhood of the first sample of an orbit of a conductor by its modes: every motion in it,
-/// at the same phase of the forcing, follows the orbit's itinerary for ever and tends to the orbit.
+/// A neighbourhood of the first sample of a modal conductor's orbit: every motion that is in it at
+/// the same phase of the forcing follows the orbit's itinerary for ever and tends to the orbit.
 ///
-/// A deviation e has entries for all natural motions, the force in metres (ModalDeviations) and the
-/// gap that the drive is in. Its norm is ‖R e‖ = √(eᵀV e) with V − MᵀV M > 0, where M is the map of
-/// e over some periods of the orbit; M contracts in this norm. Contact and the sign of Δż of the
-/// last sample must agree with the orbit. An orbit that stays in the gap for ever does so in every
-/// gap that contains it: then the radius is per metre of clearance.
+/// A deviation e has entries for all natural motions, for the force and for the position of the
+/// drive's gap, all in metres (ModalDeviations). The norm is ‖R e‖ = √(eᵀV e), with a matrix V such
+/// that V − MᵀV M > 0, where M maps e over some periods of the orbit. Contact and the last sample's
+/// sign of Δż must agree with the orbit's. If the orbit stays in a gap, the radius is per metre of
+/// clearance from the gap's ends.
 struct ModalAttraction {
-  Eigen::VectorXd first;          ///< state of the orbit, as in ModalItineraryMaps
-  BacklashMemory<double> memory;  ///< memory of the drive before its first sample
+  Eigen::VectorXd first;          ///< first state of the orbit, as in ModalItineraryMaps
+  BacklashMemory<double> memory;  ///< memory of the drive before the first sample
   bool stays_inside;              ///< the drive never leaves its gap
   double lowest,                  ///< least Δz of the orbit (m)
       highest;                    ///< largest Δz of the orbit (m)
-  Eigen::MatrixXd root;           ///< R, V = RᵀR
+  Eigen::MatrixXd root;           ///< factor R of the norm, V = RᵀR
   double radius;                  ///< bound of ‖R e‖ (m); > 0, ∞ where nothing switches
-  double inscribed_share;         ///< 1/‖R‖_F: ‖e‖ < radius · share lies in the region
+  double inscribed_share;  ///< 1/‖R‖_F; the ball ‖e‖ < radius · share lies in the region
 };
 
 /// The neighbourhood of attraction of an orbit.
 ///
-/// No decision changes during the period while |h Φ e| is below the distance from the surface, h
-/// being the surface's normal and Φ the flow of deviations. This is certain for ‖R e‖ below the
-/// least distance / ‖h Φ R⁻¹‖, and the next period begins with a smaller ‖R e‖. V belongs to one
-/// period, or to the fewest of 2, 4, … 64 periods whose contraction exceeds rounding.
+/// No decision changes during the period while |h Φ e| is below the orbit's distance from the
+/// switching surface with normal h, Φ being the flow of deviations. This holds if ‖R e‖ is below
+/// the least distance / ‖h Φ R⁻¹‖; the next period then begins with a smaller ‖R e‖. V belongs to
+/// one period, or to the fewest of 2, 4, … 64 periods whose contraction exceeds rounding.
 /// @param loop   the loop that has the orbit
 /// @param maps   maps of that loop
 /// @param orbit  attracting and certified
@@ -117,12 +117,12 @@ bool attracts(const ModalAttraction& region, const Motion& motion, const Eigen::
 
 namespace detail {
 
-/// The region of attraction of an orbit of a conductor by its modes.
+/// The region of attraction of an orbit of a conductor given by its modes.
 /// @tparam Loop  ModalLoop
 template <class Loop>
 class ModalRegion {
  public:
-  /// The cost of solving for a sample (N² operations) over that of following one (N operations).
+  /// The cost of solving for a sample, O(N²), relative to that of simulating a sample, O(N).
   std::int64_t samples_per_solved() const {
     return std::max<std::int64_t>(16, maps_.units().size());
   }
@@ -141,7 +141,7 @@ class ModalRegion {
   std::optional<ModalAttraction> region_;  // of the proposed orbit
 };
 
-/// The orbit of a loop without backlash, to which every motion tends; O(N) operations per sample.
+/// The orbit of a modal loop without backlash, which attracts every motion; O(N) work per sample.
 /// @return nothing where the loop is unstable or its roots cannot be separated numerically
 template <class Maps>
 std::optional<PeriodicOrbit> orbit_without_backlash(const ModalLoop& loop, const Maps& maps,
@@ -170,9 +170,9 @@ std::optional<PeriodicOrbit> orbit_without_backlash(const ModalLoop& loop, const
 
 }  // namespace detail
 
-/// The periodic orbit that the motion of a conductor by its modes comes to, with its certificate,
-/// as find_periodic_orbit() of two masses. The states of the orbit are those of conductor and
-/// absorber, z̃_j = [z, ż, z₂, ż₂; u_{j−1}], its multipliers the ten largest of all.
+/// Finds the periodic orbit on which the motion of a modal conductor settles, with its certificate,
+/// as find_periodic_orbit() does for two masses. The states of the orbit are those of conductor and
+/// absorber, z̃_j = [z, ż, z₂, ż₂; u_{j−1}]; its multipliers are the ten largest.
 ///
 /// `none_found` is also the outcome where some of the `plant_poles` were not found.
 ///

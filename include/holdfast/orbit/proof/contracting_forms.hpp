@@ -22,13 +22,13 @@ inline double contracting_rate(double log_modulus, std::size_t count) {
 ///
 ///     P_j = M_jᵀ P_{j+1} M_j / ρ² + Q_j,   j = 0 … N − 1,   P_N = P_0
 ///
-/// P_0 = Σ_k (Fᵀ)ᵏ Q Fᵏ is summed by doubling: F = M_{N−1} … M_0 / ρᴺ, and Q is P_0 if P_N = 0.
-/// Work: six products of Size × Size matrices per map.
+/// The sum P_0 = Σ_k (Fᵀ)ᵏ Q Fᵏ is computed by doubling: F = M_{N−1} … M_0 / ρᴺ, and Q is the P_0
+/// that results from P_N = 0.
 /// @param count    N ≥ 1
 /// @param map_of   j ↦ M_j, Size × Size of doubles
 /// @param rest_of  j ↦ Q_j, positive definite
-/// @param rate     ρ
-/// @return nothing where the sum is not finite: a multiplier is not below ρᴺ
+/// @param rate     ρ, of contracting_rate()
+/// @return nothing where the sum is not finite: then some multiplier is not below ρᴺ
 template <int Size, class MapOf, class RestOf>
 std::optional<std::vector<Matrix<double, Size>>> contracting_forms(std::size_t count,
                                                                    const MapOf& map_of,

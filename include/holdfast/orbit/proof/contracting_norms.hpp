@@ -16,12 +16,12 @@
 
 namespace holdfast {
 
-/// The norms V_j of deviations e along a periodic sequence of linear maps, one for each sample, in
-/// which the sequence is proved to contract: a Lyapunov function of the sequence,
+/// The norms V_j of deviations e along a periodic sequence of linear maps M_j, one norm for each
+/// sample j. The sequence is proved to contract in these norms, which are a Lyapunov function,
 ///
 ///     V_j(e)² = eᵀ P_j e,   V_{j+1}(M_j e) ≤ s_j V_j(e),   s_{N−1} … s_0 < 1
 ///
-/// The P_j are found in doubles from P_j = M_jᵀ P_{j+1} M_j / ρ² + I and taken as exact; the
+/// The P_j are those of contracting_forms() with Q_j = I, in doubles, taken as exact; the
 /// inequalities are proved by elimination in enclosures. Hence all multipliers are at most s_{N−1}
 /// … s_0 in modulus.
 /// @tparam Size  size of e
@@ -31,12 +31,12 @@ class ContractingNorms {
   /// The two maps that make up the sequence, in enclosures.
   using Maps = std::array<Matrix<Enclosure, Size>, 2>;
 
-  /// Constructs the norms; since MᵀPM is convex in M, a proof at the corners holds in between.
+  /// Constructs the norms. As MᵀPM is convex in M, a proof for the corners holds in between.
   /// @param corners      maps at the corners of a segment or box of loops, for all of which the
   ///                     norms are valid; one corner for a single loop
   /// @param sequence     index of the map that moves sample j, for each j; not empty
   /// @param log_modulus  ln of the largest multiplier, an estimate
-  /// @return nothing where no such norms were found
+  /// @return nothing where no norms are found in which the sequence contracts
   static std::optional<ContractingNorms> of(const std::vector<Maps>& corners,
                                             const std::vector<std::uint8_t>& sequence,
                                             double log_modulus) {
@@ -60,7 +60,7 @@ class ContractingNorms {
     const Vector<Enclosure, Size> image = forms_[sample].template cast<Enclosure>() * vector;
     return sqrt(Enclosure(vector.dot(image).magnitude()));
   }
-  /// The factor s_j of a sample.
+  /// The contraction factor s_j of a sample.
   double factor(std::size_t sample) const { return factors_[sample]; }
   /// An upper bound of the product s_{N−1} … s_0; below 1.
   double contraction() const { return contraction_; }

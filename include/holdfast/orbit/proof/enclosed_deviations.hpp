@@ -9,16 +9,16 @@
 
 namespace holdfast::detail {
 
-/// The row whose product with z̃ is Δz or Δż.
+/// The row whose product with the state z̃ is Δz or, for `of_velocity`, Δż.
 inline RowVector<double, 5> relative_row(bool of_velocity) {
   const Eigen::Index first = of_velocity ? 1 : 0;
   return RowVector<double, 5>::Unit(2 + first) - RowVector<double, 5>::Unit(first);
 }
 
-/// A row of doubles with a bound for the length of its difference from the true row.
+/// A row vector of doubles with a bound of the length of its error.
 struct RowWithError {
-  RowVector<double, 6> row = RowVector<double, 6>::Zero();  ///< the computed row
-  Enclosure error;                                          ///< bound of its error
+  RowVector<double, 6> row = RowVector<double, 6>::Zero();  ///< computed row
+  Enclosure error;  ///< bound of the length of the row's error
 
   /// The difference of two rows, its rounding errors included.
   RowWithError operator-(const RowWithError& other) const {
@@ -34,16 +34,16 @@ struct RowWithError {
   }
 };
 
-/// The six deviations along an orbit that begin as the unit vectors of [z̃; gap] in a weighted
-/// norm. They are computed in doubles, with a bound of all their errors in the norms in which the
-/// orbit's maps contract.
+/// The six deviations along an orbit that begin as the unit vectors of [z̃; gap] in a weighted norm.
+/// They are computed in doubles. Their errors are bounded in the norms in which the orbit's maps
+/// contract.
 template <class Number>
 class EnclosedDeviations {
  public:
   using Columns = Eigen::Matrix<double, 5, 6>;   ///< six deviations of z̃
   using Enclosed = Eigen::Matrix<Number, 5, 6>;  ///< the six deviations, enclosed
-  using Map = Matrix<Number, 5>;                 ///< map of a sample
-  using Norms = ContractingNorms<5>;             ///< norms of the sequence
+  using Map = Matrix<Number, 5>;                 ///< map of z̃ over a sample
+  using Norms = ContractingNorms<5>;             ///< norms in which the orbit's maps contract
 
   /// @param weights  weights of [z̃; gap], the last one 1
   /// @param units    units of z̃, powers of two
@@ -63,7 +63,7 @@ class EnclosedDeviations {
     const Number error = error_ * Number(norms_.reading(sample, relative_row(of_velocity)));
     return RowWithError{columns_.row(2 + first), error} - RowWithError{columns_.row(first), {}};
   }
-  /// The deviation of the gap that the drive is in (m).
+  /// The deviation of the position of the drive's gap (m).
   const RowWithError& gap() const { return gap_; }
 
   /// Applies the decision of a sample and moves on to the next one.
@@ -74,7 +74,7 @@ class EnclosedDeviations {
     take(next, map * columns_.template cast<Number>(), Number(norms_.factor(sample)) * error_);
   }
 
-  /// Whether all deviations are proved to be shorter, back at the first sample, than initially.
+  /// Whether all deviations, back at the first sample, are proved shorter than at the start.
   bool have_contracted(bool with_gap) const {
     Number sum, error;
     for (Eigen::Index i = 0; i < 5; ++i) {
@@ -89,7 +89,7 @@ class EnclosedDeviations {
   }
 
  private:
-  /// Keeps the midpoints and adds √(Σ V_j²) of the columns' deviations from them to the error.
+  /// Keeps the midpoints; the error is `carried` plus √(Σ V_j²) of the columns' remainders.
   void take(std::size_t sample, const Enclosed& exact, const Number& carried) {
     columns_ = exact.template cast<double>();
     const Enclosed wrong = exact - columns_.template cast<Number>();

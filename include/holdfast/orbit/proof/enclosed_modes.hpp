@@ -23,22 +23,22 @@ namespace holdfast {
 
 /// The surfaces that decide whether the contact changes between the samples.
 enum class ContactSurface {
-  reversal,             ///< Δż = 0 of an engaged drive (m/s)
+  reversal,             ///< reversal of an engaged drive, Δż = 0 (m/s)
   gap_lower,            ///< Δz at the lower end of the gap (m)
   gap_upper,            ///< Δz at the upper end of the gap (m)
   free_acceleration,    ///< a(0) = 0, without a force: stick ends in the gap (m/s²)
   driven_acceleration,  ///< a(u) = 0, under the command: stick ends engaged (m/s²)
-  sampling_instant,     ///< the command changes (s)
+  sampling_instant,     ///< instant at which the command changes (s)
 };
 
 namespace detail {
 
-/// The places of the entries of w, the state of a motion with the quantities that drive it,
+/// The positions of the entries of w, the state of a motion with the quantities that drive it,
 ///
-///     w = [z₁, ż₁, z₂, ż₂, u in force, u to come, g, F, F_s, 1, t],   ẇ = A w in each mode
+///     w = [z₁, ż₁, z₂, ż₂, u acting, u pending, g, F, F_s, 1, t],   ẇ = A w in each mode
 ///
-/// g is the Δz at the drive's last reversal, t the time since the sample; F + i F_s rotates with
-/// the excitation, or is constant while the excitation is held.
+/// g is the Δz at the last reversal, t the time since the sample. F is the excitation and F_s its
+/// quadrature: F + i F_s rotates with the excitation, or is constant if it is held.
 struct FlowPlace {
   static constexpr Eigen::Index command = 4, pending = 5, gap = 6, force = 7, quadrature = 8,
                                 one = 9, time = 10;
@@ -50,11 +50,11 @@ struct FlowPlace {
 template <class Number>
 using FlowRow = RowVector<Number, FlowPlace::size>;
 
-/// A guard of a mode: positive while the contact stays as it is.
+/// A guard of a contact mode: a functional h w that is positive while the mode lasts.
 template <class Number>
 struct EnclosedGuard {
   ContactSurface surface;              ///< surface on which the guard is zero
-  std::vector<FlowRow<Number>> terms;  ///< h Aᵏ/k!, k = 0 … EnclosedModes::terms; in SI units
+  std::vector<FlowRow<Number>> terms;  ///< rows h Aᵏ/k!, k = 0 … EnclosedModes::terms; in SI units
 };
 
 /// The three modes of a drive with exact play (contact/contact.hpp) as linear systems ẇ = A w in
@@ -63,14 +63,14 @@ template <class Number>
 class EnclosedModes {
  public:
   using Rate = Matrix<Number, FlowPlace::size>;       ///< matrix A
-  using State = Vector<Number, FlowPlace::size>;      ///< w
+  using State = Vector<Number, FlowPlace::size>;      ///< state w (FlowPlace)
   using Row = FlowRow<Number>;                        ///< a functional of w
   using Guards = std::vector<EnclosedGuard<Number>>;  ///< guards of a mode
 
   /// The number of terms in the longest Taylor series of e^{As}, ‖A‖ s ≤ 3; the remainder is below
   /// e³ 3³⁴/34! = 10⁻²¹.
   static constexpr int terms = 34;
-  /// An upper bound of e³.
+  /// An upper bound of e³, the growth of e^{As} over the longest series.
   static constexpr double most_growth = 20.1;
 
   /// @param ratio  f τ = p/q
@@ -86,7 +86,7 @@ class EnclosedModes {
     for (const Number& part : parts_)
       if (!(part.lower() > 0.0) && part.upper() > 0.0)
         throw InvalidParameter("processing delay", part.middle(), "s",
-                               "0, the sampling period, or clear of both by more than rounding");
+                               "0, the sampling period, or apart from both by more than rounding");
     for (const ContactMode mode : {ContactMode::engaged, ContactMode::gap, ContactMode::stick}) {
       rates_[at(mode)] = Sparse(rate_of(loop, mode));
       norm_ = std::max(norm_, norm_bound(rate(mode)));
@@ -127,18 +127,18 @@ class EnclosedModes {
                               length - Number(middle));
   }
 
-  /// The number of terms with which the remainder of a series over a length (s) is below rounding.
+  /// The number of terms with which the remainder of a series over a time (s) is below rounding.
   int terms_for(double length) const {
     int count = 1;
     for (double rest = most_growth; rest > 1e-22 && count < terms; ++count)
       rest *= norm_ * length / count;
     return count;
   }
-  /// The longest length (s) of one Taylor series, 3/‖A‖.
+  /// The longest time (s) that one Taylor series covers, 3/‖A‖.
   double longest() const { return longest_; }
-  /// The two parts δ and τ − δ (s) of a sampling period.
+  /// The length (s) of a part of the sampling period: δ for part 0, τ − δ for part 1.
   const Number& part(std::size_t number) const { return parts_[number]; }
-  /// The number of equal pieces of a part when no contact changes in it; 0: the part is empty.
+  /// The number of equal pieces of a part without change of contact; 0 if the part is empty.
   int pieces(std::size_t part) const { return pieces_[part]; }
   /// The product e^{As} w for each column w of `states`, s being piece(part).
   template <int Columns>
@@ -150,8 +150,8 @@ class EnclosedModes {
   /// The length of each of the pieces(part) equal pieces of a part (s).
   Number piece(std::size_t part) const { return parts_[part] / Number(double(pieces_[part])); }
 
-  /// The guards of a mode for a sign σ of Δż: in the gap its upper end, then its lower end; in
-  /// stick σ a(0), then −σ a(u).
+  /// The guards of a mode for a sign σ of Δż. Engaged: σ Δż. Gap: the distances of Δz from the
+  /// upper end, then from the lower end. Stick: σ a(0), then −σ a(u).
   const Guards& guards(ContactMode mode, double sign) const {
     return guards_[at(mode)][sign > 0.0 ? 1 : 0];
   }
@@ -165,14 +165,14 @@ class EnclosedModes {
   const Row& common_velocity() const { return common_velocity_; }
   /// The functional P z₁ + D ż₁, in the unit of u.
   const Row& command() const { return command_; }
-  /// The forces F and F_s (N) at a sample, constant over it where the excitation is held.
+  /// The forces F and F_s (N) at a sample, constant up to the next sample if the force is held.
   const std::pair<Number, Number>& force(std::size_t sample) const {
     return forces_[sample % forces_.size()];
   }
   /// The units of [z₁, ż₁, z₂, ż₂, u].
   const Vector<double, 5>& units() const { return in_doubles_; }
 
-  /// The functional that selects one coordinate.
+  /// The functional that selects one coordinate of w.
   static Row unit(Eigen::Index coordinate) {
     Row row = Row::Zero();
     row[coordinate] = Number(1.0);
@@ -202,7 +202,7 @@ class EnclosedModes {
 
   static std::size_t at(ContactMode mode) { return static_cast<std::size_t>(mode); }
 
-  /// The product e^{As} w by one Taylor series; the enclosure widens with that of `length`.
+  /// The product e^{As} w by one Taylor series. A wider `length` gives a wider enclosure.
   template <int Columns>
   Matrix<Number, FlowPlace::size, Columns> by_series(
       ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states,

@@ -27,40 +27,40 @@
 
 namespace holdfast {
 
-/// A theorem, where the outcome is `proved`, on a periodic motion of the sampled loop whose drive
-/// switches between the samples. Exactly one periodic motion of the given period begins in the ball
-/// with the contact of the first state. It lies within the errors of the given states, and all its
-/// multipliers are within the bound. Every motion that begins in this way has the same changes of
-/// contact in the same sampling periods for ever and tends to it. For an orbit that stays inside
-/// its gap all this is stated for motions in that gap.
+/// The proof of a periodic motion of the sampled loop whose drive switches between the samples; a
+/// theorem where the outcome is `proved`. Exactly one periodic motion of the given period begins in
+/// the ball with the contact of the first state. This motion lies within the errors of the given
+/// states, and all its multipliers are within the bound. Every motion that begins in the ball with
+/// that contact has the same contact changes in the same sampling periods for ever and tends to the
+/// periodic motion. An orbit that stays inside its gap is considered in that gap only.
 struct EventOrbitProof {
   OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< result of the proof
   double multiplier_bound = std::numeric_limits<double>::infinity();  ///< bound of all |λ|, < 1
   double displacement_error =
-      std::numeric_limits<double>::infinity();                      ///< bound, displacements (m)
-  double velocity_error = std::numeric_limits<double>::infinity();  ///< bound, velocities (m/s)
+      std::numeric_limits<double>::infinity();  ///< error bound of z₁, z₂ (m)
+  double velocity_error = std::numeric_limits<double>::infinity();  ///< error bound of ż₁, ż₂ (m/s)
   double miss = 0.0;           ///< largest |image of a state − next state|, as a share of extent
-  double instant_error = 0.0;  ///< bound of the error of the recorded instants of change (s)
+  double instant_error = 0.0;  ///< error bound of the recorded instants of contact changes (s)
   /// The inequality with the least ratio of value to error; for `near_surface` the undecided
-  /// one.
+  /// inequality.
   ContactTest nearest;
-  /// Radius of the ball about the first given state (m), in the norm and weights of AttractionBall.
-  /// The ball has only states that the contact allows: without a gap while engaged, with fixed Δz
-  /// and Δż = 0 in stick, without u_{j−1} where δ = 0, and with the orbit's own gap where the orbit
-  /// stays inside. ∞ without backlash.
+  /// Radius (m) of the ball about the first given state, in the norm and weights of AttractionBall;
+  /// ∞ without backlash. The ball contains only states that the contact allows: while engaged there
+  /// is no gap; in stick Δż = 0 and Δz is at the gap's end; where δ = 0 there is no u_{j−1}; an
+  /// orbit that stays inside its gap keeps that gap.
   double radius = 0.0;
 };
 
 namespace detail {
 
-/// The proof of one orbit that switches between the samples, step by step. States are counted in
+/// The proof of one orbit that switches between the samples, step by step. States are in
 /// plant_scaling() units.
 ///
-/// Each sample has an ellipsoid {x̂_j + X_j y, |y| ≤ r_j} about the proposal. All motions in it are
-/// followed to the next sample (EventPassage). D_j, the derivative on the whole ellipsoid, and μ_j,
-/// the difference of the centre's image from the next proposal, give
+/// Each sample has an ellipsoid {x̂_j + X_j y, |y| ≤ r_j} about the proposed state x̂_j. All motions
+/// in it are followed to the next sample (EventPassage). With D_j the derivative of the image on
+/// the ellipsoid and μ_j the difference of the centre's image from x̂_{j+1},
 ///
-///     r_{j+1} = ‖X_{j+1}⁻¹ D_j X_j‖ r_j + |X_{j+1}⁻¹ μ_j|,
+///     r_{j+1} = ‖X_{j+1}⁻¹ D_j X_j‖ r_j + |X_{j+1}⁻¹ μ_j|.
 ///
 /// The period maps the first ellipsoid into itself and contracts there if r_N ≤ r_0 and the product
 /// of the norms is below 1.
@@ -72,8 +72,8 @@ class EventOrbitProver {
 
   /// Proves the motion, without a ball of attraction.
   /// @param log_modulus   ln of the largest multiplier, an estimate
-  /// @param largest_miss  most by which the image of a sample may miss the next one, as a share of
-  ///                      the states' extent
+  /// @param largest_miss  largest allowed difference of a proposed state's image from the next
+  ///                      proposed state, as a share of the states' extent
   EventOrbitProof prove(double log_modulus, double largest_miss) {
     proof_.outcome = OrbitProofOutcome::other_contacts;
     if (!path_.repeats || !path_.is_plain) return proof_;
@@ -124,12 +124,12 @@ class EventOrbitProver {
   /// The ellipsoid at one sample.
   struct Node {
     Matrix<double, 6> axes = Matrix<double, 6>::Identity();     // X
-    Matrix<double, 6> inverse = Matrix<double, 6>::Identity();  // next to X⁻¹
+    Matrix<double, 6> inverse = Matrix<double, 6>::Identity();  // approximately X⁻¹
     Number inverse_error;  // |X⁻¹ w| ≤ |inverse w| times this
   };
   /// The result of following the first ellipsoid over one period.
   struct Turn {
-    bool is_decided;     // every contact is
+    bool is_decided;     // every contact is decided
     double radius;       // r_N
     double contraction;  // the product of the norms
   };
@@ -138,7 +138,7 @@ class EventOrbitProver {
     return sample + 1 == nodes_.size() ? 0 : sample + 1;
   }
 
-  /// Records why a passage was stopped. @return false
+  /// Records the reason for which a passage stopped. @return false
   bool fails(const Passage& passage) {
     proof_.outcome = passage.is_undecided() ? OrbitProofOutcome::near_surface
                                             : OrbitProofOutcome::other_contacts;
@@ -146,7 +146,7 @@ class EventOrbitProver {
     return false;
   }
 
-  /// Computes the derivatives from sample to sample at the proposal, in doubles.
+  /// Computes, in doubles, the derivatives of the maps between successive proposed states.
   bool linearise(double largest_miss, std::vector<Matrix<double, 6>>& maps) {
     Passage passage(modes_, path_, delay_);
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
@@ -161,9 +161,9 @@ class EventOrbitProver {
     return true;
   }
 
-  /// Computes axes X with X Xᵀ = P⁻¹ from forms P in which the maps contract. Ellipsoids for Q = I
-  /// are long in slowly decaying directions and short in quickly forgotten ones; a second pass with
-  /// Q = P⁻¹ makes rounder ellipsoids, which contain larger balls.
+  /// Computes axes X with X Xᵀ = P⁻¹ from the forms P of contracting_forms(). With Q = I,
+  /// ellipsoids are short in directions of slow decay and long in those of fast decay. A second
+  /// pass with Q = P⁻¹ makes them rounder, so that they contain larger balls.
   bool make_axes(const std::vector<Matrix<double, 6>>& maps, double log_modulus) {
     if (!(log_modulus < 0.0)) return false;
     using Form = Matrix<double, 6>;
@@ -194,7 +194,7 @@ class EventOrbitProver {
     return true;
   }
 
-  /// The difference of the centre's image from the proposal of the next sample.
+  /// The difference of the image of the ellipsoid's centre from the proposal of the next sample.
   Six missed(std::size_t sample, const Set& set) const {
     const Passage passage(modes_, path_, delay_);
     const Vector<double, 6> proposed = passage.proposed(after(sample));
@@ -213,7 +213,7 @@ class EventOrbitProver {
     return extent.share_of(most);
   }
 
-  /// Follows the first ellipsoid over one period.
+  /// Follows the ellipsoid of the first sample over one period.
   template <class Look>
   Turn turn(double radius, Passage& passage, const Look& look) const {
     Number contraction(1.0);
@@ -246,7 +246,7 @@ class EventOrbitProver {
     }
   }
 
-  /// Finds the largest first ellipsoid proved to return into itself and the ball inside it.
+  /// Finds the largest first ellipsoid that is proved to return into itself, and a ball inside.
   bool attract(const Vector<double, 6>& weights) {
     if (modes_.guards(ContactMode::engaged, 1.0).empty()) {
       proof_.radius = std::numeric_limits<double>::infinity();
@@ -313,15 +313,15 @@ class EventOrbitProver {
 ///     const EventOrbitProof proof = prove_event_orbit(loop, *found.orbit, *found.point);
 ///     if (proof.outcome == OrbitProofOutcome::proved) use(proof.radius);
 ///
-/// The drive's law is exact play (contact/contact.hpp). Every instant of change is enclosed and
-/// shown to be the only one of its guard; every other guard is shown to be positive in between, by
-/// Taylor series with enclosed coefficients.
+/// The drive's law is exact play (contact/contact.hpp). Every instant of a contact change is
+/// enclosed and shown to be the only zero of its guard; all other guards are shown to be positive
+/// in between, by Taylor series with enclosed coefficients.
 /// @param loop          the loop, its numbers in doubles
-/// @param orbit         the proposal: its period and multipliers are used
+/// @param orbit         the proposal: its states, period and multipliers are used
 /// @param first         state at which the orbit begins, at phase 0 of the forcing
-/// @param largest_miss  most by which the image of a state may miss the next one, as a share of the
-///                      states' extent; with more the proposal is refused
-/// @throws InvalidParameter where the loop is not admissible, or the orbit not one of its samples
+/// @param largest_miss  largest allowed difference of a given state's image from the next one, as a
+///                      share of the states' extent; beyond it the proposal is refused
+/// @throws InvalidParameter for a loop that is not admissible or an orbit of wrong p/q or length
 /// Work: some twenty passages of the period, each 0.1 ms per sample and 1 ms per change of contact.
 template <class Scalar>
 EventOrbitProof prove_event_orbit(const IdealLoop<Scalar>& loop, const EventOrbit& orbit,
@@ -331,7 +331,7 @@ EventOrbitProof prove_event_orbit(const IdealLoop<Scalar>& loop, const EventOrbi
   const std::int64_t samples = orbit.period_samples(), q = orbit.ratio.denominator;
   if (samples <= 0 || samples % q != 0 || first.phase != 0 || orbit.multipliers.empty())
     throw InvalidParameter("samples of the orbit", static_cast<double>(samples), "",
-                           "a multiple of the q of p/q, from phase 0, with a multiplier");
+                           "a multiple of q (f tau = p/q), from phase 0, with known multipliers");
   detail::validate_ratio(loop, orbit.ratio);
   ImplementedLoop switching = implemented_loop(loop);
   switching.switching = Switching::exact;

@@ -17,13 +17,13 @@
 
 namespace holdfast {
 
-/// One strict inequality that the contact between the samples rests on: the least value of a guard,
-/// or of its first derivative that does not vanish identically.
+/// A strict inequality on which the proof of the contacts rests: the least value of a guard, or of
+/// its first derivative that does not vanish identically, exceeds zero.
 struct ContactTest {
   ContactSurface surface = ContactSurface::reversal;  ///< surface of the guard
   int order = 0;             ///< order of the time derivative: 0 the guard itself, 1 its rate, …
-  std::int64_t sample = -1;  ///< j, from the orbit's first sample; −1: there is none
-  double instant = 0.0;      ///< instant after that sample (s)
+  std::int64_t sample = -1;  ///< sample j, counted from the orbit's first; −1: no test
+  double instant = 0.0;      ///< time since that sample (s)
   double distance = std::numeric_limits<double>::infinity();  ///< value (SI), > 0 in a proof
   double error = 0.0;                                         ///< bound of the value's error
 
@@ -37,9 +37,9 @@ namespace detail {
 /// of contact and proves that no other change occurs.
 ///
 /// Just after a change of contact the motion is still close to an end of its gap. The ball at the
-/// next sample then extends beyond that end, although no motion does. Therefore the set carried on
-/// from the previous sample, the witness, is kept to decide the guards as long as needed; each
-/// motion is in both sets.
+/// next sample then extends beyond that end, although no motion does. Therefore the guards are also
+/// decided with a second set, the witness, as long as needed: the set carried on from the previous
+/// sample. Each motion is in both sets.
 template <class Number>
 class EventPassage {
  public:
@@ -60,7 +60,7 @@ class EventPassage {
     if (!is_late()) state[4] = 0.0;
     return state;
   }
-  /// The ball {proposed + axes · y, |y| ≤ radius} at a sample, as far as the contact allows.
+  /// The ball {proposed + axes · y, |y| ≤ radius} at a sample, with the constraints of the contact.
   Set ball(std::size_t sample, const Matrix<double, 6>& axes, double radius) const {
     Set set;
     set.radius = radius;
@@ -72,11 +72,11 @@ class EventPassage {
     prepare(path_.samples[sample].before.mode, set);
     return set;
   }
-  /// The place in w of a coordinate of [z₁, ż₁, z₂, ż₂, u_{j−1}, g].
+  /// The position in w (FlowPlace) of a coordinate of [z₁, ż₁, z₂, ż₂, u_{j−1}, g].
   static Eigen::Index place(Eigen::Index coordinate) {
     return coordinate == 5 ? FlowPlace::gap : coordinate;
   }
-  /// The derivative of the six coordinates [z₁, ż₁, z₂, ż₂, u_{j−1}, g] with respect to y.
+  /// The derivative of [z₁, ż₁, z₂, ż₂, u_{j−1}, g] with respect to the position y in the ball.
   static Deviations deviations(const Set& set) {
     Deviations all;
     for (Eigen::Index i = 0; i < 6; ++i) all.row(i) = set.spread.row(place(i));
@@ -112,10 +112,10 @@ class EventPassage {
 
   /// The inequality with the least ratio of value to error so far, or the undecided one.
   const ContactTest& nearest() const { return nearest_; }
-  /// Whether `nearest()` is undecided; otherwise a set was stopped by a sequence of contacts that
-  /// the law excludes.
+  /// Whether a set was stopped at an undecided inequality, `nearest()`. Otherwise it was stopped by
+  /// a sequence of contacts that the law excludes.
   bool is_undecided() const { return is_undecided_; }
-  /// An upper bound of the distance of any instant of change from the recorded one (s).
+  /// An upper bound of the error of every recorded instant of contact change (s).
   double instant_error() const { return instant_error_; }
 
  private:
@@ -124,8 +124,8 @@ class EventPassage {
 
   bool is_late() const { return delay_ > 0.0; }
   const typename Modes::Guards& guards() const { return modes_.guards(mode_, sign_); }
-  /// The guard that starts from zero just after a change: that of the end of the gap at which the
-  /// drive reversed.
+  /// The index of the guard that is zero just after a change of contact. In a gap it is the guard
+  /// of the end at which the drive reversed.
   std::size_t own_guard() const { return mode_ == ContactMode::gap && !(sign_ > 0.0) ? 1 : 0; }
   int zeros_of(std::size_t guard) const { return guard == own_guard() ? zeros_ : 0; }
   void begin(const RecordedContact& contact, int zeros) {
@@ -136,7 +136,7 @@ class EventPassage {
     witness_.reset();
   }
 
-  /// Imposes the exact constraints of a contact: Δż = 0 and Δz = g in stick, no g while engaged.
+  /// Imposes the exact constraints of a contact: Δż = 0 and Δz = g in stick, g = 0 if engaged.
   void constrain(ContactMode mode, Set& set) const {
     if (mode == ContactMode::stick) {
       set.assign(3, Modes::unit(1));
@@ -145,15 +145,15 @@ class EventPassage {
     if (mode == ContactMode::engaged) set.assign(FlowPlace::gap, Number());
   }
 
-  /// Imposes the further constraints at a sample: u_{j−1} is dropped where u_j is in force at once,
-  /// and a gap that is never left is fixed.
+  /// Imposes all constraints at a sample, also these: u_{j−1} is set to 0 where u_j acts at once (δ
+  /// = 0), and a gap that is never left is fixed.
   void prepare(ContactMode mode, Set& set) const {
     constrain(mode, set);
     if (!moves_gap_) set.spread.row(FlowPlace::gap).setZero();
     if (!is_late()) set.assign(FlowPlace::command, Number());
   }
 
-  /// Computes the command decided at a sample, and sets the force and the time there.
+  /// Computes the command of a sample, and sets the force and the time to those of the sample.
   void take_command(Set& set) const {
     set.assign(FlowPlace::pending, modes_.command());
     if (!is_late()) set.assign(FlowPlace::command, Modes::unit(FlowPlace::pending));
@@ -169,7 +169,7 @@ class EventPassage {
     if (witness_) prepare(mode_, *witness_);
   }
 
-  /// Applies a jump of the command or the force; only stick may end by it.
+  /// Applies a jump of the command or the force. Only stick may end by such a jump.
   bool jump(const RecordedContact& to, Set& set) {
     if (to.mode == mode_) return true;
     if (mode_ != ContactMode::stick || to.sign != sign_) return false;
@@ -199,7 +199,7 @@ class EventPassage {
     return changed ? pass_to_clock(end, set) : pass_whole(part, set);
   }
 
-  /// Moves the set over a part of the period without change of contact.
+  /// Moves the set over one part of a sampling period, δ or τ − δ, without change of contact.
   bool pass_whole(std::size_t part, Set& set) {
     const Number length = modes_.piece(part);
     for (int count = 0; count < modes_.pieces(part); ++count) {
@@ -214,7 +214,7 @@ class EventPassage {
     return true;
   }
 
-  /// Moves the set over a length of time that is the same for all its motions.
+  /// Moves the set over a length of time (s) that is the same for all its motions.
   bool pass_piece(const Number& length, Set& set) {
     if (!stays_positive(set, length.upper(), guards().size())) return false;
     flow(length, set);
@@ -284,8 +284,8 @@ class EventPassage {
   }
 
   /// Moves the set to a surface h w = 0 that all motions meet after a time s in `length`, the
-  /// centre after `centre_length`. With the set's spread D and f⁻ = A⁻w at the surface, the points
-  /// of meeting have the derivative (I − f⁻ h/(h f⁻)) e^{A⁻s} D with respect to y.
+  /// centre after `centre_length`. With the spread D of the set, the matrix A⁻ of the ending mode
+  /// and f⁻ = A⁻w, the points of meeting have the derivative (I − f⁻ h/(h f⁻)) e^{A⁻s} D by y.
   void meet(const Row& surface, const Number& centre_length, const Number& length,
             ContactMode after, Set& set) {
     Set there = set;
@@ -307,9 +307,9 @@ class EventPassage {
     set.is_apart = true;
   }
 
-  /// The saltation S = R + (f⁺ − R f⁻) h/(h f⁻) for all motions that meet a surface, R being the
-  /// matrix that sets g. Where stick begins, S conserves momentum and makes Δż vanish, whatever the
-  /// accelerations are; where stick ends at a surface, f⁺ = f⁻.
+  /// The saltation S = R + (f⁺ − R f⁻) h/(h f⁻) for all motions that meet a surface, f⁻ and f⁺
+  /// being ẇ before and after, and R the matrix that sets g. Where stick begins, S conserves
+  /// momentum and makes Δż vanish at any acceleration; where stick ends at a surface, f⁺ = f⁻.
   typename Modes::Rate saltation(const Row& surface, ContactMode after, const Set& there) const {
     using Rate = typename Modes::Rate;
     Rate result = Rate::Identity();
@@ -327,12 +327,12 @@ class EventPassage {
   }
 
   /// The derivative at one instant, transported by the flow back to the instant of the centre, for
-  /// motions that change their contact δ later, |δ| ≤ apart:
+  /// motions that change their contact a time δ after the centre, |δ| ≤ apart:
   ///
   ///     e^{−A⁺δ} S e^{A⁻δ} = S + δ (S A⁻ − A⁺S)
   ///                          + δ²/2 e^{−A⁺δ'} (A⁺²S − 2 A⁺S A⁻ + S A⁻²) e^{A⁻δ'},
   ///
-  /// The common part of S A⁻ and A⁺S cancels.
+  /// where δ' lies between 0 and δ. The common part of S A⁻ and A⁺S cancels.
   /// @param together  derivative at the instant of the centre, before the change
   typename Set::Spread carried_across(const typename Modes::Rate& saltation, ContactMode after,
                                       const typename Set::Spread& together, double apart) const {
@@ -404,7 +404,7 @@ class EventPassage {
     return true;
   }
 
-  /// Records local minima of a positive guard: at turning points, and in stick at its beginning.
+  /// Records local minima of a positive guard: at turning points, and at the beginning of stick.
   void note_minima(std::size_t guard, const Series& series, double from, double end, double now) {
     const ContactSurface surface = guards()[guard].surface;
     const auto slope = [&](double s) { return series.slope(Number(s)).middle(); };

@@ -17,13 +17,13 @@ namespace holdfast::detail {
 ///
 ///     g(s) = Σ_{k<m} c_k sᵏ + c_m sᵐ,   c_k = h Aᵏ w/k!,
 ///
-/// where c_m encloses the remainder.
+/// where h w is the guard, A the matrix of the mode, and c_m encloses the remainder.
 template <class Number>
 class GuardSeries {
  public:
   /// @param guard  guard of the mode in which the set moves
   /// @param set    set of the motions' states
-  /// @param terms  number m, EnclosedModes::terms_for() of the length considered
+  /// @param terms  number m, EnclosedModes::terms_for() of the time considered
   GuardSeries(const EnclosedGuard<Number>& guard, const SetOfStates<Number>& set, int terms) {
     double size = 0.0;
     for (Eigen::Index i = 0; i < FlowPlace::size; ++i)

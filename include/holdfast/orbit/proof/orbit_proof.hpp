@@ -24,37 +24,37 @@ enum class OrbitProofOutcome {
   proved,           ///< all statements of the proof are theorems
   not_contracting,  ///< no norms were found in which the maps contract: a multiplier may be ≥ 1
   other_contacts,   ///< the given states lead to other contacts than stated
-  not_closed,       ///< the image of a given state misses the next one by more than rounding
+  not_closed,       ///< the image of a given state misses the next state by more than rounding
   near_surface,     ///< at one sample the contact could not be decided
-  no_ball,          ///< all is proved except a ball of attraction
+  no_ball,          ///< the motion is proved, but no ball of attraction
 };
 
-/// An open interval.
+/// An open interval (from, to).
 struct OpenRange {
   double from = 0.0;                                    ///< lower end
   double to = std::numeric_limits<double>::infinity();  ///< upper end
 };
 
-/// A theorem, where the outcome is `proved`, on a periodic motion of the sampled loop. The loop has
-/// exactly one periodic motion with the orbit's contacts. It lies within the errors of the given
-/// states, and all its multipliers are within the bound. Every motion that begins in the ball has
-/// the orbit's contacts for ever and tends to the periodic motion.
+/// The proof of a periodic motion of the sampled loop; a theorem where the outcome is `proved`. The
+/// loop has exactly one periodic motion with the orbit's contacts. This motion lies within the
+/// errors of the given states, and all its multipliers are within the bound. Every motion that
+/// begins in the ball has the orbit's contacts for ever and tends to the periodic motion.
 struct OrbitProof {
   OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< result of the proof
   double multiplier_bound = std::numeric_limits<double>::infinity();  ///< bound of all |λ|, < 1
   double displacement_error =
-      std::numeric_limits<double>::infinity();                      ///< bound, displacements (m)
-  double velocity_error = std::numeric_limits<double>::infinity();  ///< bound, velocities (m/s)
-  /// The contact whose distance from its switching surface has the least ratio to the error; for
-  /// `near_surface` the undecided one.
+      std::numeric_limits<double>::infinity();  ///< error bound of z₁, z₂ (m)
+  double velocity_error = std::numeric_limits<double>::infinity();  ///< error bound of ż₁, ż₂ (m/s)
+  /// The contact with the least ratio of distance from its switching surface to error; for
+  /// `near_surface` the undecided contact.
   Border nearest;
-  double decided_by = std::numeric_limits<double>::infinity();  ///< least ratio; > 1 in a proof
-  /// Range of r₀ (m) for which the loop, otherwise unchanged, has this same motion. For an orbit
-  /// that stays inside its gap: the r₀ for which some position of the gap contains the orbit.
+  double decided_by = std::numeric_limits<double>::infinity();  ///< distance/error, > 1 if proved
+  /// Range of r₀ (m) for which the otherwise unchanged loop has the same motion. For an orbit that
+  /// stays inside its gap: the r₀ for which some position of the gap contains the orbit.
   OpenRange widths;
   /// Radius (m) of the ball of attraction about the first given state, in the norm and weights of
-  /// AttractionBall. For an orbit that stays inside its gap, the ball of motions that are in the
-  /// same gap; ∞ without backlash.
+  /// AttractionBall. If the orbit stays inside its gap, the ball has only motions in that gap. The
+  /// radius is ∞ without backlash.
   double radius = 0.0;
 };
 
@@ -68,7 +68,7 @@ inline void validate_ratio(const IdealLoop<double>& loop, const Rational& ratio)
   if (!(cycles * Enclosure(static_cast<double>(ratio.denominator)))
            .contains(static_cast<double>(ratio.numerator)))
     throw InvalidParameter("f tau", cycles.middle(), "",
-                           "exactly the p/q of the orbit, with f and tau as written in decimals");
+                           "equal to p/q of the orbit, f and tau taken as exact decimals");
 }
 
 /// Rejects an orbit whose length is no multiple of q, or a loop whose f τ is not the orbit's p/q.
@@ -77,15 +77,15 @@ inline void validate_proposal(const IdealLoop<double>& loop, const PeriodicOrbit
   const bool is_whole = samples > 0 && q > 0 && samples % q == 0;
   if (!is_whole || orbit.itinerary.size() != orbit.states.size() || orbit.multipliers.empty())
     throw InvalidParameter("samples of the orbit", static_cast<double>(samples), "",
-                           "a multiple of the q of p/q, one contact a sample, with a multiplier");
+                           "a multiple of q (f tau = p/q), with one contact each and multipliers");
   validate_ratio(loop, orbit.ratio);
 }
 
-/// The proof of one orbit, step by step. States are counted in plant_scaling() units.
+/// The proof of one orbit, step by step. States are in plant_scaling() units.
 template <class Number>
 class OrbitProver {
  public:
-  /// @param first, last  z̃_j proposed for the loops at the ends of the segment
+  /// @param first, last  proposed states z̃_j of the orbit of the loop at either end of the segment
   /// @param orbit        orbit of a loop in between
   OrbitProver(const SegmentOfLoops<Number>& loops, const PeriodicOrbit& orbit,
               const std::vector<Vector<double, 5>>& first,
@@ -100,7 +100,7 @@ class OrbitProver {
                          (last[j] - first[j]).cwiseProduct(per_unit)});
   }
 
-  /// Proves that every loop has the orbit, and bounds its distance from the proposal.
+  /// Proves that every loop has the orbit, and bounds the distance of the orbit from the proposal.
   OrbitProof prove(double largest_miss) {
     proof_.outcome = OrbitProofOutcome::not_contracting;
     norms_ = ContractingNorms<5>::of(loops_.ends(), orbit_.itinerary,
@@ -135,7 +135,7 @@ class OrbitProver {
   }
 
   /// The difference of a state's image from the next proposal, on the whole segment. It is
-  /// quadratic in the position, since maps and states are linear.
+  /// quadratic in the position s along the segment, since maps and states are linear in s.
   State missed_at(std::size_t sample) const {
     const auto& map = loops_.map(orbit_.itinerary[sample]);
     const auto addition = loops_.addition(sample);
@@ -152,8 +152,8 @@ class OrbitProver {
     return constant + linear * s + quadratic * square(s);
   }
 
-  /// Bounds the distance of the motion from the proposal in the norms: the differences of images
-  /// and proposals are propagated along the period and once around.
+  /// Bounds the distance of the motion from the proposal, in the norms. The differences of images
+  /// from proposals are summed over a period, each contracted by the maps that follow.
   /// @return the largest of these differences, as a share of the states' extent
   double enclose() {
     const StateScale extent(orbit_.states);
@@ -193,7 +193,7 @@ class OrbitProver {
   }
   static void keep_most(double& most, double value) { most = std::max(most, value); }
 
-  /// The difference Δz (m) or Δż (units) of the motion, without its error.
+  /// The proposed Δz (m) or Δż (in the unit of ż) at a sample, without the error of the proposal.
   AlongSegment<Number> relative(std::size_t sample, bool of_velocity) const {
     const Eigen::Index first = of_velocity ? 1 : 0;
     const auto& [centre, slope] = states_[sample];
@@ -205,7 +205,7 @@ class OrbitProver {
   }
   static Number around_zero(double error) { return {-error, error}; }
 
-  /// The value that a test requires to be positive (m, or units of velocity), for a width r₀.
+  /// The value that a test requires to be positive, for given r₀; in m, for Δż in the unit of ż.
   Number value_of(const SwitchingTest& test, const AlongSegment<Number>& width) const {
     const std::size_t here = wrapped(test.sample), entry = wrapped(test.entry);
     const Number sign(test.sign), widths(test.widths);
@@ -232,7 +232,7 @@ class OrbitProver {
     return std::all_of(contacts.begin(), contacts.end(), [](auto contact) { return contact != 0; });
   }
 
-  /// Whether every contact is proved to be that of the pattern.
+  /// Whether every contact is proved to equal the contact of the pattern.
   bool decide() {
     if (!loops_.has_backlash()) return is_engaged_throughout();
     if (pattern_.stays_inside()) return decide_inside();
@@ -353,16 +353,16 @@ class OrbitProver {
 /// Proves a periodic motion of the sampled loop, or reports what remained undecided. The loop's
 /// numbers are the decimals nearest to the given doubles, and f τ is exactly p/q.
 ///
-/// The maps of the samples and the force's contributions are enclosed. Norms in which the maps
-/// contract along the sequence are proved (ContractingNorms), so that the affine sequence has one
-/// periodic motion, and the closure errors of the given states bound their distance from it. Each
-/// sample's contact is then a strict inequality (SwitchingTest). Deviations are followed with all
-/// errors until they are shorter than at the beginning, which gives the ball of attraction.
+/// The maps of the samples and the force's contributions are enclosed. The maps are proved to
+/// contract along the sequence (ContractingNorms). Hence this affine sequence has one periodic
+/// motion, and the closure errors of the given states bound their distance from that motion. Each
+/// contact is then a strict inequality (SwitchingTest). For the ball of attraction, deviations are
+/// propagated, with all errors, until they are shorter than at the beginning.
 /// @param loop           the loop, its numbers in doubles
 /// @param orbit          the proposal: its states and contacts are used
-/// @param largest_miss   most by which the image of a state may miss the next one, as a share of
-///                       the states' extent; with more the proposal is refused
-/// @throws InvalidParameter where the loop is not admissible, or the orbit not one of its samples
+/// @param largest_miss   largest allowed difference of a given state's image from the next one, as
+///                       a share of the states' extent; beyond it the proposal is refused
+/// @throws InvalidParameter for a loop that is not admissible or an orbit of wrong p/q or length
 /// Work: about 30 µs per sample, and 20 µs per sample until the deviations have become shorter.
 template <class Scalar>
 OrbitProof prove_orbit(const IdealLoop<Scalar>& loop, const PeriodicOrbit& orbit,

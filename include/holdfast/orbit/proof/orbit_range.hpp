@@ -18,7 +18,7 @@ namespace holdfast {
 struct ProvedOrbitRange {
   double from;       ///< least value
   double to;         ///< largest value
-  OrbitProof proof;  ///< `proved`: every loop of the range has the motion; no ball is computed
+  OrbitProof proof;  ///< proof, without a ball; if `proved`, every loop of the range has the motion
 };
 
 namespace detail {
@@ -63,18 +63,18 @@ OrbitProof proof_between(const Family& family, const PeriodicOrbit& orbit, Scala
 
 }  // namespace detail
 
-/// Proves that the loop has an orbit for all values of a parameter, range by range: a range that is
-/// not proved is halved, down to the given width.
+/// Proves that a loop has an orbit for all values of a parameter, range by range. A range that is
+/// not proved is halved, down to the width `narrowest`.
 ///
 /// The proposed states are linear in the parameter between the ends of a range, as the maps are. So
-/// their error is quadratic in the length of the range, and ranges can be wide.
+/// the states' error is quadratic in the length of the range, and ranges can be wide.
 /// @param family    parameter ↦ IdealLoop<double>, in which P, D, F_m and r₀ are linear and nothing
 ///                  else differs
 /// @param orbit     orbit of a loop of the family; its itinerary is proved
 /// @param from, to  ends of the parameter's range, finite, from < to
-/// @param narrowest least width of a range as a share of to − from, 0 < … ≤ 1
+/// @param narrowest least width of a range as a share of to − from, 10⁻⁹ … 1
 /// @return ranges in ascending order; neighbours of equal outcome are joined into one
-/// @throws InvalidParameter where an argument is not admissible or the loops differ elsewhere
+/// @throws InvalidParameter where an argument is not admissible or the loops differ in other data
 template <class Family, class Scalar = double>
 std::vector<ProvedOrbitRange> prove_orbit_along(const Family& family, const PeriodicOrbit& orbit,
                                                 Scalar from, Scalar to, double narrowest = 1e-3) {

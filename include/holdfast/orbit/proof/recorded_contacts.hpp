@@ -29,17 +29,17 @@ struct RecordedSwitch {
 
 /// One sample of a motion in doubles, with the changes of contact until the next sample.
 struct RecordedSample {
-  Vector<double, 6> state;  ///< [z₁, ż₁, z₂, ż₂, u_{j−1}, g], SI; g = 0 while engaged
-  RecordedContact before;   ///< contact up to the sample
-  RecordedContact from;     ///< contact from the sample on
-  std::vector<RecordedSwitch> switches;  ///< changes up to the next sample
+  Vector<double, 6> state;  ///< [z₁, ż₁, z₂, ż₂, u_{j−1}, g], SI; g (FlowPlace) is 0 while engaged
+  RecordedContact before;                ///< contact before the sample
+  RecordedContact from;                  ///< contact after the sample
+  std::vector<RecordedSwitch> switches;  ///< changes before the next sample
 };
 
 /// A period of a motion that switches between the samples, recorded as the proposal of a proof.
 struct RecordedContacts {
   std::vector<RecordedSample> samples;  ///< the N samples of the period
-  bool repeats = false;                 ///< the contact at the end equals that at the beginning
-  bool is_plain = false;                ///< no guard is only touched, no changes accumulate
+  bool repeats = false;                 ///< whether the contact at the end equals that at the start
+  bool is_plain = false;  ///< whether every guard at 0 crosses 0, and no changes accumulate
 
   /// Whether the drive changes its contact at all.
   bool switches() const {

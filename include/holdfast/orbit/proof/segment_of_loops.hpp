@@ -15,7 +15,7 @@
 
 namespace holdfast {
 
-/// The loop whose numbers are the decimals nearest to the given doubles, with f τ exactly p/q.
+/// The loop in enclosures: its numbers are the decimals nearest to the given doubles.
 /// @throws InvalidParameter where the loop is not admissible
 inline IdealLoop<Enclosure> enclosed(const IdealLoop<double>& loop) {
   validate(loop);
@@ -37,13 +37,13 @@ struct AlongSegment {
 };
 
 /// The segment between two loops that differ only in P, D, F_m and r₀, so that the maps of a sample
-/// are linear along it. It holds the maps, forces and widths of these loops in plant_scaling()
-/// units. A single loop is a segment without length.
+/// are linear along the segment. The class holds the maps, forces and widths of these loops in
+/// plant_scaling() units. A single loop is a segment without length.
 template <class Number>
 class SegmentOfLoops {
  public:
-  using Map = Matrix<Number, 5>;    ///< map of z̃
-  using State = Vector<Number, 5>;  ///< z̃
+  using Map = Matrix<Number, 5>;    ///< map of z̃ over a sample
+  using State = Vector<Number, 5>;  ///< state z̃ = [z; u_{j−1}]
 
   SegmentOfLoops(const IdealLoop<Number>& first, const IdealLoop<Number>& last,
                  const Rational& ratio)
@@ -57,14 +57,14 @@ class SegmentOfLoops {
     widths_ = {loop.backlash_width, Number()};
   }
 
-  /// The position s on the segment, from −1/2 to 1/2.
+  /// The interval of all positions s on the segment, −1/2 … 1/2.
   static Number position() { return {-0.5, 0.5}; }
 
   /// The maps S* and S at both ends of the segment, or of the single loop.
   const std::vector<std::array<Map, 2>>& ends() const { return ends_; }
-  /// The map S for `engaged` = 1, the map S* in the backlash for 0.
+  /// The map S of the engaged drive for `engaged` = 1, or the map S* in the backlash for 0.
   const AlongSegment<Map>& map(std::uint8_t engaged) const { return maps_.at(engaged); }
-  /// The contribution of the excitation in sample j.
+  /// The contribution of the excitation to the state z̃ in sample number `sample`.
   AlongSegment<State> addition(std::size_t sample) const {
     return additions_[sample % additions_.size()];
   }

@@ -6,31 +6,31 @@
 
 namespace holdfast::detail {
 
-/// The set of states that motions from a ball have reached; y is a motion's place in the ball,
+/// The set of states that motions from a ball have reached; y is where a motion began in the ball,
 ///
 ///     w = centre + D y,   |y| ≤ radius,   D one of the matrices in `spread`
 ///
-/// The centre encloses the motion with y = 0. The spread encloses the derivative with respect to y,
-/// on the whole ball, of the point where a motion meets a surface (mean value theorem). Where the
-/// motions meet it at different instants, `at_once` is the derivative at one instant after all of
-/// them, transported by the flow back to the instant of the centre. It includes the saltation
-/// matrix, but not the large displacement along the flow, which cancels.
+/// The centre encloses the motion with y = 0. The spread encloses, on the whole ball, the
+/// derivative by y of the point where a motion meets a surface (mean value theorem). If the motions
+/// meet the surface at different instants, `at_once` is the derivative at one later instant,
+/// transported back by the flow to the instant where the centre meets it. This derivative includes
+/// the saltation matrix, but not the large displacement along the flow, which cancels.
 template <class Number>
 struct SetOfStates {
-  using State = Vector<Number, FlowPlace::size>;      ///< w
-  using Spread = Matrix<Number, FlowPlace::size, 6>;  ///< D
-  using Row = FlowRow<Number>;                        ///< a functional of w
+  using State = Vector<Number, FlowPlace::size>;      ///< state w (FlowPlace)
+  using Spread = Matrix<Number, FlowPlace::size, 6>;  ///< matrix D
+  using Row = FlowRow<Number>;                        ///< row of a functional of w
 
   State centre = State::Zero();     ///< state for y = 0
-  Spread spread = Spread::Zero();   ///< D
+  Spread spread = Spread::Zero();   ///< matrix D
   Spread at_once = Spread::Zero();  ///< derivative at one instant, used where `is_apart`
   bool is_apart = false;            ///< whether the motions met the surface at different instants
   double radius = 0.0;              ///< radius of the ball
 
-  /// The derivative with respect to y at one instant.
+  /// The derivative of w with respect to y at one instant that is common to all motions.
   const Spread& together() const { return is_apart ? at_once : spread; }
 
-  /// The value of a functional at the centre.
+  /// The value of a functional of w at the centre.
   Number at_centre(const Row& row) const { return product(row, centre); }
   /// An upper bound of the deviation of a functional on the ball from its value at the centre.
   Number deviation(const Row& row) const {
@@ -39,25 +39,25 @@ struct SetOfStates {
     for (Eigen::Index k = 0; k < spread.cols(); ++k) sum += square(product(row, spread.col(k)));
     return sqrt(sum) * Number(radius);
   }
-  /// The values of a functional on the whole ball.
+  /// An enclosure of the values of a functional of w on the whole ball.
   Number range(const Row& row) const {
     const double most = deviation(row).upper();
     return at_centre(row) + Number(-most, most);
   }
 
-  /// Makes a coordinate equal to a functional, exactly for every motion, now and later.
+  /// Sets a coordinate of w to a functional of w, for every motion, on the surface and afterwards.
   void assign(Eigen::Index coordinate, const Row& row) {
     assign_where_met(coordinate, row);
     if (is_apart) at_once.row(coordinate) = (row * at_once).eval();
   }
-  /// Makes a coordinate equal to a functional at the points where the motions met the surface.
+  /// Sets a coordinate of w to a functional of w at the points where the motions met the surface.
   void assign_where_met(Eigen::Index coordinate, const Row& row) {
     const Number value = at_centre(row);
     const RowVector<Number, 6> change = row * spread;
     centre[coordinate] = value;
     spread.row(coordinate) = change;
   }
-  /// Makes a coordinate equal to one value.
+  /// Sets a coordinate of w to the same value for all motions.
   void assign(Eigen::Index coordinate, const Number& value) {
     centre[coordinate] = value;
     spread.row(coordinate).setZero();

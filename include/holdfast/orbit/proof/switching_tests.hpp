@@ -8,16 +8,16 @@
 
 namespace holdfast {
 
-/// One strict inequality that a sample's contact rests on,
+/// A strict inequality on which the contact at sample j rests,
 ///
 ///     sign · Δż_j > 0   or   sign · (Δz_j − Δz_k) + widths · r₀ > 0,
 ///
 /// where k is the sample at which the drive entered the gap that it is in at sample j.
 struct SwitchingTest {
   std::int64_t sample;       ///< sample j, counted from the first sample of the period
-  std::int64_t entry;        ///< sample k, negative in the period before; unused for a reversal
-  SwitchingSurface surface;  ///< surface that is tested
-  int sign;                  ///< 1 or −1
+  std::int64_t entry;        ///< sample k, negative in the previous period; unused for a reversal
+  SwitchingSurface surface;  ///< switching surface whose distance is tested
+  int sign;                  ///< sign of the inequality: 1 or −1
   int widths;                ///< coefficient of r₀: −1, 0 or 1
 
   /// Whether the inequality concerns Δż.
@@ -27,7 +27,7 @@ struct SwitchingTest {
 namespace detail {
 
 /// Appends the tests of a sample in a gap that was entered at sample k: the gap is [Δz_k − r₀,
-/// Δz_k] where Δż > 0 before it, [Δz_k, Δz_k + r₀] where Δż < 0.
+/// Δz_k] if Δż > 0 just before sample k, [Δz_k, Δz_k + r₀] if Δż < 0.
 inline void append_gap_tests(const ContactDecision& decision, std::int64_t sample,
                              std::int64_t entry, bool from_positive,
                              std::vector<SwitchingTest>& tests) {
@@ -41,8 +41,8 @@ inline void append_gap_tests(const ContactDecision& decision, std::int64_t sampl
 
 }  // namespace detail
 
-/// Whether the drive, at every sample before which it is engaged, enters a gap exactly if Δż has
-/// changed its sign since the sample before.
+/// Whether, at every sample before which the drive is engaged, the drive enters a gap exactly if Δż
+/// has changed its sign since the previous sample.
 inline bool enters_at_reversals(const SwitchingPattern& pattern) {
   const auto& all = pattern.decisions;
   for (std::size_t j = 0; j < all.size(); ++j) {
@@ -55,7 +55,7 @@ inline bool enters_at_reversals(const SwitchingPattern& pattern) {
 
 /// The inequalities of one period in the order of the samples. If all are true, a periodic motion
 /// with these Δz and Δż has the pattern's contacts for ever.
-/// @param pattern  a pattern that repeats, does not stay inside, and enters at reversals
+/// @param pattern  pattern that repeats, does not stay in the gap, and enters_at_reversals()
 inline std::vector<SwitchingTest> switching_tests(const SwitchingPattern& pattern) {
   std::vector<SwitchingTest> tests;
   const auto samples = static_cast<std::int64_t>(pattern.decisions.size());

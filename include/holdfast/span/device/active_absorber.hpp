@@ -12,9 +12,9 @@ namespace holdfast {
 
 /// The absorber with its computer as a device on a span.
 struct ActiveAbsorber {
-  Absorber<double> absorber;   ///< with its clamp
-  Sampling<double> sampling;   ///< τ and δ
-  PdGains<double> gains;       ///< P and D
+  Absorber<double> absorber;   ///< absorber with its clamp
+  Sampling<double> sampling;   ///< sampling period τ and processing delay δ
+  PdGains<double> gains;       ///< gains P and D
   LoopHardware hardware = {};  ///< measurement filter and drive
 };
 

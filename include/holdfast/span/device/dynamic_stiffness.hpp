@@ -10,11 +10,11 @@ namespace holdfast {
 
 /// The dynamic stiffness of a device, K = s Z (N/m), with its derivative by s.
 struct DynamicStiffness {
-  std::complex<double> value;  ///< K
-  std::complex<double> slope;  ///< dK/ds
+  std::complex<double> value;  ///< dynamic stiffness K (N/m)
+  std::complex<double> slope;  ///< derivative dK/ds (N s/m)
 };
 
-/// The values of K and dK/ds at s for a device of masses, springs, dashpots and inerters.
+/// Dynamic stiffness K and dK/ds at s (1/s) of a device of masses, springs, dashpots and inerters.
 inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
                                           const std::complex<double>& s) {
   DynamicStiffness sum{device.clamp_mass * s * s, 2.0 * device.clamp_mass * s};
@@ -36,7 +36,7 @@ inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
   return sum;
 }
 
-/// The eigenvalues (1/s) other than zero of a device on a fixed clamp, one of each conjugate pair.
+/// Nonzero eigenvalues (1/s) of a device on a fixed clamp, one of each conjugate pair.
 inline std::vector<std::complex<double>> own_motions(const LumpedDevice& device) {
   std::vector<std::complex<double>> motions;
   for (const DeviceBranch& branch : device.branches) {

@@ -13,10 +13,10 @@ namespace holdfast {
 
 /// A dashpot, a spring and an inerter in parallel between the conductor and a mass or the ground.
 struct DeviceBranch {
-  double damping = 0.0;    ///< c (N s/m), ≥ 0
-  double stiffness = 0.0;  ///< k (N/m), of either sign
-  double inertance = 0.0;  ///< b (kg), ≥ 0: force over the difference of accelerations
-  /// The mass m (kg), > 0, at the other end; infinity: the ground.
+  double damping = 0.0;    ///< dashpot coefficient c (N s/m), ≥ 0
+  double stiffness = 0.0;  ///< spring stiffness k (N/m), of either sign
+  double inertance = 0.0;  ///< inertance b (kg), ≥ 0: force over the difference of accelerations
+  /// The mass m (kg), > 0, at the branch's end away from the conductor; infinity: the ground.
   double mass = std::numeric_limits<double>::infinity();
 };
 
@@ -37,7 +37,7 @@ inline std::complex<double> impedance(const DeviceBranch& branch, const std::com
 ///     Z(s) = M_c s + Σ 1/(1/(b s + c + k/s) + 1/(m s))
 struct LumpedDevice {
   std::vector<DeviceBranch> branches;  ///< parallel branches
-  double clamp_mass = 0.0;             ///< M_c (kg), ≥ 0
+  double clamp_mass = 0.0;             ///< clamp mass M_c (kg), ≥ 0
 };
 
 /// The impedance Z(s) of the device (N s/m).
@@ -63,26 +63,26 @@ inline void validate(const LumpedDevice& device) {
 
 /// A branch of a mass on a spring and a dashpot, given by its natural frequency and damping ratio
 /// on a fixed clamp.
-/// @param mass           m (kg), > 0
-/// @param frequency      f (Hz), > 0
-/// @param damping_ratio  ζ ≥ 0
+/// @param mass           mass m (kg), > 0
+/// @param frequency      natural frequency f (Hz), > 0
+/// @param damping_ratio  damping ratio ζ ≥ 0
 inline DeviceBranch tuned_branch(double mass, double frequency, double damping_ratio) {
   const double omega = 2.0 * pi<double> * frequency;
   return {2.0 * damping_ratio * mass * omega, mass * omega * omega, 0.0, mass};
 }
 
-/// The data of a Stockbridge damper: two weights on a messenger wire, whose clamp shows two
-/// resonances.
+/// The data of a Stockbridge damper: two weights on a messenger wire. Seen from its clamp, the
+/// damper has two resonances.
 struct StockbridgeData {
   double mass;                           ///< mass of both weights together (kg), > 0
   std::array<double, 2> frequencies;     ///< resonances on a fixed clamp (Hz), ascending
-  std::array<double, 2> damping_ratios;  ///< ζ of these resonances, > 0
+  std::array<double, 2> damping_ratios;  ///< damping ratios ζ of these resonances, > 0
   double mass_share = 0.5;               ///< share of the mass in the lower resonance, 0 … 1
   double clamp_mass = 0.0;               ///< mass of the clamp (kg), ≥ 0
 };
 
 /// A Stockbridge damper by its two resonances, as two parallel branches of a mass on a spring and a
-/// dashpot, one per resonance. Their masses add up to that of the weights.
+/// dashpot, one per resonance. The two masses add up to the mass of the weights.
 /// @throws InvalidParameter where the data are not admissible
 inline LumpedDevice stockbridge(const StockbridgeData& data) {
   require_positive("mass of a Stockbridge damper", data.mass, "kg");

@@ -20,11 +20,11 @@ class MeasuredImpedance {
  public:
   /// A row of the measurement.
   struct Row {
-    double angular_frequency;        ///< ω (rad/s), > 0
-    std::complex<double> impedance;  ///< Z (N s/m), Re Z ≥ 0
+    double angular_frequency;        ///< angular frequency ω (rad/s), > 0
+    std::complex<double> impedance;  ///< impedance Z (N s/m), Re Z ≥ 0
   };
 
-  /// @param rows  at least two, ω ascending
+  /// @param rows  at least two rows with ascending ω
   /// @throws InvalidParameter for one row or none, ω not ascending, Re Z < 0, or values not finite
   explicit MeasuredImpedance(std::vector<Row> rows) : rows_(std::move(rows)) {
     require_within("rows of a measured impedance", static_cast<double>(rows_.size()), "", 2, 1e7);
@@ -64,7 +64,7 @@ class MeasuredImpedance {
   std::vector<Row> rows_;
 };
 
-/// The impedance Z of a measured device at s = iω; for another s the value at ω = |s|, an
+/// Impedance Z (N s/m) of a measured device at s = iω; at any other s the value for ω = |s|, an
 /// approximation for modes that decay by a few per cent per cycle.
 /// @return NaN outside the measured range
 inline std::complex<double> impedance(const MeasuredImpedance& device,

@@ -15,8 +15,8 @@ namespace holdfast {
 
 /// A device clamped on a span.
 struct SpanDevice {
-  double position;  ///< m from the left support, inside the span
-  std::variant<LumpedDevice, MeasuredImpedance, ActiveAbsorber> device;  ///< the device itself
+  double position;  ///< distance (m) from the left support, inside the span
+  std::variant<LumpedDevice, MeasuredImpedance, ActiveAbsorber> device;  ///< data of the device
 
   /// The impedance Z(s), force over velocity of the conductor (N s/m).
   /// @param s  complex frequency (1/s), ≠ 0
@@ -26,7 +26,7 @@ struct SpanDevice {
 };
 
 /// The devices sorted by their positions.
-/// @throws InvalidParameter where one is not inside the span (m)
+/// @throws InvalidParameter where a device is not inside the span (m)
 inline std::vector<SpanDevice> in_order(std::vector<SpanDevice> devices, double span) {
   for (const SpanDevice& device : devices) require_inside_span(device.position, span);
   std::stable_sort(devices.begin(), devices.end(), [](const SpanDevice& a, const SpanDevice& b) {

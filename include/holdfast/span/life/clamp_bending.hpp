@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "holdfast/core/errors.hpp"
-#include "holdfast/core/types.hpp"
 
 namespace holdfast {
 
@@ -13,39 +12,24 @@ namespace holdfast {
 ///
 /// Stress and strain are those of the outermost wire, zero to peak.
 struct ClampBending {
-  double tension;              ///< T (N), > 0
-  double mass_per_length;      ///< m (kg/m), > 0
-  double bending_stiffness;    ///< EI (N m²), > 0: the least value, the sum over the single wires
-  double outer_wire_diameter;  ///< d_a (m), > 0
-  double outer_wire_modulus;   ///< E_a (Pa), > 0
+  double tension;              ///< tension T (N), > 0
+  double bending_stiffness;    ///< least bending stiffness EI (N m²), the sum over all wires, > 0
+  double outer_wire_diameter;  ///< diameter d_a (m) of an outer wire, > 0
+  double outer_wire_modulus;   ///< Young's modulus E_a (Pa) of an outer wire, > 0
 
-  /// The decay constant p (1/m).
+  /// Decay constant p = √(T/EI) (1/m) of the bending near the clamp.
   double decay() const { return std::sqrt(tension / bending_stiffness); }
 
-  /// The strain ε = ½ d_a p θ at the clamp for a slope θ (rad) far from it.
+  /// Strain ε = ½ d_a p θ at the clamp for a slope θ (rad) far from the clamp.
   double strain_of_angle(double angle) const { return 0.5 * outer_wire_diameter * decay() * angle; }
 
   /// The stress σ (Pa) from the bending amplitude: σ = E_a d_a p² Y_b/(4 (e^{−ps} − 1 + ps)).
-  /// @param bending_amplitude  Y_b (m), peak-to-peak, relative to the clamp
-  /// @param place              s (m), distance from the last point of contact; usually 89 mm
+  /// @param bending_amplitude  amplitude Y_b (m), peak-to-peak, relative to the clamp
+  /// @param place              distance s (m) from the last point of contact; usually 89 mm
   double stress_of_bending_amplitude(double bending_amplitude, double place = 0.089) const {
     const double p = decay();
     return outer_wire_modulus * outer_wire_diameter * p * p * bending_amplitude /
            (4.0 * (std::exp(-p * place) - 1.0 + p * place));
-  }
-
-  /// The stress σ (Pa) from frequency and antinode amplitude: σ = π E_a d_a √(m/EI) f y.
-  /// @param frequency  f (Hz)
-  /// @param amplitude  y (m), half the peak-to-peak
-  double stress_of_vibration(double frequency, double amplitude) const {
-    return pi<double> * outer_wire_modulus * outer_wire_diameter *
-           std::sqrt(mass_per_length / bending_stiffness) * frequency * amplitude;
-  }
-
-  /// The bending amplitude Y_b (m) at s = `place` (m) for a slope θ (rad) far from the clamp.
-  double bending_amplitude_of_angle(double angle, double place = 0.089) const {
-    const double p = decay();
-    return 2.0 * angle * (place - (1.0 - std::exp(-p * place)) / p);
   }
 };
 
@@ -53,7 +37,6 @@ struct ClampBending {
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const ClampBending& bending) {
   require_positive("tension", bending.tension, "N");
-  require_positive("mass per length", bending.mass_per_length, "kg/m");
   require_positive("bending stiffness", bending.bending_stiffness, "N m^2");
   require_positive("diameter of the outer wires", bending.outer_wire_diameter, "m");
   require_positive("modulus of the outer wires", bending.outer_wire_modulus, "Pa");

@@ -9,16 +9,16 @@ namespace holdfast {
 
 /// The hours per year of a wind speed.
 struct WindHours {
-  double speed;  ///< U (m/s), > 0
-  double hours;  ///< per year, ≥ 0
+  double speed;  ///< wind speed U (m/s), > 0
+  double hours;  ///< hours per year, ≥ 0
 };
 
 /// The hours per year of wind speeds U with the Weibull distribution P(U > u) = e^{−(u/A)^k}. The
-/// range from `lowest` to `highest` is divided into equal steps, each a row with its middle speed.
-/// @param scale    A (m/s), > 0
-/// @param shape    k, > 0
-/// @param lowest   m/s, ≥ 0
-/// @param highest  m/s, above the lowest
+/// range from `lowest` to `highest` is divided into equal steps, with a row for each middle speed.
+/// @param scale    scale A (m/s), > 0
+/// @param shape    shape exponent k, > 0
+/// @param lowest   lowest wind speed (m/s), ≥ 0
+/// @param highest  highest wind speed (m/s), above the lowest
 /// @param steps    number of steps, 1 … 10⁶
 /// @throws InvalidParameter where an argument is outside its range
 inline std::vector<WindHours> weibull_hours(double scale, double shape, double lowest,
@@ -42,13 +42,13 @@ inline std::vector<WindHours> weibull_hours(double scale, double shape, double l
 
 /// A stress of a conductor with its number of cycles per year.
 struct StressCycles {
-  double stress;  ///< σ (Pa), zero to peak
-  double cycles;  ///< n, per year
+  double stress;  ///< stress σ (Pa), zero to peak
+  double cycles;  ///< number n of cycles per year
 };
 
 /// The damage per year by Miner's rule, Σ n/N(σ). Its inverse is the number of years to the first
 /// broken wire according to the fatigue line N(σ).
-/// @tparam LifeLine  type with `cycles(stress)`, N
+/// @tparam LifeLine  type with `cycles(stress)`, the number N of cycles to failure
 template <class LifeLine>
 double miner_damage(const std::vector<StressCycles>& year, const LifeLine& line) {
   double damage = 0.0;

@@ -16,11 +16,11 @@ namespace holdfast {
 /// At N₀ the two branches have different stresses. For a stress between these two, N is the smaller
 /// of the numbers of cycles that the two branches give.
 struct SafeBorderLine {
-  double steep_stress;     ///< A (MPa)
-  double steep_exponent;   ///< α
-  double flat_stress;      ///< B (MPa)
-  double flat_exponent;    ///< β
-  double change_of_slope;  ///< N₀ (cycles)
+  double steep_stress;     ///< factor A (MPa) of the steep branch
+  double steep_exponent;   ///< exponent α of the steep branch
+  double flat_stress;      ///< factor B (MPa) of the flat branch
+  double flat_exponent;    ///< exponent β of the flat branch
+  double change_of_slope;  ///< number N₀ of cycles where the steep branch ends
 
   /// The number of cycles N that a stress σ (Pa) allows; infinity without stress.
   double cycles(double stress) const {

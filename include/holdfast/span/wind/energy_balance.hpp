@@ -6,7 +6,7 @@
 
 namespace holdfast {
 
-/// The place of the balanced amplitude relative to the range of the wind's law.
+/// Relation of the balanced amplitude to the range of the wind's law.
 enum class BalanceRange {
   within,  ///< within the law's range
   below,   ///< below the law's smallest amplitude, which is returned
@@ -15,7 +15,7 @@ enum class BalanceRange {
 
 /// The amplitude at which the wind's power equals the power losses.
 struct BalancedAmplitude {
-  double amplitude;    ///< y (m), half the peak-to-peak, at the antinodes
+  double amplitude;    ///< amplitude y (m), half the peak-to-peak, at the antinodes
   BalanceRange range;  ///< whether y is the balanced amplitude or only a bound
 };
 
@@ -24,12 +24,12 @@ struct BalancedAmplitude {
 ///
 ///     f³ d⁴ F(y/d) = p(y)
 ///
-/// Above it the losses exceed the wind's power, so that this vibration is stable. It is found by
-/// bisection between the points of a grid, to 10⁻¹² relative.
+/// At larger amplitudes the losses exceed the wind's power, so that this vibration is stable. Its
+/// amplitude is found by bisection between the points of a grid, to a relative 10⁻¹².
 /// @param law        law of the wind's power
-/// @param frequency  f (Hz), > 0
-/// @param diameter   d (m), > 0
-/// @param loss       p: map from an amplitude (m) to the total loss per length (W/m), averaged over
+/// @param frequency  frequency f (Hz), > 0
+/// @param diameter   conductor's diameter d (m), > 0
+/// @param loss       function p from an amplitude (m) to the total loss per length (W/m), mean over
 ///                   the span; NaN makes the result NaN
 /// @throws the exceptions of `loss`
 template <class Loss>

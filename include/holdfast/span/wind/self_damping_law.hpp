@@ -11,10 +11,10 @@ namespace holdfast {
 
 /// The data of a stranded conductor that its self-damping depends on.
 struct StrandedConductor {
-  double mass_per_length;  ///< μ (kg/m), > 0
-  double diameter;         ///< d (m), > 0
-  double rated_strength;   ///< RTS (N), > 0
-  double tension;          ///< T (N), > 0, below RTS
+  double mass_per_length;  ///< mass per length μ (kg/m), > 0
+  double diameter;         ///< diameter d (m), > 0
+  double rated_strength;   ///< rated tensile strength RTS (N), > 0
+  double tension;          ///< tension T (N), > 0, below RTS
 };
 
 /// Rejects data outside the ranges stated at their members.
@@ -35,10 +35,10 @@ inline void validate(const StrandedConductor& conductor) {
 /// with the d of k in mm, RTS and T in kN, μ in kg/m and f in Hz, the units of the fits. The
 /// amplitude y is half the peak-to-peak.
 struct SelfDampingLaw {
-  std::string_view name;      ///< name of its authors
-  double amplitude_exponent;  ///< l
-  double frequency_exponent;  ///< m
-  double tension_exponent;    ///< n
+  std::string_view name;      ///< name of the law's authors
+  double amplitude_exponent;  ///< exponent l of the relative amplitude y/d
+  double frequency_exponent;  ///< exponent m of the frequency f
+  double tension_exponent;    ///< exponent n of the tension T
 
   /// The power P_self per length (W/m) at a frequency (Hz) and an amplitude y (m).
   double power(const StrandedConductor& conductor, double frequency, double amplitude) const {
@@ -50,17 +50,17 @@ struct SelfDampingLaw {
   }
 };
 
-/// The laws of three groups of authors, collected by CIGRE Study Committee 22, Working Group 11.
-/// Extrapolated from different spans and tensions, they differ by a factor of up to 3 at 20 Hz.
+/// Self-damping laws of three groups of authors, collected by CIGRE Study Committee 22, Working
+/// Group 11. Extrapolated from different spans and tensions, the laws differ threefold at 20 Hz.
 inline constexpr std::array<SelfDampingLaw, 3> self_damping_laws = {
     SelfDampingLaw{"noiseux", 2.44, 5.63, 2.76}, SelfDampingLaw{"kraus_hagedorn", 2.47, 5.38, 2.80},
     SelfDampingLaw{"seppa", 2.5, 5.75, 2.8}};
 
 /// The power per length dissipated by a mode's damping ratio ζ: ½ ζ μ ω³ y² (W/m).
-/// @param mass_per_length    μ (kg/m)
-/// @param damping_ratio      ζ
-/// @param angular_frequency  ω (rad/s)
-/// @param amplitude          y (m)
+/// @param mass_per_length    mass per length μ (kg/m)
+/// @param damping_ratio      damping ratio ζ
+/// @param angular_frequency  angular frequency ω (rad/s)
+/// @param amplitude          amplitude y (m) at the antinodes
 inline double damped_power(double mass_per_length, double damping_ratio, double angular_frequency,
                            double amplitude) {
   return 0.5 * damping_ratio * mass_per_length * angular_frequency * angular_frequency *

@@ -16,10 +16,10 @@ namespace holdfast {
 ///
 /// f (Hz) is the frequency, d (m) the diameter and y (m) the amplitude, half the peak-to-peak.
 struct WindPowerLaw {
-  std::string_view name;               ///< name of its authors
-  std::array<double, 8> coefficients;  ///< a_k (W s³/m⁵)
-  double lowest;                       ///< least x of the fit
-  double highest;                      ///< largest x of the fit
+  std::string_view name;               ///< name of the law's authors
+  std::array<double, 8> coefficients;  ///< coefficients a_k (W s³/m⁵) of F
+  double lowest;                       ///< least relative amplitude x = y/d of the fit
+  double highest;                      ///< largest relative amplitude x = y/d of the fit
 
   /// The value of F at x = y/d; NaN outside the range of the fit.
   double at(double x) const {
@@ -29,8 +29,8 @@ struct WindPowerLaw {
     return x * sum;
   }
 
-  /// The power P_wind (W/m) at f (Hz), d (m) and y (m); NaN for y/d outside the range of the fit,
-  /// the ends of which include round-off.
+  /// Power P_wind (W/m) at a frequency f (Hz), diameter d (m) and amplitude y (m); NaN for y/d
+  /// outside the range of the fit, the ends of which include round-off.
   double power(double frequency, double diameter, double amplitude) const {
     double x = amplitude / diameter;
     for (const double end : {lowest, highest})
@@ -39,9 +39,9 @@ struct WindPowerLaw {
   }
 };
 
-/// Two laws fitted to printed curves of measurements; their powers differ by a factor of 1.5 … 2.1.
-/// Rigid cylinders in laminar flow: Diana & Falco, Meccanica 6 (1971). A cylinder with free ends in
-/// a turbulence below 0.5 %: Brika & Laneville, J. Fluid Mech. 250 (1993).
+/// Two wind power laws, fitted to printed curves of measurements. Their powers differ by factors
+/// 1.5 … 2.1. Rigid cylinders in laminar flow: Diana & Falco, Meccanica 6 (1971). Cylinder with
+/// free ends in a turbulence below 0.5 %: Brika & Laneville, J. Fluid Mech. 250 (1993).
 inline constexpr std::array<WindPowerLaw, 2> wind_power_laws = {
     WindPowerLaw{
         "diana_falco",

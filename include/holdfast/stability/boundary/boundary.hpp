@@ -17,17 +17,17 @@ namespace holdfast {
 
 namespace detail {
 
-/// A point of a curve of root pairs: the curve's parameter there and the gains.
+/// Point of a curve of root pairs: the curve's parameter and the gains P and D at this parameter.
 template <class Scalar>
 struct CurvePlace {
   Scalar parameter;
   PdGains<Scalar> gains;  // not finite at a pole
 };
 
-/// A tracer of a curve of root pairs in a range of P, with points as dense as a plot needs.
+/// Tracer of a curve of root pairs over a range of P, with points as dense as a plot needs.
 ///
-/// A piece of the curve is halved until its chord spans at most 1/50 of the range and its quarter
-/// points are within 1/1000 of the chord (`distance`). Pieces outside are left out.
+/// A piece of the curve is halved until its chord spans at most 1/50 of the range and three inner
+/// points are within 0.001 of the chord (`distance`). Pieces outside the range are left out.
 /// @tparam Curve  `BoundaryCurves` or `CircleBoundary`: `gains`, `between` and `angle` as functions
 ///                of a parameter, and `pair_kind`
 template <class Scalar, class Curve>
@@ -36,14 +36,14 @@ class CurveTracer {
   using Place = CurvePlace<Scalar>;
   using Points = std::vector<BoundaryPoint<Scalar>>;
 
-  /// @param curve    must outlive this object
+  /// @param curve    curve to trace; must outlive this object
   /// @param deepest  largest number of successive halvings of a piece
   CurveTracer(const Curve& curve, const Interval<double>& range, int deepest)
       : curve_(curve), range_(range), deepest_(deepest) {}
 
   Place at(const Scalar& parameter) const { return {parameter, curve_.gains(parameter)}; }
 
-  /// Appends the points of the curve from the first to the last of `places`, which ascend.
+  /// Appends the curve's points from the first to the last of `places`, whose parameters ascend.
   void trace(const std::vector<Place>& places, Points& points) const {
     for (std::size_t k = 0; k + 1 < places.size(); ++k) {
       append(places[k], points);
@@ -53,7 +53,7 @@ class CurveTracer {
   }
 
  private:
-  /// Whether P of a place is in the range, with a slack of 10⁻¹² of its width for round-off.
+  /// Whether P of a place is in the range, with a slack of 10⁻¹² of the width for round-off.
   bool in_range(const Place& place) const {
     const Scalar slack = Scalar(1e-12) * width();
     return place.gains.proportional >= Scalar(range_.lower) - slack &&
@@ -84,8 +84,8 @@ class CurveTracer {
 
   Scalar width() const { return Scalar(range_.upper) - Scalar(range_.lower); }
 
-  /// The distance of a point from the chord from `start` to `end`: P in units of the range, D in
-  /// units of |D| at `start` plus |D| at `end`, since a plot's range of D is unknown here.
+  /// The distance of a point from the chord between `start` and `end`. P is in units of the range;
+  /// D is in units of |D| at `start` plus |D| at `end`, since a plot's range of D is unknown here.
   Scalar distance(const PdGains<Scalar>& point, const PdGains<Scalar>& start,
                   const PdGains<Scalar>& end) const {
     const Scalar size = std::abs(start.differential) + std::abs(end.differential);
@@ -100,7 +100,7 @@ class CurveTracer {
     return std::abs(p(end) * d(point) - d(end) * p(point)) / length;
   }
 
-  /// Appends a place that is in the range, finite, and at a larger angle than the last point.
+  /// Appends a place with P in the range, finite D, and a larger angle than the curve's last point.
   void append(const Place& place, Points& points) const {
     if (!std::isfinite(place.gains.differential) || !in_range(place)) return;
     const Scalar angle = curve_.angle(place.parameter);
@@ -116,10 +116,10 @@ class CurveTracer {
   int deepest_;
 };
 
-/// The places at which the curve is cut: the ends of the range of P, the poles, and where P or D is
-/// stationary. Between neighbouring places both gains are monotone, so that no branch is missed.
-/// The first place is at Y = 10⁻¹², Y as in `RootPairCurve`. The last place is at Y = 10¹², or for
-/// the sampled loop at θ = π − 2·10⁻⁶.
+/// Parameters Y (`RootPairCurve`) that divide the curve into parts on which P and D are monotone,
+/// so that no branch is missed: the Y where P is at an end of its range, the poles, and the Y where
+/// P or D is stationary. The first is Y = 10⁻¹²; the last is Y = 10¹², or θ = π − 2·10⁻⁶ in the
+/// sampled loop.
 template <class Scalar, int Degree>
 std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>& curves,
                                            const Interval<double>& range) {
@@ -151,12 +151,12 @@ std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>&
 }  // namespace detail
 
 /// Points of the boundary of stability over a range of P: first the two ends of each line, then the
-/// curve of root pairs by ascending angle. The points of the curve are as dense as its curvature
-/// requires. Those at the ends of the range are exact.
+/// curve of root pairs by ascending angle, as dense as its curvature requires. Points at the ends
+/// of the range are exact.
 ///
-/// Sampled loop (degree 5): λ = +1, λ = −1 and λ = e^{±iθ}. Continuous loop (degree 4): s = 0 and s
-/// = ±iω. A line is absent where no gain moves the root; λ = +1 and s = 0 are absent for the
-/// two-mass plant, whose control force does not move the static equilibrium.
+/// Roots on the boundary: λ = +1, λ = −1 and λ = e^{±iθ} (sampled loop, degree 5), s = 0 and s =
+/// ±iω (continuous loop, degree 4). A line is absent where no gain moves its root. The lines of λ =
+/// +1 and s = 0 are absent for two masses, whose control force does not move the equilibrium.
 /// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
 /// @param range       range of P (N/m), its ends included
 /// @throws InvalidParameter unless range.lower < range.upper, both finite

@@ -14,18 +14,18 @@
 
 namespace holdfast {
 
-/// A straight part of the boundary, on which a real root is at λ = ±1 (continuous loop: s = 0):
+/// Straight line of the stability boundary, with a real root λ = ±1 (continuous loop: s = 0):
 ///
 ///     constant + P · proportional + D · differential = 0
 template <class Scalar>
 struct BoundaryLine {
   BoundaryCurve curve;  ///< `plus_one`, `minus_one` or `zero`
-  Scalar angle;         ///< θ = 0 or π (rad); ω = 0 (rad/s) for the continuous loop
-  Scalar constant;      ///< value of the polynomial at the root without control
-  Scalar proportional;  ///< change of this value per N/m of P; 0 where P does not move the root
-  Scalar differential;  ///< change of this value per N s/m of D; 0 where D does not move the root
+  Scalar angle;         ///< θ of the root, 0 or π (rad); for the continuous loop ω = 0 (rad/s)
+  Scalar constant;      ///< value of the characteristic polynomial without control, at the root
+  Scalar proportional;  ///< change of `constant` per N/m of P; 0 where P does not move the root
+  Scalar differential;  ///< change of `constant` per N s/m of D; 0 where D does not move the root
 
-  /// Whether the line is P = const: D does not move the root.
+  /// Whether the line has constant P, because D does not move its root.
   bool is_vertical() const { return differential == Scalar(0); }
 
   /// The P (N/m) of the line at D (N s/m); infinite where P does not move the root.
@@ -41,7 +41,7 @@ struct BoundaryLine {
 
 namespace detail {
 
-/// Appends the two ends of a line within a range of P; D = ∓∞ where it is vertical.
+/// Appends the two ends of a line within a range of P; a vertical line ends at D = ∓∞.
 template <class Scalar>
 void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<Scalar>& line,
                  const Interval<double>& range) {
@@ -62,11 +62,11 @@ void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<
 }  // namespace detail
 
 /// All curves of the gain plane on which a characteristic root is on the boundary of stability: the
-/// curve of root pairs, parametrised by Y (`RootPairCurve`), and at most two lines.
+/// curve of root pairs, with its parameter Y (`RootPairCurve`), and at most two lines.
 ///
-/// The sampled loop (degree 5) is treated in w, λ = (1 + w)/(1 − w), with Y = tan²(θ/2), the
-/// continuous loop (degree 4) in s with Y = ω². Y is in units of `RootPairCurve::unit()` squared. A
-/// line is left out where no gain moves its root.
+/// In the sampled loop (degree 5) the variable is w, λ = (1 + w)/(1 − w), and roots e^{±iθ} have Y
+/// = tan²(θ/2). In the continuous loop (degree 4) it is s, and roots ±iω have Y = ω². Y is in units
+/// of `RootPairCurve::unit()` squared. A line is left out where no gain moves its root.
 template <class Scalar, int Degree>
 class BoundaryCurves {
  public:
@@ -82,12 +82,12 @@ class BoundaryCurves {
     if (sampled) add_line(polynomial, BoundaryCurve::minus_one, pi<Scalar>, Scalar(-2));
   }
 
-  /// The polynomial in the variable whose stable half-plane is Re < 0.
+  /// The characteristic polynomial in the variable w or s, whose stable half-plane is Re < 0.
   const HalfPlanePolynomial<Scalar, Degree>& polynomial() const { return polynomial_; }
 
-  /// The curve of root pairs, parametrised by Y.
+  /// The curve of root pairs with its parameter Y, see `RootPairCurve`.
   const RootPairCurve<Scalar>& pairs() const { return pairs_; }
-  /// The lines of the boundary, λ = +1 (s = 0) before λ = −1: none, one or two.
+  /// The lines of the boundary (none, one or two): λ = +1 (s = 0) before λ = −1.
   const std::vector<BoundaryLine<Scalar>>& lines() const { return lines_; }
 
   /// The kind of pair on `pairs()`: `complex_pair`, or `imaginary_pair` in the continuous loop.
@@ -95,22 +95,22 @@ class BoundaryCurves {
     return sampled ? BoundaryCurve::complex_pair : BoundaryCurve::imaginary_pair;
   }
 
-  /// The gains at which the loop has the root pair of Y; infinite at a pole of the curve.
+  /// The gains at the parameter Y of the curve of root pairs; infinite at a pole of the curve.
   PdGains<Scalar> gains(const Scalar& square) const { return pairs_.gains(square); }
 
-  /// The geometric mean of two Y.
+  /// A parameter between two parameters Y: their geometric mean.
   static Scalar between(const Scalar& lower, const Scalar& upper) {
     return std::sqrt(lower) * std::sqrt(upper);
   }
 
-  /// The angle θ (rad) of the pair λ = e^{±iθ} for Y, or ω (rad/s) of s = ±iω.
+  /// The angle θ (rad) of the root pair λ = e^{±iθ} at parameter Y, or ω (rad/s) of s = ±iω.
   Scalar angle(const Scalar& square) const {
     const Scalar y = pairs_.root(square);
     return sampled ? Scalar(2) * std::atan(y) : y;
   }
 
  private:
-  /// Half of Fujiwara's bound on the moduli of all roots without control.
+  /// Half of Fujiwara's bound on the moduli of the roots of the polynomial without control.
   static Scalar root_bound(const Polynomial<Scalar, Degree>& base) {
     Scalar largest(0);
     for (int k = 0; k < Degree; ++k) {
@@ -120,9 +120,9 @@ class BoundaryCurves {
     return largest;
   }
 
-  /// Adds the line on which the polynomial vanishes at x. A gain does not move the root if its part
-  /// of the polynomial is round-off at x: at s = 0 below 1e−13 of its largest term, s in units of
-  /// the fastest root; at λ = ±1 below 1e−9, the error of the matrix exponential.
+  /// Adds the line of gains with the root x. A gain is taken not to move this root if its part of
+  /// the polynomial is round-off at x: at λ = ±1 below 1e−9 of the part's largest coefficient, the
+  /// error of the matrix exponential; at s = 0 below 1e−13, with s in units of `root_bound`.
   void add_line(const AffinePolynomial<Scalar, Degree>& polynomial, BoundaryCurve curve,
                 const Scalar& angle, const Scalar& x) {
     const Scalar unit = sampled ? Scalar(1) : root_bound(polynomial.base);

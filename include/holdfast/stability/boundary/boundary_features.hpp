@@ -19,18 +19,18 @@
 
 namespace holdfast {
 
-/// Gains with two different root pairs on the boundary, where the curve intersects itself.
+/// Double Neimark–Sacker point: gains with two root pairs on the boundary (the curve meets itself).
 template <class Scalar>
 struct DoubleNeimarkSacker {
   PdGains<Scalar> gains;  ///< gains P (N/m) and D (N s/m) with both pairs
-  Scalar lower_square;    ///< Y of the slower pair
-  Scalar upper_square;    ///< Y of the faster pair
+  Scalar lower_square;    ///< parameter Y (`RootPairCurve`) of the slower pair
+  Scalar upper_square;    ///< parameter Y of the faster pair
 };
 
 namespace detail {
 
-/// The 3 × 3 matrices that map (1, P, D) to the coefficients of Y⁰, Y¹, Y² of the even and odd
-/// part. Rows and columns are scaled to similar size; `column` has the factors of the columns.
+/// Two 3 × 3 matrices that map (1, P, D) to the coefficients of Y⁰, Y¹, Y² of the polynomial's even
+/// and odd part. Rows and columns are scaled to similar size; `column` holds the columns' factors.
 template <class Scalar>
 struct ParityPencil {
   Matrix<Scalar, 3> even, odd;
@@ -69,7 +69,7 @@ struct ParityPencil {
     return {-mixed(0), mixed(1) + mixed(2) + mixed(4), -mixed(3) - mixed(5) - mixed(6), mixed(7)};
   }
 
-  /// The gains at which the odd part is ν times the even part; not finite where there are none.
+  /// The gains at which the odd part is ν times the even part; not finite if no such gains exist.
   PdGains<Scalar> gains(const Scalar& ratio) const {
     const Matrix<Scalar, 3> matrix = at(ratio);
     Vector<Scalar, 3> null = Vector<Scalar, 3>::Zero();
@@ -85,9 +85,9 @@ struct ParityPencil {
   }
 };
 
-/// The gains with the two roots Y of the even or odd part (that with larger coefficients). Nothing
-/// unless the roots are positive, finite and differ by more than 1e−5 of their sum. Closer roots
-/// form a cusp; a root 0 or ∞, where a coefficient is round-off, is at an `end` or in no pair.
+/// The double point at given gains. Its two Y are the roots of the even or the odd part, whichever
+/// has larger coefficients. `nullopt` unless both are positive, finite and differ by more than 1e−5
+/// of their sum: closer roots form a cusp; a root 0 or ∞ (by round-off) is an `end`, or no pair.
 template <class Scalar>
 std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scalar>& curve,
                                                         const PdGains<Scalar>& gains) {
@@ -118,15 +118,15 @@ std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scal
 
 /// All points at which the curve of root pairs intersects itself: at most three.
 ///
-/// Two pairs ±iy₁, ±iy₂ leave room for one more root (none for degree 4), so that the polynomial is
-/// (1 + νw) e(−w²) with e(Y) ∝ (Y − Y₁)(Y − Y₂): its odd part is ν times its even part, coefficient
-/// by coefficient. Since both parts are linear in (1, P, D) this is a generalised eigenvalue
-/// problem of order 3,
+/// Beside two pairs ±iy₁, ±iy₂ there is one further root (none for degree 4), so that the
+/// polynomial is (1 + νw) e(−w²) with e(Y) ∝ (Y − Y₁)(Y − Y₂). Its odd part is ν times its even
+/// part, coefficient by coefficient. Since both parts are linear in (1, P, D), this is a
+/// generalised eigenvalue problem of order 3,
 ///
 ///     (ν E − O) (1, P, D)ᵀ = 0,   det(ν E − O) = 0
 ///
-/// It has degree 3 in ν, so that no point is missed. Without damping the curve is D = 0, traced
-/// once for each pair: then its double points are not isolated, and the result is empty.
+/// The determinant has degree 3 in ν, so that no point is missed. Without damping each pair passes
+/// along the whole curve D = 0: double points are not isolated, and the result is empty.
 template <class Scalar>
 std::vector<DoubleNeimarkSacker<Scalar>> double_neimark_sacker_points(
     const RootPairCurve<Scalar>& curve) {
@@ -142,7 +142,7 @@ std::vector<DoubleNeimarkSacker<Scalar>> double_neimark_sacker_points(
 
 namespace detail {
 
-/// The search for the features of one set of boundary curves.
+/// Finder of all special points (tangents, cusps, crossings, ends) of a set of boundary curves.
 template <class Scalar, int Degree>
 class FeatureFinder {
  public:
@@ -180,7 +180,7 @@ class FeatureFinder {
     add(kind, pair, pair, gains);
   }
 
-  /// Marks a vertical and a horizontal tangent whose angles differ by at most 1/1000 as near cusps.
+  /// Marks vertical and horizontal tangents as near cusps where their root angles agree to 1/1000.
   void mark_near_cusps() {
     constexpr double near = 1e-3;
     const auto is_near = [](const BoundaryFeature<Scalar>& one,
@@ -197,8 +197,8 @@ class FeatureFinder {
     }
   }
 
-  /// Adds tangents and cusps. A cusp has P and D stationary at the same Y (to 1e−9 of it). Without
-  /// damping one gain is zero on the whole curve, and each extreme of the other is a cusp.
+  /// Adds tangents and cusps. P and D of a cusp are stationary at the same Y, to 1e−9 of it.
+  /// Without damping one gain is zero on the whole curve; each extreme of the other gain is a cusp.
   void add_tangents() {
     const std::vector<Scalar> vertical = pairs_.proportional_extremes();
     std::vector<Scalar> horizontal = pairs_.differential_extremes();
@@ -217,8 +217,8 @@ class FeatureFinder {
     }
   }
 
-  /// Adds the points common to the curve of pairs and a line c + P p + D d = 0: c Δ + p n_P + d n_D
-  /// = 0. The curve begins (Y = 0) or ends (Y = ∞) on the line, so that one outer coefficient is 0.
+  /// Adds the points where the curve P = n_P/Δ, D = n_D/Δ meets a line c + P p + D d = 0: roots Y
+  /// of c Δ + p n_P + d n_D. One outer coefficient is 0, as the curve begins or ends on the line.
   void add_meetings(const BoundaryLine<Scalar>& line) {
     const bool at_infinity = line.curve == BoundaryCurve::minus_one;
     Polynomial<Scalar, 4> on_line = line.constant * pairs_.denominator() +
@@ -295,9 +295,9 @@ class FeatureFinder {
 
 /// The special points of the boundary in a window of gains: tangents, cusps, crossings, ends.
 ///
-/// All are roots of polynomials of degree at most six, so that none is missed. A gain n/Δ is
-/// stationary where n′ Δ = n Δ′. The curve of pairs crosses a line at roots of a polynomial of
-/// degree four in Y, and itself at those of a cubic (`double_neimark_sacker_points`).
+/// All special points are roots of polynomials of degree at most six, so that none is missed. A
+/// gain n/Δ is stationary where n′ Δ = n Δ′. The curve of pairs crosses a line at roots of a
+/// polynomial of degree four in Y, and itself at those of a cubic (`double_neimark_sacker_points`).
 /// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
 /// @param window      window of P (N/m) and D (N s/m), its edges included
 /// @throws InvalidParameter unless the window's ranges are finite and not empty

@@ -6,7 +6,7 @@
 
 namespace holdfast {
 
-/// The kind of a boundary curve, by the value of the characteristic root that crosses there.
+/// Kind of a stability boundary in the gain plane, by the characteristic root on the boundary.
 enum class BoundaryCurve {
   plus_one,  ///< sampled loop: real root λ = +1 (divergence)
   minus_one,  ///< sampled loop: real root λ = −1 (flip: the force alternates from sample to sample)
@@ -17,13 +17,13 @@ enum class BoundaryCurve {
 
 /// The gain that varies while the other one is constant.
 enum class FreeGain {
-  proportional,  ///< P
-  differential,  ///< D
+  proportional,  ///< proportional gain P (N/m)
+  differential,  ///< differential gain D (N s/m)
 };
 
 namespace detail {
 
-/// The free one of two gains.
+/// The value of the gain that is free to vary, P or D.
 template <class Scalar>
 const Scalar& gain_of(const PdGains<Scalar>& gains, FreeGain free) {
   return free == FreeGain::differential ? gains.differential : gains.proportional;
@@ -36,7 +36,7 @@ PdGains<Scalar> with_gain(PdGains<Scalar> gains, FreeGain free, const Scalar& va
   return gains;
 }
 
-/// Validates the constant gain. @throws InvalidParameter where it is not finite
+/// Validates the gain that is kept constant. @throws InvalidParameter where it is not finite
 template <class Scalar>
 void require_held(const PdGains<Scalar>& gains, FreeGain free) {
   const bool by_d = free == FreeGain::differential;
@@ -46,10 +46,10 @@ void require_held(const PdGains<Scalar>& gains, FreeGain free) {
 
 }  // namespace detail
 
-/// One point of the boundary in the gain plane.
+/// One point of the stability boundary in the plane of the gains P and D.
 template <class Scalar>
 struct BoundaryPoint {
-  BoundaryCurve curve;  ///< root or pair that crosses here
+  BoundaryCurve curve;  ///< kind of the root or root pair on the boundary at this point
   Scalar angle;  ///< θ (rad) of the sampled loop's root, 0 … π; ω (rad/s) for the continuous loop
   PdGains<Scalar> gains;  ///< P (N/m), finite; D (N s/m), ∓∞ at the ends of a vertical line
 };
@@ -65,15 +65,15 @@ struct GainWindow {
   Interval<double> proportional;  ///< P (N/m), finite, lower < upper
   Interval<double> differential;  ///< D (N s/m), finite, lower < upper
 
-  /// The extent in P (N/m).
+  /// The extent of the window in P (N/m).
   double width() const { return proportional.upper - proportional.lower; }
-  /// The extent in D (N s/m).
+  /// The extent of the window in D (N s/m).
   double height() const { return differential.upper - differential.lower; }
 
-  /// The area in the plane of P and D (N²s/m²).
+  /// The area of the window in the plane of P and D (N²s/m²).
   double area() const { return width() * height(); }
 
-  /// Whether gains lie in the window or on its edges; round-off of 10⁻¹² of its size is allowed.
+  /// Whether gains lie in the window or on its edges, with a slack of 10⁻¹² of the window's size.
   template <class Scalar>
   bool contains(const PdGains<Scalar>& gains) const {
     const Scalar p_slack(1e-12 * width()), d_slack(1e-12 * height());
@@ -91,7 +91,7 @@ inline void validate(const GainWindow& window) {
   require_positive("width of the range of differential gains", window.height(), "N s/m");
 }
 
-/// The special points of the boundary in the plane of P (horizontal) and D (vertical).
+/// Kind of a special point of the stability boundary, P being horizontal and D vertical.
 enum class BoundaryFeatureKind {
   vertical_tangent,    ///< dP/dθ = 0: a stable interval of D opens or closes here
   horizontal_tangent,  ///< dD/dθ = 0: a stable interval of P opens or closes here
@@ -103,20 +103,20 @@ enum class BoundaryFeatureKind {
 /// A root, or a pair of roots, on the boundary of stability.
 template <class Scalar>
 struct BoundaryRoot {
-  BoundaryCurve curve;  ///< curve on which the root crosses
+  BoundaryCurve curve;  ///< kind of the boundary curve on which the root lies
   Scalar angle;         ///< θ (rad) 0 … π, or ω (rad/s) for the continuous loop
 };
 
-/// One special point of the boundary. Its two roots differ at crossings and ends only.
+/// Special point of the stability boundary. Its two roots differ only at a `crossing` or an `end`.
 template <class Scalar>
 struct BoundaryFeature {
-  BoundaryFeatureKind kind;    ///< kind of the point and so of its two roots
-  BoundaryRoot<Scalar> first;  ///< root pair; the slower of two pairs; λ = +1 (s = 0) of two lines
-  BoundaryRoot<Scalar> second;  ///< root of the line; the faster of two pairs; λ = −1 of two lines
+  BoundaryFeatureKind kind;    ///< kind of the special point
+  BoundaryRoot<Scalar> first;  ///< the pair; of two pairs the slower; of two lines λ = +1
+  BoundaryRoot<Scalar> second;  ///< root of the line; of two pairs the faster; of two lines λ = −1
   PdGains<Scalar> gains;        ///< P (N/m) and D (N s/m), finite
-  Scalar residual;  ///< larger |p|/Σ|terms| at the two roots, p the characteristic polynomial
-  /// Whether a tangent of the other kind is so near that the two almost form a cusp: a small change
-  /// of the loop swaps them, and stable intervals appear or vanish.
+  Scalar residual;  ///< characteristic polynomial over the sum of its |terms|, at the worse root
+  /// Whether a vertical and a horizontal tangent are so near to each other that they almost form a
+  /// cusp: a small change of the loop swaps them, and stable intervals appear or vanish.
   bool nearly_cusp = false;
 };
 

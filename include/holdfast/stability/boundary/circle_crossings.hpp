@@ -27,7 +27,7 @@ struct GainCrossing {
 
 namespace detail {
 
-/// The value x(θ) = (1 − y G_held)/G_free of the free gain that gives a root e^{iθ}; y: fixed gain.
+/// Free gain x = (1 − y G_held)/G_free of a root e^{iθ}, y being the fixed gain; G: `LoopResponse`.
 template <class Scalar>
 class FreeGainOnCircle {
  public:
@@ -42,8 +42,8 @@ class FreeGainOnCircle {
                : (Scalar(1) - gains_.differential * g.velocity) / g.displacement;
   }
 
-  /// The zero of Im x near an approximate angle, by the secant method; the angle itself where the
-  /// method moves away.
+  /// The zero of Im x near an approximate angle, by the secant method; the given angle where the
+  /// method diverges.
   Scalar polished(const Scalar& angle) const {
     Scalar before = angle * (Scalar(1) - Scalar(1e-7)), here = angle;
     Scalar value_before = at(before).imag(), value = at(here).imag();
@@ -64,12 +64,12 @@ class FreeGainOnCircle {
   PdGains<Scalar> gains_;
 };
 
-/// The angles θ > 0 of the eigenvalues on the unit circle of a pencil, det(M − λ L) = 0.
-/// Eigenvalues within 10⁻⁴ of the circle in the variable w of λ = (w + a)/(1 + a w) are included.
+/// The angles θ > 0 of the eigenvalues of a pencil M − λ L that lie on the unit circle. Eigenvalues
+/// within 10⁻⁴ of the circle in the variable w of λ = (w + a)/(1 + a w) are included.
 ///
 /// The change of variable preserves the circle and turns the pencil into the matrix (L − a M)⁻¹(M −
-/// a L) with the eigenvalues w. Eigenvalues at 0 and ∞ move to −a and −1/a, where they do no harm,
-/// and an a near 1 separates those near λ = 1.
+/// a L) with the eigenvalues w. Eigenvalues 0 and ∞ become −a and −1/a, both finite. With a near 1
+/// the eigenvalues near λ = 1 are moved apart.
 /// @param spread  (1 − a)/(1 + a), 0 … 1
 template <class Scalar>
 std::vector<Scalar> angles_on_circle(const Matrix<Scalar, Eigen::Dynamic>& m,
@@ -85,8 +85,8 @@ std::vector<Scalar> angles_on_circle(const Matrix<Scalar, Eigen::Dynamic>& m,
   return angles;
 }
 
-/// The pencil M − λ L whose eigenvalues on the unit circle are the crossings.
-/// @param s, b, h  map, command and reading of the loop, balanced; b and h in any unit
+/// The pencil M − λ L; its eigenvalues on the unit circle are the loop's roots at the crossings.
+/// @param s, b, h  map, command column and reading row of the balanced loop; b and h in any unit
 template <class Scalar>
 std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossing_pencil(
     const Matrix<Scalar, Eigen::Dynamic>& s, const Vector<Scalar, Eigen::Dynamic>& b,
@@ -114,14 +114,14 @@ std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossi
 ///
 /// Let S = S₀ + s K_held contain the fixed gain, and let the free gain x multiply the reading h.
 /// Then λ is a root if x g(λ) = 1, g = h (λI − S)⁻¹ s. On the circle x is real where g(λ) = g(1/λ).
-/// These λ are the eigenvalues of a pencil of size 2n + 1, n being the size of S:
+/// These λ are eigenvalues of a pencil with vectors (y₁, y₂, w), of size 2n + 1 for S of size n:
 ///
 ///     λ y₁ = S y₁ + s w,   y₂ = λ (S y₂ + s w),   h (y₁ − y₂) = 0
 ///
-/// No crossing is missed. Round-off moves a double eigenvalue off the circle by its square root; so
-/// eigenvalues next to the circle are included and refined on it. A spurious crossing does no harm:
-/// it only divides an interval. λ = ±1 are always solutions. Cost: the eigenvalues of one matrix,
-/// about 10 (2n + 1)³ multiply-adds.
+/// No crossing is missed. Round-off ε moves a double eigenvalue off the circle by about √ε; so
+/// eigenvalues near the circle are included, and the angle of each is refined. A false crossing is
+/// harmless: it only divides an interval. λ = ±1 are always solutions. Cost: the eigenvalues of one
+/// matrix, about 10 (2n + 1)³ multiply-adds.
 template <class Scalar>
 std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain free,
                                            const PdGains<Scalar>& gains) {
@@ -151,8 +151,8 @@ std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain 
 
 /// The open intervals of one gain, for a fixed value of the other, in which a loop is stable.
 ///
-/// Each gap between neighbouring crossings is decided by the eigenvalues of the map at its middle.
-/// Adjacent stable gaps are joined where the loop is stable at the point between them too.
+/// The eigenvalues of the map at the middle of each gap between neighbouring crossings decide the
+/// gap. Adjacent stable gaps are joined where the loop is stable at their common end too.
 /// @param map    the loop, of any order
 /// @param free   the gain that varies
 /// @param gains  the fixed gain; the value of the free one is not used

@@ -11,13 +11,13 @@
 
 namespace holdfast {
 
-/// One end of an arc: Y with the numerator and the denominator of P there. At Y = 0 (∞) these are
-/// the coefficients of the lowest (highest) power of Y at which not both vanish.
+/// End of an arc: its parameter Y, and n and Δ of P = n/Δ there (`RootPairCurve`). At Y = 0 (∞), n
+/// and Δ are the coefficients of the lowest (highest) power of Y at which not both vanish.
 template <class Scalar>
 struct ArcEnd {
-  Scalar square;       ///< Y, 0 … ∞
-  Scalar numerator;    ///< numerator of P; where P is finite at a pole, divided by |Y − pole|
-  Scalar denominator;  ///< denominator Δ, divided in the same way; otherwise 0 at a pole
+  Scalar square;       ///< parameter Y, 0 … ∞
+  Scalar numerator;    ///< numerator n of P; at a pole with finite P, divided by |Y − pole|
+  Scalar denominator;  ///< denominator Δ of P, divided in the same way; 0 at any other pole
 
   /// The residual n − P Δ at a given P (N/m); its sign changes along an arc that takes this P.
   Scalar residual(const Scalar& proportional_gain) const {
@@ -28,8 +28,8 @@ struct ArcEnd {
 /// A part of the curve of root pairs on which P is monotone and finite.
 template <class Scalar>
 struct MonotoneArc {
-  ArcEnd<Scalar> start;  ///< at the lower Y ≥ 0
-  ArcEnd<Scalar> end;    ///< at the upper Y ≤ ∞
+  ArcEnd<Scalar> start;  ///< end at the lower Y ≥ 0
+  ArcEnd<Scalar> end;    ///< end at the upper Y ≤ ∞
 
   /// Whether P on the arc takes the given value (N/m); it does so at most once.
   bool passes(const Scalar& proportional_gain) const {
@@ -37,7 +37,7 @@ struct MonotoneArc {
            (end.residual(proportional_gain) < Scalar(0));
   }
 
-  /// A Y inside the arc: the geometric mean of the ends where both are finite and not 0.
+  /// A parameter Y inside the arc: the geometric mean of the ends where these are finite and not 0.
   Scalar inside() const {
     if (std::isinf(end.square)) return start.square > 0 ? Scalar(2) * start.square : Scalar(1);
     if (!(start.square > Scalar(0))) return end.square / Scalar(2);
@@ -45,15 +45,15 @@ struct MonotoneArc {
   }
 };
 
-/// The D at which a line P = const crosses the boundary.
+/// Crossing of a line P = const with the boundary of stability.
 template <class Scalar>
 struct RowCrossing {
-  Scalar differential;  ///< D (N s/m)
-  Scalar uncertainty;   ///< bound of the error of D by round-off (N s/m)
+  Scalar differential;  ///< D of the crossing (N s/m)
+  Scalar uncertainty;   ///< bound of the round-off error of D (N s/m)
 };
 
-/// The gains at which the loop has a pair of roots w = ±iy on the imaginary axis, as rational
-/// functions of Y = y².
+/// Curve of the gains at which the loop has a pair of roots w = ±iy on the imaginary axis, with P
+/// and D as rational functions of the parameter Y = y².
 ///
 /// With even and odd parts a(iy) = a_e(Y) + iy a_o(Y) of base b, proportional p and differential d,
 ///
@@ -80,32 +80,32 @@ class RootPairCurve {
   /// The mean root modulus without control, the unit of w: y = unit · √Y.
   const Scalar& unit() const { return unit_; }
 
-  /// The imaginary part y = Im w of the root pair.
+  /// The imaginary part y = Im w of the root pair at the parameter Y.
   Scalar root(const Scalar& square) const { return unit_ * std::sqrt(square); }
 
-  /// The gains at Y; infinite at a pole.
+  /// The gains P and D at the parameter Y; infinite at a pole of the curve.
   PdGains<Scalar> gains(const Scalar& square) const {
     const Scalar denominator = evaluate(denominator_, square);
     return {evaluate(proportional_numerator_, square) / denominator,
             evaluate(differential_numerator_, square) / denominator};
   }
 
-  /// The numerator of P, degree 4 in Y.
+  /// The numerator of P(Y), of degree 4.
   const Polynomial<Scalar, 4>& proportional_numerator() const { return proportional_numerator_; }
-  /// The numerator of D, degree 4 in Y.
+  /// The numerator of D(Y), of degree 4.
   const Polynomial<Scalar, 4>& differential_numerator() const { return differential_numerator_; }
-  /// The common denominator Δ, degree 4 in Y.
+  /// The common denominator Δ(Y) of P and D, of degree 4.
   const Polynomial<Scalar, 4>& denominator() const { return denominator_; }
 
-  /// A place where P on the curve has a given value.
+  /// Place on the curve at which P has a given value.
   struct Place {
-    Scalar square;           ///< Y
-    Scalar square_per_gain;  ///< dY/dP
+    Scalar square;           ///< parameter Y
+    Scalar square_per_gain;  ///< derivative dY/dP (m/N)
   };
 
-  /// The place at which P on an arc has the given value (N/m), which must exist (`passes`).
-  /// Newton's method on n − P Δ, n being the numerator of P, finds it to round-off. Where its steps
-  /// leave the arc or do not shrink, the rest of the arc is halved.
+  /// The place at which P on an arc has the given value (N/m); the arc must reach this P
+  /// (`passes`). Newton's method on n − P Δ, n being the numerator of P, finds it to round-off.
+  /// Where Newton steps leave the arc or do not shrink, the rest of the arc is halved.
   /// @param arc                arc of this curve
   /// @param proportional_gain  P (N/m)
   /// @param guess              initial Y; any number, NaN too
@@ -131,8 +131,8 @@ class RootPairCurve {
     return {square, at.denominator / at.slope};
   }
 
-  /// The Y on an arc at a given P (N/m); the nearer end where the arc does not reach it. Y = 0 and
-  /// ∞ are replaced by values at which all powers of Y are finite.
+  /// The parameter Y of an arc at a given P (N/m), or of the nearer end where the arc does not
+  /// reach P. Y = 0 and ∞ are replaced by values at which all powers of Y are finite.
   Scalar square(MonotoneArc<Scalar> arc, const Scalar& proportional_gain) const {
     const Scalar largest = std::pow(std::numeric_limits<Scalar>::max(), Scalar(0.125));
     arc.start.square = std::max(arc.start.square, Scalar(1) / largest);
@@ -144,7 +144,7 @@ class RootPairCurve {
     return distance(arc.start) < distance(arc.end) ? arc.start.square : arc.end.square;
   }
 
-  /// The D at P (N/m) and Y: −(b + P p)/d of the even or odd part, whichever determines D better.
+  /// The crossing at P (N/m) and Y: D = −(b + P p)/d by the more accurate part, even or odd.
   RowCrossing<Scalar> crossing(const Scalar& proportional_gain, const Scalar& square) const {
     const Scalar even_slope = evaluate(differential_.even, square);
     const Scalar odd_slope = evaluate(differential_.odd, square);
@@ -168,13 +168,13 @@ class RootPairCurve {
   /// Even and odd part of the polynomial's change per N s/m of D.
   const ParityParts<Scalar>& differential() const { return differential_; }
 
-  /// The coefficients of the even or odd part at some gains, with a measure of their round-off.
+  /// Coefficients of the even or odd part at given gains, with a measure of their round-off.
   struct Terms {
-    Vector<Scalar, 3> sum,  ///< b + P p + D d
-        size;               ///< |b| + |P p| + |D d|
+    Vector<Scalar, 3> sum,  ///< coefficients b + P p + D d
+        size;               ///< sums of moduli |b| + |P p| + |D d|
   };
 
-  /// The coefficients of one part at given gains.
+  /// The coefficients of the even or odd part at given gains.
   /// @param part   `&ParityParts<Scalar>::even` or `odd`
   /// @param gains  P (N/m) and D (N s/m)
   Terms terms(Vector<Scalar, 3> ParityParts<Scalar>::*part, const PdGains<Scalar>& gains) const {
@@ -184,20 +184,20 @@ class RootPairCurve {
     return {b + p + d, b.cwiseAbs() + p.cwiseAbs() + d.cwiseAbs()};
   }
 
-  /// The Y > 0 at which the curve goes to infinity, ascending.
+  /// The poles of the curve: values Y > 0 at which the gains are infinite, ascending.
   std::vector<Scalar> poles() const { return positive_roots(denominator_); }
 
-  /// The Y > 0 at which P is stationary, ascending: there the curve is parallel to the axis of D.
+  /// The Y > 0 at which P is stationary, ascending; there the curve is parallel to the D axis.
   std::vector<Scalar> proportional_extremes() const {
     return positive_roots(slope(reduced(proportional_numerator_, differential_)));
   }
 
-  /// The Y > 0 at which D is stationary, ascending: there the curve is parallel to the axis of P.
+  /// The Y > 0 at which D is stationary, ascending; there the curve is parallel to the P axis.
   std::vector<Scalar> differential_extremes() const {
     return positive_roots(slope(reduced(differential_numerator_, proportional_)));
   }
 
-  /// The whole curve, 0 < Y < ∞, cut at its poles and at the extremes of P.
+  /// The arcs of the whole curve, 0 < Y < ∞, cut at its poles and at the extremes of P.
   std::vector<MonotoneArc<Scalar>> arcs() const {
     const ArcEnd<Scalar> first = outer_end(Scalar(0), 0, 4),
                          last = outer_end(std::numeric_limits<Scalar>::infinity(), 4, 0);
@@ -253,7 +253,7 @@ class RootPairCurve {
                          multiply<Scalar, 3, 3>(a.odd, c.even));
   }
 
-  /// A cut: the end of the arc below it and the beginning of the arc above it.
+  /// Cut of the curve at one Y: end of the arc with smaller Y and start of the arc with larger Y.
   struct Cut {
     ArcEnd<Scalar> below, above;
   };
@@ -262,8 +262,8 @@ class RootPairCurve {
     Polynomial<Scalar, 4> numerator, denominator;
   };
 
-  /// The fraction numerator / Δ with common zeros cancelled: the poles at which `factor` vanishes,
-  /// d(iy) for P or p(iy) for D. Without damping d has such zeros; there only D is infinite.
+  /// The fraction numerator / Δ without common zeros, the poles at which `factor` is 0: d(iy) for
+  /// P, p(iy) for D. Without damping d has such zeros, at which only D is infinite.
   Fraction reduced(const Polynomial<Scalar, 4>& numerator,
                    const ParityParts<Scalar>& factor) const {
     Fraction result{numerator, denominator_};
@@ -283,7 +283,7 @@ class RootPairCurve {
     return std::abs(even) + std::sqrt(square) * std::abs(odd) <= Scalar(1e-12) * size;
   }
 
-  /// The ends at a pole; where P is finite there, numerator and Δ are divided by |Y − pole|.
+  /// The ends of the two arcs at a pole; if P is finite there, n and Δ are divided by |Y − pole|.
   Cut cut_at_pole(const Scalar& pole) const {
     const Polynomial<Scalar, 4>& numerator = proportional_numerator_;
     if (!vanishes(differential_, pole)) {
@@ -303,7 +303,7 @@ class RootPairCurve {
         .template head<7>();
   }
 
-  /// The end of an arc at Y = 0 (powers `from` 0 to `last` 4 are tried) or ∞ (from 4 to 0).
+  /// The end of an arc at Y = 0 or ∞: coefficients of the first power, `from` … `last`, not 0.
   ArcEnd<Scalar> outer_end(const Scalar& square, int from, int last) const {
     int order = from;
     while (order != last && proportional_numerator_[order] == Scalar(0) &&

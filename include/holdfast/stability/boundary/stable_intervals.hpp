@@ -20,8 +20,8 @@ namespace holdfast {
 ///
 ///     a_e(Y) d_o(Y) − a_o(Y) d_e(Y) = 0,   x = −a_e / d_e = −a_o / d_o
 ///
-/// so that none is missed. w is in units of the mean root modulus of a. Where d is below 1e−12 of
-/// its largest coefficient, x is at infinity and left out.
+/// so that no x is missed. w is in units of the mean root modulus of a. Where d(w) is below 1e−12
+/// of its largest coefficient, x is infinite and left out.
 template <class Scalar, int Size>
 std::vector<Scalar> boundary_crossings(const Vector<Scalar, Size>& constant_part,
                                        const Vector<Scalar, Size>& slope_part) {
@@ -54,10 +54,10 @@ std::vector<Scalar> boundary_crossings(const Vector<Scalar, Size>& constant_part
 
 namespace detail {
 
-/// The stable gaps between ascending `ends`, the first and the last gap unbounded. Adjacent stable
-/// gaps are joined where the loop is stable at the end between them too.
+/// The gaps between ascending `ends` in which the loop is stable; the first and the last gap are
+/// unbounded. Adjacent stable gaps are joined where the loop is stable at their common end too.
 /// @param inside     map from a gap to a point in it
-/// @param stable_at  test of a point
+/// @param stable_at  test of the loop's stability at a point
 template <class Scalar, class Inside, class StableAt>
 std::vector<Interval<Scalar>> stable_gaps(const std::vector<Scalar>& ends, const Inside& inside,
                                           const StableAt& stable_at) {
@@ -78,11 +78,11 @@ std::vector<Interval<Scalar>> stable_gaps(const std::vector<Scalar>& ends, const
 
 }  // namespace detail
 
-/// The open intervals of x in which all roots of a(w) + x d(w) have Re w < 0.
+/// The open intervals of x in which all roots w of a(w) + x d(w) have Re w < 0.
 ///
-/// One Hurwitz test decides each gap between neighbouring crossings. Adjacent stable gaps are
-/// joined unless a root is on the axis between them. The leading coefficient may change sign along
-/// x.
+/// One Hurwitz test decides each gap between neighbouring values of `boundary_crossings`. Adjacent
+/// stable gaps are joined unless a root is on the imaginary axis at the value between them. The
+/// leading coefficient may change sign along x.
 template <class Scalar, int Size>
 std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
                                                const Vector<Scalar, Size>& d) {

@@ -24,10 +24,10 @@ template <class Scalar>
 struct GainRegion {
   int unstable_roots;      ///< roots with |λ| > 1 (continuous: Re s > 0); 0: asymptotically stable
   Scalar area;             ///< ∬ dP dD within the window, N²s/m²
-  PdGains<Scalar> inside;  ///< a point far from the region's edge
-  Interval<Scalar> proportional;  ///< extent in P (N/m)
-  Interval<Scalar> differential;  ///< extent in D (N s/m)
-  bool at_edge;                   ///< touches the window's edge and may continue beyond it
+  PdGains<Scalar> inside;  ///< gains in the middle of the region's largest cell
+  Interval<Scalar> proportional;  ///< least and largest P of the region (N/m)
+  Interval<Scalar> differential;  ///< least and largest D of the region (N s/m)
+  bool at_edge;  ///< whether the region touches the window's edge and may go beyond
 };
 
 namespace detail {
@@ -39,12 +39,12 @@ struct BoundaryBranch {
   MonotoneArc<Scalar> arc;             ///< the arc, unless `curve` is null
   BoundaryLine<Scalar> line;           ///< the line, if `curve` is null
 
-  /// Whether the branch has a D at P (N/m): an arc within its range, a line everywhere.
+  /// Whether the branch has a D at P (N/m): an arc has one within its range, a line everywhere.
   bool passes(const Scalar& proportional_gain) const {
     return curve == nullptr || arc.passes(proportional_gain);
   }
 
-  /// The D (N s/m) at P (N/m); at the nearer end of an arc that does not reach P.
+  /// The D (N s/m) of the branch at P (N/m); that of the nearer end if an arc does not reach P.
   Scalar differential(const Scalar& proportional_gain) const {
     if (curve == nullptr) return line.differential_at(proportional_gain);
     return curve->crossing(proportional_gain, curve->square(arc, proportional_gain)).differential;
@@ -55,23 +55,23 @@ struct BoundaryBranch {
 /// the window, in the same order, each of them monotone.
 template <class Scalar>
 struct GainSlab {
-  Scalar lower;                                  ///< P (N/m)
-  Scalar upper;                                  ///< P (N/m)
-  bool wall_below;                               ///< a vertical line of the boundary is at `lower`
+  Scalar lower;                                  ///< lower end in P (N/m)
+  Scalar upper;                                  ///< upper end in P (N/m)
+  bool wall_below;                               ///< whether a vertical boundary line is at `lower`
   std::vector<BoundaryBranch<Scalar>> branches;  ///< branches in the slab, ascending in D
 };
 
-/// Divides a window of the gain plane into slabs at every P where the boundary changes its shape:
-/// at special points (`boundary_features`), at vertical lines, and where it crosses the window's
-/// edges. Joins the cells of neighbouring slabs into regions.
+/// Division of a window of the gain plane into slabs, at every P where the boundary changes its
+/// shape: at special points (`boundary_features`), at vertical lines and at the window's edges. The
+/// cells of neighbouring slabs are joined into regions.
 ///
-/// A curve of root pairs that coincides with a line P = const would be missed. No loop of a plant
-/// has one; the undamped continuous loop has one when its two gains are exchanged.
+/// A curve of root pairs that coincides with a line P = const would be missed. No plant has such a
+/// curve. With P and D exchanged the undamped continuous loop would have one, the line D = 0.
 template <class Scalar, int Degree>
 class RegionBuilder {
  public:
-  /// @param curves  must outlive this object
-  /// @param window  P (N/m) and D (N s/m); it must be valid (`validate`), which is not checked here
+  /// @param curves  boundary curves; must outlive this object
+  /// @param window  valid window of P (N/m) and D (N s/m), not checked here (`validate`)
   RegionBuilder(const BoundaryCurves<Scalar, Degree>& curves, const GainWindow& window)
       : curves_(curves), window_(window) {
     for (const auto& arc : curves_.pairs().arcs()) branches_.push_back({&curves_.pairs(), arc, {}});
@@ -87,10 +87,10 @@ class RegionBuilder {
     }
   }
 
-  /// The slabs, ascending in P, without gaps.
+  /// The slabs of the window, ascending in P, without gaps.
   const std::vector<GainSlab<Scalar>>& slabs() const { return slabs_; }
 
-  /// The regions: fewest unstable roots first; among equals the largest first.
+  /// The regions by ascending number of unstable roots and, for equal numbers, by descending area.
   std::vector<GainRegion<Scalar>> regions() {
     std::vector<GainRegion<Scalar>> result;
     for (std::size_t k = 0; k < cells_.size(); ++k) {
@@ -186,7 +186,7 @@ class RegionBuilder {
     Scalar largest;                // area of the cell that gave the point inside
   };
 
-  /// The D at P of the window's lower edge, of each branch and of the upper edge, ascending.
+  /// The D of the window's lower edge, of each branch at P, and of the upper edge, ascending.
   Levels levels(const GainSlab<Scalar>& slab, const Scalar& proportional_gain) const {
     const Scalar top(window_.differential.upper);
     Levels result = {Scalar(window_.differential.lower)};
@@ -286,10 +286,10 @@ class RegionBuilder {
 /// two crossings D₁(P) < D₂(P) < … is a cell with a constant number of unstable roots, counted at
 /// the cell's middle; its area is ∫ (D_{k+1} − D_k) dP. Cells of neighbouring slabs that touch
 /// without a boundary between them are one region. Areas are accurate to 1e−10 of the window's
-/// area. A neck narrower than 1e−9 of the window's height does not connect.
+/// area. Cells connected only by a neck narrower than 1e−9 of the window's height are not joined.
 /// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
 /// @param window      window of P (N/m) and D (N s/m), its edges included
-/// @return regions, fewest unstable roots first, among equals the largest first
+/// @return regions by ascending number of unstable roots and, for equal numbers, descending area
 /// @throws InvalidParameter unless the window's ranges are finite and not empty
 template <class Scalar, int Degree>
 std::vector<GainRegion<Scalar>> gain_regions(const AffinePolynomial<Scalar, Degree>& polynomial,

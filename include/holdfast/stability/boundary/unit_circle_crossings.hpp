@@ -19,34 +19,34 @@
 
 namespace holdfast {
 
-/// A value of a gain at which roots of the loop cross the unit circle, with their direction.
+/// Value of a gain at which roots of the loop cross the unit circle, with their direction.
 template <class Scalar>
 struct GainPassage {
   Scalar gain;   ///< P (N/m) or D (N s/m), finite
   Scalar angle;  ///< θ (rad) of the roots e^{±iθ}, 0 … π
-  int leaving;  ///< number of roots that leave the circle as the gain grows: ±2, or ±1 at λ = ±1
+  int leaving;   ///< number of roots leaving the circle as the gain grows: ±2, or ±1 at λ = ±1
 };
 
-/// The response G_z, G_v (`ModalResponse`) of a loop of any order on the unit circle, at angles so
-/// dense that it is smooth between them. A step is at most 0.12 of the distance to the nearest
-/// pole, and turns the phase of the delay by at most 0.4 rad. The response gives the gains at which
-/// roots cross the circle. The winding of p gives the roots outside, n_plant being the plant's own:
+/// Crossings of the unit circle by roots of a loop of any order, from its response G_z, G_v
+/// (`ModalResponse`) at angles so dense that the response is smooth between them. An angle step is
+/// at most 0.12 of the distance to the nearest pole and 0.4 rad of the delay's phase. The winding
+/// of p gives the number n_out of roots outside; n_plant is this number without control:
 ///
 ///     p(λ) = 1 − P G_z(λ) − D G_v(λ),   n_out = n_plant − (1/π) [arg p(e^{iθ})] from 0 to π
 ///
 /// A free gain x has a crossing where X(θ) = (1 − y G_held)/G_free is real, y being the fixed gain.
 /// As x grows, roots leave the circle where Im X rises through zero, since dλ/dx = 1/X′(λ). The
-/// number of roots outside, found by winding in one interval, follows for the others. It is checked
-/// by winding in every interval or, of more than twelve, where it is at most four. Where the counts
-/// differ, the winding number alone decides every interval. Work: about 30 angles per pole once,
-/// then some 10 operations per angle and 10 values of G per crossing.
+/// winding of p gives n_out in one interval of x, the crossings give it in the others. As a check
+/// the winding is computed in all intervals if they are at most twelve, else in those with at most
+/// four roots outside. If a check disagrees, the winding decides every interval. Work: about 30
+/// angles per pole once; for each gain x, 10 operations per angle and 10 values of G per crossing.
 template <class Scalar>
 class UnitCircleCrossings {
  public:
-  /// The response G at an angle.
+  /// Response G of the loop at one angle on the unit circle.
   struct Place {
     Scalar angle;               ///< θ (rad)
-    CommandResponse<Scalar> g;  ///< G_z and G_v
+    CommandResponse<Scalar> g;  ///< responses G_z and G_v
   };
 
   /// @param response  response of the loop; it is stored
@@ -78,14 +78,14 @@ class UnitCircleCrossings {
     }
   }
 
-  /// The response from which everything is computed.
+  /// The loop's response, from which all crossings are computed.
   const ModalResponse<Scalar>& response() const { return response_; }
 
-  /// The angles at which the response is stored, ascending, with its values.
+  /// The places on the unit circle at which the response is stored, by ascending angle.
   const std::vector<Place>& places() const { return places_; }
 
   /// The number of roots of the loop outside the unit circle; −1 where round-off hides it: a root
-  /// is on the circle, or the gains are not finite or so large that p is noise.
+  /// is on the circle, or the gains are not finite or so large that p is mere round-off.
   int roots_outside(const PdGains<Scalar>& gains) const {
     Turn turn{gains, static_cast<std::int64_t>(20 * places_.size())};
     std::vector<std::complex<Scalar>> p;
@@ -101,8 +101,8 @@ class UnitCircleCrossings {
     return response_.unstable_poles() - static_cast<int>(std::lround(half_turns));
   }
 
-  /// The values λ − 1 of roots near the unit circle, approximated by one Newton step from each
-  /// minimum of |p| on it; nearest root first. A substitute where `loop_roots` does not converge.
+  /// The offsets λ − 1 of roots near the unit circle, nearest root first: one Newton step from each
+  /// minimum of |p| on the circle. They replace the roots where `loop_roots` does not converge.
   std::vector<std::complex<Scalar>> roots_nearby(const PdGains<Scalar>& gains) const {
     std::vector<std::pair<Scalar, std::complex<Scalar>>> found;
     const auto size = [&](std::size_t i) { return std::abs(characteristic(places_[i].g, gains)); };
@@ -125,7 +125,7 @@ class UnitCircleCrossings {
     return roots;
   }
 
-  /// All values of one gain, the other fixed, at which roots cross the circle; ascending.
+  /// All values of one gain, with the other gain fixed, at which roots cross the circle; ascending.
   /// @param free   the gain that varies
   /// @param gains  the fixed gain; the value of the free one is not used
   std::vector<GainPassage<Scalar>> passages(FreeGain free, const PdGains<Scalar>& gains) const {
@@ -176,12 +176,12 @@ class UnitCircleCrossings {
       return Scalar(1) - (free == FreeGain::differential ? gains.proportional * g.displacement
                                                          : gains.differential * g.velocity);
     }
-    /// A smooth function with the sign of Im X.
+    /// A smooth function with the sign of Im X, X as in the class comment.
     Scalar imaginary(const CommandResponse<Scalar>& g) const {
       const std::complex<Scalar> a = rest(g), b = of_free(g);
       return a.imag() * b.real() - a.real() * b.imag();
     }
-    /// The real part Re X.
+    /// The real part of X, which is the free gain at a crossing.
     Scalar gain(const CommandResponse<Scalar>& g) const { return (rest(g) / of_free(g)).real(); }
   };
 
@@ -190,14 +190,14 @@ class UnitCircleCrossings {
     return Scalar(1) - gains.proportional * g.displacement - gains.differential * g.velocity;
   }
 
-  /// The winding of p along the circle, as the number of its crossings of the negative real axis.
+  /// Winding of p along the circle, as the number of its crossings of the negative real axis.
   struct Turn {
     PdGains<Scalar> gains;
     std::int64_t budget;  ///< values of G that may still be computed
     int crossings = 0;    ///< counterclockwise crossings minus clockwise ones
 
-    /// Whether the chord from a to b gives the turn of p: the chord turns by at most 45° or keeps
-    /// more than `distance` from 0. If so, its crossing of the negative real axis is counted.
+    /// Whether arg p changes as along the chord from a to b: p turns by at most 45° or the chord
+    /// keeps `distance` from 0. If so, the chord's crossing of the negative real axis is counted.
     bool takes(const std::complex<Scalar>& a, const std::complex<Scalar>& b,
                const Scalar& distance = std::numeric_limits<Scalar>::infinity()) {
       const Scalar along = a.real() * b.real() + a.imag() * b.imag();
@@ -211,7 +211,7 @@ class UnitCircleCrossings {
     }
   };
 
-  /// The estimated distance of p from its chord between places i − 1 and i (second differences).
+  /// The estimated distance of p from the chord between places i − 1 and i, by second differences.
   Scalar bend_of(const std::vector<std::complex<Scalar>>& p, std::size_t i) const {
     if (i < 2 || i + 1 == p.size()) return std::numeric_limits<Scalar>::infinity();
     const Scalar step = places_[i].angle - places_[i - 1].angle;
@@ -223,8 +223,8 @@ class UnitCircleCrossings {
     return std::max(from(i - 1), from(i + 1));
   }
 
-  /// Adds the winding of p between two angles, in halves. Each half departs from its chord by about
-  /// a quarter of `bend`, the whole's departure. A chord farther than `bend` from 0 gives the turn.
+  /// Adds the winding of p between two angles, half by half. p is about `bend` from the whole chord
+  /// and `bend`/4 from a half's chord; it turns like a half's chord beyond `bend` from 0.
   void halve(Turn& turn, const std::pair<Scalar, std::complex<Scalar>>& from,
              const std::pair<Scalar, std::complex<Scalar>>& to) const {
     const Scalar middle = (from.first + to.first) / Scalar(2);
@@ -248,7 +248,7 @@ class UnitCircleCrossings {
   }
 
   /// Adds a crossing unless the gain hardly moves its root, so that the gain's value is round-off.
-  /// So it is for both gains at λ = 1 where the drive acts between absorber and conductor.
+  /// This is so for both gains at λ = 1 if the drive acts between absorber and conductor.
   void keep(const GainPassage<Scalar>& passage, const Line& line,
             std::vector<GainPassage<Scalar>>& found) const {
     const Scalar size = line.free == FreeGain::differential ? size_of_v_ : size_of_z_;
@@ -256,7 +256,7 @@ class UnitCircleCrossings {
   }
 
   /// Adds the crossing of a real root at λ = 1 or −1.
-  /// @param rising  any number with the sign of the slope of Im X there
+  /// @param rising  any number with the sign of the slope of Im X at the place
   void add_real_root(const Line& line, const Place& place, const Scalar& rising,
                      std::vector<GainPassage<Scalar>>& found) const {
     const Scalar end = place.angle < Scalar(1) ? Scalar(0) : pi<Scalar>;
@@ -266,7 +266,7 @@ class UnitCircleCrossings {
          found);
   }
 
-  /// Adds two crossings between neighbouring angles, where Im X passes zero and returns. They are
+  /// Adds two crossings so close that Im X has no change of sign at the stored angles. They are
   /// sought where |Im X| is least at the middle one of three places.
   /// @param at  pointer to Im X at place i, in the array of Im X at all places
   void add_close_pairs(const Line& line, std::size_t i, const Scalar* at,
@@ -300,7 +300,7 @@ class UnitCircleCrossings {
     }
   }
 
-  /// The gaps between crossings in which no root is outside; undecided gaps are left out.
+  /// The gaps between crossings of the free gain with no root outside the circle, if decided.
   template <class Outside>
   static std::vector<Interval<Scalar>> without_roots_outside(
       const std::vector<GainPassage<Scalar>>& found, const Outside& outside) {
@@ -340,9 +340,9 @@ class UnitCircleCrossings {
   Scalar size_of_z_{0}, size_of_v_{0};  // max |G_z| and |G_v| over them
 };
 
-/// The excess ρ − 1, ρ being the largest modulus of the loop's roots: from `loop_roots` or, where
-/// these do not converge, to ten digits by bisection of ρ with the winding of p on circles.
-/// @param response  response of the plant by its poles
+/// The excess ρ − 1 of a loop, ρ being the largest modulus of its roots: from `loop_roots` or, if
+/// that does not converge, by bisection over circles with counted roots outside, to ten digits.
+/// @param response  response of the plant given by its poles
 /// @param gains     gains P and D
 /// @return NaN where the response has no sum over poles
 template <class Scalar>

@@ -17,8 +17,8 @@ namespace holdfast {
 
 /// A rectangular grid of gains; its cells are in the order P slowest, D fastest.
 struct GainGrid {
-  Axis proportional;  ///< P (N/m)
-  Axis differential;  ///< D (N s/m)
+  Axis proportional;  ///< values of P (N/m)
+  Axis differential;  ///< values of D (N s/m)
 
   /// The gains of a cell; each index is from 0 to the count of its axis minus one.
   PdGains<double> at(std::int64_t p_index, std::int64_t d_index) const {
@@ -48,9 +48,9 @@ inline void validate(const GainGrid& grid) {
 ///
 /// Along a row stability changes only at the boundary; one Hurwitz test decides each gap. A cell
 /// within round-off of the boundary counts as not stable. On each arc of `RootPairCurve` that
-/// reaches P a Newton iteration starts from the previous row and needs one or two steps where rows
-/// are close. Roots w = 0 and w = ∞ give linear equations in D. For rows of constant D exchange the
-/// roles of P and D in the polynomial.
+/// reaches P, Newton's method starts from the crossing of the previous row; one or two steps
+/// suffice where rows are close. Roots w = 0 and w = ∞ give linear equations in D. For rows of
+/// constant D, P and D are exchanged in the polynomial.
 ///
 /// Work per row: about 40 multiply-adds for each arc of the boundary and 60 for each gap,
 /// independent of the number of cells.
@@ -67,7 +67,7 @@ class StabilityRows {
       branches_.push_back({arc, {unknown, 0.0}, 0.0});
   }
 
-  /// Writes 1 (stable) or 0 for every cell of the row.
+  /// Writes 1 (stable) or 0 (not stable) for every cell of the row.
   /// @param proportional_gain  P (N/m), finite
   /// @param stable             array with one entry for each cell of the row
   void fill(double proportional_gain, std::uint8_t* stable) {
@@ -96,7 +96,7 @@ class StabilityRows {
     double proportional_gain;            // P of that row
   };
 
-  /// Finds a row's crossings, ascending in D, at most one for each arc and each of the two lines.
+  /// Finds a row's crossings, ascending in D: at most one for each arc and each boundary line.
   void find_crossings(double proportional_gain) {
     crossings_.clear();
     add_line(proportional_gain, &ParityParts<double>::even, 0);
@@ -120,7 +120,7 @@ class StabilityRows {
     if (std::isfinite(crossing.differential)) crossings_.push_back(crossing);
   }
 
-  /// Adds the crossing where coefficient k of the even or odd part vanishes, if it depends on D.
+  /// Adds the crossing at which coefficient k of a part is 0, if the coefficient depends on D.
   void add_line(double proportional_gain, Part part, int k) {
     const double slope = (curve_.differential().*part)[k];
     if (slope == 0.0) return;
@@ -130,7 +130,7 @@ class StabilityRows {
          curve_.rounding * (std::abs(base) + std::abs(term)) / std::abs(slope)});
   }
 
-  /// Fills cells without a boundary between them; the test of the middle one decides for all.
+  /// Fills cells without a boundary between them; a test of the middle cell decides for all.
   void fill_gap(const Polynomial<double, Degree>& row, std::int64_t first, std::int64_t last,
                 std::uint8_t* stable) const {
     if (first >= last) return;

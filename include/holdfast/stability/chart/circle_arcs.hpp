@@ -15,20 +15,20 @@
 
 namespace holdfast {
 
-/// The upper half of a circle |λ| = r, in arcs on each of which the characteristic function
+/// The upper half of a circle |λ| = r, divided into arcs. On each arc the characteristic function
 ///
 ///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ)
 ///
 /// of `EnclosedResponse` is known to first order in the angle with a bound of the remainder. The
 /// class finds the arcs on which a loop with gains in a box may have a root, and counts the roots
-/// outside a circle without roots. Arcs are halved where needed; the halves are stored.
+/// outside a circle without roots on it. Arcs are halved where needed; the halves are stored.
 class CircleArcs {
  public:
-  /// A list of arcs, by their numbers.
+  /// List of arcs, each given by its number.
   using Arcs = std::vector<std::size_t>;
 
   /// @param response  response of the loop
-  /// @param radius    radius r, the exact value of that double, > 0
+  /// @param radius    radius r > 0, taken as exactly this double
   explicit CircleArcs(EnclosedResponse response, double radius = 1.0)
       : response_(std::move(response)), radius_(radius) {
     // To π, or just beyond it: what is there is the conjugate of what was before.
@@ -38,8 +38,8 @@ class CircleArcs {
   /// The undivided half circle as the only arc.
   Arcs all() const { return {0}; }
 
-  /// The parts of the given arcs on which a loop with gains in the box may have a root; on the rest
-  /// it is proved that none has one. Arcs are divided as finely as the size of the box requires.
+  /// The parts of the given arcs on which a loop with gains in the box may have a root. On the rest
+  /// all loops are proved to have no root. Arcs are divided as finely as the box requires.
   Arcs meeting(const GainBox& box, const Arcs& among) {
     const Gains gains(box);
     if (!gains.are_finite()) return among;
@@ -54,17 +54,17 @@ class CircleArcs {
     return met;
   }
 
-  /// The proved number of roots of a loop outside the circle; nothing where one may lie on it.
+  /// The proved number of roots of a loop outside the circle; `nullopt` where a root may lie on it.
   ///
-  /// On each arc, halved where necessary, the real or the imaginary part of q has a constant sign:
-  /// q is in a half-plane. At the next arc this half-plane is the same or turned by a quarter. At
-  /// the ends, 0 and π, q is real, so that the quarters sum to w half turns. Then q turns w times
-  /// along the whole circle. As F has the poles of the plant, n_plant of them outside,
+  /// On each arc, halved where necessary, the real or the imaginary part of q has a constant sign,
+  /// so q is in a half-plane. From arc to arc this half-plane stays or turns by a quarter. At θ = 0
+  /// and π q is real, so that the quarters sum to w half turns, and q turns w times along the whole
+  /// circle. F has the plant's poles, n_plant of them outside; with k delayed commands
   ///
   ///     n_out = n_plant + k − w
   ///
-  /// @param gains       gains P and D, the exact values of those doubles
-  /// @param most_arcs   largest number of arcs; if more are needed the result is nothing
+  /// @param gains       gains P (N/m) and D (N s/m), taken as exactly these doubles
+  /// @param most_arcs   largest number of arcs; the result is `nullopt` if more are needed
   std::optional<int> roots_outside(const PdGains<double>& gains, std::size_t most_arcs = 20000) {
     const auto own = response_.poles_outside(radius_);
     const Gains box(
@@ -94,8 +94,8 @@ class CircleArcs {
  private:
   using Complex = std::complex<double>;
 
-  /// A function of t, value + slope t + r, −1 ≤ t ≤ 1, with |r| ≤ rest + haze. On a shorter arc the
-  /// rest is smaller; the haze, from the uncertainty of the parameters, is the same.
+  /// Linear enclosure of a function of t, −1 ≤ t ≤ 1: value + slope t + r, |r| ≤ rest + haze. A
+  /// shorter arc has a smaller rest but the same haze, which is due to uncertain parameters.
   struct Line {
     Complex value, slope;
     double rest, haze;
@@ -123,7 +123,7 @@ class CircleArcs {
     }
   };
 
-  /// The set of values of q on an arc for gains in a box:
+  /// The set of values of q on an arc, −1 ≤ t ≤ 1, for the gains P₀ + δP, D₀ + δD of a box:
   ///
   ///     q = c + a t + F_z δP + F_v δD + r,   |r| ≤ rest + haze
   ///
@@ -158,7 +158,7 @@ class CircleArcs {
              is_ahead(across(by_d_));
     }
 
-    /// The proved half-plane of q, 0, 1, 2, 3: Re > 0, Im > 0, Re < 0, Im < 0; −1: none of them.
+    /// The half-plane proved to hold q: 0, 1, 2, 3 for Re > 0, Im > 0, Re < 0, Im < 0; −1 for none.
     int half_plane() const {
       if (!std::isfinite(rounding_)) return -1;
       for (const bool imaginary : {false, true}) {
@@ -170,7 +170,7 @@ class CircleArcs {
       return -1;
     }
 
-    /// Whether a shorter arc would hardly improve the result for the box.
+    /// Whether halving the arc would hardly make the set of q smaller for this box.
     bool is_short_enough() const {
       constexpr double share = 0.1;
       return rest_ <= share * (size(by_p_) + size(by_d_) + haze_);
@@ -196,8 +196,8 @@ class CircleArcs {
     double rest_, haze_, rounding_;
   };
 
-  /// The `Line` of an expansion about λ₀ = r e^{iθ₀}, on θ = θ₀ + h t: λ − λ₀ is λ₀ i h t plus a
-  /// remainder of at most r h²/2.
+  /// The `Line`, on the arc θ = θ₀ + h t, of an expansion about λ₀ = r e^{iθ₀}: λ is λ₀ (1 + i h t)
+  /// plus a remainder of at most r h²/2.
   static Line line_of(const EnclosedExpansion& expansion, const ComplexEnclosure& centre,
                       const Enclosure& half_width) {
     const ComplexEnclosure slope = expansion.slope * centre.times_i() * half_width;

@@ -26,7 +26,7 @@ void fill_stability_row(const UnitCircleCrossings<Scalar>& circle, const Scalar&
   }
 }
 
-/// The stability chart of a loop of any order: 1 (stable) or 0 for every cell of a grid; P slowest.
+/// The stability chart of a loop of any order: 1 (stable) or 0 for every cell of a grid, P slowest.
 ///
 /// Rows are filled from the stable intervals of D by `UnitCircleCrossings`. For two masses the
 /// `stability_chart` of the characteristic polynomial is a hundred times as fast.

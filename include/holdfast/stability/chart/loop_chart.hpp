@@ -50,8 +50,8 @@ inline double& value_of(OperatingPoint& point, LoopParameter parameter) {
   return *all[static_cast<int>(parameter)];
 }
 
-/// Sets a parameter of a loop. A new τ changes the processing delay δ in proportion; rounding does
-/// not bring δ above τ.
+/// Sets a parameter of a loop. Setting τ changes the processing delay δ in proportion, but does not
+/// round δ to a value above τ.
 inline void set(OperatingPoint& point, LoopParameter parameter, double value) {
   if (parameter == LoopParameter::sampling_period) {
     const double fraction = point.sampling.processing_delay / point.sampling.period;
@@ -63,18 +63,18 @@ inline void set(OperatingPoint& point, LoopParameter parameter, double value) {
 /// An axis of a chart: a parameter of the loop and its values.
 struct LoopAxis {
   LoopParameter parameter;  ///< parameter that varies
-  Axis values;              ///< in the SI unit of the parameter
+  Axis values;              ///< values of the parameter, in its SI unit
 };
 
 /// A chart of the sampled loop over any two of its parameters; all others are those of `point`.
 struct LoopChart {
-  /// The loop in which each cell replaces two values; where τ is replaced and δ is not, δ changes
-  /// in proportion.
+  /// The loop whose two axis parameters are replaced in each cell. Where an axis replaces τ and
+  /// none replaces δ, δ changes in proportion to τ.
   OperatingPoint point;
-  LoopAxis slow;  ///< one value for each row
-  LoopAxis fast;  ///< one value for each column
+  LoopAxis slow;  ///< axis with one value for each row
+  LoopAxis fast;  ///< axis with one value for each column
 
-  /// The loop of a row; its fast parameter still has the value of `point`.
+  /// The loop of a row, whose fast parameter keeps its value in `point`.
   OperatingPoint row(std::int64_t index) const {
     OperatingPoint result = point;
     set(result, slow.parameter, slow.values.at(index));
@@ -137,7 +137,7 @@ class ChartPolynomials {
  public:
   /// The characteristic polynomial for any gains, from which the chart is computed.
   using Affine = AffinePolynomial<double, Degree, Variable>;
-  /// The function that computes the characteristic polynomial of a loop.
+  /// A function that computes the characteristic polynomial of a loop.
   using PolynomialOf = Affine (*)(const OperatingPoint&);
 
   /// The polynomials of a row: columns × (Degree + 1), constant coefficients first.
@@ -165,13 +165,13 @@ class ChartPolynomials {
 
   /// The number of cells in a row: values of the fast parameter.
   std::int64_t columns() const { return chart_.fast.values.count; }
-  /// The two axes and the loop that they vary.
+  /// The chart: its two axes and the loop that they vary.
   const LoopChart& chart() const { return chart_; }
 
-  /// The polynomial, affine in the gains, that all cells share; only where both axes are gains.
+  /// The polynomial that all cells share, affine in the gains; only for charts over two gains.
   const Affine& common() const { return common_; }
 
-  /// Whether the polynomial is affine in the fast parameter: then use `line`, else `table`.
+  /// Whether the polynomial is affine in the fast parameter; if so, use `line`, otherwise `table`.
   bool affine_along_rows() const { return is_gain(chart_.fast.parameter); }
 
   /// The polynomials of a row as a function of the fast gain.

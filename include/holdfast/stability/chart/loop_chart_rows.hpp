@@ -29,11 +29,11 @@ namespace holdfast {
 /// overflows as long as the coefficients are between 1e−75 and 1e75.
 /// @tparam Scalar        a SIMD pack, or double
 /// @param columns        number of cells, ≥ 0
-/// @param polynomial_at  (column, Number{}) → Polynomial<Number, Degree> of the cells from that
-///                       column on, for Number = Scalar and double; in a variable whose stable
-///                       half-plane is Re < 0. It is passed by value: otherwise, to the compiler,
-///                       writing through `stable` might change the captured data, and every
-///                       coefficient would be read again for every pack.
+/// @param polynomial_at  (column, Number{}) → Polynomial<Number, Degree> of as many cells as Number
+///                       has lanes, the first one at `column`, for Number = Scalar and double; its
+///                       stable half-plane is Re < 0. It is passed by value: so the compiler knows
+///                       that writing through `stable` leaves the captured data unchanged, and
+///                       reads each coefficient once, not once for every pack.
 /// @param stable         array with `columns` entries: 1 stable, 0 not
 template <class Scalar, class PolynomialAt>
 void hurwitz_row(std::int64_t columns, PolynomialAt polynomial_at, std::uint8_t* stable) {
@@ -53,7 +53,7 @@ void hurwitz_row(std::int64_t columns, PolynomialAt polynomial_at, std::uint8_t*
   }
 }
 
-/// The vector c + x s.
+/// The vector c + x s, with number x and vectors c and s.
 template <int Size, class Scalar>
 Vector<Scalar, Size> affine(const Vector<Scalar, Size>& c, const Scalar& x,
                             const Vector<Scalar, Size>& s) {
@@ -100,8 +100,8 @@ void hurwitz_row(const Vector<double, Size>& constant, const Vector<double, Size
       stable);
 }
 
-/// Tests a row of polynomials in a table, columns × (Degree + 1), for stability. Each is scaled by
-/// its largest coefficient.
+/// Tests a row of polynomials in a table, columns × (Degree + 1), for stability. Each polynomial is
+/// scaled by its largest coefficient.
 template <class Scalar, int Size>
 void hurwitz_row(const Eigen::Matrix<double, Eigen::Dynamic, Size>& table, std::uint8_t* stable) {
   const Eigen::Matrix<double, Eigen::Dynamic, Size> scaled =
@@ -121,9 +121,9 @@ void hurwitz_row(const Eigen::Matrix<double, Eigen::Dynamic, Size>& table, std::
 
 namespace detail {
 
-/// The characteristic polynomial of a point's sampled loop in powers of λ − 1, for any gains.
+/// The characteristic polynomial in powers of λ − 1, for any gains, of a point's sampled loop.
 ///
-/// All called functions are inlined into it, and its name contains the type of the pack: so the
+/// All called functions are inlined into this one, whose name contains the type of the pack. So the
 /// matrix exponential of a row is compiled for the pack's instruction set as well.
 template <class Scalar>
 [[gnu::flatten, gnu::noinline]] AffinePolynomial<double, 5> polynomial_of(
@@ -135,8 +135,8 @@ template <class Scalar>
 
 /// A stability chart over any two parameters of the sampled loop, computed row by row.
 ///
-/// Where both axes are gains each row is filled from its crossings (`StabilityRows`); otherwise
-/// every cell is tested (`hurwitz_row`), as many at a time as `Scalar` has lanes.
+/// Where both axes are gains, rows are filled from their crossings of the stability boundary
+/// (`StabilityRows`); else cells are tested (`hurwitz_row`), as many at once as `Scalar` has lanes.
 template <class Scalar = double>
 class StabilityChartRows {
  public:
@@ -145,7 +145,7 @@ class StabilityChartRows {
     return in_half_plane(detail::polynomial_of<Scalar>(point));
   }
 
-  /// @throws InvalidParameter where the chart is not admissible
+  /// Creates the rows of a chart. @throws InvalidParameter where the chart is not admissible
   explicit StabilityChartRows(const LoopChart& chart) : polynomials_(chart, polynomial_of) {
     for (std::int64_t column = 0; column < polynomials_.columns(); ++column) {
       values_.push_back(chart.fast.values.at(column));
@@ -182,8 +182,8 @@ class StabilityChartRows {
 /// A chart of the spectral radius over any two parameters of the sampled loop. Several rows are
 /// computed at once, one per lane, each by continuation from its first cell (`DominantFactor`).
 ///
-/// Two packs of rows are computed together, so that one is worked on while the other waits for its
-/// division. The factors of the first cells are continued from one batch of rows to the next.
+/// Two packs of rows are computed together, since one can be worked on while a division of the
+/// other is pending. The factors of first cells start from those of the previous batch of rows.
 /// @tparam Degree  5 where every loop of the chart has δ = 0, 6 otherwise (see `DominantFactor`)
 template <class Scalar, int Degree>
 class RadiusChartRows {
@@ -196,13 +196,13 @@ class RadiusChartRows {
   /// The number of rows computed at once, one in each lane of two packs.
   static constexpr auto most_rows = static_cast<std::int64_t>(packs_ * lanes_);
 
-  /// The polynomial of a loop in powers of λ − 1. It has a root λ = 0, added where Degree is 6.
+  /// The polynomial of a loop in powers of λ − 1; its root λ = 0 is added where Degree is 6.
   static AffinePolynomial<double, Degree> polynomial_of(const OperatingPoint& point) {
     const AffinePolynomial<double, 5> p = detail::polynomial_of<Scalar>(point);
     return {root_added(p.base), root_added(p.proportional), root_added(p.differential)};
   }
 
-  /// @throws InvalidParameter where the chart is not admissible
+  /// Creates the rows of a chart. @throws InvalidParameter where the chart is not admissible
   explicit RadiusChartRows(const LoopChart& chart) : polynomials_(chart, polynomial_of) {}
 
   /// Writes the spectral radius ρ of `count` ≥ 0 rows, one after the other.
@@ -258,7 +258,7 @@ class RadiusChartRows {
         radius);
   }
 
-  /// Writes the spectral radii of up to `most_rows` rows; surplus lanes are computed and dropped.
+  /// Writes the spectral radii of up to `most_rows` rows; results of surplus lanes are dropped.
   /// @param polynomial_at  (pack, column) → Pack
   template <class PolynomialAt>
   void follow(std::int64_t rows, std::int64_t columns, const PolynomialAt& polynomial_at,
@@ -295,8 +295,7 @@ class RadiusChartRows {
   std::array<Follower, packs_> first_cells_;
 };
 
-/// Whether the chart contains a loop with a processing delay, so that its polynomials lack the root
-/// λ = 0.
+/// Whether a loop of the chart has a processing delay; its polynomial then has no root λ = 0.
 inline bool has_processing_delay(const LoopChart& chart) {
   return chart.cell(0, 0).sampling.processing_delay > 0.0 ||
          chart.cell(chart.slow.values.count - 1, chart.fast.values.count - 1)

@@ -29,14 +29,14 @@ enum class ProvedStability {
   undecided,
 };
 
-/// A closed box in the plane of the gains, of positive area.
+/// A closed box in the plane of the gains; it may be as small as a segment or a point.
 struct GainBox {
   double proportional_from;  ///< the least P (N/m)
   double proportional_to;    ///< the largest P (N/m)
   double differential_from;  ///< the least D (N s/m)
   double differential_to;    ///< the largest D (N s/m)
 
-  /// The area in the plane of P and D (N²·s/m²).
+  /// The area of the box in the plane of P and D (N²·s/m²).
   double area() const {
     return (proportional_to - proportional_from) * (differential_to - differential_from);
   }
@@ -45,13 +45,13 @@ struct GainBox {
 /// A box with the verdict proved for it.
 struct ProvedBox {
   GainBox gains;              ///< the box
-  ProvedStability stability;  ///< verdict on all loops in it
+  ProvedStability stability;  ///< verdict on all loops with gains in the box
 };
 
-/// A chart of proved stability, covered without overlap by boxes with their verdicts. Each box is a
-/// cell of the grid or part of one. Boxes ascend in P and then in D.
+/// Chart of proved stability: boxes with verdicts, which cover the grid without overlap. Each box
+/// is a cell of the grid or a part of a cell. Boxes ascend in P and, for equal P, in D.
 struct ProvedChart {
-  std::vector<ProvedBox> boxes;  ///< at least one
+  std::vector<ProvedBox> boxes;  ///< boxes of the chart, at least one
 
   /// The area of all boxes (N²·s/m²).
   double area() const {
@@ -59,7 +59,7 @@ struct ProvedChart {
     for (const ProvedBox& box : boxes) sum += box.gains.area();
     return sum;
   }
-  /// The share of the area with a given verdict, 0 … 1.
+  /// The share of the chart's area with a given verdict, 0 … 1.
   double share(ProvedStability stability) const {
     double sum = 0.0;
     for (const ProvedBox& box : boxes)
@@ -70,9 +70,9 @@ struct ProvedChart {
 
 namespace detail {
 
-/// Hurwitz's conditions on a polynomial of degree n = 4 or 5, constant coefficient first: numbers
-/// that are all positive if all roots have Re < 0, and all non-negative if all roots have Re ≤ 0.
-/// The first `sufficing` of them are sufficient, by Liénard and Chipart.
+/// Hurwitz's conditions on a polynomial of degree n = 4 or 5, constant coefficient first. These
+/// numbers are all positive if all roots have Re < 0, and all non-negative if all roots have Re ≤
+/// 0. For Re < 0 the first `sufficing` numbers are sufficient, by Liénard and Chipart.
 ///
 ///     a_n a_0,  a_n a_2,  a_n a_{n−1},  H₃ a_n (n = 4) or H₂ and H₄ (n = 5);  then all others
 ///
@@ -102,7 +102,7 @@ struct HurwitzConditions {
 
 }  // namespace detail
 
-/// The proof of Hurwitz's conditions over boxes of gains, each condition by its mean value form:
+/// Proof of Hurwitz's conditions f > 0 over boxes of gains, by the mean value form about P₀, D₀:
 ///
 ///     f(P, D) ∈ f(P₀, D₀) + ∂f/∂P [box] (P − P₀) + ∂f/∂D [box] (D − D₀)
 ///
@@ -114,7 +114,7 @@ class GainBoxProof {
   explicit GainBoxProof(HalfPlanePolynomial<Enclosure, Degree> polynomial)
       : polynomial_(std::move(polynomial)) {}
 
-  /// The verdict proved for a box.
+  /// The verdict proved for all loops with gains in a box.
   ProvedStability operator()(const GainBox& box) const {
     const Enclosure p(box.proportional_from, box.proportional_to);
     const Enclosure d(box.differential_from, box.differential_to);
@@ -199,9 +199,9 @@ inline std::vector<GainBox> quarters_of(const GainBox& box) {
   return {{p0, p1, d0, d1}, {p0, p1, d1, d2}, {p1, p2, d0, d1}, {p1, p2, d1, d2}};
 }
 
-/// Quarters open boxes until they cover at most `most_area` (N²·s/m²), none can be divided, or the
-/// next quartering might give more than `most_boxes` boxes.
-/// @param open     items with a box `gains`; on return those still undecided
+/// Quarters undecided boxes until they cover at most `most_area` (N²·s/m²), none can be divided, or
+/// the next quartering might give more than `most_boxes` boxes.
+/// @param open     items with a box `gains`; on return the items that are still undecided
 /// @param take     (item, quarter) → adds the quarter to `open`, or to the decided boxes
 /// @param decided  () → number of decided boxes
 template <class Open, class Take, class Decided>
@@ -226,9 +226,9 @@ void quarter(std::vector<Open>& open, double most_area, std::size_t most_boxes, 
 
 }  // namespace detail
 
-/// Proves the cells of a chart: each is decided as a whole or quartered, until the undecided share
-/// of the area is at most the given one.
-/// @param decide      map from a GainBox to ProvedStability; a GainBoxProof
+/// Proves the cells of a chart. Each cell is decided as a whole or quartered, until the undecided
+/// share of the area is at most `undecided`.
+/// @param decide      map from a GainBox to ProvedStability, such as a GainBoxProof
 /// @param grid        grid of cells between its points; both axes ascend, with at least 2 points
 /// @param undecided   largest undecided share, 0 ≤ … < 1
 /// @param most_boxes  limit of the number of boxes; beyond it the rest remains undecided
@@ -255,13 +255,13 @@ ProvedChart proved_chart(const Decide& decide, const GainGrid& grid, double unde
 }
 
 /// The proof for the continuous loop of two masses without delay. It holds for all decimal
-/// parameters that are rounded to the given doubles.
+/// parameters that round to the given doubles.
 /// @throws InvalidParameter where the two masses are not admissible
 inline GainBoxProof<4> gain_box_proof(const TwoMass<double>& plant) {
   return GainBoxProof<4>(characteristic_polynomial(enclosed(plant)));
 }
 
-/// The proof for the sampled loop of two masses, for all decimals rounded to its parameters.
+/// The proof for the sampled loop of two masses, for all decimals that round to its parameters.
 /// @throws InvalidParameter where the two masses or the sampling are not admissible
 inline GainBoxProof<5> gain_box_proof(const TwoMass<double>& plant,
                                       const Sampling<double>& sampling) {

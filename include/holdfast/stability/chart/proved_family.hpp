@@ -19,13 +19,13 @@
 
 namespace holdfast {
 
-/// A closed box of loops: each of their N parameters between two numbers, which may be equal.
+/// Closed box of loops: each of the N parameters lies between two numbers, which may be equal.
 template <std::size_t N>
 struct ParameterBox {
-  std::array<double, N> lowest;   ///< lower ends
-  std::array<double, N> highest;  ///< upper ends, ≥ the lower ones
+  std::array<double, N> lowest;   ///< lower end of each parameter
+  std::array<double, N> highest;  ///< upper end of each parameter, ≥ the lower end
 
-  /// The middle, which is a loop of the box.
+  /// The loop in the middle of the box.
   std::array<double, N> middle() const {
     std::array<double, N> middle;
     for (std::size_t k = 0; k < N; ++k)
@@ -34,15 +34,15 @@ struct ParameterBox {
   }
 };
 
-/// The proof about all loops in a box.
+/// Result of a stability proof for all loops in a box.
 template <std::size_t N>
 struct ProvedFamily {
-  double stable_share = 0.0;                           ///< of the box's volume, proved stable
-  double undecided_share = 0.0;                        ///< of it, not decided
-  std::optional<std::array<double, N>> unstable_loop;  ///< a loop of the box, proved unstable
-  std::size_t parts = 0;                               ///< boxes that were looked at
+  double stable_share = 0.0;                           ///< proved stable share of the box's volume
+  double undecided_share = 0.0;                        ///< undecided share of the box's volume
+  std::optional<std::array<double, N>> unstable_loop;  ///< a loop proved unstable, if one was found
+  std::size_t parts = 0;                               ///< number of boxes taken from the queue
 
-  /// stable: every loop; unstable: not every loop; or undecided.
+  /// The verdict: every loop is stable, some loop is unstable, or undecided.
   ProvedStability verdict() const {
     if (unstable_loop) return ProvedStability::unstable;
     return undecided_share > 0.0 ? ProvedStability::undecided : ProvedStability::stable;
@@ -51,12 +51,12 @@ struct ProvedFamily {
 
 /// Limits of the search of `prove_family`.
 struct FamilyLimits {
-  std::size_t parts = 4000;  ///< most boxes that are looked at
+  std::size_t parts = 4000;  ///< largest number of boxes examined
 };
 
 namespace detail {
 
-/// A complex number by both parts.
+/// Complex number as real and imaginary part.
 template <class Number>
 struct Parts {
   Number real, imag;
@@ -68,25 +68,22 @@ Parts<Number> operator*(const Parts<Number>& a, const Parts<Number>& b) {
   return {a.real * b.real - a.imag * b.imag, a.real * b.imag + a.imag * b.real};
 }
 
-/// A sum that is linear in the gains: P times one number and D times another.
+/// Sum over aliased frequencies, linear in the gains: P · proportional + D · differential.
 struct AliasSum {
   Parts<Enclosure> proportional, differential;
 
-  /// Adds U G for the angle θ + 2πn, where U = 2 sin(θ/2)/(ωτ) e^{−i(θ/2 + ωδ)}.
-  /// @param twice     2 sin(θ/2)
+  /// Adds the term U G of the alias θ + 2πn, with U = 2 sin(θ/2)/(ωτ) e^{−i(θ/2 + ωδ)}.
+  /// @param hold      U
   /// @param omega     ω (rad/s)
   /// @param response  G(iω) (m/N)
-  void add(const Enclosure& twice, const Enclosure& angle, const Enclosure& phase,
-           const Enclosure& omega, const Parts<Enclosure>& response) {
-    const Enclosure size = twice / angle;
-    const Parts<Enclosure> part =
-        Parts<Enclosure>{size * cos(phase), -(size * sin(phase))} * response;
+  void add(const Parts<Enclosure>& hold, const Enclosure& omega, const Parts<Enclosure>& response) {
+    const Parts<Enclosure> part = hold * response;
     proportional.real += part.real;
     proportional.imag += part.imag;
     differential.real -= omega * part.imag;
     differential.imag += omega * part.real;
   }
-  /// Adds errors of these moduli, for each N s/m of D and N/m of P.
+  /// Widens both numbers by the given errors, per N s/m of D and per N/m of P.
   void widen(const Enclosure& of_differential, const Enclosure& of_proportional) {
     const auto widened = [](Parts<Enclosure>& z, double error) {
       z.real += Enclosure(-error, error);
@@ -97,24 +94,24 @@ struct AliasSum {
   }
 };
 
-/// Bounds of G(iω) for all ω from some on: |G| ≤ g/ω², and |G + μ/ω²| ≤ h/ω³.
+/// Bounds of a receptance above some frequency ω: |G(iω)| ≤ g/ω² and |G(iω) + μ/ω²| ≤ h/ω³.
 struct ResponseBounds {
-  Enclosure g;   ///< not positive: nothing is known
-  Enclosure mu;  ///< what a short force moves at once (1/kg)
-  Enclosure h;   ///< m rad³/(N s³)
+  Enclosure g;   ///< bound g (1/kg); unknown where not positive
+  Enclosure mu;  ///< inverse μ (1/kg) of the mass that a short force moves
+  Enclosure h;   ///< bound h (m rad³/(N s³))
 };
 
-/// The sum P A_P + D A_D over all other frequencies ω_n = (θ + 2πn)/τ that the samples do not tell
-/// from ω, n ≠ 0, of U_n (P + iω_n D) G(iω_n).
+/// Alias sum P A_P + D A_D = Σ U_n (P + iω_n D) G(iω_n) over the frequencies ω_n = (θ + 2πn)/τ, n ≠
+/// 0, which samples cannot distinguish from ω = θ/τ.
 ///
-/// For n beyond the N terms that are added |ω_n| τ ≥ 2π (n − t), t = θ/2π < 1, and Σ_{n > N}
-/// (n − t)^{−k} ≤ (N + 1/2 − t)^{1 − k}/(k − 1), since the sum is one by midpoints. At fast angles
-/// −μ/ω² is summed in closed form: with x = δ/τ
+/// Terms with |n| ≤ N are added; the rest is bounded by |ω_n| τ ≥ 2π (|n| − t), t = θ/2π < 1, and,
+/// by midpoints, Σ_{n > N} (n − t)^{−k} ≤ (N + 1/2 − t)^{1 − k}/(k − 1). At large θ the leading
+/// part −μ/ω² of G is summed in closed form, with x = δ/τ:
 ///
 ///     Σ e^{−i(θ + 2πn)x}/(θ + 2πn)² = (1 − x + x e^{−iθ})/(4 sin²(θ/2)),   0 ≤ x ≤ 1.
 ///
-/// @param response  ω (rad/s) → G(iω) (m/N)
-/// @param bounds    least ω → ResponseBounds
+/// @param response  map ω (rad/s) → G(iω) (m/N)
+/// @param bounds    map from the least ω (rad/s) to ResponseBounds
 template <class Response, class Bounds>
 AliasSum alias_sum(const Enclosure& theta, const Enclosure& period, const Enclosure& delay,
                    const Response& response, const Bounds& bounds) {
@@ -122,6 +119,8 @@ AliasSum alias_sum(const Enclosure& theta, const Enclosure& period, const Enclos
   const int terms = theta.upper() > 0.5 ? 40 : 6;
   const Enclosure turn = Enclosure(2.0) * pi<Enclosure>, half = theta * Enclosure(0.5);
   const Enclosure twice = Enclosure(2.0) * sin(half), share = delay / period;
+  const Parts<Enclosure> held{twice * cos(half), -(twice * sin(half))};
+  const bool is_prompt = delay == Enclosure();
   AliasSum sum;
   // Σ e^{−i(θ + 2πn)x}/(θ + 2πn)² of what is not added below.
   const Enclosure all = Enclosure(1.0) / square(twice);
@@ -129,11 +128,14 @@ AliasSum alias_sum(const Enclosure& theta, const Enclosure& period, const Enclos
                         -(all * share * sin(theta))};
   for (int n = -terms; n <= terms; ++n) {
     const Enclosure angle = theta + turn * Enclosure(static_cast<double>(n));
-    const Enclosure lag = angle * share, weight = Enclosure(1.0) / square(angle);
-    left.real -= weight * cos(lag);
-    left.imag += weight * sin(lag);
+    const Enclosure lag = angle * share, each = Enclosure(1.0) / angle, weight = square(each);
+    const Parts<Enclosure> late =
+        is_prompt ? Parts<Enclosure>{1.0, 0.0} : Parts<Enclosure>{cos(lag), -sin(lag)};
+    left.real -= weight * late.real;
+    left.imag -= weight * late.imag;
+    const Parts<Enclosure> hold = held * late;
     const Enclosure omega = angle / period;
-    if (n != 0) sum.add(twice, angle, half + lag, omega, response(omega));
+    if (n != 0) sum.add({each * hold.real, each * hold.imag}, omega, response(omega));
   }
   const Enclosure turns = Enclosure(theta.magnitude()) / turn;
   const Enclosure gap = Enclosure(terms + 0.5) - turns;
@@ -154,13 +156,13 @@ AliasSum alias_sum(const Enclosure& theta, const Enclosure& period, const Enclos
   return sum;
 }
 
-/// A parameter that is no single number in a box.
+/// Parameter with different values in a box.
 struct MovingParameter {
-  std::size_t number;  ///< which LoopParameter
-  double reach;        ///< upper bound of its distance from the box's middle
+  std::size_t number;  ///< index of the parameter
+  double reach;        ///< largest |value − value at the box's middle|, as an upper bound
 };
 
-/// A complex number of which both parts are functions.
+/// Values of a complex function, without its slopes.
 inline Parts<Enclosure> values_of(const Parts<EnclosedSlope>& z) {
   return {z.real.value, z.imag.value};
 }
@@ -168,36 +170,38 @@ inline Parts<Enclosure> slopes_of(const Parts<EnclosedSlope>& z) {
   return {z.real.slope, z.imag.slope};
 }
 
-/// An angle on the unit circle and the frequency that it is of a loop with the period τ.
+/// A point e^{iθ} of the unit circle with its frequency in one loop.
 template <class Number>
 struct CircleAngle {
-  Number theta;  ///< θ = ωτ
-  Number omega;  ///< ω (rad/s)
+  Number theta;  ///< angle θ = ωτ (rad)
+  Number omega;  ///< frequency ω (rad/s)
+  Number tuned;  ///< frequency Ω = ω/c (rad/s), with c as for `angle_at`
 };
 
-/// The angles of loops with different periods at v, 0 ≤ v ≤ π. Slow ones are of the same frequency,
-/// where natural frequencies lie; fast ones of the same angle, so that v = π is θ = π of all loops:
+/// Angle and frequency of a box's loops at a common coordinate v, 0 ≤ v ≤ π. At small v natural
+/// frequencies, which grow with c, lie at the same v in all loops; v = π is θ = π in each loop:
 ///
-///     ω = (1 − w) v/τ₀ + w v/τ,   w = v²/π²
+///     Ω = (1 − w) v/τ₀ + w v/(τ c),   w = v²/π²
+/// @param c  natural frequencies relative to those of the box's middle, whose period is τ₀
 inline CircleAngle<EnclosedSlope> angle_at(const EnclosedSlope& v, const EnclosedSlope& period,
-                                           double middle_period) {
+                                           const EnclosedSlope& c, double middle_period) {
   const EnclosedSlope rate(Enclosure(1.0) / Enclosure(middle_period), Enclosure());
-  const EnclosedSlope w =
-      v * v * EnclosedSlope(Enclosure(1.0) / square(pi<Enclosure>), Enclosure());
-  const EnclosedSlope rest = EnclosedSlope(1.0) - w;
-  return {v * (rest * (period * rate) + w), v * (rest * rate + w / period)};
+  const EnclosedSlope w = v * v * EnclosedSlope(Enclosure(1.0) / square(pi<Enclosure>), 0.0);
+  const EnclosedSlope slow = v * (EnclosedSlope(1.0) - w), fast = v * w;
+  const EnclosedSlope lag = period * c * rate;
+  return {slow * lag + fast, slow * c * rate + fast / period, slow * rate + fast / (period * c)};
 }
 
-/// Whether no loop of a box has a root e^{iθ} on an arc |v − v₀| ≤ h.
+/// Proof that no loop of a box has a root e^{iθ} on an arc |v − v₀| ≤ h of the unit circle.
 ///
-/// A root there is a zero of F = Δ(iω) (1 − P G_z − D G_v), which is the base function less Δ A.
-/// All its values are within
+/// Such a root is a zero of F = Δ(iω) (1 − P G_z − D G_v), which is the base function minus Δ A
+/// with the alias sum A. For the loops x of a box with middle x⁰ all values of F lie within
 ///
 ///     F(x⁰, v₀) + Σ_k ∂F/∂x_k (x_k − x⁰_k) + ∂F/∂v (v − v₀) − Δ A
 ///
-/// with the derivatives of the base function over box and arc. They keep off 0 where for some u
-/// Re(ū F(x⁰, v₀)) is more than all other terms can take away. Roots that move along the circle
-/// cost nothing: u is at a right angle to that.
+/// with the derivatives of the base function over box and arc. F is not 0 if, for some direction u,
+/// its part Re(ū F(x⁰, v₀)) exceeds the bounds of all other terms. If u is at a right angle to
+/// ∂F/∂v, the term of v takes nothing away.
 template <class Loop>
 class ArcExclusion {
  public:
@@ -206,13 +210,12 @@ class ArcExclusion {
   using Parameters = std::array<Number, parameters>;
 
   ArcExclusion(const Loop& loop, const ParameterBox<parameters>& box)
-      : loop_(loop), middle_loop_(box.middle()) {
+      : loop_(loop), middle_loop_(box.middle()), all_(all_of(box)), aliases_(loop.aliases(all_)) {
     for (std::size_t k = 0; k < parameters; ++k) {
-      // A fixed parameter stands for all decimals that round to it.
-      over_box_[k].value = Enclosure::of_decimals(box.lowest[k], box.highest[k]);
+      over_box_[k].value = all_[k];
       const bool is_fixed = box.lowest[k] == box.highest[k];
       at_middle_[k].value = is_fixed ? over_box_[k].value : Enclosure(middle_loop_[k]);
-      all_[k] = over_box_[k].value;
+      middle_values_[k] = at_middle_[k].value;
       if (!is_fixed)
         moving_.push_back({k, (over_box_[k].value - Enclosure(middle_loop_[k])).magnitude()});
     }
@@ -227,7 +230,7 @@ class ArcExclusion {
     });
   }
 
-  /// The parameter that takes most of the margin of the last arc away.
+  /// The index of the parameter whose range reduces the margin on the last arc most.
   std::size_t heaviest() const {
     std::size_t heaviest = 0;
     double most = -1.0;
@@ -237,10 +240,17 @@ class ArcExclusion {
       most = taken;
       heaviest = moving_[k].number;
     }
+    // The alias sum has no slopes; the period decides how wide it is.
+    const double unresolved = std::max(value_.real.radius(), value_.imag.radius());
+    const auto is_period = [](const MovingParameter& moving) {
+      return moving.number == Loop::place_of_period;
+    };
+    if (unresolved > most && std::any_of(moving_.begin(), moving_.end(), is_period))
+      return Loop::place_of_period;
     return heaviest;
   }
 
-  /// The corner of the box whose value at the last angle is nearest to 0, by the slopes.
+  /// The corner loop of the box with the F nearest to 0 at the last angle, estimated by the slopes.
   Parameters<double> nearest_corner(const ParameterBox<parameters>& box) const {
     Parameters<double> corner = middle_loop_;
     for (std::size_t k = 0; k < slopes_.size(); ++k) {
@@ -259,19 +269,33 @@ class ArcExclusion {
   static double weight(const Parts<Enclosure>& z) {
     return std::max(z.real.magnitude(), z.imag.magnitude());
   }
-  /// Re(ū z).
+  /// The component Re(ū z) of z along u.
   static Enclosure along(const Complex& u, const Parts<Enclosure>& z) {
     return Enclosure(u.real()) * z.real + Enclosure(u.imag()) * z.imag;
+  }
+
+  /// Enclosures of a box's parameters, for all decimals that round to the ends of the box.
+  static Parameters<Enclosure> all_of(const ParameterBox<parameters>& box) {
+    Parameters<Enclosure> all;
+    for (std::size_t k = 0; k < parameters; ++k)
+      all[k] = Enclosure::of_decimals(box.lowest[k], box.highest[k]);
+    return all;
   }
 
   void place(const Enclosure& arc) {
     const double v = arc.middle();
     const double period = middle_loop_[Loop::place_of_period];
-    const int near = loop_.near(middle_loop_, v / period);
-    const auto base = [&](const Parameters<EnclosedSlope>& x, const EnclosedSlope& at) {
-      return loop_.base(x, angle_at(at, x[Loop::place_of_period], period), near);
+    auto frame = loop_.frame_at(middle_loop_, v / period);
+    const auto angle = [&](const Parameters<EnclosedSlope>& x, const EnclosedSlope& at) {
+      return angle_at(at, x[Loop::place_of_period], frame.tuning(x), period);
     };
+    const auto base = [&](const Parameters<EnclosedSlope>& x, const EnclosedSlope& at) {
+      return loop_.base(x, angle(x, at), frame);
+    };
+    loop_.sum_modes(middle_values_, angle(at_middle_, {Enclosure(v), 0.0}).tuned.value, frame);
     value_ = values_of(base(at_middle_, {Enclosure(v), 0.0}));
+    const auto all = angle(over_box_, {arc, 0.0});
+    loop_.sum_modes(all_, all.tuned.value, frame);
     slopes_.clear();
     for (const MovingParameter& moving : moving_) {
       over_box_[moving.number].slope = 1.0;
@@ -279,15 +303,15 @@ class ArcExclusion {
       over_box_[moving.number].slope = 0.0;
     }
     rate_ = slopes_of(base(over_box_, {arc, 1.0}));
-    const auto all = angle_at({arc, 0.0}, over_box_[Loop::place_of_period], period);
-    take_aliases({all.theta.value, all.omega.value}, near);
+    take_aliases({all.theta.value, all.omega.value, all.tuned.value}, frame);
     middle_ = middle_of(value_);
   }
 
-  /// The value gets Δ A at the middle's gains, the slopes along the gains their parts of it.
-  void take_aliases(const CircleAngle<Enclosure>& at, int near) {
-    const AliasSum sum = loop_.aliases(all_, at.theta);
-    const Parts<Enclosure> factor = loop_.factor(all_, at.omega, near);
+  /// Subtracts Δ A from the value of F, and ∂(Δ A)/∂P and ∂(Δ A)/∂D from the slopes by P and D.
+  template <class Frame>
+  void take_aliases(const CircleAngle<Enclosure>& at, const Frame& frame) {
+    const AliasSum sum = aliases_(at.theta);
+    const Parts<Enclosure> factor = loop_.factor(all_, at, frame);
     const Parts<Enclosure> by_p = factor * sum.proportional, by_d = factor * sum.differential;
     const auto take = [](Parts<Enclosure>& from, const Parts<Enclosure>& part,
                          const Enclosure& times) {
@@ -302,7 +326,7 @@ class ArcExclusion {
     }
   }
 
-  /// At a right angle to what moves the values most, or towards the middle's.
+  /// Whether Re(ū F) ≠ 0 is proved for all loops of the box on the arc |v − v₀| ≤ `half`.
   bool holds_along(Complex u, double half) {
     const double size = std::abs(u);
     if (!(size > 0.0 && std::isfinite(size))) return false;
@@ -317,7 +341,8 @@ class ArcExclusion {
   const Loop& loop_;
   Parameters<double> middle_loop_;
   Parameters<EnclosedSlope> at_middle_, over_box_;
-  Parameters<Enclosure> all_;
+  Parameters<Enclosure> all_, middle_values_;
+  decltype(std::declval<const Loop&>().aliases(Parameters<Enclosure>())) aliases_;
   std::vector<MovingParameter> moving_;
   Parts<Enclosure> value_;                // F(x⁰, v₀), Δ A over box and arc
   Complex middle_;                        // about that
@@ -325,22 +350,25 @@ class ArcExclusion {
   Parts<Enclosure> rate_;                 // ∂F/∂v, likewise
 };
 
-/// A verdict on a box; where it is unstable, a loop that is; else the parameter to divide it at.
+/// Verdict on a box, with an unstable loop if one was found, else the parameter to halve along.
 template <std::size_t N>
 struct LoopVerdict {
   ProvedStability stability;
   std::array<double, N> loop;
   std::size_t heaviest;
+  bool is_stable_in_middle;  // of both halves, which share it
 };
 
-/// The verdict on a box: unstable where its middle is, or the corner that comes nearest to a root
-/// on the circle; stable where the middle is, and no loop has a root on the circle, so that none
-/// has crossed it.
+/// The verdict on a box. Unstable: the loop in the middle or at the `nearest_corner` is unstable.
+/// Stable: a loop of the box is stable and none has a root on the unit circle, so that no root has
+/// crossed the circle. Undecided otherwise.
+/// @param has_stable_loop  whether a loop of the box is proved stable already; else the middle is
+///                         judged first
 template <class Loop, std::size_t N>
-LoopVerdict<N> judged(const Loop& loop, const ParameterBox<N>& box) {
+LoopVerdict<N> judged(const Loop& loop, const ParameterBox<N>& box, bool has_stable_loop) {
   const std::array<double, N> middle = box.middle();
-  const ProvedStability of_middle = loop.verdict_on(middle);
-  if (of_middle == ProvedStability::unstable) return {of_middle, middle, 0};
+  ProvedStability of_middle = has_stable_loop ? ProvedStability::stable : loop.verdict_on(middle);
+  if (of_middle == ProvedStability::unstable) return {of_middle, middle, 0, false};
   ArcExclusion<Loop> exclusion(loop, box);
   constexpr std::size_t most_arcs = 4000;
   // From v = π k w to π (k + 1) w, k and the width w being exact. Depth first, so that an arc that
@@ -352,25 +380,29 @@ LoopVerdict<N> judged(const Loop& loop, const ParameterBox<N>& box) {
     const Enclosure arc = pi<Enclosure> * Enclosure(number * width, number * width + width);
     if (exclusion.holds(arc)) continue;
     if (count > most_arcs || width < 0x1p-40 || !exclusion.holds(Enclosure(arc.middle()))) {
+      if (has_stable_loop) of_middle = loop.verdict_on(middle);
+      if (of_middle == ProvedStability::unstable) return {of_middle, middle, 0, false};
       const std::array<double, N> corner = exclusion.nearest_corner(box);
       if (loop.verdict_on(corner) == ProvedStability::unstable)
-        return {ProvedStability::unstable, corner, 0};
-      return {ProvedStability::undecided, middle, exclusion.heaviest()};
+        return {ProvedStability::unstable, corner, 0, false};
+      return {ProvedStability::undecided, middle, exclusion.heaviest(),
+              of_middle == ProvedStability::stable};
     }
     arcs.emplace_back(2.0 * number + 1.0, 0.5 * width);
     arcs.emplace_back(2.0 * number, 0.5 * width);
   }
-  return {of_middle, middle, exclusion.heaviest()};
+  return {of_middle, middle, exclusion.heaviest(), of_middle == ProvedStability::stable};
 }
 
-/// A box that is to be decided, and its share of the whole.
+/// Box without a verdict yet, with its share of the volume of the first box.
 template <std::size_t N>
 struct LoopPart {
   ParameterBox<N> box;
   double share;
+  bool has_stable_loop;
 };
 
-/// The two halves of a box along a parameter; none where no double lies between its ends.
+/// The two halves of a box along a parameter; none if no double is between the parameter's ends.
 template <std::size_t N>
 std::vector<ParameterBox<N>> halves_of(const ParameterBox<N>& box, std::size_t along) {
   const double cut = 0.5 * box.lowest[along] + 0.5 * box.highest[along];
@@ -383,14 +415,14 @@ std::vector<ParameterBox<N>> halves_of(const ParameterBox<N>& box, std::size_t a
 
 }  // namespace detail
 
-/// Proves that every loop of a box is stable, or finds one that is not.
+/// Proves that every loop of a box is stable, or finds a loop that is not.
 ///
-/// The box is halved where it is not decided, along the parameter that moves the loop's function
-/// most. What is proved holds for all decimals that round to the box's ends.
-/// @param loop    what the parameters are of: TwoMassFamily, StringFamily
-/// @param box     of the parameters
-/// @param limits  of the search
-/// @param go_on   () → void, called before each part; may throw
+/// An undecided box is halved along the parameter that moves the loop's characteristic function
+/// most. The proof holds for all decimals that round to the box's ends.
+/// @param loop    family of loops: TwoMassFamily or StringFamily
+/// @param box     box of the family's parameters
+/// @param limits  limits of the search
+/// @param go_on   () → void, called before each box is examined; may throw
 /// @throws InvalidParameter where a loop of the box is not admissible
 /// Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009;
 /// J. Ackermann, Robust Control, Springer 1993, for the exclusion of zero.
@@ -406,7 +438,7 @@ ProvedFamily<Loop::parameters> prove_family(const Loop& loop,
   loop.validate(box);
   ProvedFamily<n> family;
   // The largest first, so that a region of unstable loops is met soon.
-  std::deque<detail::LoopPart<n>> open = {{box, 1.0}};
+  std::deque<detail::LoopPart<n>> open = {{box, 1.0, false}};
   while (!open.empty()) {
     go_on();
     const detail::LoopPart<n> part = open.front();
@@ -415,7 +447,7 @@ ProvedFamily<Loop::parameters> prove_family(const Loop& loop,
       family.undecided_share += part.share;
       continue;
     }
-    const detail::LoopVerdict<n> verdict = detail::judged(loop, part.box);
+    const detail::LoopVerdict<n> verdict = detail::judged(loop, part.box, part.has_stable_loop);
     if (verdict.stability == ProvedStability::unstable) {
       family.unstable_loop = verdict.loop;
       for (const detail::LoopPart<n>& rest : open) family.undecided_share += rest.share;
@@ -428,36 +460,47 @@ ProvedFamily<Loop::parameters> prove_family(const Loop& loop,
     }
     const auto halves = detail::halves_of(part.box, verdict.heaviest);
     if (halves.empty()) family.undecided_share += part.share;
-    for (const ParameterBox<n>& half : halves) open.push_back({half, 0.5 * part.share});
+    for (const ParameterBox<n>& half : halves)
+      open.push_back({half, 0.5 * part.share, verdict.is_stable_in_middle});
   }
   return family;
 }
 
-/// The sampled loops of two masses. Their parameters are those of LoopParameter, in its order.
+/// Family of the sampled loops of two masses, with the parameters of LoopParameter in its order.
 struct TwoMassFamily {
   static constexpr std::size_t parameters = 10;  ///< m₁, k₁, c₁, m₂, k₂, c₂, τ, δ, P, D
-  static constexpr std::size_t place_of_period = 6;  ///< place of τ
-  static constexpr std::size_t place_of_p = 8;       ///< place of P
-  static constexpr std::size_t place_of_d = 9;       ///< place of D
-  /// A number for each parameter.
+  static constexpr std::size_t place_of_period = 6;  ///< index of τ
+  static constexpr std::size_t place_of_p = 8;       ///< index of P
+  static constexpr std::size_t place_of_d = 9;       ///< index of D
+  /// Array of one number for each parameter.
   template <class Number>
   using Parameters = std::array<Number, parameters>;
   using Box = ParameterBox<parameters>;  ///< closed box of such loops
 
-  /// The parameters of a loop, whose delay is at most a sample.
+  /// The parameters of a loop, in the order of LoopParameter.
   static Parameters<double> of(OperatingPoint point) {
     Parameters<double> all;
     for (std::size_t k = 0; k < parameters; ++k)
       all[k] = value_of(point, static_cast<LoopParameter>(k));
     return all;
   }
-  /// The loop of such parameters.
+  /// The loop with the given parameters.
   static OperatingPoint point_of(const Parameters<double>& all) {
     OperatingPoint point{};
     for (std::size_t k = 0; k < parameters; ++k)
       value_of(point, static_cast<LoopParameter>(k)) = all[k];
     return point;
   }
+
+  /// The frame of F near a frequency (see StringFamily), empty: F needs no factor and no tuning.
+  struct Frame {
+    /// The ratio c of natural frequencies to the middle's: 1, as no c fits both frequencies.
+    static EnclosedSlope tuning(const Parameters<EnclosedSlope>&) { return 1.0; }
+  };
+  /// The empty frame of F near a frequency (rad/s).
+  static Frame frame_at(const Parameters<double>&, double) { return {}; }
+  /// Two masses have no modal sum.
+  static void sum_modes(const Parameters<Enclosure>&, const Enclosure&, Frame&) {}
 
   /// The characteristic polynomial of the plant at s = iω,
   ///
@@ -471,12 +514,12 @@ struct TwoMassFamily {
             omega * (c1 * k2 + c2 * k1 - cubic * square)};
   }
 
-  /// The part of F that repeats at no other frequency, θ = ωτ,
+  /// The characteristic function F without the aliased frequencies, θ being ωτ:
   ///
   ///     Δ(iω) + (P + iωD) m₂ ω² sinc(θ/2) e^{−iθ(δ/τ + 1/2)}
   static detail::Parts<EnclosedSlope> base(const Parameters<EnclosedSlope>& x,
-                                           const detail::CircleAngle<EnclosedSlope>& at, int) {
-    const auto& [theta, omega] = at;
+                                           const detail::CircleAngle<EnclosedSlope>& at, Frame) {
+    const auto& [theta, omega, tuned] = at;
     const auto& [m1, k1, c1, m2, k2, c2, period, delay, p, d] = x;
     const detail::Parts<EnclosedSlope> own = plant(x, omega);
     const EnclosedSlope phase = theta * (delay / period + EnclosedSlope(0.5));
@@ -485,44 +528,44 @@ struct TwoMassFamily {
     return {own.real + size * (p * c + rate * s), own.imag + size * (rate * c - p * s)};
   }
 
-  /// The factor Δ(iω) of the sum over the other frequencies.
-  static detail::Parts<Enclosure> factor(const Parameters<Enclosure>& x, const Enclosure& omega,
-                                         int) {
-    return plant<Enclosure>(x, omega);
+  /// The factor Δ(iω) of the alias sum in F.
+  static detail::Parts<Enclosure> factor(const Parameters<Enclosure>& x,
+                                         const detail::CircleAngle<Enclosure>& at, Frame) {
+    return plant<Enclosure>(x, at.omega);
   }
 
-  /// That sum; G = −m₂ ω²/Δ. With Δ = m₁m₂ω⁴ − i a₃ω³ − a₂ω² + i a₁ω + k₁k₂ and e = m₁m₂ − a₂/ω²
+  /// The alias sum of a box as a map θ → AliasSum, with G = −m₂ω²/Δ. The bounds follow from Δ =
+  /// m₁m₂ω⁴ − i a₃ω³ − a₂ω² + i a₁ω + k₁k₂ and e = m₁m₂ − a₂/ω²:
   ///
   ///     g = m₂/e,   μ = 1/m₁,   h = (a₃ + a₂/ω + a₁/ω² + k₁k₂/ω³)/(m₁ e).
-  static detail::AliasSum aliases(const Parameters<Enclosure>& x, const Enclosure& theta) {
-    const auto response = [&](const Enclosure& at) -> detail::Parts<Enclosure> {
-      const detail::Parts<Enclosure> own = plant<Enclosure>(x, at);
-      const Enclosure size = -(x[3] * square(at)) / (square(own.real) + square(own.imag));
-      return {size * own.real, -(size * own.imag)};
+  static auto aliases(const Parameters<Enclosure>& x) {
+    return [x](const Enclosure& theta) {
+      const auto response = [&](const Enclosure& at) -> detail::Parts<Enclosure> {
+        const detail::Parts<Enclosure> own = plant<Enclosure>(x, at);
+        const Enclosure size = -(x[3] * square(at)) / (square(own.real) + square(own.imag));
+        return {size * own.real, -(size * own.imag)};
+      };
+      const auto bounds = [&](const Enclosure& slowest) -> detail::ResponseBounds {
+        const auto& [m1, k1, c1, m2, k2, c2, period, delay, p, d] = x;
+        const Enclosure cubic = m1 * c2 + m2 * (c1 + c2);
+        const Enclosure quadratic = m1 * k2 + m2 * (k1 + k2) + c1 * c2;
+        const Enclosure least = m1 * m2 - quadratic / square(slowest);
+        if (!least.is_positive()) return {Enclosure(-1.0), Enclosure(), Enclosure()};
+        const Enclosure slower = quadratic + (c1 * k2 + c2 * k1 + k1 * k2 / slowest) / slowest;
+        return {m2 / least, Enclosure(1.0) / m1, (cubic + slower / slowest) / (m1 * least)};
+      };
+      return detail::alias_sum(theta, x[6], x[7], response, bounds);
     };
-    const auto bounds = [&](const Enclosure& slowest) -> detail::ResponseBounds {
-      const auto& [m1, k1, c1, m2, k2, c2, period, delay, p, d] = x;
-      const Enclosure cubic = m1 * c2 + m2 * (c1 + c2);
-      const Enclosure quadratic = m1 * k2 + m2 * (k1 + k2) + c1 * c2;
-      const Enclosure least = m1 * m2 - quadratic / square(slowest);
-      if (!least.is_positive()) return {Enclosure(-1.0), Enclosure(), Enclosure()};
-      const Enclosure slower = quadratic + (c1 * k2 + c2 * k1 + k1 * k2 / slowest) / slowest;
-      return {m2 / least, Enclosure(1.0) / m1, (cubic + slower / slowest) / (m1 * least)};
-    };
-    return detail::alias_sum(theta, x[6], x[7], response, bounds);
   }
 
-  /// Nothing: F needs no factor near a natural frequency.
-  static int near(const Parameters<double>&, double) { return 0; }
-
-  /// The verdict on one loop, by Hurwitz's conditions.
+  /// The verdict on a single loop, by Hurwitz's conditions.
   static ProvedStability verdict_on(const Parameters<double>& all) {
     const OperatingPoint x = point_of(all);
     return gain_box_proof(x.plant, x.sampling)(
         {x.gains.proportional, x.gains.proportional, x.gains.differential, x.gains.differential});
   }
 
-  /// @throws InvalidParameter where a loop of the box is not admissible
+  /// Validates the box. @throws InvalidParameter where a loop of the box is not admissible
   static void validate(const Box& box) {
     const OperatingPoint lowest = point_of(box.lowest), highest = point_of(box.highest);
     for (const OperatingPoint& point : {lowest, highest}) {

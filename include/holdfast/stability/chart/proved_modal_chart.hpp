@@ -42,7 +42,7 @@ struct BoxSide {
   std::size_t box;
 };
 
-/// Joins two boxes where a side in `ends` and one in `begins` have a segment in common.
+/// Joins every pair of boxes with a side in `ends` and a side in `begins` that share a segment.
 inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, JoinedSets& sets) {
   const auto by_place = [](const BoxSide& a, const BoxSide& b) {
     return std::tie(a.at, a.from) < std::tie(b.at, b.from);
@@ -62,7 +62,7 @@ inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, J
 
 }  // namespace detail
 
-/// The region of each box, as the number of one of the boxes in it. A region is a set of boxes that
+/// For each box the index of the box that stands for its region. A region is a set of boxes that
 /// are connected through shared sides.
 /// @param boxes  boxes that do not overlap; their common sides are identical doubles
 inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) {
@@ -84,8 +84,8 @@ inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) 
 
 namespace detail {
 
-/// A box and, for each circle, the arcs on which one of its loops may have a root. The arcs of a
-/// wider circle are dropped once that circle can decide nothing more.
+/// Box of gains with, for each circle, the arcs on which one of its loops may have a root. A wider
+/// circle's arcs are removed once that circle cannot prove the box unstable.
 struct CrossedBox {
   GainBox gains;
   std::vector<std::optional<CircleArcs::Arcs>> arcs;
@@ -113,7 +113,7 @@ struct CellRange {
   }
 };
 
-/// The chart of a loop of any order during its proof.
+/// Unfinished chart of a loop of any order; loops of a free box have no root on the unit circle.
 /// @tparam Watch  callback, called for each box
 template <class Watch>
 class ModalChart {
@@ -128,7 +128,7 @@ class ModalChart {
     open_cells(all, whole);
   }
 
-  /// Quarters undecided boxes until they cover at most `most_area` (N²·s/m²) or are too many.
+  /// Quarters undecided boxes until their area is at most `most_area` (N²·s/m²); see `quarter`.
   void refine(double most_area, std::size_t most_boxes) {
     quarter(
         open_, most_area, most_boxes,
@@ -136,7 +136,7 @@ class ModalChart {
         [this] { return unstable_.size() + free_.size(); });
   }
 
-  /// The finished chart; roots outside the circle are counted once for each region of free boxes.
+  /// The finished chart. Roots outside the unit circle are counted once per region of free boxes.
   ProvedChart finished() {
     ProvedChart chart;
     for (const GainBox& box : unstable_) chart.boxes.push_back({box, ProvedStability::unstable});
@@ -151,7 +151,7 @@ class ModalChart {
   }
 
  private:
-  /// Halves a range down to single cells and stores each as free, unstable or open (`take`).
+  /// Halves a range down to single cells and stores each cell as free, unstable or undecided.
   void open_cells(const CellRange& range, const CrossedBox& around) {
     CrossedBox box = part_of(around, range.box());
     if (range.is_cell()) return take(std::move(box));
@@ -160,7 +160,7 @@ class ModalChart {
     open_cells(second, box);
   }
 
-  /// A part of a box, with the arcs, among those of the box, on which its loops may have a root.
+  /// A part of a box, with those arcs of the box on which loops of the part may have a root.
   CrossedBox part_of(const CrossedBox& box, const GainBox& part) {
     watch_();
     CrossedBox result{part, {}};
@@ -211,8 +211,8 @@ class ModalChart {
 /// Proves the cells of a chart of a loop of any order. A box is free if none of its gains puts a
 /// root on the unit circle. The number of roots outside is constant on connected free boxes; it is
 /// counted once for each region (`CircleArcs::roots_outside`). Any other box is unstable if its
-/// loops have no root on a wider circle and some outside it. The rest is quartered until its share
-/// of the area is at most the given one.
+/// loops have roots outside a wider circle and none on it. Boxes still undecided are quartered
+/// until their share of the area is at most `undecided`.
 /// @param response    response of the loop
 /// @param grid        grid of cells between its points; both axes ascend, with at least 2 points
 /// @param undecided   largest undecided share, 0 ≤ … < 1

@@ -35,29 +35,29 @@ enum class StringParameter {
   differential_gain,   ///< D (N s/m)
 };
 
-/// The sampled loops of an absorber on a taut string, which has so many modes.
+/// Family of the sampled loops of an absorber on a taut string with a given number of modes.
 ///
 /// The string's receptance at the absorber is H(s) = Σ h_n/d_n with h_n = 2 sin²(nπa/L)/(μL) and
-/// d_n = s² + 2ζω_n s + ω_n². Next to mode m, F is taken with the factor d_m, so that nothing is
-/// large there: with S = H d_m, q = m₂ s² + c₂ s + k₂ and κ = c₂ s + k₂
+/// d_n = s² + 2ζω_n s + ω_n². Near mode m the loop's function F has the factor d_m and no large
+/// term. With S = H d_m, q = m₂ s² + c₂ s + k₂, κ = c₂ s + k₂, U₀ and A as for `alias_sum`,
 ///
 ///     F = q (d_m + M_c s² S) + m₂ s² S (κ − (P + sD) U₀) − (q (d_m + M_c s² S) + m₂ s² S κ) A.
 class StringFamily {
  public:
-  static constexpr std::size_t parameters = 11;      ///< those of StringParameter, in its order
-  static constexpr std::size_t place_of_period = 7;  ///< place of τ
-  static constexpr std::size_t place_of_p = 9;       ///< place of P
-  static constexpr std::size_t place_of_d = 10;      ///< place of D
-  /// A number for each parameter.
+  static constexpr std::size_t parameters = 11;      ///< number of parameters, see StringParameter
+  static constexpr std::size_t place_of_period = 7;  ///< index of τ
+  static constexpr std::size_t place_of_p = 9;       ///< index of P
+  static constexpr std::size_t place_of_d = 10;      ///< index of D
+  /// Array of one number for each parameter, in the order of StringParameter.
   template <class Number>
   using Parameters = std::array<Number, parameters>;
   using Box = ParameterBox<parameters>;  ///< closed box of such loops
 
-  /// @param span               L (m), > 0
-  /// @param place              a (m) of the absorber, inside the span
-  /// @param bending_stiffness  EI (N m²), ≥ 0
+  /// @param span               span L (m), > 0
+  /// @param place              distance a (m) of the absorber from an end, inside the span
+  /// @param bending_stiffness  bending stiffness EI (N m²), ≥ 0
   /// @param modes              number of modes, 1 … 1000
-  /// @throws InvalidParameter naming what is out of range
+  /// @throws InvalidParameter naming the argument that is out of range
   StringFamily(double span, double place, double bending_stiffness, int modes)
       : span_(span), place_(place), bending_stiffness_(bending_stiffness), modes_(modes) {
     require_positive("span L", span, "m");
@@ -75,18 +75,66 @@ class StringFamily {
     }
   }
 
-  /// The mode next to a frequency (rad/s).
-  int near(const Parameters<double>& x, double omega) const {
+  /// The frame of F near a frequency: the mode m whose d_m is a factor of F, and the wave speed of
+  /// the box's middle. With Ω = ω/c the modal sums of all tensions become one sum.
+  struct Frame {
+    int nearest;                               ///< index of that mode, from 0
+    Enclosure squared_speed;                   ///< squared wave speed T/μ of the middle (m²/s²)
+    detail::Parts<Enclosure> others = {};      ///< sum Σ μh_n/d_n over the other modes
+    detail::Parts<Enclosure> by_tuned = {};    ///< its derivative by Ω
+    detail::Parts<Enclosure> by_damping = {};  ///< its derivative by ζ
+    detail::Parts<Enclosure> by_tension = {};  ///< its derivative by T
+
+    /// The wave speed relative to the middle's, c = √((T/μ)/(T₀/μ₀)).
+    EnclosedSlope tuning(const Parameters<EnclosedSlope>& x) const {
+      return sqrt(x[0] / (x[1] * constant<EnclosedSlope>(squared_speed)));
+    }
+  };
+  /// The frame of F near a frequency.
+  /// @param x      middle of the box
+  /// @param omega  frequency ω (rad/s)
+  Frame frame_at(const Parameters<double>& x, double omega) const {
     const double first = std::sqrt(squared_waves_.front().middle() * x[0] / x[1]);
-    return std::clamp(static_cast<int>(std::lround(omega / first)), 1, modes_) - 1;
+    return {std::clamp(static_cast<int>(std::lround(omega / first)), 1, modes_) - 1,
+            Enclosure(x[0]) / Enclosure(x[1])};
+  }
+  /// Gives a frame the modal sum at Ω (rad/s), and its derivatives, which all directions share.
+  void sum_modes(const Parameters<Enclosure>& x, const Enclosure& tuned, Frame& frame) const {
+    using Complex = detail::Parts<Enclosure>;
+    frame.others = frame.by_tuned = frame.by_damping = frame.by_tension = {};
+    const Enclosure two(2.0), squared = square(tuned);
+    const auto subtract = [](Complex& from, const Complex& part) {
+      from.real -= part.real;
+      from.imag -= part.imag;
+    };
+    for (int n = 0; n < modes_; ++n) {
+      if (n == frame.nearest) continue;
+      const auto k = static_cast<std::size_t>(n);
+      const Enclosure own = squared_frequency(x[0], frame.squared_speed, n), root = sqrt(own);
+      const Complex d{own - squared, two * x[2] * root * tuned};
+      const Enclosure inverse = Enclosure(1.0) / (square(d.real) + square(d.imag));
+      const Complex one_over{d.real * inverse, -(d.imag * inverse)};
+      frame.others.real += shares_[k] * one_over.real;
+      frame.others.imag += shares_[k] * one_over.imag;
+      // −(μh/d²) ∂d
+      const Complex rate{shares_[k] * (square(one_over.real) - square(one_over.imag)),
+                         shares_[k] * (two * one_over.real * one_over.imag)};
+      subtract(frame.by_tuned, rate * Complex{-(two * tuned), two * x[2] * root});
+      subtract(frame.by_damping, rate * Complex{0.0, two * root * tuned});
+      if (bending_stiffness_ == 0.0) continue;
+      const Enclosure stiff = squared_waves_[k] * Enclosure::of_decimal(bending_stiffness_);
+      const Enclosure falls =
+          -(squared_waves_[k] * frame.squared_speed * stiff / square(x[0]));  // ∂Ω_n²/∂T
+      subtract(frame.by_tension, rate * Complex{falls, x[2] * tuned * falls / root});
+    }
   }
 
-  /// The part of F that repeats at no other frequency.
+  /// The characteristic function F without the aliased frequencies.
   detail::Parts<EnclosedSlope> base(const Parameters<EnclosedSlope>& x,
                                     const detail::CircleAngle<EnclosedSlope>& angle,
-                                    int near) const {
-    const auto& [theta, omega] = angle;
-    const Near<EnclosedSlope> here = at(x, omega, near);
+                                    const Frame& frame) const {
+    const auto& [theta, omega, tuned] = angle;
+    const Near<EnclosedSlope> here = at(x, omega, tuned, frame);
     const EnclosedSlope phase = theta * (x[8] / x[7] + EnclosedSlope(0.5));
     const EnclosedSlope c = cos(phase), s = sin(phase), rate = omega * x[10];
     const EnclosedSlope size = sinc(theta * EnclosedSlope(0.5));
@@ -97,48 +145,44 @@ class StringFamily {
     return {here.own.real - drive.real, here.own.imag - drive.imag};
   }
 
-  /// The factor q (d_m + M_c s² S) + m₂ s² S κ of the sum over the other frequencies.
-  detail::Parts<Enclosure> factor(const Parameters<Enclosure>& x, const Enclosure& omega,
-                                  int near) const {
-    return at(x, omega, near).own;
+  /// The factor q (d_m + M_c s² S) + m₂ s² S κ of the alias sum in F.
+  detail::Parts<Enclosure> factor(const Parameters<Enclosure>& x,
+                                  const detail::CircleAngle<Enclosure>& angle,
+                                  const Frame& frame) const {
+    return at(x, angle.omega, angle.tuned, frame).own;
   }
 
-  /// That sum; G = m₂ s² H/(q (1 + M_c s² H) + m₂ s² H κ). Where ω is beyond all ω_n, s² H has a
-  /// positive real part, so that the clamp makes |1 + M_c s² H| no smaller than 1. With η₀ = Σ h_n,
-  /// |H| ≤ η/ω², |H + η₀/ω²| ≤ ε/ω³ and |κ| ≤ ω r, r = k₂/ω + c₂,
+  /// The alias sum of a box, θ → AliasSum, for G = m₂ s² H/(q (1 + M_c s² H) + m₂ s² H κ). Where ω
+  /// is beyond all ω_n, s² H has a positive real part, so that the clamp makes |1 + M_c s² H| no
+  /// smaller than 1. With η₀ = Σ h_n, |H| ≤ η/ω², |H + η₀/ω²| ≤ ε/ω³ and |κ| ≤ ω r, r = k₂/ω + c₂,
   ///
   ///     g = m₂ η/e,   e = m₂ − k₂/ω² − m₂ η r/ω,   μ = η₀/(1 + M_c η₀)
   ///     h = (m₂ ε (1 + μ M_c) + r η₀ (1 + μ m₂) + μ r (M_c + m₂) ε/ω)/e.
-  detail::AliasSum aliases(const Parameters<Enclosure>& x, const Enclosure& theta) const {
-    const auto response = [&](const Enclosure& there) -> detail::Parts<Enclosure> {
-      const Near<Enclosure> here = at(x, there, modes_ - 1);
-      const Enclosure norm = square(here.own.real) + square(here.own.imag);
-      return detail::Parts<Enclosure>{here.own.real / norm, -(here.own.imag / norm)} * here.reach;
+  auto aliases(const Parameters<Enclosure>& x) const {
+    return [this, x, moments = Moments(*this, x)](const Enclosure& theta) {
+      const auto response = [&](const Enclosure& there) {
+        return this->response(x, moments, there);
+      };
+      const auto bounds = [&](const Enclosure& slowest) -> detail::ResponseBounds {
+        const Enclosure one(1.0), clamp = x[3], mass = x[4];
+        const Enclosure gap = one - square(moments.fastest / slowest);
+        if (!gap.is_positive()) return {Enclosure(-1.0), Enclosure(), Enclosure()};
+        const Enclosure& mobility = moments.all[0];  // η₀
+        const Enclosure error = (moments.of_squares / slowest + moments.all[1]) / gap;
+        const Enclosure link = x[5] / slowest + x[6], eta = mobility / gap;
+        const Enclosure least = mass - x[5] / square(slowest) - mass * eta * link / slowest;
+        if (!least.is_positive()) return {Enclosure(-1.0), Enclosure(), Enclosure()};
+        const Enclosure mu = mobility / (one + clamp * mobility);
+        const Enclosure deviation = mass * error * (one + mu * clamp) +
+                                    link * mobility * (one + mu * mass) +
+                                    mu * link * (clamp + mass) * error / slowest;
+        return {mass * eta / least, mu, deviation / least};
+      };
+      return detail::alias_sum(theta, x[7], x[8], response, bounds);
     };
-    const auto bounds = [&](const Enclosure& slowest) -> detail::ResponseBounds {
-      const Enclosure one(1.0), clamp = x[3], mass = x[4];
-      const Enclosure gap = one - squared_frequency(x, modes_ - 1) / square(slowest);
-      if (!gap.is_positive()) return {Enclosure(-1.0), Enclosure(), Enclosure()};
-      Enclosure mobility, error;  // η₀, ε
-      for (int n = 0; n < modes_; ++n) {
-        const Enclosure share = shares_[static_cast<std::size_t>(n)] / x[1];
-        const Enclosure own = squared_frequency(x, n);
-        mobility += share;
-        error += share * (own / slowest + Enclosure(2.0) * x[2] * sqrt(own)) / gap;
-      }
-      const Enclosure link = x[5] / slowest + x[6], eta = mobility / gap;
-      const Enclosure least = mass - x[5] / square(slowest) - mass * eta * link / slowest;
-      if (!least.is_positive()) return {Enclosure(-1.0), Enclosure(), Enclosure()};
-      const Enclosure mu = mobility / (one + clamp * mobility);
-      const Enclosure deviation = mass * error * (one + mu * clamp) +
-                                  link * mobility * (one + mu * mass) +
-                                  mu * link * (clamp + mass) * error / slowest;
-      return {mass * eta / least, mu, deviation / least};
-    };
-    return detail::alias_sum(theta, x[7], x[8], response, bounds);
   }
 
-  /// The verdict on one loop: its plant's poles are enclosed, and F's turns about 0 counted.
+  /// The verdict on a single loop, by enclosed plant poles and the winding of F about 0.
   ProvedStability verdict_on(const Parameters<double>& x) const {
     const TautString<double> string{x[0], x[1], span_, x[2], bending_stiffness_};
     ConductorWithAbsorber conductor{
@@ -153,7 +197,7 @@ class StringFamily {
     return *outside == 0 ? ProvedStability::stable : ProvedStability::unstable;
   }
 
-  /// @throws InvalidParameter where a loop of the box is not admissible
+  /// Validates the box. @throws InvalidParameter where a loop of the box is not admissible
   void validate(const Box& box) const {
     for (const Parameters<double>& x : {box.lowest, box.highest}) {
       holdfast::validate(TautString<double>{x[0], x[1], span_, x[2], bending_stiffness_});
@@ -168,18 +212,83 @@ class StringFamily {
   }
 
  private:
-  /// q (d_m + M_c s² S) + m₂ s² S κ, and m₂ s² S.
+  /// The terms `own` = q (d_m + M_c s² S) + m₂ s² S κ and `reach` = m₂ s² S of F near mode m.
   template <class Number>
   struct Near {
     detail::Parts<Number> own, reach;
   };
 
-  /// ω_n² = k_n² (T + k_n² EI)/μ.
+  /// The moments M_k = U_k(ζ) Σ h_n ω_n^k of a box's strings, U_k being Chebyshev's polynomials:
+  ///
+  ///     s² H = Σ_k M_k (−1/s)^k,   |s| > ω_N,
+  ///
+  /// since 1/(1 + 2ζt + t²) = Σ U_k(ζ) (−t)^k. For ζ ≤ 1, |U_k| ≤ k + 1, and the terms with k ≥ K
+  /// sum to at most (K + 1) M_0 r^K/(1 − r)², r = ω_N/|s|.
+  struct Moments {
+    static constexpr std::size_t count = 24;
+    std::array<Enclosure, count> all;
+    Enclosure fastest, of_squares;  // ω_N, Σ h_n ω_n²
+
+    Moments(const StringFamily& family, const Parameters<Enclosure>& x) {
+      for (int n = 0; n < family.modes_; ++n) {
+        Enclosure part = family.shares_[static_cast<std::size_t>(n)] / x[1];
+        fastest = sqrt(family.squared_frequency(x[0], x[0] / x[1], n));
+        for (Enclosure& moment : all) {
+          moment += part;
+          part *= fastest;
+        }
+      }
+      of_squares = all[2];
+      Enclosure before, here(1.0);  // U_{k−1}, U_k
+      for (Enclosure& moment : all) {
+        moment *= here;
+        const Enclosure next = Enclosure(2.0) * x[2] * here - before;
+        before = here;
+        here = next;
+      }
+    }
+  };
+
+  /// The response G(iω) of a box's loops, by moments at ω > 2 ω_N, else by modes.
+  detail::Parts<Enclosure> response(const Parameters<Enclosure>& x, const Moments& moments,
+                                    const Enclosure& omega) const {
+    using Complex = detail::Parts<Enclosure>;
+    const Enclosure one(1.0), ratio = moments.fastest / abs(omega);
+    const auto quotient = [](const Complex& a, const Complex& b) {
+      const Enclosure norm = square(b.real) + square(b.imag);
+      return Complex{b.real / norm, -(b.imag / norm)} * a;
+    };
+    if (!(ratio.upper() < 0.5 && x[2].upper() <= 1.0)) {
+      Frame frame{modes_ - 1, x[0] / x[1]};
+      sum_modes(x, omega, frame);
+      const Near<Enclosure> here = at(x, omega, omega, frame);
+      return quotient(here.reach, here.own);
+    }
+    std::size_t terms = 0;
+    Enclosure power(1.0);
+    for (; terms < Moments::count && power.upper() > 1e-12; terms += 2) power *= square(ratio);
+    const Enclosure rest =
+        Enclosure(static_cast<double>(terms + 1)) * moments.all[0] * power / square(one - ratio);
+    const Enclosure either(-rest.upper(), rest.upper()), falls = -(one / square(omega));
+    Complex sum;
+    for (std::size_t k = terms; k > 0; k -= 2)
+      sum = {moments.all[k - 2] + falls * sum.real, moments.all[k - 1] + falls * sum.imag};
+    const Complex reach{sum.real + either, sum.imag / omega + either};  // s² H
+    const Complex link{x[5], omega * x[6]}, absorber{x[5] - x[4] * square(omega), omega * x[6]};
+    const Complex clamped{one + x[3] * reach.real, x[3] * reach.imag};
+    const Complex moved{x[4] * reach.real, x[4] * reach.imag};
+    const Complex own = absorber * clamped, pressed = moved * link;
+    return quotient(moved, {own.real + pressed.real, own.imag + pressed.imag});
+  }
+
+  /// The squared frequency k_n² (1 + k_n² EI/T) v² of mode n + 1, k_n = (n + 1)π/L, v² = T/μ.
   template <class Number>
-  Number squared_frequency(const Parameters<Number>& x, int n) const {
+  Number squared_frequency(const Number& tension, const Number& squared_speed, int n) const {
     const auto k = static_cast<std::size_t>(n);
+    const Number taut = constant<Number>(squared_waves_[k]) * squared_speed;
+    if (bending_stiffness_ == 0.0) return taut;
     const Enclosure stiff = squared_waves_[k] * Enclosure::of_decimal(bending_stiffness_);
-    return constant<Number>(squared_waves_[k]) * (x[0] + constant<Number>(stiff)) / x[1];
+    return taut * (constant<Number>(1.0) + constant<Number>(stiff) / tension);
   }
 
   template <class Number>
@@ -191,29 +300,29 @@ class StringFamily {
   }
 
   template <class Number>
-  Near<Number> at(const Parameters<Number>& x, const Number& omega, int near) const {
+  Near<Number> at(const Parameters<Number>& x, const Number& omega, const Number& tuned,
+                  const Frame& frame) const {
     using Complex = detail::Parts<Number>;
-    const Number squared = omega * omega;
-    const auto divisor = [&](int n) -> Complex {
-      const Number own = squared_frequency(x, n);
-      return {own - squared, constant<Number>(2.0) * x[2] * sqrt(own) * omega};
-    };
-    Complex others{constant<Number>(0.0), constant<Number>(0.0)};
-    for (int n = 0; n < modes_; ++n) {
-      if (n == near) continue;
-      const Complex d = divisor(n);
-      const Number weight = constant<Number>(shares_[static_cast<std::size_t>(n)]) /
-                            (d.real * d.real + d.imag * d.imag);
-      others.real += weight * d.real;
-      others.imag -= weight * d.imag;
+    const int near = frame.nearest;
+    const Number squared = tuned * tuned, speed = constant<Number>(frame.squared_speed);
+    const Number damping = constant<Number>(2.0) * x[2] * tuned;
+    const Number own_squared = squared_frequency(x[0], speed, near);
+    const Complex nearest{own_squared - squared, damping * sqrt(own_squared)};
+    Complex others{constant<Number>(frame.others.real), constant<Number>(frame.others.imag)};
+    if constexpr (std::is_same_v<Number, EnclosedSlope>) {
+      for (const auto& [part, rate] : {std::pair{tuned.slope, &frame.by_tuned},
+                                       {x[2].slope, &frame.by_damping},
+                                       {x[0].slope, &frame.by_tension}}) {
+        others.real.slope += part * rate->real;
+        others.imag.slope += part * rate->imag;
+      }
     }
-    const Complex nearest = divisor(near);
     Complex sum = nearest * others;  // S μ
     sum.real += constant<Number>(shares_[static_cast<std::size_t>(near)]);
     const Number inertia = -(x[4] * squared) / x[1];
     const Complex reach{inertia * sum.real, inertia * sum.imag};
     const Complex link{x[5], omega * x[6]};
-    const Complex absorber{x[5] - x[4] * squared, omega * x[6]};
+    const Complex absorber{x[5] - x[4] * (omega * omega), omega * x[6]};
     const Number clamp = x[3] * squared / x[1];
     const Complex clamped{nearest.real - clamp * sum.real, nearest.imag - clamp * sum.imag};
     const Complex own = absorber * clamped, pressed = reach * link;

@@ -17,7 +17,7 @@
 
 namespace holdfast::detail {
 
-/// A bound of Σ a_j over j > `order`: `next` is its first term, a_{j+1}/a_j ≤ `rate`/(j + 1).
+/// Bound of Σ a_j over j > `order`, with first term `next` and a_{j+1}/a_j ≤ `rate`/(j + 1).
 inline double tail_beyond(double next, double rate, std::size_t order) {
   const double ratio = rate / static_cast<double>(order + 2);
   return ratio < 1.0 ? next / (1.0 - ratio) : std::numeric_limits<double>::infinity();
@@ -37,11 +37,11 @@ inline TaylorNumber moving_phase(double omega, double period, double radius, std
 }
 
 /// The Taylor series of the harmonic input's phasor g = cosine − i sine within `radius` (s) of a
-/// period. Its derivatives are g′ = A_d c + iωg for the exact force, g′ = A_d c for the held one,
-/// and A_d′ = A A_d, with c the plant's `excitation_input()`.
+/// period. Its derivatives by the period are g′ = A_d c + iωg for the exact force, g′ = A_d c for
+/// the held force, and A_d′ = A A_d, with c the plant's `excitation_input()`.
 ///
 /// In the coordinates that balance A, let p_j and γ_j be the sizes of the terms of A_d c and g and
-/// r = max(‖A‖, ω) radius. Then max(γ_j r, p_j radius) grows by at most 2 r/(j + 1) per term.
+/// r = max(‖A‖, ω) radius. Then max(γ_j r, p_j radius) grows by a factor ≤ 2 r/(j + 1) per term.
 template <class Plant>
 MovingVector moving_input(const Plant& plant, const LoopMap<double>& map, ForceHold hold,
                           double omega, double radius, std::size_t terms) {
@@ -71,22 +71,22 @@ MovingVector moving_input(const Plant& plant, const LoopMap<double>& map, ForceH
   return result;
 }
 
-/// The verdict on a stretch, from the difference of two squared moduli that is to be positive.
+/// The verdict on an interval of periods: it holds if the difference of two squares is positive.
 inline Stretch stretch_of(const SquaresDifference& gap) {
   return gap.least > 0.0 ? Stretch::holds : gap.at_centre > 0.0 ? Stretch::open : Stretch::fails;
 }
 
-/// Whether the loop is proved to be stable, and its conductor's steady amplitude to be below that
-/// without control, for all periods within `radius` of a given one.
+/// The verdict for all periods within `radius` of `period`: whether the loop is proved to be stable
+/// and its conductor's steady amplitude to be below that without control.
 ///
-/// For the closed loop y = (λI − S)⁻¹ g is due to the excitation and Y = (λI − S)⁻¹ s to the
-/// command, λ = e^{iωτ}. With the row K of the gains and the row c of the conductor's displacement
+/// The closed loop's response to the excitation is y = (λI − S)⁻¹ g, to the command Y = (λI − S)⁻¹
+/// s, λ = e^{iωτ}. With the gains' row K and the row c of the conductor's displacement
 ///
 ///     Z/Z₀ = n/(n − (c Y)(K y)),   n = (c y)(1 + K Y)
 ///
-/// so that the poles of the plant without control do not matter; Z itself is c y. The truncation
-/// errors of the series are bounded, the round-off of its sums is not.
-/// @param reference  amplitude that |c y| must stay below (m/N); NaN: |Z₀|
+/// so that the poles of the plant without control do not matter; Z = c y is the amplitude with
+/// control, Z₀ without. Truncation of the series is bounded, round-off of its sums is not.
+/// @param reference  amplitude (m/N) that |c y| must stay below; NaN stands for |Z₀|
 template <class Plant>
 Stretch attenuation(const Plant& plant, const SamplingFamily<Plant>& family,
                     const PdGains<double>& gains, ForceHold hold, double omega, double period,

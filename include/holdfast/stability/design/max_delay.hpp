@@ -34,37 +34,35 @@ namespace holdfast {
 
 /// The criterion for a feasible sampling period.
 enum class DelayCriterion {
-  stable,      ///< some differential gain stabilises the loop
-  attenuates,  ///< τ < 1/(2f), so that the samples show the vibration, and some stabilising
-               ///< differential gain brings the steady amplitude below that of no
-               ///< control
+  stable,      ///< at least one differential gain D stabilises the loop
+  attenuates,  ///< τ < 1/(2f), so that the samples show the vibration, and some stabilising D
+               ///< brings the steady amplitude below that without control
 };
 
 /// The options of the search for the largest feasible sampling period at one frequency.
 struct MaxDelayOptions {
-  double frequency;          ///< f (Hz), > 0
+  double frequency;          ///< excitation frequency f (Hz), > 0
   double proportional_gain;  ///< P (N/m), finite; Eq. (6) of Kollár 2022 tunes it to f
   DelayCriterion criterion = DelayCriterion::attenuates;  ///< criterion for a feasible period
   ForceHold hold = ForceHold::sampled;  ///< hold of the excitation; used by `attenuates` only
-  double delay_fraction = 0.0;  ///< δ/τ, constant while τ varies; 0 … 1, of a loop by poles ≤ 1000
-  double shortest_period = 1e-5;  ///< s; start of the search, or 1/(1000 f) if that is less
-  /// The end of the search (s), > `shortest_period`; 0: 1/(2f) for `attenuates`. For `stable` 0
-  /// means the period beyond which every period is proved to be stable, if that is within 200
-  /// periods of the plant's slowest mode, else 20 of these periods.
+  double delay_fraction = 0.0;  ///< ratio δ/τ, constant; 0 … 1, or 0 … 1000 for a loop by poles
+  double shortest_period = 1e-5;  ///< start of the search (s), or 1/(1000 f) if that is less
+  /// The end of the search (s), > `shortest_period`; 0: a default. The default is 1/(2f) for
+  /// `attenuates`. For `stable` it is the period beyond which every period is proved to be stable,
+  /// if that is within 200 periods of the plant's slowest mode, else 20 of these periods.
   double longest_period = 0.0;
-  double search_ratio = 1.00001;  ///< > 1; infeasible windows narrower than this ratio may be
-                                  ///< missed where no D is proved to serve over a whole step
-  int most_steps = 20000;  ///< ≥ 1; most steps of the search, each some 40 µs or more for two
-                           ///< masses
+  double search_ratio = 1.00001;  ///< ratio of periods, > 1; infeasible windows narrower than it
+                                  ///< may be missed in a step without a D proved feasible
+  int most_steps = 20000;  ///< largest number of steps, ≥ 1; for two masses some 40 µs or more each
   std::function<void()> watch = {};  ///< called at each step; may throw to end the search
-  /// Whether `attenuates` compares with the plant without control under the true force; else under
-  /// the force held as with control (see `AmplitudeOptions`).
+  /// Whether `attenuates` compares the amplitude with that without control under the true force; if
+  /// not, the force is held as with control (see `AmplitudeOptions`).
   bool relative_to_true_force = false;
 
   /// The angular frequency ω = 2π f (rad/s).
   double angular_frequency() const { return 2.0 * pi<double> * frequency; }
 
-  /// The sampling with period τ and the corresponding δ.
+  /// The sampling with period τ and delay δ = `delay_fraction` · τ.
   Sampling<double> sampling(double period) const { return {period, delay_fraction * period}; }
 };
 
@@ -83,10 +81,10 @@ inline void validate(const MaxDelayOptions& options) {
 
 namespace detail {
 
-/// The stabilising D of one sampling period and its response, for the given P.
+/// Stabilising D at one sampling period and the steady response, for a given P.
 struct DelayOffer {
-  std::vector<Interval<double>> stable;                 ///< intervals of D that stabilise
-  std::optional<SteadyResponse<double>> response = {};  ///< empty for the criterion `stable`
+  std::vector<Interval<double>> stable;                 ///< intervals of D (N s/m) that stabilise
+  std::optional<SteadyResponse<double>> response = {};  ///< steady response; empty for `stable`
 };
 
 template <class Plant>
@@ -99,7 +97,7 @@ DelayOffer delay_offer(const Plant& plant, const MaxDelayOptions& options, doubl
   return offer;
 }
 
-/// The steady response of a conductor by its modes at one sampling period.
+/// The steady response of a conductor given by its modes, at one sampling period.
 template <class Scalar = double>
 SteadyResponse<Scalar> delay_response(const ConductorWithAbsorber& plant,
                                       const MaxDelayOptions& options, double sampling_period) {
@@ -110,7 +108,7 @@ SteadyResponse<Scalar> delay_response(const ConductorWithAbsorber& plant,
   return response.relative_to(true_amplitude_per_force(plant, omega));
 }
 
-/// The stabilising D and the response of a conductor by its modes.
+/// The stabilising D and the steady response of a conductor given by its modes.
 template <class Scalar = double>
 DelayOffer delay_offer(const ConductorWithAbsorber& plant, const MaxDelayOptions& options,
                        double sampling_period) {
@@ -128,7 +126,7 @@ inline bool shows_vibration(const MaxDelayOptions& options, double sampling_peri
          2.0 * options.frequency * sampling_period < 1.0;
 }
 
-/// The best D for a period: that of minimum amplitude where attenuation is required, else one
+/// The best D for a period: the D of minimum amplitude where attenuation is required, else a D
 /// inside the first stable interval; NaN where none is feasible.
 inline double serving_gain(const MaxDelayOptions& options, double period, const DelayOffer& offer) {
   if (!shows_vibration(options, period) || offer.stable.empty()) return std::nan("");
@@ -146,8 +144,8 @@ inline double least_ratio(const MaxDelayOptions& options, const DelayOffer& offe
 
 }  // namespace detail
 
-/// The open intervals of D (N s/m) that make one sampling period feasible, exact and ascending:
-/// those that stabilise and, for attenuation, also have an amplitude below that without control.
+/// The open intervals of D (N s/m) that make one sampling period feasible, exact and ascending. A
+/// feasible D stabilises and, for `attenuates`, gives an amplitude below that without control.
 /// @tparam Plant           two masses, in closed form, or a plant of any order with ports
 /// @param plant            plant within its ranges, which are not checked here
 /// @param options          options within their ranges (`validate`), which are not checked here
@@ -169,15 +167,15 @@ enum class MaxDelayOutcome {
   unlimited,  ///< every period is feasible: beyond the end of the search the loop is proved to be
               ///< stable for any sampling period (`SlowSamplingBound`); `sampling_period` is
               ///< infinite
-  beyond_search,  ///< every period up to the end of the search is feasible, which is
-                  ///< `sampling_period`; longer ones are unknown
+  beyond_search,  ///< every period up to `sampling_period`, the end of the search, is feasible;
+                  ///< longer periods were not examined
   never,          ///< the shortest period of the search is infeasible; `sampling_period` is 0
 };
 
-/// The cause of infeasibility beyond the largest period.
+/// Cause of infeasibility just beyond the largest sampling period.
 enum class MaxDelayLimit {
   none,         ///< no known cause: the outcome is `unlimited` or `beyond_search`
-  stability,    ///< no D stabilises, or the interval of D that served so far has vanished
+  stability,    ///< no D stabilises, or the interval of stable D used so far has vanished
   attenuation,  ///< stabilising gains no longer bring the amplitude below that without control
   nyquist,      ///< τ = 1/(2f): the samples no longer resolve the vibration
 };
@@ -185,11 +183,11 @@ enum class MaxDelayLimit {
 /// The largest sampling period τ* such that every τ in (0, τ*] is feasible.
 struct MaxDelay {
   MaxDelayOutcome outcome;   ///< outcome of the search
-  double sampling_period;    ///< τ* (s)
+  double sampling_period;    ///< largest period τ* (s)
   double differential_gain;  ///< D (N s/m) at τ*: of minimum amplitude, or inside the stable
                              ///< interval; a limit without any margin, not a recommended gain; NaN
                              ///< where the outcome is `never`
-  MaxDelayLimit limit;       ///< cause of infeasibility beyond τ*, or at once for `never`
+  MaxDelayLimit limit;  ///< cause of infeasibility beyond τ*, or of the shortest period for `never`
 };
 
 namespace detail {
@@ -216,8 +214,8 @@ inline double longest_of_stability(const ConductorWithAbsorber& plant, double /*
   return 20.0 * 2.0 * pi<double> / slowest;
 }
 
-/// The search for the end of the feasible periods. It goes to a longer period by a D that is proved
-/// to serve in between, or for a conductor by its modes by steps of the search ratio, unproved.
+/// Search for the end of the feasible periods, in steps. Over each step one D is proved feasible.
+/// For a conductor given by its modes nothing is proved, and the search ratio gives the steps.
 template <class Plant>
 class DelaySearch {
  public:
@@ -270,9 +268,9 @@ class DelaySearch {
   }
   double gain_at(double period) const { return serving_gain(options_, period, offer_at(period)); }
 
-  /// The cause of infeasibility at a period. Where the least ratio jumps, an interval of
+  /// The cause of infeasibility at a period. Where the least amplitude ratio jumps, an interval of
   /// stabilising D has vanished: the cause is stability.
-  /// @param before  least ratio just below the period, NaN without one
+  /// @param before  least amplitude ratio just below the period, NaN without one
   MaxDelayLimit limit_at(double period, double before) const {
     const DelayOffer offer = offer_at(period);
     if (!shows_vibration(options_, period)) return MaxDelayLimit::nyquist;
@@ -281,7 +279,7 @@ class DelaySearch {
                                                         : MaxDelayLimit::attenuation;
   }
 
-  /// The end of the search, or its longest period whose samples resolve the vibration.
+  /// The end of the search, or the longest period before it whose samples resolve the vibration.
   double longest(double certain) const {
     const double asked = options_.longest_period;
     if (options_.criterion == DelayCriterion::stable)
@@ -298,8 +296,8 @@ class DelaySearch {
     if (options_.watch) options_.watch();
   }
 
-  /// Moves `feasible_` towards the goal while there are steps left; @return an infeasible period
-  /// found on the way.
+  /// Increases the period `feasible_` up to `goal` while steps are left and periods are feasible.
+  /// @return an infeasible period found on the way
   std::optional<double> advance(double goal) {
     const double longest_step = is_walked_ ? options_.search_ratio : longest_link_;
     double ratio = longest_step;
@@ -325,8 +323,8 @@ class DelaySearch {
     return std::nullopt;
   }
 
-  /// Whether a period is feasible with some D, which is stored. For a conductor by its modes the
-  /// roots at one D cost less than all stable D: so the last feasible D is tested first.
+  /// Whether a period is feasible with some D; such a D is stored. For a conductor given by its
+  /// modes the last feasible D is tested first: the roots at one D cost less than all stable D.
   bool is_served(double period) {
     if constexpr (is_walked_) {
       const PdGains<double> gains{options_.proportional_gain, start_};
@@ -345,7 +343,7 @@ class DelaySearch {
     return !gains.empty();
   }
 
-  /// Whether one D feasible at `feasible_` and at `next` is proved to be so in between.
+  /// Whether a D feasible at `feasible_` and at `next` is proved to be feasible in between.
   bool links(double next, const Intervals& gains) {
     Intervals common = intersection(gains_, gains);
     std::sort(common.begin(), common.end(),
@@ -380,7 +378,7 @@ class DelaySearch {
            WalkOutcome::clear;
   }
 
-  /// A number that is positive where some D stabilises: 1 − min ρ over D, to four digits.
+  /// The reserve of stability, 1 − min ρ over D, to four digits; positive where some D stabilises.
   double stability_reserve(double period) {
     const auto loop = loop_polynomial(sampled_loop(plant_, options_.sampling(period)));
     const auto least = MinimumRadiusSearch(loop, options_.proportional_gain, 1e-5).from(start_);
@@ -388,16 +386,16 @@ class DelaySearch {
     return least.margin;
   }
 
-  /// A number that is positive where some stabilising D attenuates: 1 − the least ratio; −1 where
-  /// none stabilises.
+  /// The reserve of attenuation, 1 − the least amplitude ratio over stabilising D, positive where
+  /// some D attenuates; −1 where no D stabilises.
   double attenuation_reserve(double period) {
     const auto offer = offer_at(period);
     return offer.response ? 1.0 - least_ratio(options_, offer) : -1.0;
   }
 
-  /// The last feasible period between a feasible and an infeasible one. The bracket is halved while
-  /// it is wide, since a test of feasibility costs less than a reserve. For a plant without closed
-  /// forms it is halved to the end.
+  /// The last feasible period between a feasible and an infeasible one. A wide bracket is halved,
+  /// since a test of feasibility costs less than a reserve; for a plant without closed forms only
+  /// halving is used.
   double boundary_between(double feasible, double infeasible) {
     constexpr double wide = is_walked_ ? 1.0 + 1e-9 : has_closed_forms<Plant> ? 1.01 : 1.0 + 1e-13;
     while (infeasible > wide * feasible) {
@@ -440,15 +438,15 @@ class DelaySearch {
 
 }  // namespace detail
 
-/// The largest sampling period, found by joining feasible periods.
+/// The largest feasible sampling period, found by joining feasible periods.
 ///
-/// A longer period is joined to the feasible ones by one D that is proved to serve at both and
-/// everywhere in between, stretch by stretch (`MovingSpectrum`, `detail::attenuation`). Where no
+/// A longer period is joined to the feasible ones by one D that is proved feasible at all periods
+/// between, one short interval after the other (`MovingSpectrum`, `detail::attenuation`). Where no
 /// longer period can be joined, the boundary is found by a bracketing root finder on a function
-/// that changes its sign there: 1 − min ρ over D (`minimum_radius`), or 1 − the minimum amplitude
-/// ratio over the stabilising D; for a plant of another order than the two masses', by halving on
-/// the existence of a D. A step by less than search_ratio, like the last one to τ*, is feasible at
-/// its ends and assumed to be so in between. Source: Kollár 2022, Fig. 5.
+/// that changes its sign at the boundary: 1 − min ρ over D (`minimum_radius`), or 1 − the minimum
+/// amplitude ratio over the stabilising D. For any plant but two masses bisection is used, with a
+/// test for a feasible D. A step by less than search_ratio, such as the last one to τ*, is tested
+/// at its ends only and assumed to be feasible between them. Source: Kollár 2022, Fig. 5.
 /// @tparam Plant  two masses, in closed form, or a plant of any order with ports (validated)
 /// @throws InvalidParameter where the plant or an option is outside its admissible range
 template <class Plant>
@@ -459,15 +457,15 @@ MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options)
   return detail::DelaySearch(plant, options).answer();
 }
 
-/// The largest sampling period of the computer on a conductor by its modes, as
-/// `max_sampling_period` of two masses, but found in steps. A step is (ratio − 1) T. T is the
-/// longest period that resolves all natural motions and the excitation, at least the present period
-/// and at most ten times it. A step is tested by all roots with the last feasible D, or else by all
-/// stable intervals of D. If its end is infeasible, the last feasible period is found by halving,
-/// to 10⁻⁹. Infeasible windows narrower than a step are missed; nothing is proved between the steps
-/// or beyond.
+/// The largest feasible sampling period for a conductor given by its modes, found in steps.
+///
+/// A step is (ratio − 1) T. T is the longest period that resolves all natural motions and the
+/// excitation, but at least the present period and at most ten times the present period. A step is
+/// tested by all roots with the last feasible D, or else by all stable intervals of D. If the end
+/// of a step is infeasible, the last feasible period is found by bisection, to 10⁻⁹. Infeasible
+/// windows narrower than a step are missed; nothing is proved between the steps or beyond.
 /// @param plant    conductor with its poles, without any of its hardware
-/// @param options  within their ranges; search ratio and most steps are not used
+/// @param options  options within their ranges; search ratio and most steps are not used
 /// @param ratio    ratio of two successive periods, > 1
 /// @throws InvalidParameter outside these ranges
 template <class Scalar = double>

@@ -23,10 +23,10 @@
 
 namespace holdfast {
 
-/// A range of excitation frequencies (Hz).
+/// Band of excitation frequencies (Hz).
 struct FrequencyBand {
-  double lower;  ///< Hz, > 0
-  double upper;  ///< Hz, > lower, ≤ 1/(2τ)
+  double lower;  ///< lower end (Hz), > 0
+  double upper;  ///< upper end (Hz), > lower, ≤ 1/(2τ)
 };
 
 /// Validates a band. @throws InvalidParameter unless 0 < lower < upper ≤ 1/(2τ), so that the
@@ -37,27 +37,27 @@ inline void validate(const FrequencyBand& band, double sampling_period) {
   require_within("upper frequency", band.upper, "Hz", 0.0, 0.5 / sampling_period);
 }
 
-/// The squared amplitude ratio (with control to without) at one frequency, as a function of D.
+/// Squared amplitude ratio (with control to without) at one frequency, as a function of D.
 struct RatioAtFrequency {
-  double frequency;                   ///< Hz
-  RatioOfQuadratics<double> squared;  ///< N(D)/M(D), D in N s/m, for one P
+  double frequency;                   ///< frequency (Hz)
+  RatioOfQuadratics<double> squared;  ///< ratio N(D)/M(D), D in N s/m, for one P
 };
 
 /// A frequency at which the amplitude ratio is largest.
 struct WorstFrequency {
-  double frequency;  ///< Hz
-  double ratio;  ///< |Z₁| over that without control; ∞ where the loop has the root e^{2πifτ}
+  double frequency;  ///< frequency (Hz)
+  double ratio;  ///< |Z₁| over |Z₁| without control; ∞ where the loop has the root e^{2πifτ}
 };
 
-/// The loop of a plant with its steady response, its roots and the zeros of its amplitude without
-/// control: all that AmplitudeBand evaluates.
+/// Model of a plant for AmplitudeBand: its loop, the loop's steady response and roots, and the
+/// zeros of the amplitude without control.
 /// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
 template <class Plant>
 struct PlantOverBand {
   Plant plant;               ///< plant of the loop
   AmplitudeOptions options;  ///< τ, δ, the hold of the force and the reference of the ratios
   SampledLoop<double> loop = sampled_loop(plant, options.sampling);          ///< sampled loop
-  AffinePolynomial<double, 5> polynomial = characteristic_polynomial(loop);  ///< its polynomial
+  AffinePolynomial<double, 5> polynomial = characteristic_polynomial(loop);  ///< loop's polynomial
 
   /// The steady response at ω (rad/s).
   SteadyResponse<double> response(double angular_frequency) const {
@@ -75,17 +75,17 @@ struct PlantOverBand {
   }
 };
 
-/// The amplitude with control over that without, over a band of frequencies.
+/// Amplitude ratio (with control to without) over a band of frequencies.
 ///
 /// The peaks of the ratio belong to roots of the loop near the unit circle, where the controlled
-/// amplitude is large, or to zeros of the uncontrolled amplitude near it. Both are known with their
-/// widths: the grid over the band is uniform, refined about the zeros, and for each D about the
-/// roots. The highest grid points are then refined by golden-section search.
+/// amplitude is large, or to zeros of the uncontrolled amplitude near the circle. The distance from
+/// the circle is a peak's width: so the uniform grid over the band is refined about the zeros and,
+/// for each D, about the roots. The highest grid points are then refined by golden-section search.
 /// @tparam Model  PlantOverBand, or ConductorOverBand of modal_design.hpp
 template <class Model>
 class AmplitudeBand {
  public:
-  /// Computes the steady response at 401 uniform frequencies and at others about the zeros.
+  /// Computes the steady response at 401 equidistant frequencies and at others near the zeros.
   /// @param model  model of the loop
   /// @param band   band within its range (`validate`), which is not checked here, or one frequency
   AmplitudeBand(Model model, const FrequencyBand& band) : model_(std::move(model)), band_(band) {
@@ -99,13 +99,13 @@ class AmplitudeBand {
       grid_.emplace_back(frequency, model_.response(2.0 * pi<double> * frequency));
   }
 
-  /// The squared ratio at one frequency (Hz) of the band and one P (N/m).
+  /// The squared amplitude ratio at one frequency (Hz) of the band and one P (N/m).
   RatioAtFrequency at(double frequency, double proportional_gain) const {
     const auto response = model_.response(2.0 * pi<double> * frequency);
     return {frequency, response.squared_ratio(proportional_gain)};
   }
 
-  /// The frequency of the band with the largest ratio.
+  /// The frequency of the band with the largest amplitude ratio.
   WorstFrequency worst(const PdGains<double>& gains) const {
     const std::vector<RatioAtFrequency> points = points_for(gains);
     std::vector<double> values;
@@ -132,7 +132,7 @@ class AmplitudeBand {
     return value >= 0.0 ? value : std::numeric_limits<double>::infinity();
   }
 
-  /// The grid, refined about the loop's roots.
+  /// The grid of frequencies, refined about the loop's roots.
   std::vector<RatioAtFrequency> points_for(const PdGains<double>& gains) const {
     std::vector<RatioAtFrequency> points;
     for (const auto& [frequency, response] : grid_)
@@ -150,7 +150,7 @@ class AmplitudeBand {
     return points;
   }
 
-  /// Adds frequencies about that of each root, the denser the nearer it is to the unit circle.
+  /// Adds frequencies near that of each root, the denser the nearer the root is to the unit circle.
   void append_about(const std::vector<std::complex<double>>& from_one,
                     std::vector<double>& frequencies) const {
     const double unit = 2.0 * pi<double> * model_.options.sampling.period;
@@ -166,7 +166,7 @@ class AmplitudeBand {
     }
   }
 
-  /// The largest squared ratio between the neighbours of a point that is higher than both.
+  /// The largest squared ratio near `middle`, a point with a higher ratio than its two neighbours.
   WorstFrequency refined(double left, double middle, double right,
                          const PdGains<double>& gains) const {
     constexpr double golden = 0.61803398874989485;
@@ -193,29 +193,29 @@ class AmplitudeBand {
 /// The outcome of the search for one D for a whole band of frequencies.
 enum class MinimaxOutcome {
   found,          ///< `worst_ratio` and `lower_bound` agree to 1e−8
-  not_converged,  ///< they do not agree; the D still gives `worst_ratio`
+  not_converged,  ///< `worst_ratio` and `lower_bound` differ; the D still gives `worst_ratio`
   none,           ///< no D is admissible: the numbers are NaN
 };
 
-/// The D, for a given P, that serves all frequencies of a band best.
+/// Minimax design over a band: the D that, for a given P, minimises the largest amplitude ratio.
 struct MinimaxAmplitude {
   MinimaxOutcome outcome;  ///< existence of an admissible D and agreement of the bounds
-  /// The D (N s/m); at the edge of the admissible intervals it is a limit.
+  /// The D (N s/m); at an edge of the admissible intervals it is a limit of admissible D.
   double differential_gain = std::nan("");
   /// The largest amplitude ratio (with control to without) over the band with this D.
   double worst_ratio = std::nan("");
-  double worst_frequency = std::nan("");  ///< frequency of that ratio (Hz)
+  double worst_frequency = std::nan("");  ///< frequency of `worst_ratio` (Hz)
   double lower_bound = std::nan("");      ///< no admissible D has a smaller worst ratio than this
   double attenuation = std::nan("");      ///< −20 log₁₀ of `worst_ratio` (dB)
-  std::size_t worst_member = 0;           ///< the loop of that ratio, of a family
+  std::size_t worst_member = 0;           ///< index in the family of the loop with `worst_ratio`
 };
 
 namespace detail {
 
-/// The minimum over D of the largest of finitely many quotients of quadratics.
+/// Minimum over D of the largest of finitely many quotients of quadratics.
 ///
 /// The minimum is at an end of an admissible interval, at a stationary point of one quotient, or
-/// where two intersect. These roots of quadratics and quartics are collected with the frequencies.
+/// where two are equal. These D are roots of quadratics and quartics, found as quotients are added.
 class WorstOfFrequencies {
  public:
   explicit WorstOfFrequencies(const std::vector<Interval<double>>& admissible)
@@ -236,7 +236,7 @@ class WorstOfFrequencies {
     ratios_.push_back(ratio);
   }
 
-  /// A D (N s/m) and the largest ratio at the collected frequencies with it.
+  /// D (N s/m) and the largest of its amplitude ratios at the collected frequencies.
   struct Least {
     double differential_gain;
     double ratio;
@@ -271,26 +271,26 @@ class WorstOfFrequencies {
 
 }  // namespace detail
 
-/// The loops of a family over one band of frequencies, for gains that are to serve all of them.
+/// Family of loops over one band of frequencies, with gains common to all loops.
 ///
-/// Exchange: the minimax over the pairs of loop and frequency collected so far is a lower bound.
-/// The worst pair for that D gives an upper bound and is added; it is kept for the next P.
+/// Exchange algorithm: the minimax D over the pairs of loop and frequency collected so far gives a
+/// lower bound, its worst pair an upper bound. This pair is added, and kept for the next P too.
 /// @tparam Model  model of each loop, see AmplitudeBand
 template <class Model>
 class FamilyOverBand {
  public:
-  /// @param models  at least one
-  /// @param band    as for AmplitudeBand
+  /// @param models  models of the loops, at least one
+  /// @param band    band within its range, or one frequency, as for AmplitudeBand
   FamilyOverBand(const std::vector<Model>& models, const FrequencyBand& band) {
     for (const Model& model : models) loops_.emplace_back(model, band);
     worst_.push_back({0, band.lower});
     if (band.lower < band.upper) worst_.push_back({0, band.upper});
   }
 
-  /// The D of least largest ratio over loops and band at a given P.
+  /// The D that minimises the largest amplitude ratio over all loops and the band, at a given P.
   /// @param proportional_gain  P (N/m), finite
   /// @param admissible         intervals of D (N s/m), ascending
-  /// @param enough             the search ends, not converged, once no D has a smaller ratio
+  /// @param enough             lower bound at which the search stops with `not_converged`
   MinimaxAmplitude least(double proportional_gain, const std::vector<Interval<double>>& admissible,
                          double enough = std::numeric_limits<double>::infinity()) {
     if (admissible.empty()) return {MinimaxOutcome::none};
@@ -346,7 +346,7 @@ class FamilyOverBand {
 
 namespace detail {
 
-/// The answer of `minimax_amplitude` for any model.
+/// The result of `minimax_amplitude` for any model.
 /// @tparam Model  model of the plant, see AmplitudeBand
 template <class Model, class Plant>
 MinimaxAmplitude minimax_over_band(const Plant& plant, const AmplitudeOptions& options,

@@ -18,10 +18,10 @@
 
 namespace holdfast {
 
-/// The attenuation −20 log₁₀ of an amplitude ratio (dB): 6 dB halve it, negative values amplify.
+/// The attenuation −20 log₁₀ of an amplitude ratio (dB): 6 for 1/2, negative for a ratio above 1.
 inline double attenuation(double ratio) { return -20.0 * std::log10(ratio); }
 
-/// The location of the minimum amplitude.
+/// Location of the D of minimum amplitude.
 enum class MinimumAmplitudeOutcome {
   stationary,  ///< at a D inside the admissible intervals
   edge,        ///< at the edge of the admissible intervals: a limit of admissible D
@@ -33,18 +33,18 @@ enum class MinimumAmplitudeOutcome {
 struct AmplitudeOptions {
   Sampling<double> sampling;  ///< τ (s) > 0, δ (s) 0 … 1000 τ; for two masses δ ≤ τ
   ForceHold hold = ForceHold::sampled;  ///< hold of the excitation over a sample
-  /// The bound, 0 < … ≤ 1, below which the spectral radius of an admissible D stays. 1 requires
-  /// stability; a smaller one a transient that decays at least like largest_radiusʲ in j samples.
+  /// Upper limit of the spectral radius of an admissible D, 0 < … ≤ 1. 1 requires stability; a
+  /// smaller limit requires a transient that decays at least like largest_radiusʲ in j samples.
   double largest_radius = 1.0;
-  /// The margin m, 0 … < 1, of an admissible D. Its distance from the boundary of stability exceeds
-  /// m times that of D*, the D of minimum radius; its rate of decay −ln ρ exceeds m times that of
-  /// D*. m = 0 admits the boundary as a limit; the program recommends with 1/2. For a
-  /// ModalResponse, unless by_decay, D* has the largest modulus margin, which replaces the rate
-  /// (modal_design.hpp).
+  /// The stability margin m, 0 … < 1. An admissible D has more than m times the distance of D* from
+  /// the boundary of stability, and a rate of decay −ln ρ of more than m times that of D*, the D of
+  /// minimum radius. m = 0 admits the boundary as a limit; the program uses m = 1/2. For a
+  /// ModalResponse, unless `by_decay`, D* is the D of largest modulus margin, and this margin
+  /// replaces the rate (modal_design.hpp).
   double margin = 0.0;
   /// Whether ratios refer to the plant without control under the true force
-  /// (`true_amplitude_per_force`); else to the plant without control under the force held as with
-  /// control (Kollár 2022, Fig. 5).
+  /// (`true_amplitude_per_force`). If not, they refer to the plant without control under the force
+  /// held as with control (Kollár 2022, Fig. 5).
   bool relative_to_true_force = false;
   /// Whether the margin of a ModalResponse refers to the D of minimum radius, as for two masses.
   bool by_decay = false;
@@ -52,12 +52,12 @@ struct AmplitudeOptions {
 
 /// The D of least steady amplitude at one frequency, for a given P.
 struct MinimumAmplitude {
-  MinimumAmplitudeOutcome outcome;          ///< where the D lies, or why there is none
+  MinimumAmplitudeOutcome outcome;          ///< location of the D, or why there is none
   double differential_gain = std::nan("");  ///< D (N s/m)
-  /// The amplitude of z₁ with this D over that without control.
+  /// The amplitude of z₁ with this D over the amplitude without control.
   double ratio_to_uncontrolled = std::nan("");
   double attenuation =
-      std::nan("");  ///< −20 log₁₀ of that ratio (dB), positive where control helps
+      std::nan("");  ///< −20 log₁₀ `ratio_to_uncontrolled` (dB), > 0 where control helps
 };
 
 /// Validates the options. @throws InvalidParameter outside the ranges stated at their members
@@ -72,7 +72,7 @@ inline void validate(const AmplitudeOptions& options) {
 
 namespace detail {
 
-/// The interval that contains `from`, with ends at `share` of their distances from it; or none.
+/// The interval around `from`, shrunk about `from` by the factor `share`; empty if there is none.
 template <class Scalar>
 std::vector<Interval<Scalar>> within_share(const std::vector<Interval<Scalar>>& intervals,
                                            const Scalar& from, const Scalar& share) {
@@ -82,7 +82,7 @@ std::vector<Interval<Scalar>> within_share(const std::vector<Interval<Scalar>>& 
   return {};
 }
 
-/// The intervals of `admissible_differential_gains` by rate of decay, for a ModalResponse too.
+/// The admissible intervals of D of any loop, with a margin that refers to the rate of decay.
 template <class Loop>
 std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proportional_gain,
                                                const AmplitudeOptions& options) {
@@ -99,13 +99,13 @@ std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proporti
 
 }  // namespace detail
 
-/// The open intervals of D (N s/m) that the options admit for one P: those with ρ below the largest
-/// radius and, for a margin m > 0,
+/// The open intervals of D (N s/m) that the options admit for one P. In them the spectral radius ρ
+/// is below the largest radius of the options and, for a margin m > 0,
 ///
 ///     ρ(D) < ρ_min^m  and  D = D* + (1 − m)(D_s − D*)  with a stable D_s
 ///
-/// about the D* of minimum radius, which is admitted if any D stabilises and its radius is below
-/// the largest. `minimum_amplitude` searches them; a ModalResponse has an overload of its own.
+/// D* being the D of minimum radius. D* itself is admitted if some D stabilises and the radius of
+/// D* is below the largest radius. A ModalResponse has an overload of its own.
 /// @param loop               loop of `sampled_loop` or `loop_map`
 /// @param proportional_gain  P (N/m), finite
 /// @param options            options within their ranges, which are not checked here
@@ -118,7 +118,7 @@ std::vector<Interval<double>> admissible_differential_gains(const Loop& loop,
 
 namespace detail {
 
-/// The D of least steady amplitude in given intervals.
+/// The D of least steady amplitude in given intervals; `none` without a finite D.
 /// @param admissible  intervals of D, perhaps none
 template <class Scalar>
 MinimumAmplitude least_amplitude(const SteadyResponse<Scalar>& response, double proportional_gain,
@@ -131,7 +131,7 @@ MinimumAmplitude least_amplitude(const SteadyResponse<Scalar>& response, double 
           holdfast::attenuation(best.ratio_to_uncontrolled)};
 }
 
-/// The D of least steady amplitude of a loop among the admissible ones.
+/// The D of least steady amplitude of a loop, among the admissible D.
 /// @param response_at  () → SteadyResponse at the frequency, called only if a D is admissible
 template <class Loop, class ResponseAt>
 MinimumAmplitude minimum_amplitude_of(const Loop& loop, const AmplitudeOptions& options,
@@ -145,7 +145,7 @@ MinimumAmplitude minimum_amplitude_of(const Loop& loop, const AmplitudeOptions& 
 
 }  // namespace detail
 
-/// The D of least steady amplitude among the admissible D.
+/// The differential gain D of least steady amplitude at one frequency, among the admissible D.
 ///
 /// The admissible D are exact intervals and the amplitude over them is a quotient of two quadratics
 /// (`SteadyResponse::best_differential_gain`): no grid of D is needed.
@@ -154,7 +154,7 @@ MinimumAmplitude minimum_amplitude_of(const Loop& loop, const AmplitudeOptions& 
 /// @param plant              plant within its ranges
 /// @param options            τ, δ, the hold of the force and the largest admissible spectral radius
 /// @param frequency          f (Hz), > 0
-/// @param proportional_gain  P (N/m), finite; Eq. (6) tunes it to f
+/// @param proportional_gain  P (N/m), finite; `tuned_proportional_gain` tunes it to f
 /// @throws InvalidParameter where an argument is outside its admissible range
 template <class Plant>
 MinimumAmplitude minimum_amplitude(const Plant& plant, const AmplitudeOptions& options,

@@ -20,12 +20,12 @@ namespace holdfast {
 /// The pair of gains of least steady amplitude at one frequency.
 struct MinimumAmplitudeGains {
   double proportional_gain;   ///< P (N/m)
-  MinimumAmplitude quietest;  ///< the D and its amplitude, or why no pair is admissible
+  MinimumAmplitude quietest;  ///< D and its amplitude, or the reason why no pair is admissible
 };
 
 namespace detail {
 
-/// The D for a given P with the modulus margin `options.margin` and the radius of the options.
+/// The intervals of D, for a given P, that keep the modulus margin and the radius of the options.
 template <class Scalar>
 std::vector<Interval<Scalar>> gains_of_modulus(const UnitCircleCrossings<Scalar>& circle, double p,
                                                const AmplitudeOptions& options) {
@@ -35,11 +35,11 @@ std::vector<Interval<Scalar>> gains_of_modulus(const UnitCircleCrossings<Scalar>
                                                                    Scalar(options.largest_radius)));
 }
 
-/// Searches the P with which something is least: at 65 places of a range that is doubled while the
-/// best place is at its end, and by golden section about the best. A better P between two places
-/// may be missed.
-/// @param range     initial range of P, lower < upper, finite
-/// @param value_at  P ↦ a number; ∞: not admissible
+/// Minimises a function of P: first at 65 values of P in a range, which is doubled while the best P
+/// is at its end, then by golden section around the best P. A better P between two of the 65 may be
+/// missed.
+/// @param range     initial range of P (N/m), lower < upper, finite
+/// @param value_at  P ↦ value to be minimised; ∞ where P is not admissible
 template <class Value>
 void search_proportional_gain(Interval<double> range, const Value& value_at) {
   constexpr int places = 65, most_ranges = 8;
@@ -70,7 +70,7 @@ void search_proportional_gain(Interval<double> range, const Value& value_at) {
 /// that is, with a sensitivity of at most 1/m: m = 1/2 gives a gain margin of at least 6 dB upwards
 /// and a phase margin of at least 29°.
 ///
-/// For each P the D is exact; over P it is a search, not a proof (`search_proportional_gain`).
+/// For each P the D is exact; P is found by `search_proportional_gain`, which proves nothing.
 /// @param loop       loop of the plant given by its poles, with the sampling of the options
 /// @param options    options within their ranges
 /// @param frequency  f (Hz), > 0

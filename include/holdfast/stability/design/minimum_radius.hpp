@@ -14,31 +14,31 @@
 
 namespace holdfast {
 
-/// The outcomes of the search for the D of minimum spectral radius.
+/// Outcome of the search for the D of minimum spectral radius.
 enum class MinimumRadiusOutcome {
   point,       ///< one D has the minimum radius
   plateau,     ///< a root that D does not move determines the radius over the whole `interval`
   idle,        ///< no D changes the radius; `interval` is the whole line and D is 0
-  unresolved,  ///< P is so large that round-off hides the minimum: D is the start, `radius` belongs
-               ///< to the start and `lower_bound` is 0
+  unresolved,  ///< P is so large that round-off hides the minimum: D is the start, `radius` is the
+               ///< radius at the start and `lower_bound` is 0
 };
 
 /// The differential gain with which the sampled loop decays fastest, for a given P.
 struct MinimumRadius {
-  MinimumRadiusOutcome outcome;  ///< D that have the minimum: one, an interval, all; or unresolved
+  MinimumRadiusOutcome outcome;  ///< kind of minimum: one D, an interval, every D, or unresolved
   double differential_gain;      ///< D (N s/m), inside `interval`
-  double radius;                 ///< least ρ = max |λ|; stable ⇔ below 1
-  double margin;                 ///< 1 − radius, computed without cancellation
-  double lower_bound;            ///< every D has at least this radius; ≤ radius
-  Interval<double> interval;     ///< D (N s/m) with that radius to 1e−12
+  double radius;              ///< least spectral radius ρ = max |λ|; the loop is stable if ρ < 1
+  double margin;              ///< 1 − radius, without cancellation
+  double lower_bound;         ///< lower bound of the radius over all D; ≤ radius
+  Interval<double> interval;  ///< interval of D (N s/m) with the least radius to 1e−12
 };
 
 namespace detail {
 
 /// Calls `consider` with probable minima of a function: the middle of each interval, and the
-/// intersection of the two secants that join its ends to those of the outer interval around it.
+/// intersection of the two secants that join its ends to the ends of the outer interval around it.
 /// @param intervals  intervals on which the function is below a level
-/// @param outer      intervals on which it is below a higher level
+/// @param outer      intervals on which the function is below a higher level
 template <class Consider>
 void consider_promising(const std::vector<Interval<double>>& intervals,
                         const std::vector<Interval<double>>& outer, const Consider& consider) {
@@ -53,11 +53,11 @@ void consider_promising(const std::vector<Interval<double>>& intervals,
   }
 }
 
-/// The search for the least level r for which {D : ρ(P, D) < r} is not empty.
+/// Search for the least r for which the set {D : ρ(P, D) < r} is not empty; r is called a level.
 ///
 /// The set is a union of intervals known for every r, and grows with r, so that each tested level
-/// bounds the global minimum from above or from below. Levels are taken from ρ at probable minima
-/// (`consider_promising`), which are exact in the limit for a smooth minimum and for two crossing
+/// bounds the global minimum from above or from below. The next level is ρ at a probable minimum
+/// (`consider_promising`); these minima become exact for a smooth minimum and for two crossing
 /// branches.
 /// @tparam Loop  polynomial of the loop in `double`, see `LoopPolynomial`
 template <class Loop>
@@ -69,7 +69,7 @@ class MinimumRadiusSearch {
   MinimumRadiusSearch(const Loop& loop, double proportional_gain, double accuracy = 0.0)
       : loop_(loop), proportional_gain_(proportional_gain), accuracy_(accuracy) {}
 
-  /// Runs the search. @param start  any D (N s/m); one near the minimum is quicker
+  /// Runs the search. @param start  initial D (N s/m), arbitrary; a D near the minimum is faster
   MinimumRadius from(double start) {
     if (!begin(loop_.radius_offset({proportional_gain_, start}))) {
       return {MinimumRadiusOutcome::unresolved, start, loop_.centre + upper_,
@@ -96,14 +96,14 @@ class MinimumRadiusSearch {
     return loop_.differential_gains_within(proportional_gain_, offset);
   }
 
-  /// The difference of levels below which they are equal but for round-off.
+  /// The difference below which two levels count as equal.
   double tolerance() const {
     const double round_off = 1e-14 * (loop_.centre == 0.0 ? std::abs(upper_) : loop_.scale());
     return round_off + accuracy_ * std::abs((1.0 - loop_.centre) - upper_) + 1e-18;
   }
   double closing_step() const { return 4.0 * tolerance(); }
 
-  /// Starts from a level, raised until some D is below it; false where none is (overflow).
+  /// Starts at a level, raised until some D has a radius below it; false if none has (overflow).
   bool begin(double level) {
     lower_ = -loop_.centre;
     upper_ = level;
@@ -116,7 +116,7 @@ class MinimumRadiusSearch {
     return !intervals_.empty();
   }
 
-  /// The next level: ρ at a probable minimum if that is lower, else a step down, doubled each time.
+  /// The next level: ρ at a probable minimum if that is lower; else a step down, doubled each time.
   double next_level() {
     double best = upper_;
     consider_promising(intervals_, previous_, [&](double differential) {
@@ -130,8 +130,8 @@ class MinimumRadiusSearch {
     return std::max(below, middle);
   }
 
-  /// The answer for gains slightly above the least level. Where two roots coincide, the radius
-  /// depends on D like a square root and is much larger at the rounded D of the exact minimum.
+  /// The result, for a D with a radius slightly above the least level. Where two roots coincide,
+  /// the radius grows like √|D − D_min| and is much larger at the rounded D_min.
   MinimumRadius answer() const {
     const Intervals close = within(upper_ + 1e-12 * std::max(loop_.scale(), std::abs(upper_)));
     const Interval<double> interval = close.empty() ? intervals_.front() : close.front();
@@ -155,14 +155,14 @@ class MinimumRadiusSearch {
   Intervals intervals_, previous_;
 };
 
-/// A loop of any order in the form that `MinimumRadiusSearch` needs, radii being given as ρ − 1.
+/// Loop of any order in the form that `MinimumRadiusSearch` needs, radii being offsets ρ − 1.
 /// @tparam Loop  a `LoopMap<double>` or `ModalResponse<double>`
 template <class Loop>
 struct RadiusLevels {
   const Loop& loop;     ///< the loop, which is not copied
-  double centre = 1.0;  ///< number that radii are counted from
+  double centre = 1.0;  ///< radius that is subtracted from all radii
 
-  /// The scale of the roots' round-off: 1, the size of the entries of delayed commands.
+  /// The scale of the roots' round-off, 1: the size of the map's entries for delayed commands.
   double scale() const { return 1.0; }
   /// The offset ρ(P, D) − 1 of the spectral radius.
   double radius_offset(const PdGains<double>& gains) const { return loop_excess(loop, gains); }
@@ -178,7 +178,7 @@ struct RadiusLevels {
 
 /// The D of minimum spectral radius, min over D of ρ(S(P, D)): a global minimum, without a grid.
 ///
-/// {D : ρ(P, D) < r} is a union of intervals in closed form, those in which the polynomial in λ/r
+/// The set {D : ρ(P, D) < r} is a union of intervals in closed form, in which the polynomial in λ/r
 /// is stable (`stable_intervals`); for a loop of any order they follow from the crossings of the
 /// circle of radius r (`circle_crossings`). The minimum radius is the r at which the set becomes
 /// empty; for a `LoopMap` it is accurate to about 10⁻⁹, by round-off of two coinciding roots. ρ

@@ -29,7 +29,7 @@ namespace holdfast {
 /// @param response           response of the plant given by its poles
 /// @param proportional_gain  P (N/m), finite
 /// @param radius             bound of |λ|, > 0
-/// @return none where the response has no poles
+/// @return no interval where the response has no poles
 /// @throws InvalidParameter where P is not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> differential_gains_within_radius(
@@ -44,8 +44,8 @@ std::vector<Interval<Scalar>> differential_gains_within_radius(
 namespace detail {
 
 /// Narrows an interval about a minimum in it by golden section.
-/// @param left_is_better  (left, right) ↦ whether the first of two places in it is better
-/// @return the middle of what is left
+/// @param left_is_better  (left, right) ↦ whether the first of two places is better than the second
+/// @return the middle of the last interval
 template <class Scalar, class Better>
 Scalar narrow_to_best(Scalar lower, Scalar upper, int steps, const Better& left_is_better) {
   const Scalar golden(0.3819660112501051);
@@ -57,8 +57,8 @@ Scalar narrow_to_best(Scalar lower, Scalar upper, int steps, const Better& left_
   return (lower + upper) / Scalar(2);
 }
 
-/// The least ρ(P, D) − 1 over D in an interval, with that D: the best of 25 places, refined by
-/// golden section if the best is not above `known`.
+/// The least ρ(P, D) − 1 over an interval of D, and its D: the best of 25 values of D, refined by
+/// golden section if its ρ − 1 is not above `known`.
 template <class Scalar>
 std::pair<Scalar, Scalar> least_excess(const ModalResponse<Scalar>& response, const Scalar& p,
                                        const Interval<Scalar>& gains, const Scalar& known) {
@@ -84,10 +84,10 @@ std::pair<Scalar, Scalar> least_excess(const ModalResponse<Scalar>& response, co
 
 }  // namespace detail
 
-/// The minimum over D of ρ(P, D) of a loop given by its poles. As for a `LoopMap` it follows from
-/// the D within each radius; 1 − ρ is accurate to 10⁻⁶ of itself. A circle may be so near a pole
-/// that the winding of p on it is undecided. So ρ is also computed from the roots, at some stable D
-/// and about the best of these, and the smaller minimum is returned.
+/// The minimum over D of the spectral radius ρ of a loop given by its poles. As for a `LoopMap` it
+/// follows from the D with all roots within a radius; 1 − ρ is accurate to a relative 10⁻⁶. On a
+/// circle too near a pole the winding of 1 − P G_z − D G_v is undecided. So ρ is also computed from
+/// the roots at 25 D of each stable interval and near the best D; the smaller minimum is returned.
 /// @param response           response of the plant given by its poles, which must exist
 /// @param proportional_gain  P (N/m), finite
 /// @param start              initial D (N s/m), finite
@@ -113,13 +113,13 @@ MinimumRadius minimum_radius(const ModalResponse<Scalar>& response, double propo
 
 namespace detail {
 
-/// The modulus margin of a loop, min |p(e^{iθ})|, p = 1 − P G_z − D G_v, as a function of D. At one
-/// angle |p|² is a quadratic in D; what lies between the stored angles is looked at where it
-/// decides.
+/// Modulus margin of a loop, min |p(e^{iθ})|, p = 1 − P G_z − D G_v, as a function of D. At one
+/// angle |p|² is a quadratic in D. Angles between the stored ones are examined where they decide
+/// the result.
 template <class Scalar>
 class ModulusLevels {
  public:
-  /// @param circle  must outlive this
+  /// @param circle  crossings of the loop; must outlive this object
   ModulusLevels(const UnitCircleCrossings<Scalar>& circle, const Scalar& proportional_gain)
       : response_(circle.response()),
         proportional_gain_(proportional_gain),
@@ -127,7 +127,7 @@ class ModulusLevels {
     for (const auto& place : circle.places()) places_.push_back(at(place.angle, place.g));
   }
 
-  /// The stable D with |p| > modulus at all angles.
+  /// The intervals of stable D with |p| > modulus at all angles.
   std::vector<Interval<Scalar>> beyond(const Scalar& modulus) const {
     std::vector<Nearer> nearer = nearer_than(modulus);
     for (;;) {
@@ -159,7 +159,7 @@ class ModulusLevels {
     }
   }
 
-  /// A modulus margin and the D with it.
+  /// Modulus margin and the D that has it.
   struct Largest {
     Scalar modulus, gain;
   };
@@ -187,7 +187,7 @@ class ModulusLevels {
   struct Place {
     Scalar angle, slope, along, rest;  // |p|² = rest − 2 along D + slope D²
 
-    /// The D with |p| < modulus.
+    /// The interval of D with |p| < modulus at this angle.
     std::optional<Interval<Scalar>> nearer_than(const Scalar& modulus) const {
       const Scalar root = along * along - slope * (rest - modulus * modulus);
       if (!(root > Scalar(0))) return std::nullopt;
@@ -198,7 +198,7 @@ class ModulusLevels {
     Scalar floor() const { return rest - along * along / slope; }
   };
 
-  /// The D with |p| below the modulus at a place or beside it.
+  /// Interval of D with |p| below a given modulus at a place, or at an angle beside the place.
   struct Nearer {
     Interval<Scalar> gains;
     std::size_t place;
@@ -210,7 +210,7 @@ class ModulusLevels {
     return {angle, std::norm(g.velocity), (rest * std::conj(g.velocity)).real(), std::norm(rest)};
   }
 
-  /// The angle between the neighbours of a place at which something is largest.
+  /// The angle, between the neighbours of a place, at which a function is largest.
   template <class Value>
   Scalar best_about(std::size_t place, const Value& value) const {
     return narrow_to_best(
@@ -219,8 +219,8 @@ class ModulusLevels {
         [&](const Scalar& left, const Scalar& right) { return value(left) > value(right); });
   }
 
-  /// Moves an end out to the farthest that it has beside its place. @return false where it was
-  /// there
+  /// Moves one end of an interval outward, to its extreme at angles between the place's neighbours.
+  /// @return false where this end had been moved before
   bool sharpen(Nearer& of, bool upper, const Scalar& modulus) const {
     bool& done = upper ? of.upper_is_sharp : of.lower_is_sharp;
     if (done) return false;
@@ -263,11 +263,11 @@ class ModulusLevels {
 }  // namespace detail
 
 /// The open intervals of D (N s/m) that the options admit for a given P and a loop given by its
-/// poles. With a margin m > 0, unless by_decay, they are those with
+/// poles. With a margin m > 0, unless `by_decay`, they consist of the D with
 ///
 ///     min |1 − P G_z − D G_v| > m max_D min |1 − P G_z − D G_v|  and  D = D* + (1 − m)(D_s − D*)
 ///
-/// about the D* of largest modulus margin; minima are over the unit circle, and D_s is stable.
+/// D* having the largest modulus margin. Minima are over the unit circle; D_s is any stable D.
 ///
 /// The D of least radius, to which the margin of two masses refers, is unsuitable for a conductor:
 /// its slowest mode alone determines that radius.
@@ -295,8 +295,8 @@ std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<
                                                              Scalar(options.largest_radius)));
 }
 
-/// The D of least steady amplitude of a loop given by its poles, among the admissible D, as
-/// `minimum_amplitude` of a plant.
+/// The D of least steady amplitude among the admissible D, for a loop given by its poles (see
+/// `minimum_amplitude` of a plant).
 /// @param loop               loop of the plant given by its poles, with the sampling of the options
 /// @param options            options within their ranges
 /// @param frequency          f (Hz), > 0
@@ -316,13 +316,13 @@ MinimumAmplitude minimum_amplitude(const ModalResponse<Scalar>& loop,
                                       [&] { return response; });
 }
 
-/// A conductor by its modes in the form that AmplitudeBand needs. Ratios refer to the plant without
-/// control under the true force.
+/// Conductor given by its modes, as a model for AmplitudeBand. Amplitude ratios refer to the plant
+/// without control under the true force.
 template <class Scalar>
 struct ConductorOverBand {
   ConductorWithAbsorber conductor;  ///< conductor with all its poles
   AmplitudeOptions options;         ///< τ, δ and the hold of the force
-  /// The response of the loop.
+  /// The zero-order-hold response of the loop.
   ModalResponse<Scalar> loop = modal_response<Scalar>(conductor, options.sampling);
 
   /// The steady response at ω (rad/s).
@@ -351,7 +351,7 @@ struct ConductorOverBand {
     return sum / slope;
   }
   /// The offsets λ − 1 of the receptance's zeros, one between every two neighbouring modes, by
-  /// Newton's method, and of the absorber's natural motion on a fixed conductor.
+  /// Newton's method, then λ − 1 of the absorber's natural motion on a fixed conductor.
   std::vector<std::complex<double>> uncontrolled_zeros() const {
     const auto& modes = conductor.modes;
     const auto& absorber = conductor.absorber;
@@ -371,11 +371,11 @@ struct ConductorOverBand {
 };
 
 /// The D that minimises the largest amplitude ratio (with control to without) over a band, for a
-/// given P and a conductor by its modes; see `minimax_amplitude` of a plant.
+/// given P and a conductor given by its modes; see `minimax_amplitude` of a plant.
 /// @param conductor          conductor with all its poles
 /// @param options            options within their ranges; `relative_to_true_force` is not used
 /// @param proportional_gain  P (N/m), finite
-/// @param band               Hz, 0 < lower < upper ≤ 1/(2τ)
+/// @param band               band of frequencies (Hz), 0 < lower < upper ≤ 1/(2τ)
 /// @throws InvalidParameter where an argument is outside its admissible range
 template <class Scalar = double>
 MinimaxAmplitude modal_minimax_amplitude(const ConductorWithAbsorber& conductor,

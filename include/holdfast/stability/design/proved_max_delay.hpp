@@ -12,23 +12,23 @@ namespace holdfast {
 
 /// The range and the steps of sampling periods for a proof.
 struct ProvedPeriodWalk {
-  double from = 0.0;         ///< s, > 0; the shortest period
-  double to = 0.0;           ///< s, ≥ from; the longest
-  double resolution = 1e-6;  ///< > 0; the shortest step, as a share of the period
-  int most_steps = 20000;    ///< number of steps after which the walk ends
+  double from = 0.0;         ///< shortest period (s), > 0
+  double to = 0.0;           ///< longest period (s), ≥ `from`
+  double resolution = 1e-6;  ///< shortest step, as a share of the period, > 0
+  int most_steps = 20000;    ///< largest number of steps of the proof
 };
 
-/// The largest period T (s) such that every period from the shortest to T is proved to have a D (N
-/// s/m) that stabilises: on each stretch of periods one D, by `SamplingProof`. Nothing is claimed
-/// below the shortest period, and nothing is refuted beyond T.
+/// The largest period T (s) such that every period from the shortest to T is proved to have a
+/// stabilising D (N s/m). On each step one D is proved by `SamplingProof`. Nothing is claimed below
+/// the shortest period; longer periods than T may have a stabilising D too.
 /// @param poles              poles as for EnclosedResponse
 /// @param proportional_gain  P (N/m)
-/// @param line               samplings along which the period varies
-/// @param walk               range and steps
+/// @param line               line of samplings along which the period varies
+/// @param walk               range and steps of the periods
 /// @param gains_at           period → open intervals of D that stabilise by computation in doubles
 /// @param watch              called for each step; an exception from it ends the work
 /// @return 0 where no D is proved to stabilise at the shortest period
-/// @throws InvalidParameter where the walk is not admissible
+/// @throws InvalidParameter where a member of `walk` is out of range
 template <class GainsAt, class Watch>
 double proved_max_sampling_period(const std::vector<EnclosedPole>& poles, double proportional_gain,
                                   const EnclosedSamplings& line, const ProvedPeriodWalk& walk,

@@ -22,8 +22,8 @@
 
 namespace holdfast {
 
-/// The open intervals of one gain, for a fixed value of the other, in which the loop of the two
-/// masses is stable: in closed form (`stable_intervals`).
+/// The open intervals of one gain, for a fixed value of the other, in which the loop of two masses
+/// is stable; in closed form (`stable_intervals`).
 /// @param loop   loop of `sampled_loop`
 /// @param free   the gain that varies
 /// @param gains  the fixed gain; the value of the free one is not used
@@ -36,8 +36,8 @@ std::vector<Interval<Scalar>> stable_gains(const SampledLoop<Scalar>& loop, Free
                                         : stable_proportional_gains(polynomial, gains.differential);
 }
 
-/// The loop whose D multiplies the backward difference (z_j − z_{j−1})/τ of the readings; it has
-/// one more state, the previous reading.
+/// The loop with a velocity by difference: D multiplies the backward difference (z_j − z_{j−1})/τ
+/// of the readings. It has one more state, the previous reading.
 /// @param map  loop of any order with a measured velocity
 template <class Scalar>
 LoopMap<Scalar> with_velocity_by_difference(const LoopMap<Scalar>& map) {
@@ -57,8 +57,8 @@ LoopMap<Scalar> with_velocity_by_difference(const LoopMap<Scalar>& map) {
   return other;
 }
 
-/// The open intervals of D (N s/m) with which every root of a loop of any order has |λ| < radius:
-/// those that stabilise the loop with roots λ/radius. Radius 1 gives `stable_gains`.
+/// The open intervals of D (N s/m) with which every root of a loop of any order has |λ| < radius.
+/// These D stabilise a loop with the roots λ/radius; radius 1 gives `stable_gains`.
 /// @param map                loop of `loop_map`
 /// @param proportional_gain  P (N/m), finite
 /// @param radius             bound of |λ|, > 0
@@ -87,8 +87,8 @@ auto loop_of(const Plant& plant, const Sampling<double>& sampling) {
   }
 }
 
-/// The plant itself if it has ports; for two masses their `linear_plant`, whose loop may have a
-/// delay of many samples.
+/// The plant in a form with ports: unchanged if it has ports; for two masses their `linear_plant`.
+/// The loop of a plant with ports may have a delay of many samples.
 template <class Plant>
 decltype(auto) with_ports(const Plant& plant) {
   if constexpr (has_closed_forms<Plant>) {
@@ -98,8 +98,8 @@ decltype(auto) with_ports(const Plant& plant) {
   }
 }
 
-/// The roots s of the continuous loop without delay, the limit of the sampled loop for τ → 0;
-/// without gains the poles of the plant.
+/// The roots s (1/s) of the continuous loop without delay, the limit of the sampled loop for τ → 0.
+/// With zero gains they are the poles of the plant.
 template <class Plant>
 auto continuous_roots(const Plant& plant, const PdGains<double>& gains) {
   if constexpr (has_closed_forms<Plant>) {

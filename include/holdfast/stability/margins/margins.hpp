@@ -24,65 +24,65 @@
 
 namespace holdfast {
 
-/// Whether the loop is stable, so that it has margins.
+/// Whether a loop is stable; only a stable loop has margins.
 enum class MarginOutcome {
   stable,      ///< all margins are defined
-  not_stable,  ///< a root is on the unit circle or outside: every end is `undefined`
+  not_stable,  ///< a root is on or outside the unit circle: every MarginEnd is `undefined`
 };
 
-/// The kind of end of the stable range of a quantity in one direction.
+/// Kind of an end of the stable range of a quantity (D, P, τ or δ).
 enum class MarginEndOutcome {
-  undefined,      ///< the loop is not stable: the numbers are NaN
+  undefined,      ///< the loop is not stable: position and distance are NaN
   boundary,       ///< a root reaches the unit circle at `position`
   none,           ///< stable up to the end of the quantity's range, which is `position`
-  beyond_search,  ///< stable at least up to `position`, where the search ended: at its limit, by
-                  ///< its number of steps, or at a root so near the circle that round-off decides
+  beyond_search,  ///< stable at least up to `position`, where the search ended: at its limit, after
+                  ///< its last step, or at a root so near the circle that round-off decides
 };
 
-/// One end of the stable interval of a quantity around its value.
+/// One end of the stable interval of a quantity (D, P, τ or δ) around its value in the loop.
 struct MarginEnd {
   MarginEndOutcome outcome = MarginEndOutcome::undefined;      ///< kind of the end
-  double position = std::numeric_limits<double>::quiet_NaN();  ///< value of the quantity there
-  /// The distance from the value; ∞ without a boundary, for `beyond_search` the searched distance.
+  double position = std::numeric_limits<double>::quiet_NaN();  ///< value of the quantity at the end
+  /// The distance of `position` from the value in the loop (unit of the quantity); ∞ for `none`.
   double distance = std::numeric_limits<double>::quiet_NaN();
-  BoundaryCurve curve = BoundaryCurve::plus_one;  ///< curve of the crossing root, for a `boundary`
+  BoundaryCurve curve = BoundaryCurve::plus_one;  ///< kind of the crossing root, for a `boundary`
   /// The frequency of the motion at the boundary, |arg λ|/(2πτ) (Hz); NaN without a boundary.
   double frequency = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The stable interval around a value: its lower and its upper end.
+/// Lower and upper end of the stable interval of a quantity around its value in the loop.
 struct TwoSidedMargin {
   MarginEnd below;  ///< towards smaller values
   MarginEnd above;  ///< towards larger values
 };
 
-/// The stability margins of a loop: the changes of a single quantity that leave it stable.
+/// Stability margins of a loop: the changes of one quantity at a time that leave it stable.
 struct StabilityMargins {
   MarginOutcome outcome;             ///< whether the loop itself is stable
   double unit_circle;                ///< 1 − ρ, not positive where the loop is not stable
-  TwoSidedMargin differential_gain;  ///< D (N s/m)
-  TwoSidedMargin proportional_gain;  ///< P (N/m)
-  TwoSidedMargin sampling_period;    ///< τ (s), with δ/τ constant; its range is (0, ∞)
-  TwoSidedMargin processing_delay;   ///< δ (s), with τ constant; its range is [0, ∞)
+  TwoSidedMargin differential_gain;  ///< margin of D (N s/m)
+  TwoSidedMargin proportional_gain;  ///< margin of P (N/m)
+  TwoSidedMargin sampling_period;  ///< margin of τ (s), with δ/τ constant; its range is (0, ∞)
+  TwoSidedMargin processing_delay;  ///< margin of δ (s), with τ constant; its range is [0, ∞)
 };
 
 /// The limits of the search for margins.
 struct MarginSearch {
-  /// The limit of the walk towards longer sampling periods, > 1: it ends at this multiple of τ or,
-  /// if that is longer, at twenty periods of the plant's slowest mode, unless stability at all
-  /// longer periods is proved before.
+  /// The end of the search towards longer sampling periods, as a multiple > 1 of τ, or twenty
+  /// periods of the plant's slowest mode if these are longer. The search ends earlier where
+  /// stability at all longer periods is proved.
   double longest_period_ratio = 1000.0;
-  /// The largest number of steps of a walk along τ or δ, ≥ 1. In a step the plant's fastest mode
-  /// turns by about a radian; for two masses each takes some 40 µs.
+  /// The largest number of steps of the search along τ or δ, ≥ 1. In a step the plant's fastest
+  /// mode turns by about a radian; for two masses a step takes some 40 µs.
   int most_steps = 20000;
 };
 
 namespace detail {
 
-/// The share of a position, next to a boundary of τ or δ, over which stability may remain unproved.
-/// An earlier boundary could be only there.
+/// The length next to a boundary of τ or δ, as a share of τ or δ there, over which stability may
+/// remain unproved. An earlier boundary could lie only within this length.
 constexpr double smallest_step = 1e-6;
-/// The delay in samples beyond δ, at which the walk towards longer delays ends.
+/// The number of samples beyond δ at which the search for longer delays ends.
 constexpr double most_delays = 10.0;
 
 /// The end at which a root λ crosses the unit circle.
@@ -112,7 +112,7 @@ MarginEnd boundary_end(const Loop& loop, const PdGains<double>& gains, double po
   return crossing_end(1.0 + nearest, std::abs(nearest), position, value, loop.sampling.period);
 }
 
-/// The end of a range without a boundary.
+/// The end of a stable range without a boundary.
 inline MarginEnd no_boundary(double position) {
   return {MarginEndOutcome::none, position, std::numeric_limits<double>::infinity()};
 }
@@ -121,8 +121,8 @@ inline MarginEnd beyond_search(double position, double value) {
   return {MarginEndOutcome::beyond_search, position, std::abs(position - value)};
 }
 
-/// Both ends of the interval that contains the value; undefined where none does.
-/// @param boundary_at  position, finite → MarginEnd
+/// Both ends of the interval that contains the value; undefined where no interval does.
+/// @param boundary_at  map from a finite position to its MarginEnd
 template <class BoundaryAt>
 TwoSidedMargin margin_in(const std::vector<Interval<double>>& intervals, double value,
                          const BoundaryAt& boundary_at) {
@@ -135,9 +135,9 @@ TwoSidedMargin margin_in(const std::vector<Interval<double>>& intervals, double 
   return {};
 }
 
-/// The first loss of stability along a path of samplings, with constant gains, between a value and
-/// `limit`; `otherwise` where there is none.
-/// @param first  length of the first step, > 0
+/// The MarginEnd at the first loss of stability in a family of samplings, with constant gains, from
+/// `value` to `limit`; `otherwise` if stability is not lost.
+/// @param first  length of the first step (s), > 0
 template <class Family>
 MarginEnd margin_along(const Family& family, const PdGains<double>& gains, double value,
                        double limit, double first, const MarginSearch& search,
@@ -189,9 +189,9 @@ TwoSidedMargin period_margin(const Plant& plant, const Sampling<double>& samplin
           towards(std::max(period, std::min(certain, longest)), no_longer)};
 }
 
-/// Both margins of δ, found in one stretch (k − 1) τ … k τ after the other, each with a constant
-/// number of delayed commands. Between stretches one root appears or vanishes at λ = 0, and no
-/// other root moves. A loop without gains is stable for any delay.
+/// Both margins of δ, from a search in each range (k − 1) τ … k τ of δ, which has a constant number
+/// k of delayed commands. From range to range a root appears or vanishes at λ = 0, and no other
+/// root moves. A loop without gains is stable for any delay.
 template <class Plant>
 TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling,
                             const PdGains<double>& gains, const MarginSearch& search) {
@@ -230,18 +230,18 @@ inline void validate(const MarginSearch& search) {
   require_positive("most steps", search.most_steps, "");
 }
 
-/// The distances of D, P, τ and δ, one quantity at a time, from the boundary of stability.
+/// The stability margins of D, P, τ and δ: the distance of one quantity at a time from instability.
 ///
 /// For D and P: the stable interval around the value, from all crossings of the unit circle
-/// (`circle_crossings`). For τ and δ: stepwise from the value outwards, with a proof that all roots
-/// are inside the unit circle over the whole step (`MovingSpectrum`). So no boundary is missed. The
-/// boundary that stops the proof is found by a bracketing root finder on ρ − 1. Below a millionth
-/// of τ the continuous loop decides alone; for τ → ∞ stability may be proved (`SlowSamplingBound`).
+/// (`circle_crossings`). For τ and δ: steps from the value outwards, each with a proof that all
+/// roots stay inside the unit circle (`MovingSpectrum`), so that no boundary is missed. The
+/// boundary that stops the proof is found by a bracketing root finder on ρ − 1. For periods below
+/// 10⁻⁶ τ the continuous loop decides; for long ones stability may be proved (`SlowSamplingBound`).
 /// @tparam Plant    two masses, or a plant of any order with ports; `validate` checks it
 /// @param plant     plant within its ranges
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ, of a plant with ports 0 … 1000 τ
 /// @param gains     P (N/m) and D (N s/m), finite
-/// @param search    limits of the walks along τ and δ
+/// @param search    limits of the search along τ and δ
 /// @throws InvalidParameter where plant, sampling, gains or search are outside their ranges
 template <class Plant>
 StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& sampling,
@@ -272,25 +272,25 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
           detail::delay_margin(general, sampling, gains, search)};
 }
 
-/// The margins of a loop as a whole: the gain factor, the phase and the further delay it allows.
+/// Margins of a loop as a whole: gain margin, phase margin and delay margin.
 ///
 /// The characteristic polynomial is a + x b, x being a common factor of both gains, 1 in the loop.
-/// So the loop opened at the drive is L = −b/a, and its roots are where L = 1.
+/// So the loop opened at the drive has the gain L = −b/a, which is 1 at the closed loop's roots.
 struct LoopMargins {
-  MarginOutcome outcome;  ///< whether the loop is stable; if not, all but 1 − ρ is NaN
+  MarginOutcome outcome;  ///< whether the loop is stable; if not, all but `unit_circle` is NaN
   double unit_circle;     ///< 1 − ρ, not positive where the loop is not stable
   double largest_factor =
       std::nan("");  ///< largest factor x > 1 of both gains with stability; ∞ without an end
   double least_factor = std::nan("");  ///< least factor x < 1 with stability, −∞ without an end
   double phase =
-      std::nan("");  ///< rad; least |φ| with e^{iφ}L(e^{iθ}) = 1; ∞ if |L| ≠ 1 everywhere
-  MarginEnd delay = {};  ///< towards longer δ (s), with τ constant
+      std::nan("");  ///< least |φ| (rad) with e^{iφ}L(e^{iθ}) = 1; ∞ if |L| ≠ 1 everywhere
+  MarginEnd delay = {};  ///< margin towards longer δ (s), with τ constant
 };
 
 namespace detail {
 
-/// The phase margin, the least |arg L| on the unit circle where |L| = 1. There w = iy in the
-/// half-plane's variable, and |a|² − |b|² is a polynomial in Y = y².
+/// The phase margin (rad): the least |arg L| on the unit circle where |L| = 1. On the circle w = iy
+/// in the half-plane's variable w, and |a|² − |b|² is a polynomial in Y = y².
 template <class Scalar>
 Scalar phase_margin(const Polynomial<Scalar, 5>& constant_part,
                     const Polynomial<Scalar, 5>& slope_part) {
@@ -314,16 +314,16 @@ Scalar phase_margin(const Polynomial<Scalar, 5>& constant_part,
 
 }  // namespace detail
 
-/// The gain factor, the phase and the further delay that the loop of two masses allows.
+/// The gain margin, the phase margin and the delay margin of the loop of two masses.
 ///
 /// Gain: the stable interval of a common factor of both gains, from all crossings of the circle
-/// (`stable_intervals`). Phase: all crossovers |L| = 1, roots of one polynomial. Delay: proved
-/// stretch by stretch as by `stability_margins`, up to ten samples beyond δ.
+/// (`stable_intervals`). Phase: all angles with |L| = 1, roots of one polynomial. Delay: proved as
+/// by `stability_margins`, up to ten samples beyond δ.
 /// @tparam Plant    two masses
 /// @param plant     plant within its ranges
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ
 /// @param gains     P (N/m) and D (N s/m), finite
-/// @param search    limits of the walk along δ
+/// @param search    limits of the search along δ
 /// @throws InvalidParameter where plant, sampling, gains or search are outside their ranges
 template <class Plant>
 LoopMargins loop_margins(const Plant& plant, const Sampling<double>& sampling,

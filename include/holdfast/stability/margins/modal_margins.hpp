@@ -73,7 +73,7 @@ struct ModalMargins {
     return least;
   }
 
-  /// Walks a quantity from its value to the first instability or to a limit.
+  /// Searches from a value towards a limit, and finds the boundary in the first unstable step.
   /// @param sampling_at  map from the quantity to the sampling
   /// @param next         map from a position to the next one, towards the limit
   template <class SamplingAt, class Next>
@@ -102,7 +102,7 @@ struct ModalMargins {
   }
 
   /// The end of the stable range between a stable position and an unstable one beyond it.
-  /// @param of_period  whether the quantity is τ, with δ/τ constant, and not δ
+  /// @param of_period  true: the quantity is τ, with δ/τ constant; false: it is δ
   MarginEnd between(Scalar inside, Scalar outside, bool of_period) const {
     const Scalar value = of_period ? sampling.period : sampling.processing_delay;
     return walk(
@@ -137,7 +137,7 @@ struct ModalMargins {
     return modal_response<Scalar>(poles, other).with_sensor(has_velocity_sensor);
   }
 
-  /// The response with the loop's P G_z + D G_v as its G_v: its D is a factor of both gains.
+  /// The response with P G_z + D G_v in place of G_v: its D is a common factor of both gains.
   Response loop_response() const {
     const Scalar p = gains.proportional, d = gains.differential;
     if (!has_velocity_sensor)
@@ -153,7 +153,7 @@ struct ModalMargins {
     return {period, sampling.processing_delay / sampling.period * period};
   }
 
-  /// The excess ρ − 1; where not all roots are found only its sign, by the winding of p.
+  /// The excess ρ − 1 or, where not all roots are found, a tiny number with its sign (by winding).
   Scalar excess_of(const Response& other) const {
     const Scalar excess = loop_excess(other, gains, Scalar(1e-3));
     if (std::isfinite(excess)) return excess;
@@ -162,7 +162,7 @@ struct ModalMargins {
   }
 
   /// The end at which a root crosses the unit circle.
-  /// @param there  response and gains just outside, where the crossing root is the largest
+  /// @param there  response just outside the stable range, where the crossing root is the largest
   static MarginEnd boundary_at(const Response& there, const PdGains<Scalar>& with, Scalar position,
                                Scalar value, Scalar period) {
     std::complex<Scalar> root = largest_loop_root(there, with);
@@ -174,17 +174,17 @@ struct ModalMargins {
 
 }  // namespace detail
 
-/// The distances of D, P, τ and δ, one quantity at a time, from the boundary of stability, for a
-/// loop given by the poles of its plant.
+/// The stability margins of D, P, τ and δ, one quantity at a time, for a loop given by the poles of
+/// its plant.
 ///
-/// For D and P by `UnitCircleCrossings`. τ and δ are walked, τ by 5 % and δ by an eighth of a
-/// sample at a time, with all roots at each step: an unstable window narrower than a step is
-/// missed, which `proved_sampling_margins` would find. Without a boundary the end is
-/// `beyond_search`, never `none` except for δ = 0.
+/// Margins of D and P are from `UnitCircleCrossings`. τ is searched in steps of 5 %, δ in steps of
+/// an eighth of a sample; all roots are computed at each step. An unstable window narrower than a
+/// step is missed; `proved_sampling_margins` misses none. Without a boundary the end is
+/// `beyond_search`, except that the range of δ ends at δ = 0 with `none`.
 /// @param poles     all `plant_poles`; they must outlive the call
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @param gains     P (N/m) and D (N s/m), finite
-/// @param search    only `longest_period_ratio` is used; it limits the walk of τ both ways
+/// @param search    only `longest_period_ratio` is used; it limits the search along τ both ways
 /// @param has_velocity_sensor  false: D multiplies the backward difference of the readings
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
@@ -209,9 +209,9 @@ StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
           margins.of_delay()};
 }
 
-/// The end of the margin of τ (`of_period`, with δ/τ constant) or else of δ, with measured
-/// velocity. It lies between a position up to which the loop is stable and an unstable one beyond,
-/// such as `proved_margins` finds.
+/// The end of the margin of τ with δ/τ constant (if `of_period`) or else of δ, for a loop with
+/// measured velocity. The loop is stable up to the value `inside` and unstable at the value
+/// `outside` beyond it, as found by `proved_margins`.
 template <class Scalar = double>
 MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                            const Sampling<detail::Undeduced<Scalar>>& sampling,
@@ -222,8 +222,8 @@ MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                                                                             of_period);
 }
 
-/// The gain factor, the phase and the further delay that a loop given by the poles of its plant
-/// allows. δ is walked by an eighth of a sample. Arguments as of `modal_stability_margins`.
+/// The gain margin, phase margin and delay margin of a loop given by the poles of its plant. δ is
+/// searched in steps of an eighth of a sample. For the arguments see `modal_stability_margins`.
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
 LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,

@@ -18,44 +18,44 @@
 
 namespace holdfast {
 
-/// The reason for the end of a proof in one direction.
+/// Reason for the end of a stability proof in one direction.
 enum class ProofStop {
-  at_end,  ///< the proof reached its limit, or an unstable loop was found beyond its last position
-  work,    ///< the proof used up its steps
+  at_end,     ///< the proof reached its limit, or an unstable loop was found beyond `stable_to`
+  work,       ///< the proof used up its steps
   undecided,  ///< a root is too near the circle for enclosures to separate it
 };
 
-/// The proved margin in one direction from a value.
+/// Proved stability margin of a quantity in one direction from its given value.
 struct ProvedMarginEnd {
-  /// The loop is proved to be stable at every position from the value to this one, both included;
-  /// NaN where it is not proved to be stable at the value.
+  /// The loop is proved to be stable for all values of the quantity from the given one to this one;
+  /// NaN where the loop is not proved to be stable at the given value.
   double stable_to = std::numeric_limits<double>::quiet_NaN();
-  /// The loop is proved to be unstable at this position beyond; NaN without one. The positions in
-  /// between are undecided.
+  /// The loop is proved to be unstable at this value beyond `stable_to`; NaN if no such value was
+  /// found. The values between them are undecided.
   double unstable_at = std::numeric_limits<double>::quiet_NaN();
   ProofStop stop = ProofStop::undecided;  ///< reason for the end of the proof
 };
 
-/// The proved margins down and up from a value.
+/// Proved stability margins of a quantity, down and up from its value.
 struct ProvedMargin {
   ProvedMarginEnd below;  ///< towards smaller values
   ProvedMarginEnd above;  ///< towards larger values
 };
 
-/// The resolution and the work of a proof of margins.
+/// Resolution and largest work of a proof of margins.
 struct ProvedMarginsOptions {
-  double resolution = 1e-6;  ///< shortest step, as a share of the way to the boundary, > 0
-  int most_steps = 20000;    ///< number of steps in each direction after which the walk ends
+  double resolution = 1e-6;  ///< shortest step over the distance from value to proof's limit, > 0
+  int most_steps = 20000;    ///< largest number of steps of the proof in one direction
 };
 
 /// The margins of `StabilityMargins`, proved in interval arithmetic for the loop whose parameters
 /// are exactly the given decimal numbers.
 struct ProvedMargins {
   ProvedStability stability = ProvedStability::undecided;  ///< verdict on the loop itself
-  ProvedMargin differential_gain;                          ///< D (N s/m)
-  ProvedMargin proportional_gain;                          ///< P (N/m)
-  ProvedMargin sampling_period;                            ///< τ (s), with δ/τ constant
-  ProvedMargin processing_delay;                           ///< δ (s), with τ constant
+  ProvedMargin differential_gain;                          ///< margin of D (N s/m)
+  ProvedMargin proportional_gain;                          ///< margin of P (N/m)
+  ProvedMargin sampling_period;   ///< margin of τ (s), with δ/τ constant
+  ProvedMargin processing_delay;  ///< margin of δ (s), with τ constant
 };
 
 namespace detail {
@@ -64,12 +64,12 @@ inline GainBox box_of(const Enclosure& proportional, const Enclosure& differenti
   return {proportional.lower(), proportional.upper(), differential.lower(), differential.upper()};
 }
 
-/// Whether it is proved that no loop of a box has a root on the unit circle.
+/// Whether all loops with gains in a box are proved to have no root on the unit circle.
 inline bool is_off_circle(CircleArcs& arcs, const GainBox& box) {
   return arcs.meeting(box, arcs.all()).empty();
 }
 
-/// The verdict proved for all loops of a box.
+/// The verdict proved for all loops with gains in a box.
 inline ProvedStability stability_of(CircleArcs& arcs, const GainBox& box) {
   if (!is_off_circle(arcs, box)) return ProvedStability::undecided;
   const auto outside = arcs.roots_outside(middle_of(box));
@@ -77,7 +77,7 @@ inline ProvedStability stability_of(CircleArcs& arcs, const GainBox& box) {
   return *outside == 0 ? ProvedStability::stable : ProvedStability::unstable;
 }
 
-/// A path along which one of the gains varies.
+/// Path along which one gain varies, while the other gain and the sampling are constant.
 struct GainPath {
   CircleArcs& arcs;
   FreeGain free;
@@ -93,7 +93,7 @@ struct GainPath {
   }
 };
 
-/// A path along which the sampling varies.
+/// Path along which the sampling period or the delay varies.
 struct SamplingPath {
   const std::vector<EnclosedPole>& poles;
   PdGains<double> gains;
@@ -108,9 +108,9 @@ struct SamplingPath {
   }
 };
 
-/// Walks along a path from a value with a proved stable loop, as long as no root meets the circle:
-/// roots move continuously, so that none gets outside. If the walk ends before `limit` with steps
-/// left, an unstable loop is sought beyond its end.
+/// Proves stability step by step along a path from a value with a proved stable loop, as long as no
+/// root meets the circle: roots move continuously, so none gets outside. If the proof stops before
+/// `limit` with steps left, an unstable loop is sought beyond the value reached.
 /// @param watch  called for each step; an exception from it ends the work
 template <class Path, class Watch>
 ProvedMarginEnd walked_end(const Path& path, double value, double limit,
@@ -146,8 +146,8 @@ ProvedMarginEnd walked_end(const Path& path, double value, double limit,
   return end;
 }
 
-/// The intended end of a walk: slightly beyond the boundary found in doubles. Without a boundary it
-/// is where the search in doubles ended, or `otherwise` if that position is not finite.
+/// The intended end of a proof, slightly beyond the boundary found in doubles. Without a boundary
+/// it is the end of the search in doubles, or `otherwise` if that is not finite.
 inline double limit_beyond(const MarginEnd& end, double value, double otherwise) {
   if (end.outcome == MarginEndOutcome::boundary) return value + 1.1 * (end.position - value);
   if (end.outcome == MarginEndOutcome::undefined) return value;
@@ -204,7 +204,7 @@ struct MarginProver {
             towards(path, period, limit_beyond(above, period, longest))};
   }
 
-  /// The margin of δ, stretch by stretch (k − 1) τ … k τ; between them a root is at λ = 0.
+  /// The proved end for δ, by ranges (k − 1) τ … k τ; a root is at λ = 0 where two ranges meet.
   ProvedMarginEnd of_delay(const MarginEnd& by_doubles, int direction) const {
     const double delay = sampling.processing_delay;
     const double limit =
@@ -229,13 +229,13 @@ struct MarginProver {
 }  // namespace detail
 
 /// Proves by how much D, P, τ and δ, one at a time, may change before the loop loses its stability.
-/// Its parameters are exactly the given decimal numbers. No unstable window is missed: the loop is
-/// stable at the value (`CircleArcs::roots_outside`), and on each step of the walk, an interval of
-/// positions in enclosures, no root meets the unit circle.
+/// The loop's parameters are exactly the given decimal numbers. No unstable window is missed: the
+/// loop is proved stable at the value (`CircleArcs::roots_outside`), and in each step, an enclosed
+/// interval of positions, no root meets the unit circle.
 /// @param poles       poles of `enclosed_poles`
 /// @param sampling    τ and δ as for EnclosedResponse
 /// @param gains       P (N/m) and D (N s/m), finite
-/// @param found       margins found in doubles; they only limit the walks
+/// @param found       margins found in doubles; they only limit the proofs
 /// @param options     resolution and work
 /// @param watch       called for each step; an exception from it ends the work
 /// @throws InvalidParameter where sampling or gains are not admissible

@@ -38,7 +38,7 @@ Scalar loop_excess(const SampledLoop<Scalar>& loop, const PdGains<Undeduced<Scal
   return loop_polynomial(loop).excess(gains);
 }
 
-/// The roots of a loop of any order as μ = λ − 1, to lose no digits with fast sampling.
+/// The offsets μ = λ − 1 of a loop's roots, which lose no digits with fast sampling.
 template <class Scalar>
 Vector<std::complex<Scalar>, Eigen::Dynamic> roots_from_one(const LoopMap<Scalar>& map,
                                                             const PdGains<Scalar>& gains) {
@@ -61,9 +61,8 @@ extern template double loop_excess(const LoopMap<double>&, const PdGains<double>
 
 }  // namespace detail
 
-/// A family of samplings of one plant with a single parameter: the period τ, with the delay a
-/// constant share of it, or the delay δ at a fixed period, as long as the number of delayed
-/// commands is constant.
+/// Family of samplings of one plant with one parameter, called position: the period τ, with δ/τ
+/// constant, or the delay δ, with τ constant. The number of delayed commands is constant.
 /// @tparam Plant  two masses, whose loop is a `SampledLoop` in closed form, or a plant of any order
 ///                with ports, whose loop is a `LoopMap`
 template <class Plant>
@@ -79,18 +78,18 @@ class SamplingFamily {
   /// The family with δ from (k − 1) τ to k τ.
   /// @param plant   plant within its ranges, which are not checked here
   /// @param period  τ (s), > 0
-  /// @param held    k, 1 for two masses, ≥ 1 for a plant with ports
+  /// @param held    number k of delayed commands, 1 for two masses, ≥ 1 for a plant with ports
   static SamplingFamily of_delay(const Plant& plant, double period, int held = 1) {
     return {plant, period, 0.0, held};
   }
 
-  /// The sampling at a position (s): at that τ, or at that δ and the fixed period.
+  /// The sampling at a position (s), which is its τ or its δ.
   Sampling<double> at(double position) const {
     if (fixed_period_ > 0.0) return {fixed_period_, position};
     return {position, delay_fraction_ * position};
   }
 
-  /// The loop of the plant at a position (s); costs two matrix exponentials.
+  /// The loop of the plant at a position (s); it costs two matrix exponentials.
   auto loop_at(double position) const {
     if constexpr (has_closed_forms<Plant>) {
       return sampled_loop(plant_, at(position));
@@ -104,14 +103,14 @@ class SamplingFamily {
     return detail::loop_map_keeping<Plant, double>(plant_, at(position), held_);
   }
 
-  /// The derivative of τ with respect to the position.
+  /// The derivative of τ by the position: 1 where the position is τ, 0 where it is δ.
   double period_rate() const { return fixed_period_ > 0.0 ? 0.0 : 1.0; }
-  /// The derivative of k τ − δ, the time in a sample during which a new command acts.
+  /// The derivative by the position of k τ − δ, the time in a sample when a new command acts.
   double action_rate() const { return fixed_period_ > 0.0 ? -1.0 : held_ - delay_fraction_; }
 
-  /// The Taylor series of the closed map within `radius` (s) of a centre, in x = deviation/radius.
-  ///
-  /// With h = k τ − δ and the rates τ′ and h′ along the path, the rows of the state are
+  /// The Taylor series of the closed map within `radius` (s) of a centre, in x = (position −
+  /// centre)/radius. With h = k τ − δ and the derivatives τ′ and h′ by the position, the state's
+  /// rows have the derivatives
   ///
   ///     ∂ʲ[A_d, Γ₁, Γ₀] = A^{j−1} (τ′ʲ [A A_d, A_d b, 0] + h′ʲ e^{Ah} b [0, −1, 1]),   j ≥ 1
   ///

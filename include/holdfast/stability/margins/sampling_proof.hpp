@@ -16,14 +16,14 @@
 
 namespace holdfast {
 
-/// A one-parameter set of samplings of a loop. The parameter, called position (s), is τ with δ/τ
-/// constant or δ with τ constant; the number of delayed commands is constant.
+/// Line of samplings of a loop with one parameter, called position (s): τ with δ/τ constant, or δ
+/// with τ constant. The number of delayed commands is constant.
 struct EnclosedSamplings {
   Enclosure fixed_period;  ///< τ (s) where δ varies, else 0
-  Enclosure last_share;    ///< φ − (k − 1) for δ = φ τ where τ varies, within 0 … 1
+  Enclosure last_share;    ///< φ − (k − 1), 0 … 1, for δ = φ τ where τ varies
   int commands = 1;        ///< number k of delayed commands
 
-  /// The line of τ through a given sampling (see EnclosedSampling::of).
+  /// The line through a given sampling along which τ varies (see EnclosedSampling::of).
   static EnclosedSamplings of_period(const Sampling<double>& sampling) {
     const int commands = held_commands(sampling);
     const Enclosure share =
@@ -32,17 +32,17 @@ struct EnclosedSamplings {
     return {
         0.0, {std::clamp(share.lower(), 0.0, 1.0), std::clamp(share.upper(), 0.0, 1.0)}, commands};
   }
-  /// The line of δ within (k − 1) τ … k τ.
+  /// The line along which δ varies within (k − 1) τ … k τ.
   static EnclosedSamplings of_delay(double period, int commands) {
     return {Enclosure::of_decimal(period), 0.0, commands};
   }
 
-  /// An enclosure of the samplings at all the given positions.
+  /// Enclosure of the samplings at all positions in an interval (s).
   EnclosedSampling over(const Enclosure& positions) const {
     if (!moves_period()) return EnclosedSampling::of_delay(fixed_period, positions, commands);
     return {positions, last_share * positions, (Enclosure(1.0) - last_share) * positions, commands};
   }
-  /// The sampling in doubles at a position, from the middles of the enclosures.
+  /// The sampling at a position in doubles, from the midpoints of the enclosures.
   Sampling<double> next_to(double position) const {
     if (!moves_period()) return {fixed_period.middle(), std::max(position, 0.0)};
     return {position, (commands - 1 + last_share.middle()) * position};
@@ -50,14 +50,14 @@ struct EnclosedSamplings {
 
   /// A time as a function of the position.
   struct Time {
-    Enclosure at;    ///< (s)
-    Enclosure rate;  ///< its derivative with respect to the position
+    Enclosure at;    ///< value of the time (s)
+    Enclosure rate;  ///< derivative by the position, which is τ or δ
   };
   /// The period τ at a position.
   Time period_at(const Enclosure& position) const {
     return moves_period() ? Time{position, 1.0} : Time{fixed_period, 0.0};
   }
-  /// The time k τ − δ at a position.
+  /// The time k τ − δ at a position, during which the last command acts in a sample.
   Time present_at(const Enclosure& position) const {
     const Enclosure share = 1.0 - last_share, all = static_cast<double>(commands) * fixed_period;
     return moves_period() ? Time{share * position, share} : Time{all - position, -1.0};
@@ -67,9 +67,9 @@ struct EnclosedSamplings {
   bool moves_period() const { return fixed_period.upper() == 0.0; }
 };
 
-/// Proves that a loop is stable at all samplings on a segment of a line.
+/// Proof that a loop is stable at all samplings on a segment of a line.
 ///
-/// With k delayed commands and h = k τ − δ the roots of the loop are those of the polynomial
+/// With poles s_j of residue r_j, k delayed commands and h = k τ − δ the loop has the roots of
 ///
 ///     p(λ) = q(λ) Π_j (λ − e_j),   q(λ) = λᵏ − Σ_j (P + D s_j) r_j (γ₀_j λ + γ₁_j)/(λ − e_j)
 ///     e = e^{s τ},   γ₀ = (e^{s h} − 1)/s,   γ₁ = (e^{s τ} − e^{s h})/s
@@ -79,16 +79,16 @@ struct EnclosedSamplings {
 ///
 ///     p(λ)/Π_i (λ − z_i) = 1 + Σ_i W_i/(λ − z_i),   W_i = p(z_i)/Π_{l≠i} (z_i − z_l),
 ///
-/// If all |z_i| < 1 and Σ |W_i|/|λ − z_i| < 1 on the unit circle, which bounds the sum outside too,
-/// there is no root on the circle or outside. Nodes near the roots have small W_i (K. Weierstrass,
-/// 1891). On a segment x₀ + ϱ t, |t| ≤ 1, the nodes follow the roots on spirals, and p(z_i(t)) is
-/// enclosed to second order. Work: for N roots some N² operations of curves, 2 ms for 40 modes.
+/// If all |z_i| < 1 and Σ |W_i|/|λ − z_i| < 1 on the unit circle, and therefore outside it, no root
+/// is on the circle or outside. Nodes near the roots have small W_i (K. Weierstrass, 1891). On a
+/// segment x₀ + ϱ t, |t| ≤ 1, the nodes follow the roots on spirals, and p(z_i(t)) is enclosed to
+/// second order. Work: some N² operations on curves for N roots, 2 ms for 40 modes.
 template <class Scalar>
 class SamplingProof {
  public:
   /// @param poles  poles as for EnclosedResponse
   /// @param gains  P (N/m) and D (N s/m), exactly the given decimal numbers
-  /// @param line   line of samplings that segments are taken from
+  /// @param line   line of samplings from which the segments are taken
   SamplingProof(const std::vector<EnclosedPole>& poles, const PdGains<double>& gains,
                 EnclosedSamplings line)
       : line_(line), gains_(gains) {
@@ -110,17 +110,17 @@ class SamplingProof {
     }
   }
 
-  /// A node on a segment, t from −1 at its start to 1 at its end.
+  /// Node of the interpolation on a segment, t from −1 at its start to 1 at its end.
   struct Node {
-    EnclosedSpiral path;  ///< z_i(t)
-    double correction;    ///< upper bound of |W_i(t)| on the segment
+    EnclosedSpiral path;  ///< path of the node, z_i(t)
+    double correction;    ///< upper bound of |W_i(t)| for all t
   };
 
-  /// The nodes for a proof at all positions from … to (s); empty where the roots at the middle are
-  /// not found.
+  /// The nodes for a proof at all positions from `from` to `to` (s); empty where the roots at the
+  /// middle are not found.
   std::vector<Node> nodes_over(double from, double to) const;
 
-  /// Whether the loop is proved to be stable at all positions from … to (s).
+  /// Whether the loop is proved to be stable at all positions from `from` to `to` (s).
   bool is_stable(double from, double to) const {
     const std::vector<Node> nodes = nodes_over(from, to);
     return !nodes.empty() && are_held_inside(nodes);
@@ -132,12 +132,12 @@ class SamplingProof {
   struct Motion {
     ComplexEnclosure s, reading;  // (P + D s) r/s
   };
-  /// The term of one pole in q over a segment: its parts by the previous and by the last command.
+  /// Term of one pole in q over a segment: a part by the previous command and one by the last.
   struct Part {
     EnclosedSpiral pole;  // e^{sτ}
     EnclosedCurve past, present;
 
-    /// The term's numerator over λ − e^{sτ}, at λ on a node.
+    /// The numerator of the term at λ on a node; its denominator is λ − e^{sτ}.
     EnclosedCurve over(const EnclosedCurve& node) const { return present * node + past; }
   };
 
@@ -168,7 +168,7 @@ class SamplingProof {
 
   static ComplexEnclosure exact(const std::complex<double>& z) { return {z, 0.0}; }
 
-  /// Nodes near the roots. The first are those near poles, in the order of the poles. Empty where
+  /// The nodes, near the roots: first the nodes near poles, in the order of the poles. Empty where
   /// the roots are not found. The proof is valid for any nodes.
   Nodes nodes_at(double position, const std::vector<Part>& parts) const {
     using Complex = std::complex<double>;
@@ -233,8 +233,8 @@ class SamplingProof {
     }
   };
 
-  /// Moves nodes apart that would meet on the segment, as roots do that meet on the real line, and
-  /// nodes away from poles of others. The shift is small beside a node's distance from the circle.
+  /// Separates nodes that would meet on the segment, as roots do on the real axis, and moves nodes
+  /// off the poles of other nodes. The shift is small beside a node's distance from the circle.
   static void make_room(Nodes& nodes, const std::vector<Part>& parts) {
     const auto room_of = [](const EnclosedSpiral& node) {
       return 0.3 * (1.0 - std::abs(node.start().middle()));
@@ -260,8 +260,8 @@ class SamplingProof {
       }
   }
 
-  /// Makes nodes that are nearly conjugate exactly so, and nearly real ones real.
-  /// @return the partner of each node, which may be itself; empty where one has none
+  /// Makes nodes that are nearly conjugate exactly conjugate, and nearly real nodes real.
+  /// @return the partner of each node, which may be itself; empty where a node has no partner
   static std::vector<std::size_t> mirror(Nodes& nodes) {
     constexpr double rounding = 1e-9;
     std::vector<std::size_t> partners(nodes.size(), nodes.size());

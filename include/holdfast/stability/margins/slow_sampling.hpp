@@ -17,21 +17,20 @@
 
 namespace holdfast {
 
-/// A bound on the loop's return ratio that falls as the sampling period grows. It gives a period
+/// Bound of the loop's return ratio L that falls as the sampling period grows. It gives a period
 /// beyond which the sampled loop is stable at every period.
 ///
 /// With the plant's poles s_i = −a_i + iω_i, K (sI − A)⁻¹ b = n(s)/p(s), c_i = n(s_i)/(s_i
-/// p′(s_i)), g = K A⁻¹ b = −n(0)/p(0) = Σ c_i, φ = δ/τ and e_i = e^{s_i τ}, the loop's return ratio
-/// is
+/// p′(s_i)), g = K A⁻¹ b = −n(0)/p(0) = Σ c_i, φ = δ/τ and e_i = e^{s_i τ}, the return ratio is
 ///
 ///     L(λ) = K (λI − A_d)⁻¹ (Γ₀ + Γ₁/λ)
 ///          = −g/λ + Σ c_i e^{s_i(1−φ)τ} (λ − 1)/(λ(λ − e_i))
 ///
-/// and det(λI − S) = λ det(λI − A_d) (1 − L), so that all |λ| < 1 if |L| < 1 on |λ| ≥ 1. There
+/// and det(λI − S) = λ det(λI − A_d) (1 − L), so that all |λ| < 1 if |L| < 1 for all |λ| ≥ 1, where
 ///
 ///     |L| ≤ |g| + 2 Σ |c_i| e^{−a_i χτ}/(1 − e^{−a_iτ}),   χ = 1 − φ, and χ = 1 for φ = 1
 ///
-/// the last case following from L = −g/λ² + Σ c_i e_i (λ − 1)/(λ²(λ − e_i)). For the two-mass plant
+/// χ = 1 follows from L = −g/λ² + Σ c_i e_i (λ − 1)/(λ²(λ − e_i)) at φ = 1. For the two-mass plant
 /// g = 0: a constant force between the masses does not move the conductor. Commands delayed by
 /// further whole samples divide L by powers of λ, which does not change the bound.
 class SlowSamplingBound {
@@ -63,7 +62,7 @@ class SlowSamplingBound {
     return bound;
   }
 
-  /// A period (s) such that the loop is stable at every longer one; infinite where none is known.
+  /// A period (s) beyond which the loop is stable at every period; infinite where none is known.
   double certain_from() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto [slowest, fastest] = std::minmax_element(decay_.begin(), decay_.end());

@@ -12,9 +12,9 @@ namespace holdfast {
 /// The variable x of a polynomial, on which the stable region of its roots depends. Polynomials in
 /// different variables are different types.
 enum class PolynomialVariable {
-  half_plane,    ///< s, or w of `in_half_plane`: Re x < 0
-  about_one,     ///< λ − 1: |1 + x| < 1
-  about_centre,  ///< λ − c, with c given by `LoopPolynomial`: |c + x| < 1
+  half_plane,    ///< s, or w of `in_half_plane`; roots with Re x < 0 are stable
+  about_one,     ///< λ − 1; roots with |1 + x| < 1 are stable
+  about_centre,  ///< λ − c with c of `LoopPolynomial`; roots with |c + x| < 1 are stable
 };
 
 /// A polynomial whose coefficients are affine in the two gains:
@@ -22,15 +22,15 @@ enum class PolynomialVariable {
 ///     p(x; P, D) = base(x) + P · proportional(x) + D · differential(x)
 ///
 /// The characteristic polynomial of the loop has this form because both gains are in one row of the
-/// feedback matrix. Each (P, D) costs 2 (Degree + 1) multiply-adds.
+/// feedback matrix. The polynomial at one (P, D) costs 2 (Degree + 1) multiply-adds.
 /// @tparam Variable  x; by default that of the loop's polynomial, s for degree 4, else λ − 1
 template <class Scalar, int Degree,
           PolynomialVariable Variable =
               Degree == 4 ? PolynomialVariable::half_plane : PolynomialVariable::about_one>
 struct AffinePolynomial {
-  Polynomial<Scalar, Degree> base;          ///< without control, constant coefficient first
-  Polynomial<Scalar, Degree> proportional;  ///< ∂p/∂P, per N/m of P
-  Polynomial<Scalar, Degree> differential;  ///< ∂p/∂D, per N s/m of D
+  Polynomial<Scalar, Degree> base;          ///< value without control, constant coefficient first
+  Polynomial<Scalar, Degree> proportional;  ///< derivative ∂p/∂P, per N/m of P
+  Polynomial<Scalar, Degree> differential;  ///< derivative ∂p/∂D, per N s/m of D
 
   /// The polynomial at one pair of gains, constant coefficient first.
   Polynomial<Scalar, Degree> at(const PdGains<Scalar>& gains) const {
@@ -64,7 +64,7 @@ HalfPlanePolynomial<Scalar, Degree> in_half_plane(
   return polynomial.template transformed<PolynomialVariable::half_plane>(
       [](const Polynomial<Scalar, Degree>& p) { return in_half_plane<Scalar, Degree + 1>(p); });
 }
-/// The polynomial itself, which is already in the half-plane's variable.
+/// The polynomial itself, unchanged, since its variable already is that of the half-plane.
 template <class Scalar, int Degree>
 const HalfPlanePolynomial<Scalar, Degree>& in_half_plane(
     const HalfPlanePolynomial<Scalar, Degree>& polynomial) {

@@ -17,11 +17,11 @@ namespace holdfast {
 /// A real quadratic factor μ² + Uμ + V of a characteristic polynomial in powers of μ = λ − 1.
 template <class Scalar>
 struct QuadraticFactor {
-  Scalar linear;    ///< U
-  Scalar constant;  ///< V
+  Scalar linear;    ///< coefficient U
+  Scalar constant;  ///< coefficient V
 
-  /// The larger modulus |λ| of its two roots: √(1 − U + V) for a pair, |1 − U/2| + √(U²/4 − V) for
-  /// real roots.
+  /// The larger modulus |λ| of the factor's two roots: √(1 − U + V) for a complex pair, |1 − U/2| +
+  /// √(U²/4 − V) for real roots.
   Scalar radius() const {
     using std::abs;
     using std::sqrt;
@@ -34,22 +34,22 @@ struct QuadraticFactor {
   }
 };
 
-/// The continuation of the dominant factor of a polynomial that changes little from one call to the
-/// next, as along a row of a chart; it gives the spectral radius, lane by lane for packs.
+/// Spectral radius by continuation of the dominant quadratic factor of a polynomial that changes
+/// little from call to call, as along a row of a chart. SIMD packs are treated lane by lane.
 ///
 /// The factor is extrapolated from the previous calls and corrected by Newton's method in (U, V)
 /// (Bairstow's iteration): with quotients b, c of two divisions by μ² + Uμ + V,
 ///
 ///     [c₂ c₃; c₁ c₂] [δU; δV] = [b₁; b₀]
 ///
-/// It converges quadratically as long as the factor shares no root with its quotient. Liénard and
-/// Chipart's conditions test that the quotient has no root beyond the radius; a lane that fails is
-/// recomputed from all its roots. The polynomial must have a root λ = 0 as a partner for a real
+/// The iteration converges quadratically if the factor shares no root with its quotient. Liénard
+/// and Chipart's conditions test that the quotient has no root beyond the radius; a lane that fails
+/// is recomputed from all roots. The polynomial must have a root λ = 0 as a partner for a real
 /// dominant root: the sampled loop without processing delay has it, any other polynomial is
 /// multiplied by λ (`with_root_at_zero`).
 ///
 /// Work per call and iteration: 5 Degree multiply-adds and a division; 45 more for the test.
-/// Relative error of the radius: 2e−13 where two moduli are closer than that, otherwise round-off
+/// Relative error of the radius: 2e−13 where two root moduli differ by less, otherwise round-off
 /// times the condition of the dominant root. Source: L. Bairstow, 1914.
 template <class Scalar, int Degree>
 class DominantFactor {
@@ -74,7 +74,7 @@ class DominantFactor {
   }
 
  private:
-  /// The factor from all roots: a dominant pair, or a dominant real root and λ = 0.
+  /// The factor, from all roots, of the dominant pair or of a dominant real root and λ = 0.
   static QuadraticFactor<Value> dominant_factor(const Polynomial<Value, Degree>& in_powers_of_mu) {
     const Value one(1);
     std::complex<Value> dominant(-one);
@@ -104,8 +104,8 @@ class DominantFactor {
     return settled;
   }
 
-  /// Restarts from the previous factor the lanes that did not converge: where cells are far apart,
-  /// extrapolation may increase the error.
+  /// Restarts the lanes that did not converge, from the factor of the previous call. Where cells
+  /// are far apart, extrapolation may increase the error.
   void start_nearby(const Polynomial<Scalar, Degree>& polynomial, Factor& factor,
                     Quotient& quotient, Mask<Scalar>& settled) const {
     Factor other = history_[0];

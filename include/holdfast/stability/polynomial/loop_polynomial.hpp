@@ -19,10 +19,10 @@ namespace holdfast {
 /// in powers of λ where its motion decays almost completely within a sample.
 ///
 /// In the first case the roots are close to λ = 1, in the second to λ = 0. Powers of λ − centre
-/// keep the digits of these distances. Radii too are stored as offsets from the centre.
+/// keep the digits of these distances. Radii are stored as radius − centre.
 template <class Scalar>
 struct LoopPolynomial {
-  Scalar centre;  ///< 1 or 0
+  Scalar centre;  ///< centre of the powers, 1 or 0
   /// The monic polynomial in powers of λ − centre, affine in the gains.
   AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial;
 
@@ -45,13 +45,13 @@ struct LoopPolynomial {
     return largest;
   }
 
-  /// The excess ρ(P, D) − 1.
+  /// The excess ρ(P, D) − 1 of the spectral radius; negative where the loop is stable.
   Scalar excess(const PdGains<Scalar>& gains) const {
     return (centre - Scalar(1)) + radius_offset(gains);
   }
 
-  /// The polynomial of λ′ = λ/r in powers of λ′ − 1; it is stable where all |λ| < r.
-  /// @param offset  r − centre, above −centre
+  /// The polynomial in powers of λ′ − 1, λ′ = λ/r. All |λ′| < 1 means that all |λ| < r.
+  /// @param offset  r − centre for a radius r > 0
   AffinePolynomial<Scalar, 5> at_radius(const Scalar& offset) const {
     const Scalar radius = centre + offset;
     // λ − centre = r μ' + offset with μ' = λ' − 1.
@@ -59,7 +59,7 @@ struct LoopPolynomial {
         [&](const Polynomial<Scalar, 5>& p) { return rescaled(shifted(p, offset), radius); });
   }
 
-  /// The open intervals of D (N s/m) with ρ(P, D) < centre + offset, exact and ascending.
+  /// The open intervals of D (N s/m) with spectral radius < centre + offset, exact and ascending.
   std::vector<Interval<Scalar>> differential_gains_within(const Scalar& proportional_gain,
                                                           const Scalar& offset) const {
     if (!(centre + offset > Scalar(0))) return {};
@@ -67,7 +67,7 @@ struct LoopPolynomial {
   }
 };
 
-/// The loop's polynomial: about 0 where the balanced A_d has a norm below 1/4, else about 1.
+/// The polynomial of a loop: centre 0 if the norm of the balanced A_d is below 1/4, else centre 1.
 template <class Scalar>
 LoopPolynomial<Scalar> loop_polynomial(const SampledLoop<Scalar>& loop) {
   const Scalar norm =

@@ -10,15 +10,15 @@
 
 namespace holdfast {
 
-/// The impedance Z_eff(s) of the computer's force (N s/m): the part of that force with the
+/// The impedance Z_eff(s) (N s/m) of the computer's force: the part of that force with the
 /// frequency of the motion, over the conductor's velocity:
 ///
 ///     Z_eff = −(D + P/s) F(s) A(s) e^{−s(δ + τ/2)} sinh(sτ/2)/(sτ/2)
 ///
-/// with the lags F of the measurement filter and A of the drive; where the velocity is a difference
+/// with the lags F of the measurement filter and A of the drive. Where the velocity is a difference
 /// of readings, D has the factor (1 − e^{−sτ})/(sτ). At s = iω sinh(sτ/2)/(sτ/2) = sinc(ωτ/2). The
-/// hold also emits frequencies ω + 2πk/τ; where the conductor responds to them, only the sampled
-/// loop (`ModalResponse`) is exact. The arguments are not checked.
+/// held force also has the frequencies ω + 2πk/τ; where the conductor responds to them, only the
+/// sampled loop (`ModalResponse`) is exact. The arguments are not checked.
 /// @param sampling  τ and δ of the loop
 /// @param gains     gains P and D
 /// @param hardware  measurement filter and drive
@@ -38,12 +38,12 @@ inline std::complex<double> drive_impedance(const Sampling<double>& sampling,
          detail::HardwarePoles::lag(lags.drive, s) * detail::HardwarePoles::lag(lags.filter, s);
 }
 
-/// The impedance Z(s) = (M_c s² + K_p)/s + T_a Z_eff (N s/m) of the absorber with its computer,
-/// force over velocity of the conductor; M_c, K_p and T_a as in plant/modal_plant.hpp. Like
+/// The impedance Z(s) = (M_c s² + K_p)/s + T_a Z_eff (N s/m) of the absorber with its computer:
+/// force over velocity of the conductor. M_c, K_p and T_a are as in plant/modal_plant.hpp. Like
 /// `drive_impedance` it holds for one frequency only. The arguments are not checked.
 /// @param absorber  absorber with its clamp
-/// @param sampling  τ and δ
-/// @param gains     P and D
+/// @param sampling  τ and δ of the loop
+/// @param gains     gains P and D
 /// @param hardware  measurement filter and drive
 /// @param s         complex frequency (1/s), ≠ 0
 inline std::complex<double> absorber_impedance(const Absorber<double>& absorber,

@@ -14,31 +14,31 @@
 
 namespace holdfast {
 
-/// An expansion f(λ + w) = value + slope · w + r, |r| ≤ rest, valid for |w| up to a radius.
+/// Enclosed expansion f(λ + w) = value + slope · w + r, |r| ≤ rest, for |w| up to a radius.
 struct EnclosedExpansion {
-  ComplexEnclosure value;  ///< f(λ)
-  ComplexEnclosure slope;  ///< f′(λ)
+  ComplexEnclosure value;  ///< value f(λ)
+  ComplexEnclosure slope;  ///< derivative f′(λ)
   double rest = 0.0;       ///< bound of r; infinite where f may have a pole within the radius
 };
 
-/// Expansions of the factors F_z and F_v of P and D (`EnclosedResponse`) about a point.
+/// Expansions about a point of the factors F_z of P and F_v of D (`EnclosedResponse`).
 struct EnclosedCommandResponse {
-  EnclosedExpansion displacement;  ///< F_z (m/N)
-  EnclosedExpansion velocity;      ///< F_v (m/(N s))
+  EnclosedExpansion displacement;  ///< expansion of F_z (m/N)
+  EnclosedExpansion velocity;      ///< expansion of F_v (m/(N s))
 };
 
-/// Times in a sample during which the commands act, for one sampling or for all in a range.
+/// Enclosed times in a sample during which commands act, for one sampling or a range of them.
 struct EnclosedSampling {
   Enclosure period;   ///< τ (s)
   Enclosure past;     ///< δ − (k − 1) τ (s), action time of the previous command
   Enclosure present;  ///< k τ − δ (s), action time of the last command
   int commands;       ///< number k of delayed commands
 
-  /// Sets all four members, in this order.
+  /// Creates the enclosure from its four members, in their order.
   EnclosedSampling(Enclosure of_period, Enclosure of_past, Enclosure of_present, int on_their_way)
       : period(of_period), past(of_past), present(of_present), commands(on_their_way) {}
 
-  /// Encloses τ (s) > 0 and δ (s), 0 … 1000 τ, with all decimals rounded to them. A δ that exceeds
+  /// The enclosure of all decimals that round to τ (s) > 0 and δ (s), 0 … 1000 τ. A δ that exceeds
   /// a whole number of samples by less than 10⁻¹² of itself counts as that number.
   /// @throws InvalidParameter where the sampling is not admissible
   static EnclosedSampling of(const Sampling<double>& sampling) {
@@ -65,8 +65,8 @@ struct EnclosedSampling {
 ///
 ///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ),   F(λ) = λᵏ G(λ) = Σ (a_j λ + b_j)/(λ − e^{s_j τ})
 ///
-/// with k, a_j and b_j as in `ModalResponse`. A pair of poles forms one real quotient n(λ)/g(λ) of
-/// degree 2, with the exact remainder after the first two terms about λ
+/// with k, a_j and b_j as in `ModalResponse`. A pair of poles forms one real quotient f = n/g of
+/// quadratics with leading coefficients n₂ and g₂, and with the exact remainder about λ
 ///
 ///     f(λ + w) − f − f′ w = w² (n₂ − f g₂ − f′ g′ − f′ g₂ w)/g(λ + w)
 ///
@@ -74,7 +74,7 @@ struct EnclosedSampling {
 class EnclosedResponse {
  public:
   /// @param poles     poles of `enclosed_poles`, at least one, none of which may be 0
-  /// @param sampling  samplings in one stretch (k − 1) τ ≤ δ ≤ k τ
+  /// @param sampling  samplings with (k − 1) τ ≤ δ ≤ k τ for one k
   EnclosedResponse(const std::vector<EnclosedPole>& poles, const EnclosedSampling& sampling)
       : commands_(sampling.commands) {
     for (const EnclosedPole& pole : poles) add(pole, sampling);
@@ -87,7 +87,7 @@ class EnclosedResponse {
 
   /// The expansions of F_z and F_v about a point.
   /// @param lambda  point λ
-  /// @param radius  radius of the disc about it
+  /// @param radius  radius of the disc about λ
   EnclosedCommandResponse about(const ComplexEnclosure& lambda, double radius) const {
     EnclosedCommandResponse sum;
     for (const Section& section : sections_) section.add_to(sum, lambda, radius);
@@ -96,7 +96,7 @@ class EnclosedResponse {
 
   /// The expansion of λᵏ about a point, |r| ≤ k (k − 1)/2 (|λ| + radius)^{k−2} radius².
   /// @param lambda  point λ
-  /// @param radius  radius of the disc about it
+  /// @param radius  radius of the disc about λ
   EnclosedExpansion power_about(const ComplexEnclosure& lambda, double radius) const {
     const auto k = static_cast<double>(commands_);
     EnclosedExpansion result;
@@ -111,9 +111,9 @@ class EnclosedResponse {
 
   /// The number k of delayed commands.
   int held_commands() const { return commands_; }
-  /// The number of the plant's own eigenvalues e^{sτ} with a modulus above r; nothing where one may
-  /// lie on that circle.
-  /// @param radius  r, > 0
+  /// The number of the plant's own eigenvalues e^{sτ} with a modulus above r; `nullopt` where an
+  /// eigenvalue may lie on the circle |λ| = r.
+  /// @param radius  radius r, > 0
   std::optional<int> poles_outside(double radius) const {
     int count = 0;
     for (const Section& section : sections_) {
@@ -156,7 +156,7 @@ class EnclosedResponse {
     }
   };
 
-  /// A point λ with the denominator g and its derivative there, and a bound of g about it.
+  /// A point λ with 1/g and g′ of the denominator g at λ, and a lower bound of |g| near λ.
   struct Around {
     const ComplexEnclosure& lambda;
     ComplexEnclosure inverse_divisor, divisor_slope;

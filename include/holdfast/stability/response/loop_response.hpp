@@ -23,9 +23,9 @@ struct CommandResponse {
 ///     G_z(λ) = h_z (λI − S₀)⁻¹ s,   G_v(λ) = h_v (λI − S₀)⁻¹ s
 ///
 /// from the command to the quantities that P and D multiply; the characteristic equation of the
-/// loop is 1 − P G_z(λ) − D G_v(λ) = 0. S₀ − I, of size n = N + k, is brought to Hessenberg form H
-/// = Qᵀ(S₀ − I)Q once. A value costs the elimination of one subdiagonal, about 4 n² complex
-/// multiply-adds.
+/// loop is 1 − P G_z(λ) − D G_v(λ) = 0. S₀ − I, of size n = N + k for N plant states and k delayed
+/// commands, is brought to Hessenberg form H = Qᵀ(S₀ − I)Q once. Each value of G_z and G_v costs
+/// the elimination of one subdiagonal, about 4 n² complex multiply-adds.
 /// Source: A. J. Laub, Efficient multivariable frequency response computations, IEEE TAC 26 (1981).
 template <class Scalar>
 class LoopResponse {
@@ -35,7 +35,7 @@ class LoopResponse {
   /// @param map  map of the loop; its gains are not used
   explicit LoopResponse(const LoopMap<Scalar>& map);
 
-  /// The responses G_z and G_v at λ = 1 + μ; μ as the argument preserves digits with fast sampling.
+  /// The responses G_z and G_v at λ = 1 + μ; with argument μ no digits are lost in fast sampling.
   CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const;
 
   /// The responses G_z and G_v at λ = e^{iθ}.

@@ -18,12 +18,12 @@
 
 namespace holdfast {
 
-/// The damping of a mode of the conductor, by itself and with the absorber and its computer.
+/// Damping of a mode of the conductor, bare and with the absorber and its computer.
 struct ModeDamping {
   double angular_frequency;   ///< ω_n (rad/s) of the bare conductor
-  double bare;                ///< ζ_n without absorber
+  double bare;                ///< damping ratio ζ_n without absorber
   std::complex<double> root;  ///< the loop's root s (1/s) of the mode; NaN where none was found
-  double first_order;         ///< ζ_n by the first-order law for a light device
+  double first_order;         ///< damping ratio by the first-order law of a light device
 
   /// The damping ratio −Re s/|s|; negative where the mode grows.
   double damping() const { return -root.real() / std::abs(root); }
@@ -31,8 +31,8 @@ struct ModeDamping {
 
 namespace detail {
 
-/// The eigenvalue s (1/s) nearest to an approximate one, from the increments e^{sτ} − 1 of all.
-/// @return NaN where no increment is within 10⁻⁶
+/// The eigenvalue s (1/s) nearest to a given s, from the increments e^{sτ} − 1 of all eigenvalues.
+/// @return NaN where no increment is within 10⁻⁶ of that of the given s
 inline std::complex<double> matched_pole(const std::vector<std::complex<double>>& increments,
                                          const std::complex<double>& s, double period) {
   const std::complex<double> mu = complex_expm1(s * period);
@@ -47,12 +47,12 @@ inline std::complex<double> matched_pole(const std::vector<std::complex<double>>
 
 /// The damping of each mode of a conductor with the absorber and its computer. The bare mode is
 /// continued to a root of the sampled loop as first the absorber and then the gains grow from zero
-/// to their values; so the branch of the logarithm in s = ln λ/τ is known. The first-order law for
-/// a light device is given too.
+/// to their values; so the branch of the logarithm in s = ln λ/τ is known. The damping ratio by the
+/// first-order law for a light device is returned too.
 ///
-/// The continuation is no proof. Where two roots meet on their way, it is arbitrary which mode each
-/// is assigned to. Where the steps become too small, the damping is NaN. Work: some hundred values
-/// of the transfer functions per mode.
+/// The continuation is no proof. Where two roots meet on their way, their assignment to the two
+/// modes is arbitrary. Where the steps become too small, the damping is NaN. Work: some hundred
+/// values of the transfer functions per mode.
 /// @param modes     modes of the bare conductor at the absorber's place
 /// @param absorber  absorber with its clamp
 /// @param sampling  τ and δ

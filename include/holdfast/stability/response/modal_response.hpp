@@ -44,9 +44,9 @@ class ModalResponse {
 
   /// A pole s_j with its residues γ_j β_j for the quantities that P and D multiply.
   struct Residue {
-    Complex s;             ///< 1/s
-    Complex displacement;  ///< m/(N s)
-    Complex velocity;      ///< m/(N s²)
+    Complex s;             ///< pole s_j (1/s)
+    Complex displacement;  ///< residue for displacement (m/(N s))
+    Complex velocity;      ///< residue for velocity (m/(N s²))
   };
 
   /// @param residues  residues of all eigenvalues of a plant
@@ -57,7 +57,7 @@ class ModalResponse {
     for (const Residue& residue : residues) add(residue);
   }
 
-  /// The responses G_z and G_v at λ = 1 + μ; μ as the argument preserves digits with fast sampling.
+  /// The responses G_z and G_v at λ = 1 + μ; with argument μ no digits are lost in fast sampling.
   CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const {
     if (dense_) return weighted(dense_->at_distance_from_one(mu), mu);
     return finished(poles_.sums_at(mu), mu);
@@ -73,7 +73,7 @@ class ModalResponse {
 
   /// The response G(rλ) of a loop whose roots are those of this loop divided by r.
   /// @param offset  r − 1, above −1
-  /// @return nothing where LoopResponse is used
+  /// @return `nullopt` where LoopResponse is used
   std::optional<ModalResponse> at_radius(const Scalar& offset) const {
     if (dense_) return std::nullopt;
     ModalResponse scaled = *this;
@@ -99,11 +99,11 @@ class ModalResponse {
     return scaled;
   }
 
-  /// The filter w(λ) = constant + change (1 − 1/λ) of the displacement readings, G_v = w(λ) G_z,
-  /// whose output D multiplies. Its two numbers are in 1/s, or in N/m where it replaces both gains.
+  /// Filter w(λ) = constant + change (1 − 1/λ) of displacement readings, G_v = w(λ) G_z. Its output
+  /// is multiplied by D. Both members are in 1/s, or in N/m if the filter replaces both gains.
   using Weight = typename PoleSum<Scalar>::Weight;
 
-  /// The response of a computer without a velocity sensor.
+  /// The response of a computer without a velocity sensor, which filters its displacement readings.
   /// @param weight  filter of the readings
   ModalResponse with_velocity_from_displacement(const Weight& weight) const {
     ModalResponse other = *this;
@@ -112,7 +112,7 @@ class ModalResponse {
   }
 
   /// The response where D multiplies the backward difference of the readings, G_v = (1 − 1/λ)
-  /// G_z/τ; this response itself where there is a sensor `of_velocity`.
+  /// G_z/τ; this response unchanged if there is a velocity sensor (`of_velocity`).
   ModalResponse with_sensor(bool of_velocity) const {
     if (of_velocity) return *this;
     return with_velocity_from_displacement({Scalar(0), Scalar(1) / period_});
@@ -128,7 +128,7 @@ class ModalResponse {
   /// The number k of delayed commands.
   int held_commands() const { return commands_; }
 
-  /// The function 1 − P G_z − D G_v as a sum over all poles; empty where LoopResponse is used.
+  /// The function 1 − P G_z − D G_v as a sum over all poles; without parts if LoopResponse is used.
   PoleSum<Scalar> loop_parts(const PdGains<Scalar>& gains) const {
     PoleSum<Scalar> loop;
     loop.power = commands_ - 1;
@@ -147,10 +147,10 @@ class ModalResponse {
     return loop;
   }
 
-  /// Whether a command takes effect between two samples.
+  /// Whether a command takes effect between two samples, not at a sample.
   bool is_late_within_sample() const { return late_ > Scalar(0); }
 
-  /// The number of the plant's own eigenvalues that grow.
+  /// The number of the plant's own eigenvalues s with Re s > 0, that is, of growing motions.
   int unstable_poles() const { return unstable_; }
 
  private:
@@ -160,13 +160,13 @@ class ModalResponse {
     Complex past_displacement, past_velocity;  // b_j
   };
 
-  /// The sums Σ a_j/(λ − e_j) for z and for v.
+  /// Sums Σ a_j/(λ − e_j) for displacement z and velocity v.
   struct Sums {
     Complex z{0}, v{0};
   };
 
-  /// The poles in SIMD vectors; the last vector is filled up with λ = −7, far from the unit circle.
-  /// A late command's residues b are joined to a: (b/λ)/(λ − e) = (b/e)/(λ − e) − (b/e)/λ.
+  /// The poles in SIMD vectors; unused entries are poles λ = −7, far from the unit circle. The
+  /// residues b of a delayed command are joined to a: (b/λ)/(λ − e) = (b/e)/(λ − e) − (b/e)/λ.
   struct Poles : detail::ComplexRows<Scalar, 3> {
     std::vector<Pole> late;        // with their b, hardly anything being left after a sample
     Complex past_z{0}, past_v{0};  // −Σ b/e of all others
@@ -186,7 +186,7 @@ class ModalResponse {
         this->push_back({of.increment, of.displacement + of_z, of.velocity + of_v});
       }
     }
-    /// All poles, the `late` ones last; `pole_sum_roots` too puts roots that have died out last.
+    /// All poles; those that decay within a sample (`late`) come last, as in `pole_sum_roots`.
     std::vector<Pole> all() const {
       std::vector<Pole> poles;
       for (std::size_t k = 0; k < this->size(); ++k) {
@@ -262,9 +262,9 @@ class ModalResponse {
   Scalar radius_{1};              // r of G(rλ)
 };
 
-/// The response at many λ near one place. The terms of the nearest poles are computed one by one,
-/// the sum of all others by its Taylor series, with the accuracy of the sums. The nearest are 3 √N
-/// of N poles, so that values at 30 angles per pole cost N^{3/2} operations together, not N².
+/// The response at many λ near one point. The terms of the nearest poles are computed one by one,
+/// the sum of all other terms by its Taylor series, with the same accuracy. The nearest poles are
+/// about 3 √N of N, so that values at 30 angles per pole cost N^{3/2} operations together, not N².
 template <class Scalar>
 class ModalResponse<Scalar>::Nearby {
  public:
@@ -288,10 +288,10 @@ class ModalResponse<Scalar>::Nearby {
       k < count ? near_.add(*poles[k].second) : add_far(*poles[k].second);
   }
 
-  /// Whether the series holds at μ: within 1/8 of its centre's distance to the nearest pole in it.
+  /// Whether μ is within 1/8 of the distance of the nearest far pole from the series' centre.
   bool holds(const Complex& mu) const { return std::abs(mu - centre_) <= reach_ / Scalar(8); }
 
-  /// The responses G_z and G_v at μ.
+  /// The responses G_z and G_v at λ = 1 + μ.
   CommandResponse<Scalar> at(const Complex& mu) const {
     if (response_.dense_) return response_.at_distance_from_one(mu);
     Sums sums = far_.back();
@@ -304,7 +304,7 @@ class ModalResponse<Scalar>::Nearby {
     return response_.finished({sums.z + near.z, sums.v + near.v}, mu);
   }
 
-  /// The distance from μ to the nearest pole, or a lower bound where none is near.
+  /// The distance from μ to the nearest pole, or a lower bound of it where no pole is near.
   Scalar nearest(const Complex& mu) const {
     const Scalar far = std::min(Scalar(2), reach_ - std::abs(mu - centre_));
     Scalar least = std::numeric_limits<Scalar>::infinity();
@@ -365,8 +365,8 @@ ModalResponse<Scalar> modal_response(const std::vector<PlantPole>& poles,
   return {residues, sampling};
 }
 
-/// The response of a conductor by its modes with the absorber and the loop's hardware: from their
-/// poles, or, where those are not all separated, from the eigenvalues of the plant.
+/// The response of a conductor given by its modes with the absorber and the loop's hardware. It is
+/// computed from their poles or, if these are not all separated, from the plant's eigenvalues.
 /// @tparam Scalar    double
 /// @param conductor  conductor with all its poles, or without poles
 /// @param sampling   τ and δ
@@ -381,7 +381,7 @@ ModalResponse<Scalar> modal_response(const ConductorWithAbsorber& conductor,
   return response.with_sensor(conductor.hardware.has_velocity_sensor);
 }
 
-/// The response of modes at the absorber's place, whose poles are computed here.
+/// The response of modes at the absorber's place, with poles computed by `plant_poles`.
 /// @throws InvalidParameter where modes, absorber or sampling are not admissible
 template <class Scalar = double>
 ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
@@ -393,11 +393,11 @@ ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduc
 
 /// All roots λ of the loop 1 = P G_z(λ) + D G_v(λ), by `pole_sum_roots`: as many as the plant has
 /// states and delayed commands. A velocity by difference adds a state, the previous reading, and a
-/// root; with D = 0 this root is 0 and left out.
+/// root; for D = 0 that root is 0 and left out.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P and D
 /// @param enough    accuracy, see `pole_sum_roots`
-/// @return nothing where they are not found, the response is no sum over poles, or more than 20
+/// @return no root where they are not found, the response is no sum over poles, or more than 20
 ///         commands are delayed
 template <class Scalar>
 std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& response,
@@ -406,7 +406,7 @@ std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& respon
   return pole_sum_roots(response.loop_parts(gains), response.is_late_within_sample(), enough);
 }
 
-/// The loop's root of largest modulus.
+/// The root λ of largest modulus of a loop.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P and D
 /// @param enough    accuracy, see `pole_sum_roots`

@@ -15,9 +15,9 @@
 
 namespace holdfast {
 
-/// The amplitude |z| / F_m (m/N) of a conductor by its modes at the absorber's place, without
-/// control. The true force F_m cos ωt acts there, not held over samples. The amplitude is the
-/// modulus of `place_receptance` at s = iω; the arguments are not checked.
+/// The amplitude |z| / F_m (m/N) of a conductor given by its modes, at the absorber's place and
+/// without control. The true force F_m cos ωt acts there, not held over samples. The amplitude is
+/// the modulus of `place_receptance` at s = iω; the arguments are not checked.
 /// @param conductor          conductor, with its poles where devices are on the span
 /// @param angular_frequency  ω (rad/s), > 0
 inline double true_amplitude_per_force(const ConductorWithAbsorber& conductor,
@@ -65,8 +65,8 @@ SteadyResponse<Scalar> steady_response_by_poles(const ConductorWithAbsorber& con
 
 }  // namespace detail
 
-/// The steady response of the loop of a conductor by its modes to a force at the absorber's place,
-/// as `steady_response` of `linear_plant`, in N operations.
+/// The steady response of the loop of a conductor given by its modes to a force at the absorber's
+/// place. It equals `steady_response` of `linear_plant` but takes N operations for N poles.
 /// @param conductor          conductor with all its poles; its `linear_plant` is used where they
 ///                           are missing or `with_hardware` gives none
 /// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ

@@ -24,17 +24,17 @@
 
 namespace holdfast {
 
-/// The steady response to unit forces at ω: complex amplitudes of the quantities that P and D
-/// multiply and of the conductor's displacement z. The measured quantities may be, for example, a
-/// filter's output; for the two masses they are z₁ and ż₁, and z is z₁.
+/// Steady response to unit forces at ω: complex amplitudes of the measured displacement and
+/// velocity, which P and D multiply, and of the conductor's displacement z. The measured quantities
+/// may be a filter's output; for two masses they are z₁ and ż₁, and z is z₁.
 template <class Scalar>
 struct LoopPhasors {
-  std::complex<Scalar> control_displacement;  ///< t_z (m/N): P's quantity per control force
-  std::complex<Scalar> control_velocity;      ///< t_v (m/(N s)): D's quantity per control force
-  std::complex<Scalar> force_displacement;    ///< f_z (m/N): P's quantity per excitation
-  std::complex<Scalar> force_velocity;        ///< f_v (m/(N s)): D's quantity per excitation
-  std::complex<Scalar> control_conductor;     ///< t_c (m/N): z per control force
-  std::complex<Scalar> force_conductor;       ///< f_c (m/N): z per excitation
+  std::complex<Scalar> control_displacement;  ///< t_z (m/N): measured z per control force
+  std::complex<Scalar> control_velocity;      ///< t_v (m/(N s)): measured ż per control force
+  std::complex<Scalar> force_displacement;    ///< f_z (m/N): measured z per excitation force
+  std::complex<Scalar> force_velocity;        ///< f_v (m/(N s)): measured ż per excitation force
+  std::complex<Scalar> control_conductor;     ///< t_c (m/N): conductor's z per control force
+  std::complex<Scalar> force_conductor;       ///< f_c (m/N): conductor's z per excitation force
 };
 
 /// The responses of a sampled loop to unit forces at ω, one in each column of Y:
@@ -42,7 +42,7 @@ struct LoopPhasors {
 ///     (λI − S₀) Y = [s, g],   λ = e^{iωτ}
 ///
 /// with the input column s of the command and the phasor g of the excitation, which acts on no
-/// stored command. For two masses that command is eliminated: S₀ = A_d and s = Γ₀ + Γ₁/λ.
+/// stored command. For two masses the stored command is eliminated: S₀ = A_d and s = Γ₀ + Γ₁/λ.
 /// @tparam Loop              `SampledLoop` of the two masses, or `LoopMap` of any order
 /// @param loop               the loop; its gains are not used
 /// @param input              `harmonic_input` of the same loop and ω
@@ -90,11 +90,11 @@ Vector<Scalar, 3> squared_modulus(const std::complex<Scalar>& a, const std::comp
 
 }  // namespace detail
 
-/// A quotient of two quadratics in D, coefficients constant first.
+/// Quotient N(D)/M(D) of two quadratics in D, with constant coefficients first.
 template <class Scalar>
 struct RatioOfQuadratics {
-  Vector<Scalar, 3> numerator;    ///< N
-  Vector<Scalar, 3> denominator;  ///< M
+  Vector<Scalar, 3> numerator;    ///< numerator N(D)
+  Vector<Scalar, 3> denominator;  ///< denominator M(D)
 
   /// The quotient at D = x; infinite or NaN where M vanishes.
   Scalar at(const Scalar& x) const { return evaluate(numerator, x) / evaluate(denominator, x); }
@@ -115,7 +115,7 @@ struct RatioOfQuadratics {
 ///     Z / F_m = (f_c + P (t_c f_z − f_c t_z) + D (t_c f_v − f_c t_v)) / (1 − P t_z − D t_v)
 ///
 /// (`LoopPhasors`). Its numerator does not contain P where z and ż themselves are measured, as for
-/// the two masses:
+/// the two masses, with index 1 for z₁ and 2 for ż₁:
 ///
 ///     Z₁ / F_m = (f₁ + D (t₁ f₂ − t₂ f₁)) / (1 − P t₁ − D t₂)
 ///
@@ -167,8 +167,8 @@ class SteadyResponse {
     return response;
   }
 
-  /// The response of a computer that computes the velocity from its displacement readings: its D
-  /// multiplies (ẑ_j − ẑ_{j−1})/τ.
+  /// The response of a computer without velocity sensor: D multiplies the difference (ẑ_j −
+  /// ẑ_{j−1})/τ of its displacement readings.
   /// @param angle   ωτ (rad)
   /// @param period  τ (s), > 0
   SteadyResponse with_velocity_by_difference(const Scalar& angle, const Scalar& period) const {
@@ -199,25 +199,25 @@ class SteadyResponse {
   }
 
   /// The open intervals of D, stable or not, in which the amplitude is below that without control:
-  /// where N − M < 0.
+  /// the numerator of `squared_ratio` is below its denominator.
   /// @param proportional_gain  P (N/m), finite
   std::vector<Interval<Scalar>> differential_gains_below(const Scalar& proportional_gain) const {
     const RatioOfQuadratics<Scalar> square = squared_ratio(proportional_gain);
     return where_negative<Scalar>(square.numerator - square.denominator);
   }
 
-  /// A differential gain with its amplitude ratio.
+  /// Differential gain with its amplitude ratio.
   struct Best {
     /// The D (N s/m); NaN where no interval contains a finite D.
     Scalar differential_gain = std::numeric_limits<Scalar>::quiet_NaN();
-    /// The amplitude |Z₁| over that without control; infinite without a D.
+    /// The amplitude |Z₁| over the amplitude without control; infinite if there is no D.
     Scalar ratio_to_uncontrolled = std::numeric_limits<Scalar>::infinity();
   };
 
   /// The D of least steady amplitude in given (stable) intervals of D, for a given P.
   ///
   /// |Z₁|² is a quotient of two quadratics in D, so that its stationary points are the roots of one
-  /// quadratic; they and the finite interval ends are compared. An interval end is a limit of
+  /// quadratic; these and the finite interval ends are compared. An interval end is a limit of
   /// stable gains.
   Best best_differential_gain(const Scalar& proportional_gain,
                               const std::vector<Interval<Scalar>>& intervals) const {
@@ -276,8 +276,8 @@ SteadyResponse<double> steady_response(const Plant& plant, const Sampling<double
   return of(loop_map(plant, sampling));
 }
 
-/// The amplitude |Z| / F_m (m/N) of the plant without control under the true, not held force F_m
-/// cos ωt: |h (iωI − A)⁻¹ c|, h being the row of the conductor's displacement, c the force's input.
+/// The amplitude |Z| / F_m (m/N) of the plant without control under the true force F_m cos ωt, not
+/// held: |h (iωI − A)⁻¹ c|, h being the row of the conductor's displacement, c the force's input.
 /// @param plant              plant of any order; the motion is steady only if the plant is stable
 /// @param angular_frequency  ω (rad/s), > 0
 /// @throws InvalidParameter where ω is outside its range
@@ -291,7 +291,7 @@ double true_amplitude_per_force(const Plant& plant, double angular_frequency) {
 
 namespace detail {
 
-/// The steady response of a plant's loop; ratios refer to the true or to the held force.
+/// The steady response of a plant's loop; its ratios refer to the true or to the held force.
 template <class Plant, class Loop>
 SteadyResponse<double> response_of_loop(const Plant& plant, const Loop& loop, ForceHold hold,
                                         double angular_frequency, bool relative_to_true_force) {

@@ -71,9 +71,9 @@ CableDecay decay_of(const CableElements& cable, const CableDecayOptions& options
     case cvode::LoadRemovalOutcome::slack:
       throw WrongInput("after " + force + " is removed the cable goes slack within " +
                        format_rounded(removal.last_time) +
-                       " s, where the model no longer holds: take a smaller force");
+                       " s, beyond the model: give a smaller force");
     case cvode::LoadRemovalOutcome::no_equilibrium:
-      throw NoAnswer("under " + force + " no equilibrium was found: take a smaller force");
+      throw NoAnswer("no equilibrium was found under " + force + ": give a smaller force");
     case cvode::LoadRemovalOutcome::integration_failed:
       throw NoAnswer("the integrator CVODE failed at t = " + format_number(removal.last_time) +
                      " s of the decay: " + one_line(removal.words));

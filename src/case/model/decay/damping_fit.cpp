@@ -130,9 +130,9 @@ std::string misfit_warning(const AbsorberDampingFit& found) {
   const TwoMass<double>& plant = found.fit.minima.front().plant;
   const double critical = 2.0 * std::sqrt(plant.absorber_stiffness * plant.absorber_mass);
   const std::string overdamped =
-      plant.absorber_damping > critical ? "; it is above critical: the absorber hardly swings" : "";
+      plant.absorber_damping > critical ? "; above critical damping an absorber hardly swings" : "";
   return "no absorber_damping gives the two-mass plant the first peak and period of the continuous "
-         "cable's decay; with the fitted one the two decays differ by " +
+         "cable's decay; with the fitted absorber_damping the two decays differ by " +
          format_number(std::round(found.history_misfit * 100.0)) +
          " % of the initial displacement" + overdamped;
 }

@@ -208,7 +208,7 @@ std::string judged_otherwise(const Case& the_case) {
   const JudgedLoop loop = judged_loop_of(the_case);
   if (loop.is_stable(gains_of(the_case))) return "";
   return "with " + std::to_string(loop.modes) + " modes of the conductor, up to " +
-         format_rounded(loop.highest) + " Hz, the loop is unstable, yet stable with the " +
+         format_rounded(loop.highest) + " Hz, the loop is unstable, but it is stable with the " +
          std::to_string(conductor_modes_of(the_case).apart) + " modes used here";
 }
 

@@ -67,11 +67,10 @@ std::string bundles_warning(const Case& the_case, const ConductorModes& conducto
       std::exp(-2.0 * pi<double> * bare_damping_of(the_case, last.angular_frequency) * half_waves);
   const KeptModes kept = kept_modes(the_case, conductor);
   if (returned < 0.05 && (kept.faster.empty() || is_cable(the_case))) return "";
-  return kept.words +
-         "are computed singly, faster ones in bundles, as if their waves did not come back" +
+  return kept.words + "are computed singly, faster modes in bundles without returning waves" +
          (returned < 0.05 ? ""
                           : "; with the case's damping up to " + format_rounded(100.0 * returned) +
-                                " % of such a wave comes back") +
+                                " % of such a wave returns") +
          kept.faster;
 }
 
@@ -87,7 +86,7 @@ std::string cut_warning(const Case& the_case, const ConductorModes& conductor) {
   if (cut_mass < 0.02 * felt_mass && conductor.highest_frequency() > half_rate &&
       kept.faster.empty())
     return "";
-  return kept.words + "are kept and the faster ones left out, which acts like " +
+  return kept.words + "are kept and faster modes left out, which acts like " +
          format_rounded(1e3 * cut_mass) +
          " g more at the clamp: gains may look stable far beyond the true limit; leave plant.modes "
          "out to include all modes" +
@@ -117,8 +116,8 @@ std::string modes_warning(const Case& the_case) {
 
 std::string drift_warning(const Case& the_case) {
   if (!is_infinite(the_case)) return "";
-  return "nothing brings a string without ends back to its mean position: its largest displacement "
-         "includes the drift of the start; holdfast response gives the amplitude without it";
+  return "nothing brings a string without ends back to its mean position: the largest displacement "
+         "includes the drift from the start; holdfast response gives the amplitude without drift";
 }
 
 std::string dense_work_warning(const Case& the_case, Switching switching) {
@@ -128,8 +127,8 @@ std::string dense_work_warning(const Case& the_case, Switching switching) {
   constexpr std::size_t soon = 50;
   if (modes <= soon) return "";
   return std::to_string(modes) +
-         " modes and bundles are computed, which takes minutes, as the work grows with their third "
-         "power; plant.modes = 40 takes seconds, but leaves the faster modes out";
+         " modes and bundles are computed, which takes minutes, since the work grows with the cube "
+         "of their number; plant.modes = 40 takes seconds, but leaves faster modes out";
 }
 
 }  // namespace holdfast::program

@@ -22,8 +22,8 @@ void require_consistent_plant(const Case& the_case) {
   validate(*the_case.own->plant);
   if (the_case.control.proportional_gain_tuned)
     throw WrongInput(
-        "control.proportional_gain = \"tuned\": Eq. 6 needs an absorber's mass and spring, which a "
-        "plant of your own does not tell; give a number");
+        "control.proportional_gain = \"tuned\": the paper's Eq. 6 needs an absorber's mass and "
+        "stiffness, which a plant of your own does not give; give a number");
   for (const auto& [key, place] : the_case.places) require_counts(the_case, key, place + ": ");
 }
 

@@ -29,6 +29,11 @@ MeasuredImpedance measured(const case_tables::Device& device) {
   return MeasuredImpedance(std::move(rows));
 }
 
+SpanDevice span_device_of(const case_tables::Device& device) {
+  if (device.kind == "measured") return {device.position, measured(device)};
+  return {device.position, lumped_device_of(device)};
+}
+
 /// The force over the displacement at rest (N/m) of a device; nothing that hangs on the conductor
 /// has any.
 double stiffness_at_rest(const SpanDevice& device) {
@@ -71,11 +76,6 @@ LumpedDevice lumped_device_of(const case_tables::Device& device) {
   if (!device.damping_ratios.empty())
     branch.damping = 2.0 * device.damping_ratios[0] * std::sqrt(branch.stiffness * device.mass);
   return {{branch}, device.clamp_mass};
-}
-
-SpanDevice span_device_of(const case_tables::Device& device) {
-  if (device.kind == "measured") return {device.position, measured(device)};
-  return {device.position, lumped_device_of(device)};
 }
 
 SpanDevice active_device_of(const Case& the_case, bool controlled) {
@@ -157,9 +157,8 @@ std::optional<ClampBending> clamp_bending_of(const Case& the_case) {
   if (!std::isfinite(conductor.outer_wire_diameter) ||
       !std::isfinite(conductor.outer_wire_modulus) || !(conductor.bending_stiffness > 0.0))
     return std::nullopt;
-  const ClampBending bending{string_of(the_case).tension, conductor.mass_per_length,
-                             conductor.bending_stiffness, conductor.outer_wire_diameter,
-                             conductor.outer_wire_modulus};
+  const ClampBending bending{string_of(the_case).tension, conductor.bending_stiffness,
+                             conductor.outer_wire_diameter, conductor.outer_wire_modulus};
   validate(bending);
   return bending;
 }
@@ -177,7 +176,7 @@ std::vector<WindHours> wind_hours_of(const Case& the_case, double lowest, double
   if (!std::isfinite(site.weibull_scale))
     throw WrongInput(
         "the case does not describe the wind at its site: give [site] with weibull_scale (m/s) and "
-        "weibull_shape, or with speeds (m/s) and hours (per year, of each speed)");
+        "weibull_shape, or with speeds (m/s) and the hours per year of each speed");
   constexpr double step = 0.05;
   const int steps = std::max(1, static_cast<int>(std::ceil((highest - lowest) / step)));
   return weibull_hours(site.weibull_scale, site.weibull_shape, lowest, highest, steps);

@@ -17,9 +17,8 @@ namespace holdfast::program {
 /// That the built-in absorber does not count; empty where nobody could think it does.
 std::string absent_absorber_note(const Case& the_case);
 
-/// A device of masses, springs and dashpots, of every kind but a measured one; and any device.
+/// A device of masses, springs and dashpots, of every kind but a measured one.
 LumpedDevice lumped_device_of(const case_tables::Device& device);
-SpanDevice span_device_of(const case_tables::Device& device);
 
 /// The absorber with its computer, or with gains 0.
 SpanDevice active_device_of(const Case& the_case, bool controlled);

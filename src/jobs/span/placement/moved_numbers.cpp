@@ -117,8 +117,8 @@ std::vector<MovedNumber> moved_numbers(const Case& the_case, const PlacementQues
   if (numbers.empty())
     throw WrongInput("device " + std::to_string(question.device) + ", a " +
                      the_case.devices[question.device - 1].kind +
-                     ", has nothing to vary: the maker fixes its data, and --keep position "
-                     "its place; leave --keep out");
+                     ", has nothing to vary: the maker fixes its data, and --keep position fixes "
+                     "its position; leave --keep out");
   return numbers;
 }
 

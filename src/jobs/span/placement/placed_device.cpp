@@ -184,7 +184,7 @@ PlacedDevice placed_passively(const Case& the_case, const PlacementQuestion& que
       },
       4);
   if (placed.found.values.empty())
-    throw NoAnswer("the span is unstable at rest with every place and strength that was tried");
+    throw NoAnswer("the span is unstable at rest with all positions and strengths that were tried");
   placed.the_case = with_values(the_case, placed.numbers, placed.found.values);
   placed.before = levels.value_of(worst_of(levels.of(the_case)));
   constexpr double more = 1.01;
@@ -224,7 +224,7 @@ std::string bound_warning(const MovedNumber& number, placement::PlacementBound m
   return number.quantity + " lies at the " + (is_lower ? "lower" : "upper") +
          " bound of the search, " + format_rounded(number.sign * bound) +
          (number.unit.empty() ? "" : " " + number.unit) +
-         (number.quantity == "position" ? " from the support" : "") + ": better may lie beyond";
+         (number.quantity == "position" ? " from the support" : "") + ": the best may be beyond";
 }
 
 /// That the computer does not see the whole band.
@@ -234,9 +234,9 @@ std::string sampling_warning(const Case& the_case, const PlacementQuestion& ques
       std::max(question.frequencies.min, question.frequencies.at(question.frequencies.count - 1));
   if (!question.is_absorber() || question.goal == PlacementGoal::modes || highest < half_rate)
     return "";
-  return "from " + format_rounded(half_rate) +
-         " Hz on, half the sampling rate, the samples do not show the vibration, and the results "
-         "for the drive do not hold";
+  return "at " + format_rounded(half_rate) +
+         " Hz, half the sampling rate, and above, the samples do not show the vibration, and the "
+         "results for the drive do not hold";
 }
 
 }  // namespace
@@ -249,9 +249,9 @@ std::vector<std::string> placement_warnings(const PlacedDevice& placed,
         "with the case's gains the loop is unstable on this span: the _before row is left out");
   if (question.is_absorber() && !std::isfinite(placed.the_case.conductor.diameter))
     warnings.emplace_back(
-        "force, stroke and power of the drive are left out: give conductor.diameter, which decides "
-        "how far the wind moves the conductor");
-  if (!placed.is_better) warnings.emplace_back("nothing better than the case was found");
+        "force, stroke and power of the drive are left out: give conductor.diameter, which "
+        "determines the amplitude of the conductor in the wind");
+  if (!placed.is_better) warnings.emplace_back("no values better than the case's were found");
   for (std::size_t k = 0; k < placed.numbers.size(); ++k)
     warnings.push_back(bound_warning(placed.numbers[k], placed.found.bounds[k]));
   if (placed.is_at_limit_of_rest)

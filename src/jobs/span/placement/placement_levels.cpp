@@ -96,12 +96,12 @@ std::string PlacementLevels::range_note(const Case& variant, double frequency) c
   if (question_.goal != PlacementGoal::strain) return "";
   switch (AeolianBalance(variant, true).largest(frequency).amplitude.range) {
     case BalanceRange::below:
-      return "with the answer the vibration is below the measured range of the law of the wind in "
-             "the whole band, and the lower end of that range is used, a hundredth of the "
-             "diameter: other places and strengths may do as well";
+      return "with the values found the vibration is below the measured range of the wind law in "
+             "the whole band; the lower end of that range, a hundredth of the diameter, is used "
+             "instead: other values may be as good";
     case BalanceRange::above:
-      return "even with the answer the worst vibration is above the measured range of the law of "
-             "the wind, and the upper end of that range is used";
+      return "even with the values found the worst vibration is above the measured range of the "
+             "wind law; the upper end of that range is used instead";
     default:
       return "";
   }
