@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 #: Whose result is cells over axes, which a store can hold.
 _JOBS_OF_CELLS = ("stability", "response", "basins", "sweep")
-_JOBS_OF_FAMILIES = ("stability", "boundary", "response", "design", "margins", "max-delay", "modal-damping")
+_JOBS_OF_FAMILIES = ("stability", "boundary", "response", "design", "margins", "max-delay", "modal-damping",
+                     "aeolian", "sweep")  # fmt: skip
 #: Of [excitation], where a force of the user's own takes its place.
 _WITHOUT_FORCE = ("amplitude=0.0", "harmonics=[]", "noise_rms=0.0", 'record=""')
 
@@ -974,17 +975,20 @@ class Case:
         return self._run("aeolian", _axis("frequency", frequency) + _options.arguments({"no_control": no_control}), how)
 
     def fatigue(
-        self, frequency: Interval = None, *, no_control: bool = False, by_speed: bool = False, **how: Unpack[How]
-    ) -> Table:
+        self, frequency: Interval = None, *, no_control: bool = False, by_speed: bool = False,
+        by_temperature: bool = False, **how: Unpack[How]
+    ) -> Table:  # fmt: skip
         """How long the conductor lives at its clamps in the wind of [site]. Columns ``quantity, value, lowest,
         highest, unit``.
 
         :param frequency: (min, max) of vibrations that count, Hz
         :param by_speed: instead the hours and the damage of each wind speed
+        :param by_temperature: instead tension and damage at each of weather.temperatures
         """
         return self._run(
             "fatigue",
-            _interval("frequency", frequency) + _options.arguments({"no_control": no_control, "by_speed": by_speed}),
+            _interval("frequency", frequency)
+            + _options.arguments({"no_control": no_control, "by_speed": by_speed, "by_temperature": by_temperature}),
             how,
         )
 

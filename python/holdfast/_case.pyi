@@ -364,11 +364,11 @@ class Case:
         ...
 
     @overload
-    def fatigue(self, frequency: Interval=None, *, no_control: bool=False, by_speed: bool=False, **how: Unpack[How]) -> Table:
+    def fatigue(self, frequency: Interval=None, *, no_control: bool=False, by_speed: bool=False, by_temperature: bool=False, **how: Unpack[How]) -> Table:
         ...
 
     @overload
-    def fatigue(self, frequency: Interval=None, *, output: Path, no_control: bool=False, by_speed: bool=False, **how: Unpack[How]) -> None:
+    def fatigue(self, frequency: Interval=None, *, output: Path, no_control: bool=False, by_speed: bool=False, by_temperature: bool=False, **how: Unpack[How]) -> None:
         ...
 
     @overload

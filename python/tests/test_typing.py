@@ -23,7 +23,7 @@ SCRIPTS = sorted((ROOT / "docs" / "python").glob("*.py"))
 OTHER_NAMES = {"axis": "axes", "case": "", "follow": "key", "for": "for_", "from": "from_", "map": "keys",
                "metric": "metrics", "motions": "each"}  # fmt: skip
 OTHER_METHODS = {"axis", "features", "fractions", "history", "prove", "regions", "stable_interval", "init", "check", "wind", "dry_run",
-                 "undecided"}  # fmt: skip
+                 "undecided", "family"}  # fmt: skip
 
 
 def job_texts():

@@ -133,6 +133,16 @@ TEST(EnclosedSlope, EnclosesValuesAndDerivatives) {
   }
 }
 
+TEST(ProvedFamily, HalvesOfABoxShareAFaceAndLeaveNothingOut) {
+  const ParameterBox<2> box{{1.0, -3.0}, {2.0, 5.0}};
+  const auto halves = detail::halves_of(box, 1);
+  ASSERT_EQ(halves.size(), 2U);
+  EXPECT_EQ(halves[0].lowest, box.lowest);
+  EXPECT_EQ(halves[0].highest[1], halves[1].lowest[1]);
+  EXPECT_EQ(halves[0].highest[1], box.middle()[1]);
+  EXPECT_EQ(halves[1].highest, box.highest);
+}
+
 TEST(ProvedFamily, RefusesBoxesThatHoldNoLoops) {
   const TwoMassFamily::Parameters<double> x = TwoMassFamily::of(paper_point);
   // The last two: a delay longer than a sample, and ends that are exchanged.
