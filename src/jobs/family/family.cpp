@@ -247,6 +247,12 @@ void write_common_intervals(const JobContext& context, const std::vector<FamilyM
 
 }  // namespace
 
+double FamilyMember::value_of(const std::string& key) const {
+  for (const auto& [name, value] : values)
+    if (name == key) return value;
+  return std::nan("");
+}
+
 std::vector<std::string> FamilyMember::overrides() const {
   std::vector<std::string> all;
   for (const auto& [key, value] : values) all.push_back(key + "=" + format_number(value));

@@ -15,6 +15,8 @@ namespace holdfast::program {
 struct FamilyMember {
   std::vector<std::pair<std::string, double>> values;
 
+  /// The number of a key; NaN where the member has none.
+  double value_of(const std::string& key) const;
   /// The settings that make the case of it: {"stringing.tension=25e3", …}.
   std::vector<std::string> overrides() const;
   /// "stringing.tension=25e3;control.sampling_period=0.001".

@@ -37,8 +37,9 @@ class DesignedFamily {
     }
     if (!question.schedule.empty() && whole_.key.empty())
       throw WrongInput("--schedule " + question.schedule + ": [uncertain] gives no range for it");
-    std::stable_sort(members_.begin(), members_.end(),
-                     [this](const auto& one, const auto& other) { return at(one) < at(other); });
+    std::stable_sort(members_.begin(), members_.end(), [this](const auto& one, const auto& other) {
+      return one.value_of(whole_.key) < other.value_of(whole_.key);
+    });
     cases_.reserve(members_.size());  // loops refer to them
     for (const FamilyMember& member : members_) {
       cases_.push_back(context_with(member.overrides()).case_data);
@@ -102,8 +103,8 @@ class DesignedFamily {
     largest_radius = std::max(largest_radius, least.spectral_radius);
     double begin = std::nan(""), end = begin;
     if (!whole_.key.empty()) {
-      begin = first == 0 ? whole_.lowest : at(members_[first]);
-      end = last + 1 == members_.size() ? whole_.highest : at(members_[last]);
+      begin = first == 0 ? whole_.lowest : members_[first].value_of(whole_.key);
+      end = last + 1 == members_.size() ? whole_.highest : members_[last].value_of(whole_.key);
     }
     std::string proved = "compared";
     if (question_.prove) {
@@ -123,12 +124,6 @@ class DesignedFamily {
   }
 
  private:
-  double at(const FamilyMember& member) const {
-    for (const auto& [key, value] : member.values)
-      if (key == whole_.key) return value;
-    return 0.0;
-  }
-
   MinimaxGains gains_for(std::size_t first, std::size_t last) const {
     throw_if_interrupted();
     const auto from = static_cast<std::ptrdiff_t>(first),

@@ -184,13 +184,6 @@ FamilyProof proof_of_string(const JobContext& context, std::size_t parts) {
   return proof_of(context, parts, family, box);
 }
 
-/// The value of a key in a member.
-double value_in(const FamilyMember& member, const std::string& key) {
-  for (const auto& [name, value] : member.values)
-    if (name == key) return value;
-  return std::nan("");
-}
-
 }  // namespace
 
 FamilyProof family_proof_of(const JobContext& context, std::size_t parts) {
@@ -238,7 +231,7 @@ std::optional<Interval<double>> proved_interval(JobContext context, const std::s
         return Interval<double>{range.below, range.above};
       if (proof.verdict == ProvedStability::undecided) break;
       // A member between those that were drawn is the new end.
-      const double at = value_in(proof.unstable, key);
+      const double at = proof.unstable.value_of(key);
       (at < 0.5 * (interval.lower + interval.upper) ? interval.lower : interval.upper) = at;
     }
   }
