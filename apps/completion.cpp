@@ -6,7 +6,7 @@
 namespace holdfast::program {
 namespace {
 
-/// An option and with what either shell completes its value.
+/// Option, and the shell code that completes its value in bash and zsh.
 struct OptionWords {
   std::string name;  // "--switching"
   std::string description;
@@ -46,7 +46,7 @@ std::vector<OptionWords> options_of(const CLI::App& job) {
   return options;
 }
 
-/// Keys of a case, those of devices for the first one.
+/// Keys of a case; device keys only for the first device.
 std::string all_keys() {
   std::string keys;
   for (const CaseKey& key : case_keys()) keys += (keys.empty() ? "" : " ") + key.name + "=";
@@ -56,7 +56,7 @@ std::string all_keys() {
 
 bool has_name(const OptionWords& option) { return option.name.front() == '-'; }
 
-/// In single quotes of zsh's _arguments, where brackets and colons have a meaning.
+/// Text in single quotes for zsh's _arguments, with brackets and colons escaped.
 std::string zsh_text(const std::string& text) {
   std::string safe;
   for (const char character : text) {

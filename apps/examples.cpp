@@ -11,7 +11,7 @@ const toml::table& texts() {
   return parsed;
 }
 
-/// Command lines, each with what it tells.
+/// Example command lines, each with its purpose.
 std::vector<std::pair<std::string, std::string>> known_examples(const std::string& name) {
   std::vector<std::pair<std::string, std::string>> chosen;
   for (const toml::node& node : *texts()["examples"].as_array()) {

@@ -26,7 +26,7 @@ namespace {
 bool is_common(const CLI::Option& option) {
   const std::string name = option.get_name();
   return option.get_group() == question::every_job || name == "--help" || name == "--chunk" ||
-         name == "--resume" || name == "--part" || name == "--zarr-format";
+         name == "--resume" || name == "--part";
 }
 
 std::vector<std::pair<std::string, std::string>> given_options(const CLI::App& options) {
@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, std::string>> given_options(const CLI::App& o
   return given;
 }
 
-/// More threads than cores gain nothing, and oneTBB warns of them on standard error.
+/// Limits threads to the cores: more gain nothing, and oneTBB would warn.
 int at_most_cores(int threads) { return std::min(threads, worker_threads(0)); }
 
 /// Checks one number: finite, from `lowest` to `highest`.
@@ -59,7 +59,7 @@ CLI::Validator range_of(const toml::array& ends) {
   return number_from(*ends[0].value<double>(), *ends[1].value<double>());
 }
 
-/// Warns of what is not plausible, and keeps it for a page of answers.
+/// Warns of implausible values and keeps the warnings for a page of answers.
 void doubt(JobContext& context, const std::vector<std::string>& texts) {
   for (const std::string& text : texts) {
     if (text.empty()) continue;
@@ -68,8 +68,8 @@ void doubt(JobContext& context, const std::vector<std::string>& texts) {
   }
 }
 
-/// Settles the plant, and says what is to be known of it. A job that explains a case explains one
-/// that lacks something too.
+/// Computes the plant and reports remarks on it. The job case also explains a case with missing
+/// keys.
 void settle(JobContext& context) {
   try {
     report_warning(modes_warning(context.case_data), context.quiet);
@@ -81,7 +81,7 @@ void settle(JobContext& context) {
   report_warning(context.plant_remark, context.quiet);
 }
 
-/// Settles the plant where the job needs it, and warns of what is not plausible.
+/// Computes the plant where the job needs it, and warns of implausible values.
 void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   report_warning(wind_warning(context.case_data), context.quiet);
   // Usual values for a plant of the user's own are not known here.
@@ -102,7 +102,7 @@ void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   if (needs_gains) doubt(context, {borrowed_gains_text(context.case_data)});
 }
 
-/// The letters of a warning, which are those of another member's too.
+/// Letters of a warning, by which equal warnings of several members are recognised.
 std::string letters_of(std::string text) {
   const auto is_other = [](unsigned char c) { return std::isalpha(c) == 0; };
   text.erase(std::remove_if(text.begin(), text.end(), is_other), text.end());
@@ -134,7 +134,6 @@ Job::Job(CLI::App& program, const std::string& name)
     add("--family", common_->family);
     add("--draws", common_->draws);
   }
-  if (is_told("writes_cells", false)) add("--zarr-format", common_->zarr_format);
 }
 
 CLI::Option* Job::told(CLI::Option* option) const {
@@ -193,7 +192,7 @@ std::string Job::require_supported(const JobContext& context) const {
                    support.refusal);
 }
 
-/// Settles and looks over what this job asks of the case.
+/// Computes and checks the parts of the case that this job needs.
 void Job::examine_for_this(JobContext& context, bool needs_plant) const {
   const CLI::Option* no_control = options_->get_option_no_throw("--no-control");
   const bool controlled = no_control == nullptr || no_control->empty();
@@ -211,7 +210,8 @@ void Job::examine_for_this(JobContext& context, bool needs_plant) const {
 
 JobContext Job::context(const std::optional<std::string>& case_file, bool needs_plant) const {
   if (case_file && common_->case_file)
-    throw WrongInput("--case " + *common_->case_file + ": give only --check " + *case_file);
+    throw WrongInput("--case " + *common_->case_file + ": leave it out, since --check " +
+                     *case_file + " names the case");
   const std::optional<std::string>& file = case_file ? case_file : common_->case_file;
   JobContext context;
   context.job = options_->get_name();
@@ -236,7 +236,6 @@ JobContext Job::context(const std::optional<std::string>& case_file, bool needs_
   context.options = given_options(*options_);
   context.progress = common_->progress;
   context.yes = common_->yes;
-  context.zarr_format = common_->zarr_format;
   context.threads = at_most_cores(common_->threads.value_or(0));
   context.on_packs = is_told("on_packs", false);
   context.instructions = chosen_instruction_set(common_->instructions);
@@ -268,7 +267,7 @@ JobContext Job::context_with(const JobContext& whole,
   return context;
 }
 
-/// Asks the job of each member of the family, in memory.
+/// Does the job for each member of the family, in memory.
 void Job::answer_family() const {
   const JobContext whole = context();
   std::vector<std::string> arguments = {whole.job};

@@ -18,33 +18,31 @@
 #include "process/progress.hpp"
 #include "text/text.hpp"
 
-// Frame of every job: its command line here, and with it the table that it writes, and how it
-// warns, refuses, shows progress and ends.
+// Common frame of all jobs: command line, table, warnings, errors, progress and end.
 
 namespace holdfast::program {
 
-/// One job of the program on its command line: its own options and those that every job
-/// understands. What texts/jobs.toml says of the job and of each option holds here: help, what is
-/// admissible, which options exclude it.
+/// Command line of one job: its own options and the options of every job. texts/jobs.toml gives the
+/// help, the admissible values and the mutual exclusions of these options.
 class Job {
  public:
   Job(CLI::App& program, const std::string& name);
 
-  /// An option that holds one word or number, with its default.
+  /// Adds an option with one word or number and a default.
   template <class Value>
   CLI::Option* add(const std::string& name, Value& value) const {
     return told(options_->add_option(name, value)->capture_default_str());
   }
-  /// An option that holds one word or number, without a default.
+  /// Adds an option with one word or number and no default.
   template <class Value>
   CLI::Option* add(const std::string& name, std::optional<Value>& value) const {
     return told(options_->add_option(name, value));
   }
-  /// A flag.
+  /// Adds a flag.
   CLI::Option* add(const std::string& name, bool& given) const;
-  /// An option that may be repeated.
+  /// Adds a repeatable option.
   CLI::Option* add(const std::string& name, std::vector<std::string>& texts) const;
-  /// "sampled" or "exact".
+  /// Adds an option with the words "sampled" and "exact".
   CLI::Option* add(const std::string& name, Switching& switching) const;
 
   /// Whether the command line has the option.
@@ -53,24 +51,25 @@ class Job {
     return option != nullptr && option->count() > 0;
   }
 
-  /// Checked case, output and the options that were given; call once the command line is read.
-  /// A plant that the case does not give is reduced from its conductor, unless the job does
-  /// without.
-  /// @param case_file    in place of --case, which must not be given then
-  /// @param needs_plant  whether what is asked of a job that needs a plant needs it
+  /// Context of the job: checked case, output and given options; call after the command line is
+  /// parsed. A plant that the case does not give is computed from its conductor, unless the job
+  /// needs no plant.
+  /// @param case_file    case file in place of --case, which must then be absent
+  /// @param needs_plant  whether this run needs the plant; without effect for a job that never does
   JobContext context(const std::optional<std::string>& case_file = std::nullopt,
                      bool needs_plant = true) const;
 
-  /// The members of [uncertain] that are to be drawn.
+  /// Number of members to be drawn from [uncertain].
   int draws() const { return common_->draws; }
 
-  /// A context for the case with some further overrides, "key=value".
+  /// Context of the case with further overrides, each "key=value".
   JobContext context_with(const JobContext& whole, const std::vector<std::string>& overrides) const;
 
-  /// The --case, --set and --instructions options as they were given, to be handed to another job.
+  /// The options --case, --set and --instructions as given, to be passed to another job.
   std::vector<std::string> case_arguments() const;
 
-  /// Sets the work; where --output names a picture, it is drawn of the table that this writes.
+  /// Sets the function that does the job; where --output names a picture, the picture shows the
+  /// table that this function writes.
   void does(const std::function<void()>& work) const;
 
  private:
@@ -83,14 +82,13 @@ class Job {
     bool yes = false;
     bool family = false;
     int draws = 100;
-    int zarr_format = 3;
-    std::optional<int> threads;      // none, 0: all
+    std::optional<int> threads;      // nullopt, 0: all
     std::string instructions;        // empty: the best that the processor has
     std::optional<Ticking> ticking;  // from when the context is made to the program's end
   };
 
   void require_output(const JobContext& context) const;
-  /// Refuses what texts/support.toml does. @return what it says that an answer leaves out
+  /// Throws WrongInput where texts/support.toml refuses. @return features the answer leaves out
   std::string require_supported(const JobContext& context) const;
   void examine_for_this(JobContext& context, bool needs_plant) const;
   void draw() const;
@@ -102,8 +100,8 @@ class Job {
   std::shared_ptr<Common> common_;
 };
 
-/// Adds a job whose question is a struct: `add_to(job)` adds its members as options, and
-/// `run(context)` answers it, or `run(job)` where it makes a context of its own.
+/// Adds a job defined by a struct: `add_to(job)` adds its members as options; `run(context)` does
+/// the job, or `run(job)` where the job makes its own context.
 template <class Question>
 void add_job(CLI::App& program, const std::string& name) {
   const Job job(program, name);
@@ -123,15 +121,14 @@ inline void add_job(CLI::App& program, const std::string& name, void (*run)(cons
   job.does([job, run] { run(job.context()); });
 }
 
-/// A job, or a text about the program itself, by its name in texts/jobs.toml.
+/// Adds the subcommand of a job, or of a text about the program, by its name in texts/jobs.toml.
 CLI::App* add_subcommand(CLI::App& program, const std::string& name);
 
-/// Does one command line, without the program's name; throws what is wrong with it or what its job
-/// throws.
+/// Runs one command line, given without the program's name. Throws errors of the command line and
+/// of its job.
 void do_job(const std::vector<std::string>& arguments);
 
-/// The whole program, from what main() gets: reads the command line, does the job, gives the exit
-/// code.
+/// Runs the whole program with the arguments of main(); the result is the exit code.
 int run_program(int argument_count, char** arguments);
 
 /// Each adds one job to the program, in the order of `holdfast --help`.
@@ -143,7 +140,7 @@ AddJob add_case, add_conductors, add_reduce, add_sag_tension, add_statics, add_m
     add_sweep, add_convert, add_absorption, add_aeolian, add_fatigue, add_place, add_answers,
     add_report, add_explore;
 
-/// Heading of the help where the options stand that every job has.
+/// Heading in the help of the options of every job.
 namespace question {
 inline constexpr const char* every_job = "Every job";
 }

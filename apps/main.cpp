@@ -7,9 +7,8 @@
 
 namespace {
 
-/// OpenBLAS, which other libraries bring along, has threads that ask for memory until they get it;
-/// where the address space is limited neither fork() nor exit() comes back from waiting for them.
-/// There the program begins again without these threads.
+/// Restarts the program without OpenBLAS threads where the address space is limited. These threads
+/// retry until they get memory, and fork() and exit() would wait for them forever.
 void begin_without_threads_of_blas(char** arguments) {
   struct rlimit most {};
   const bool limited = getrlimit(RLIMIT_AS, &most) == 0 && most.rlim_cur != RLIM_INFINITY;

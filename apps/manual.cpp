@@ -11,7 +11,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Text that roff takes as it is: no escapes, no requests at the beginning of a line.
+/// Text with roff's escapes and leading requests neutralised.
 std::string roff(std::string_view text) {
   std::string safe;
   bool begins_line = true;

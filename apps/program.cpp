@@ -45,14 +45,14 @@ void add_jobs(CLI::App& program) {
   add_texts(program);
 }
 
-/// The job whose name begins with the word, else the one whose name is most like it.
+/// Job whose name begins with the word, else the job with the most similar name.
 std::string nearest_job(const std::vector<std::string>& jobs, const std::string& word) {
   const auto begun = std::find_if(
       jobs.begin(), jobs.end(), [&](const std::string& name) { return name.rfind(word, 0) == 0; });
   return begun != jobs.end() ? *begun : nearest_name(jobs, word);
 }
 
-/// The option of every job that a word is or begins with (`--set=...`); null where there is none.
+/// Option of every job that equals the word or begins it (`--set=...`); null if there is none.
 const CLI::Option* option_of_every_job(const CLI::App& program, const std::string& word) {
   const CLI::App& any_job = *program.get_subcommand("simulate");
   const std::string name = word.substr(0, word.find('='));
@@ -62,7 +62,7 @@ const CLI::Option* option_of_every_job(const CLI::App& program, const std::strin
   return options.empty() ? nullptr : options.front();
 }
 
-/// The job before its options: those of every job may stand before it (`--case my.toml answers`).
+/// Moves the job before options of every job that precede it (`--case my.toml answers`).
 std::vector<std::string> with_job_first(const CLI::App& program, std::vector<std::string> words) {
   std::size_t place = 0;
   while (place < words.size() && words[place].rfind("--", 0) == 0) {
@@ -79,18 +79,18 @@ std::vector<std::string> with_job_first(const CLI::App& program, std::vector<std
   return words;
 }
 
-/// Refuses an option that stands in the job's place, and says where it belongs.
+/// Refuses an option given in place of the job, and says where it belongs.
 [[noreturn]] void refuse_option_before_job(const CLI::App& program, const std::string& word) {
   if (option_of_every_job(program, word) != nullptr)
-    throw WrongInput("which job? Only options are given; holdfast --help lists the jobs");
+    throw WrongInput("no job is given, only options; holdfast --help lists the jobs");
   throw WrongInput("option " + word +
-                   " stands before the job: put it after the job's name; only options of every "
-                   "job, such as --case and --set, may stand before");
+                   " is given before the job: put it after the job's name; only options of every "
+                   "job, such as --case and --set, may come first");
 }
 
-/// The first word is the job; CLI11 would only say that something was not expected.
+/// Checks that the first word is a job; CLI11's own message would be unclear.
 void check_job_name(const CLI::App& program, const std::vector<std::string>& arguments) {
-  if (arguments.empty()) throw WrongInput("which job? holdfast --help lists them");
+  if (arguments.empty()) throw WrongInput("no job is given; holdfast --help lists the jobs");
   const std::string& word = arguments.front();
   if (word.rfind('-', 0) == 0) {
     if (program.get_option_no_throw(word) != nullptr) return;
@@ -102,7 +102,7 @@ void check_job_name(const CLI::App& program, const std::vector<std::string>& arg
                    "? (holdfast --help lists the jobs)");
 }
 
-/// `help` and `help JOB` are asked of other programs; here they are `--help` and `JOB --help`.
+/// Translates `help` and `help JOB`, known from other programs, to `--help` and `JOB --help`.
 std::vector<std::string> with_help_as_option(std::vector<std::string> arguments) {
   if (arguments.empty() || arguments.front() != "help") return arguments;
   arguments.erase(arguments.begin());
@@ -116,7 +116,7 @@ std::string nearest_option(const CLI::App& job, const std::string& word) {
   return nearest_name(names, word);
 }
 
-/// The jobs that have an option of that name, as a list.
+/// List of the jobs that have an option of that name.
 std::string jobs_with(const CLI::App& program, const std::string& option) {
   std::vector<std::string> names;
   for (const CLI::App* job : program.get_subcommands(nullptr))
@@ -124,12 +124,12 @@ std::string jobs_with(const CLI::App& program, const std::string& option) {
   return CLI::detail::join(names, ", ");
 }
 
-/// Guess at the meaning of a first word on the command line that the job does not expect.
+/// Message with a guess at an unexpected word on the command line.
 std::string unexpected_text(const CLI::App& job) {
   const std::string word = job.remaining().empty() ? "" : job.remaining().front();
   const std::string others = jobs_with(*job.get_parent(), word);
   if (!others.empty())
-    return job.get_name() + " has no option " + word + ", which belongs to " + others;
+    return job.get_name() + " has no option " + word + "; jobs with this option: " + others;
   if (word.rfind('-', 0) == 0)
     return "unknown option " + word + "; did you mean " + nearest_option(job, word) +
            "? (holdfast " + job.get_name() + " --help lists the options)";
@@ -142,7 +142,7 @@ std::string unexpected_text(const CLI::App& job) {
   return "unexpected word " + word + "; a name with blanks needs quotes";
 }
 
-/// Message of the parser; of an option that stands twice it would be a count of values.
+/// Message of the parser; for an option given twice it says so instead of counting values.
 std::string text_of(const CLI::ParseError& outcome) {
   const std::string text = one_line(outcome.what());
   const std::size_t twice = text.find(": At Most 1 required");

@@ -8,24 +8,24 @@
 
 namespace holdfast::program {
 
-/// The text of texts/program.toml, which is compiled in, with its values.
+/// Text of texts/program.toml by its name, with values for its @KEY@.
 std::string program_text(const std::string& name, const Values& values);
 
-/// Command lines to begin with, each with what it tells, of the whole program ("holdfast") or of
-/// one job; empty where there are none.
+/// Example command lines with their purpose, of the whole program ("holdfast") or of one job; empty
+/// where there are none.
 std::string examples_of(const std::string& name);
 
-/// Help that leads with examples.
+/// Help formatter that shows examples first.
 class ExamplesFirst : public CLI::Formatter {
  public:
   std::string make_description(const CLI::App* app) const override;
 };
 
-/// "case", "reduce", …, in the order of the help.
+/// Names of the jobs, "case", "reduce", …, in the order of the help.
 std::vector<std::string> job_names(const CLI::App& program);
 
-/// Completion of the program's command lines for a shell, from the same options as `--help`: jobs,
-/// their options, the words that an option takes, the keys of a case, names of files.
+/// Completion script of a shell for the program's command lines, from the same options as `--help`:
+/// jobs, options, words of an option, keys of a case, file names.
 std::string bash_completion(const CLI::App& program);
 std::string zsh_completion(const CLI::App& program);
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double most_states = 1e7;
 
-/// MotionBatch on the packs of an instruction set.
+/// Propagates a MotionBatch in SIMD lanes of an instruction set.
 struct PropagatorOnPacks {
   MotionKernel kernel;
 
@@ -38,13 +38,12 @@ KeyAxis initial_axis(const std::string& text) {
   KeyAxis axis = parse_key_axis("--axis", text);
   if (axis.key.rfind("initial.", 0) != 0 || find_case_key(axis.key) == nullptr) {
     throw WrongInput("--axis " + text +
-                     ": expected a key of the initial state, initial.z1, initial.v1, initial.z2 or "
-                     "initial.v2");
+                     ": the key must be initial.z1, initial.v1, initial.z2 or initial.v2");
   }
   return axis;
 }
 
-/// No state of the grid is worse than one at an end of an axis.
+/// Checks the ends of an axis, which bound all states of the grid; throws WrongInput.
 void require_admissible_ends(const KeyAxis& axis, const JobContext& context) {
   for (const double end : {axis.axis.min, axis.axis.max}) {
     Case at_end = context.case_data;
@@ -84,7 +83,7 @@ StateGrid grid_of(const std::vector<std::string>& axes) {
       static_cast<double>(grid.slow.axis.count) * static_cast<double>(grid.fast.axis.count);
   if (count > most_states)
     throw WrongInput("--axis: " + format_number(count) + " initial states are more than " +
-                     format_number(most_states) + ": give fewer");
+                     format_number(most_states) + ": give smaller COUNTs in KEY=MIN:MAX:COUNT");
   return grid;
 }
 
@@ -140,13 +139,14 @@ void write_fractions(const JobContext& context, const BasinsOf<Orbit>& map) {
 void require_attractors(const std::optional<Rational>& ratio, std::int64_t largest_period) {
   if (!ratio) {
     throw NoAnswer(
-        "the sampling period and the excitation period have no common multiple: no motion is "
-        "periodic, and attractors cannot be distinguished by their orbits");
+        "the sampling period and the excitation period have no common multiple, so no motion is "
+        "periodic: change control.sampling_period or excitation.frequency");
   }
   if (ratio->denominator > largest_period) {
-    throw NoAnswer("the shortest period possible is " + std::to_string(ratio->denominator) +
-                   " samples, a common multiple of the sampling and excitation periods: give a "
-                   "longer --max-period");
+    throw NoAnswer("the period of every orbit is a multiple of " +
+                   std::to_string(ratio->denominator) +
+                   " samples, the common multiple of the sampling and excitation periods: give a "
+                   "--max-period of at least so many samples");
   }
 }
 
@@ -176,14 +176,14 @@ auto basins_of(const BuiltPlant& moving, const JobContext& context, const States
   return find_basins(moving.loop, states, limits, tiles_on(context), begin);
 }
 
-/// Which attractor every initial state of a grid comes to: its number from 1 on in the order of the
-/// rows, 0 where the motion diverges, −1 where no orbit is found; and its period.
+/// Attractor of every initial state of a grid: its number from 1 on in the order of the rows, 0
+/// where the motion diverges, −1 where no orbit is found; and its period.
 struct BasinsQuestion {
-  std::vector<std::string> axes;          ///< KEY=MIN:MAX:COUNT, two of initial.*
-  std::vector<std::string> map;           ///< KEY=MIN:MAX:COUNT, two: cells in place of states
+  std::vector<std::string> axes;          ///< two KEY=MIN:MAX:COUNT over initial.*
+  std::vector<std::string> map;           ///< two KEY=MIN:MAX:COUNT: cells in place of states
   std::int64_t largest_period = 100'000;  ///< samples
   bool fractions = false;  ///< a row for each attractor instead of one for each state
-  bool motions = false;    ///< of a map a row for each motion instead of one for each cell
+  bool motions = false;    ///< with `map`: a row for each motion instead of each cell
   Switching switching = Switching::sampled;
 
   void add_to(const Job& job) {

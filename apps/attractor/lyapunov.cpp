@@ -14,7 +14,7 @@ namespace {
 struct LyapunovQuestion {
   double duration = 100.0;             ///< s, the longest
   double discard = 0.0;                ///< s, left out at the start
-  double standard_error = 0.0;         ///< per sample, at which to stop; 0: go on to the end
+  double standard_error = 0.0;         ///< per sample, at which to stop; 0: never stop early
   std::string tangent = "consistent";  ///< or "printed"
   bool largest = false;                ///< the largest exponent alone
   bool history = false;                ///< the exponents after every sample instead
@@ -32,8 +32,7 @@ struct LyapunovQuestion {
   void run(const JobContext& context) const;
 };
 
-/// The sampling of the loop whose S and S* are the tangents: that of the motion, or the printed one
-/// with δ = τ.
+/// Sampling for the tangents S and S*: the motion's, or the printed one with δ = τ.
 Sampling<double> tangent_sampling_of(const Case& the_case, const LyapunovQuestion& options) {
   Sampling<double> sampling = sampling_of(the_case);
   if (options.tangent == "printed") sampling.processing_delay = sampling.period;
@@ -42,22 +41,24 @@ Sampling<double> tangent_sampling_of(const Case& the_case, const LyapunovQuestio
 
 std::int64_t steps_of(const JobContext& context, const LyapunovQuestion& options) {
   const std::int64_t steps = samples_of(context.case_data, options.duration) - 1;
-  if (steps < 1) throw WrongInput("--duration is shorter than one sampling period");
+  if (steps < 1) throw WrongInput("--duration is below one sampling period: give a longer one");
   return steps;
 }
 
-/// Refuses all exponents of very many commands on their way; warns of those that cost days.
+/// Refuses all exponents for delays of 20 samples or more; warns of work of days.
 void require_bearable_modes(const Case& the_case, const MovingLoop& moving,
                             const LyapunovQuestion& options, bool quiet) {
   if (!std::holds_alternative<BuiltPlant>(moving)) return;
   constexpr double bearable = 20.0;
   if (!options.largest &&
       the_case.control.processing_delay >= bearable * the_case.control.sampling_period)
-    throw WrongInput("all exponents need control.processing_delay below 20 samples: add --largest");
+    throw WrongInput(
+        "all exponents need control.processing_delay below 20 sampling periods: give a "
+        "shorter delay, or --largest for the first exponent alone");
   report_warning(dense_work_warning(the_case, options.switching), quiet);
 }
 
-/// A row of the exponents so far.
+/// Writes one row with the exponents averaged up to a time.
 void write_history_row(Table& table, double time, const Vector<double, 5>& exponents) {
   table.writer().cell(time);
   for (const double exponent : exponents) table.writer().cell(exponent);
@@ -127,7 +128,7 @@ void write_exponents(const JobContext& context, const MovingLoop& moving,
   table.commit();
 }
 
-/// The exponents after every sample.
+/// Writes the exponents after every sample.
 void write_exponent_history(const JobContext& context, const MovingLoop& moving,
                             const LyapunovQuestion& options) {
   const std::int64_t steps = steps_of(context, options);

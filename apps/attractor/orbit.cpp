@@ -74,7 +74,7 @@ void write_orbit(const JobContext& context, const OrbitQuestion& options) {
   table.commit();
 }
 
-/// How long the orbit is, how large, how often engaged, and how well it closes.
+/// Writes period, amplitude, engaged share and closure error of an orbit.
 /// @param amplitude  m
 template <class Orbit>
 void write_size(Table& table, const Orbit& orbit, double amplitude) {
@@ -88,7 +88,7 @@ void write_size(Table& table, const Orbit& orbit, double amplitude) {
   table.row("closure_error", orbit.closure_error, "m");
 }
 
-/// Modulus, angle and exponent per sample of each multiplier.
+/// Writes modulus, angle and exponent per sample of each multiplier.
 template <class Orbit>
 void write_multipliers(Table& table, const Orbit& orbit) {
   int number = 1;
@@ -114,8 +114,8 @@ void write_radii(Table& table, const CaptureRadii& radii) {
   table.row("capture_radius_largest", radii.largest, "m");
 }
 
-/// Distances to the switching surfaces, radius of attraction, multipliers, and of the two masses
-/// the same orbit in extended precision.
+/// Writes distances to switching surfaces, radius of attraction, multipliers; of two masses also
+/// the orbit in extended precision.
 void write_distances(Table& table, const PeriodicOrbit& orbit) {
   write_size(table, orbit, orbit.amplitude());
   write_border(table, "gap_distance", orbit.borders.displacement, "m", orbit.sampling_period);
@@ -138,7 +138,7 @@ void write_quantities(Table& table, const SampledMasses& moving, const PeriodicO
   table.row("extended_precision_closure_error", wide.closure_error, "m");
 }
 
-/// Margins, shares and numbers of the modes, multipliers with the saltation at the switches.
+/// Writes margins, time shares and counts of contact modes, multipliers with saltation.
 template <class Built>
 void write_quantities(Table& table, const Built&, const EventOrbit& orbit) {
   write_size(table, orbit, orbit.largest_displacement);
@@ -156,7 +156,7 @@ void write_quantities(Table& table, const Built&, const EventOrbit& orbit) {
   write_multipliers(table, orbit);
 }
 
-/// The whole certificate, one quantity a row.
+/// Writes the whole certificate, one quantity per row.
 void write_certificate(const JobContext& context, const OrbitQuestion& options) {
   Table table(context, columns_of("certificate"));
   with_orbit(context, options, [&](const auto& moving, const auto& orbit) {
@@ -177,7 +177,7 @@ EventSample sample_of(const EventOrbit& orbit, std::size_t j) {
   return {{0, 0.0, orbit.states[j], orbit.forces[j], mode == ContactMode::engaged}, mode};
 }
 
-/// The orbit's samples, with the columns of `simulate`: one period and the sample that closes it.
+/// Writes the samples of one period, and the closing one, with the columns of `simulate`.
 void write_orbit_trace(const JobContext& context, const OrbitQuestion& options) {
   Table table(context, motion_columns(options.switching));
   with_orbit(context, options, [&](const auto&, const auto& orbit) {
@@ -195,7 +195,7 @@ constexpr Named<BranchEndOutcome> branch_end_names[] = {
     {BranchEndOutcome::unit_circle, "unit_circle"},
     {BranchEndOutcome::range_end, "range_end"}};
 
-/// Where the orbit ends below and above the case's value of one key, and why: two rows.
+/// Writes two rows: where the orbit ends below and above the case's value of one key, and why.
 /// @param axis  KEY=MIN:MAX
 void write_branch_ends(const JobContext& context, std::int64_t largest_period,
                        const std::string& axis) {
@@ -227,7 +227,7 @@ void write_proved_errors(Table& table, const Orbit& orbit, const Proof& proof) {
   table.row("velocity_error", proof.velocity_error, "m/s");
 }
 
-/// The theorem on the orbit, one quantity a row.
+/// Writes the theorem on the orbit, one quantity per row.
 void write_proof(const JobContext& context, std::int64_t largest_period) {
   Table table(context, columns_of("certificate"));
   const PeriodicOrbit orbit =
@@ -244,7 +244,7 @@ void write_proof(const JobContext& context, std::int64_t largest_period) {
   table.commit();
 }
 
-/// The theorem on the orbit of a drive that switches between the samples.
+/// Writes the theorem on an orbit whose drive switches between samples.
 void write_event_proof(const JobContext& context, std::int64_t largest_period) {
   Table table(context, columns_of("certificate"));
   const auto found = certified_event_orbit(
@@ -267,7 +267,7 @@ void write_event_proof(const JobContext& context, std::int64_t largest_period) {
   table.commit();
 }
 
-/// Where along one key the orbit is proved, a range a row.
+/// Writes the ranges of one key in which the orbit is proved, one range per row.
 /// @param axis  KEY=MIN:MAX
 void write_proved_ranges(const JobContext& context, std::int64_t largest_period,
                          const std::string& axis) {

@@ -24,15 +24,15 @@ void warn_of(const OrbitResultOf<Orbit>& search, bool quiet) {
   report_warning(shifted_copies_warning(orbit.period_samples(), orbit.ratio.denominator), quiet);
 }
 
-/// The verdict for a reader who does not count columns: "periodic(100), 0.1 s: …".
+/// Verdict as one sentence: "periodic(100), 0.1 s: …".
 void say(const Classification& classification, double period, const JobContext& context) {
   if (!progress_wanted(context)) return;
   const std::string seconds = classification.period > 0 ? ", " + format_rounded(period) + " s" : "";
   report_error(attractor_type_text(classification) + seconds + ": " + classification.rests_on);
 }
 
-/// One row with the verdict, the numbers behind it and the sentence that says what it rests on.
-/// @tparam Found  of either model
+/// Writes one row: the verdict, its indicators and the evidence.
+/// @tparam Found  classification in either model
 template <class Found>
 void write(const JobContext& context, Table& table, const Found& found) {
   const Classification& classification = found.classification;

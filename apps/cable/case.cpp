@@ -174,7 +174,7 @@ CaseForm form_of(const Case& the_case) {
                                                              : CaseForm::conductor;
 }
 
-/// A case file that is there already is somebody's work.
+/// Refuses to overwrite a case file.
 void write_case_file(const Case& the_case, const std::string& name, CaseForm form) {
   if (name != "-" && std::filesystem::exists(name))
     throw WrongInput("--init " + name + ": this file exists already; give another name");
@@ -196,9 +196,10 @@ struct CaseQuestion {
 
   void run(const Job& job) const {
     if (begun && checked)
-      throw WrongInput("--init begins a case file and --check explains one: give only one of them");
+      throw WrongInput("--init writes a case file and --check explains one: give only one of them");
     if (!begun && (from || wind))
-      throw WrongInput(std::string(from ? "--from" : "--wind") + ": works only with --init FILE");
+      throw WrongInput(std::string(from ? "--from" : "--wind") +
+                       " works only with --init: add --init FILE");
     const JobContext context = job.context(checked);
     if (!begun) return write_case_table(context);
     Case the_case = context.case_data;

@@ -6,7 +6,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Options that the two jobs about a removed force share.
+/// Common options of the jobs decay and peaks.
 struct CableOptions {
   std::optional<double> duration;
   double interval = 0.001;
@@ -22,7 +22,7 @@ struct CableOptions {
     job.add("--interval", interval);
   }
 
-  /// @param usual_duration  s, where none is given
+  /// @param usual_duration  duration (s) if none is given
   CableDecayOptions question(double force, double usual_duration) const {
     const auto reading = absorber == "rigid"    ? AbsorberReading::rigid_mass
                          : absorber == "spring" ? AbsorberReading::spring_mass
@@ -34,8 +34,8 @@ struct CableOptions {
                        format_number(time) + " s, the --duration");
     if (time > most_rows * interval)
       throw WrongInput("--interval = " + format_number(interval) + ": must be at least " +
-                       format_number(time / most_rows) +
-                       " s, for at most ten million rows in --duration " + format_number(time));
+                       format_number(time / most_rows) + " s: --duration " + format_number(time) +
+                       " s allows at most ten million rows");
     return {force, time, interval, elements, reading};
   }
 };
@@ -100,7 +100,7 @@ struct PeaksQuestion {
                 std::abs(plant_peak - elements_peak) / std::abs(elements_peak));
     }
     if (!has_peak)
-      throw NoAnswer("no motion reaches its first opposite peak within " +
+      throw NoAnswer("for no --force does the decay reach a peak beyond the equilibrium within " +
                      format_number(cable.duration.value_or(duration)) +
                      " s: give a longer --duration");
     table.commit();

@@ -31,7 +31,8 @@ constexpr FitParameter known_parameters[] = {
     {fit::PlantParameter::absorber_damping, "absorber_damping", "N s/m"}};
 
 const FitParameter& parameter_named(std::string_view name) {
-  if (name.empty()) throw WrongInput("--parameters: a name is missing");
+  if (name.empty())
+    throw WrongInput("--parameters: a name is missing; give names with one comma between them");
   for (const FitParameter& known : known_parameters)
     if (name == known.name) return known;
   throw WrongInput("--parameters: " + one_line(name) +
@@ -73,25 +74,25 @@ fit::DecayFitOptions question_of(const FitQuestion& options) {
                                         : fit::DecayTarget::first_peak_period_and_decrement;
   const std::size_t most = target == "peak" ? 1 : target == "measures" ? 2 : 5;
   if (question.free.size() > most)
-    throw WrongInput("--parameters: --target " + target + " determines at most " +
-                     std::to_string(most) + " of the parameters");
+    throw WrongInput("--parameters: --target " + target + " can fit at most " +
+                     std::to_string(most) + " parameter(s)");
   question.robust = !options.plain;
   question.fit_initial_displacement = options.data.has_value();
   return question;
 }
 
-/// Parameters are fitted by their logarithms, and all but c2 start from the plant's values, which
-/// must not be 0.
+/// Throws WrongInput where a parameter starts from 0: parameters are fitted by their logarithms,
+/// and all but c2 start from the plant's values.
 void require_starts(const fit::DecayFitOptions& options, const TwoMass<double>& plant) {
   for (const fit::PlantParameter parameter : options.free) {
     if (parameter == fit::PlantParameter::absorber_damping || parameter_of(plant, parameter) > 0.0)
       continue;
-    throw WrongInput(std::string("--parameters: the fit starts from plant.") +
-                     description_of(parameter).name + ", which is 0: give it a value above 0");
+    throw WrongInput(std::string("--parameters: plant.") + description_of(parameter).name +
+                     ", from which the fit starts, is 0: give it a value above 0");
   }
 }
 
-/// Quantities of the deepest minimum bear their key's name; those of the next, `_minimum_2` behind.
+/// Writes one minimum; the deepest one under the keys' names, others with `_minimum_2`, … appended.
 void write_minimum(Table& table, const fit::DecayFitOptions& question,
                    const fit::DecayMinimum& minimum, std::size_t rank) {
   const std::string behind = rank == 1 ? "" : "_minimum_" + std::to_string(rank);
@@ -106,20 +107,20 @@ void write_minimum(Table& table, const fit::DecayFitOptions& question,
   table.row("residual" + behind, minimum.residual, none, history ? "m" : "");
 }
 
-/// Where a fit starts: the case's plant, or what its conductor reduces to with c2 still open.
+/// Start of a fit: the case's plant, or the plant reduced from its conductor without c2.
 TwoMass<double> start_of(const Case& the_case) {
   return plant_is_reduced(the_case) ? plant_without_absorber_damping(the_case) : plant_of(the_case);
 }
 
-/// That the plant does not follow the record, where it misses it by three tenths of its start.
+/// Warning that the plant misses the record by 30 % or more of its start; else empty.
 std::string course_warning(const fit::DecayMinimum& best, const DecayRecord& record) {
   const double share = best.residual / std::abs(record.displacements.front());
   if (share < 0.3) return "";
-  return "released at rest at the record's start, the two-mass plant deviates from it by " +
-         format_number(std::round(share * 100.0)) + " % of the first displacement";
+  return "the fitted two-mass plant misses the record by " +
+         format_number(std::round(share * 100.0)) + " % (rms) of the record's first displacement";
 }
 
-/// A record of a motion beyond the absorber's reach is likely one in millimetres.
+/// Warning that a record beyond the absorber's reach is probably in millimetres; else empty.
 std::string unit_warning(const std::string& file, const DecayRecord& record, const Case& the_case) {
   double largest = 0.0;
   for (const double displacement : record.displacements)
@@ -128,10 +129,10 @@ std::string unit_warning(const std::string& file, const DecayRecord& record, con
   if (largest <= reach) return "";
   return file + ": displacement_m reaches " + format_rounded(largest) +
          " m, but the absorber's place can move by only " + format_rounded(reach) +
-         " m: is displacement_m in mm, " + format_rounded(1e-3 * largest) + " m?";
+         " m: the column must be in m; is it in mm (" + format_rounded(1e-3 * largest) + " m)?";
 }
 
-/// Rows in which half a period of the conductor is not seen are likely in milliseconds.
+/// Warning that rows farther apart than half a period are probably in milliseconds; else empty.
 std::string time_warning(const std::string& file, const DecayRecord& record,
                          const TwoMass<double>& plant) {
   const double half = pi<double> * std::sqrt(plant.conductor_mass / plant.conductor_stiffness);
@@ -141,7 +142,7 @@ std::string time_warning(const std::string& file, const DecayRecord& record,
          format_rounded(2.0 * half) + " s: is time_s in ms?";
 }
 
-/// A fit to the rows does not mind a gap, in which an extreme may be missed.
+/// Warning of a gap in the record; throws WrongInput where the fit needs its peaks.
 std::string gap_warning(const std::string& file, const DecayRecord& record,
                         const fit::DecayFitOptions& question) {
   const std::string gap = gap_text(record.times);
@@ -149,11 +150,11 @@ std::string gap_warning(const std::string& file, const DecayRecord& record,
   if (fit::is_measured(question.target))
     throw WrongInput(
         file + ": " + gap +
-        ": it may hide a peak; give --target history to fit only the rows of the file");
+        ": the gap may hide a peak, but this --target needs all peaks; give --target history");
   return file + ": " + gap + "; only the rows of the file are fitted";
 }
 
-/// The record of a file, with what is doubtful of it.
+/// Record of a file; reports doubts about it.
 DecayRecord record_of(const std::string& file, const JobContext& context,
                       const TwoMass<double>& plant, const fit::DecayFitOptions& question) {
   DecayRecord record = read_decay_file(file);
@@ -164,7 +165,7 @@ DecayRecord record_of(const std::string& file, const JobContext& context,
   return record;
 }
 
-/// All minima; where nothing but the case is given, those of `reduce`.
+/// All minima of the fit; with no options given, those of the job reduce.
 std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const FitQuestion& options,
                                          fit::DecayFitOptions& question) {
   const TwoMass<double> plant = start_of(context.case_data);

@@ -9,8 +9,8 @@
 namespace holdfast::program {
 namespace {
 
-/// Whether Irvine and Caughey have such a mode: waves along the conductor have modes from about
-/// sqrt(EA/mu)/(2 L) on, and of a slower one that moves along the span the sag is the reason.
+/// Whether Irvine and Caughey describe a mode: not waves along the conductor, from about
+/// sqrt(EA/mu)/(2 L) on. A slower mode that moves along the span does so because of the sag.
 bool is_across(const ElementsMode& mode, const Conductor<double>& conductor) {
   const double slowest_along =
       std::sqrt(conductor.youngs_modulus * conductor.area / conductor.mass_per_length) /
@@ -18,10 +18,10 @@ bool is_across(const ElementsMode& mode, const Conductor<double>& conductor) {
   return mode.along_share < 0.5 || mode.frequency < 0.5 * slowest_along;
 }
 
-/// Frequencies of Irvine and Caughey, of each family in turn.
+/// Frequencies (Hz) by Irvine and Caughey, in ascending order for each family.
 class IrvineFrequencies {
  public:
-  /// Frequencies of the first modes, as many of each family as of the other, give or take one.
+  /// Computes the first modes, about equally many of each family.
   IrvineFrequencies(const Conductor<double>& conductor, int of_each)
       : modes_(irvine_modes(conductor, 2 * of_each + 2)) {}
 

@@ -10,7 +10,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Value of the numbers about c2 without a fit.
+/// Value of the quantities of c2 where there is no fit.
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 void append_plant(Table& table, const TwoMass<double>& plant, double absorber_damping) {
@@ -78,7 +78,7 @@ void append_cable(Table& table, const Case& the_case) {
   table.row("second_frequency", "f2", the_case.reduction.second_frequency, "Hz");
 }
 
-/// None, with a line on standard error, where the fit needs a package that is missing or the decay
+/// Fitted c2; nullopt, with a message on standard error, where a package is missing or the decay
 /// does not determine c2.
 std::optional<AbsorberDampingFit> fitted_damping(const JobContext& context) {
   const TwoMass<double> plant = plant_without_absorber_damping(context.case_data);

@@ -18,7 +18,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Gains at which the stable intervals of the other gain are asked for.
+/// Fixed gains for the stable intervals of the other gain.
 struct FixedGains {
   std::vector<double> proportional;  ///< P (N/m): the intervals of D
   std::vector<double> differential;  ///< D (N s/m): the intervals of P
@@ -31,8 +31,7 @@ constexpr Named<BoundaryFeatureKind> feature_names[] = {
     {BoundaryFeatureKind::crossing, "crossing"},
     {BoundaryFeatureKind::end, "end"}};
 
-/// Extended precision leaves single points exact to the last digit of a double but where two of
-/// them are about to meet.
+/// Extended precision gives single points to a double's last digit, unless two nearly coincide.
 using Precise = long double;
 
 /// Calls `visit` with the characteristic polynomial of the continuous or the sampled loop.
@@ -45,7 +44,7 @@ auto with_polynomial(const Case& the_case, bool continuous, const Visit& visit) 
       sampled_loop(plant, Sampling<Real>{sampling.period, sampling.processing_delay})));
 }
 
-/// Range of D, as wide as a window may be (N s/m).
+/// Whole range of D (N s/m) that a window admits.
 constexpr Interval<double> every_gain{-1e150, 1e150};
 
 std::vector<BoundaryFeature<Precise>> precise_features(const Case& the_case,
@@ -55,7 +54,7 @@ std::vector<BoundaryFeature<Precise>> precise_features(const Case& the_case,
   });
 }
 
-/// One of the two gains, as the program writes and says it.
+/// Name, symbol and unit of one of the two gains.
 struct GainName {
   const char* column;
   const char* symbol;
@@ -117,7 +116,7 @@ std::vector<GainPlane> answers(const Case& the_case, const FixedGains& fixed, bo
       fixed);
 }
 
-/// Warning where other modes of the conductor move an end by more than a hundredth; else empty.
+/// Warning that another number of modes moves an end by more than 1 %; else empty.
 std::string truncation_warning(const Case& the_case, const FixedGains& fixed,
                                const std::vector<GainPlane>& found) {
   const OtherModes other = other_modes_of(the_case);
@@ -134,18 +133,18 @@ std::string truncation_warning(const Case& the_case, const FixedGains& fixed,
     const std::string at = std::string("at ") + found[i].fixed.symbol + " = " +
                            format_number(found[i].value) + " " + found[i].fixed.unit + " ";
     if (here.size() != there.size())
-      return "the answer depends on the modes kept: " + at + other.words + " there are " +
+      return "the result depends on the modes kept: " + at + other.words + " there are " +
              std::to_string(there.size()) + " stable intervals";
     for (std::size_t k = 0; k < here.size(); ++k)
       if (moved(k))
-        return "the answer depends on the modes kept: " + at + other.words + " the interval is " +
+        return "the result depends on the modes kept: " + at + other.words + " the interval is " +
                range_text(format_rounded(there[k].lower), format_rounded(there[k].upper)) + " " +
                found[i].gain.unit;
   }
   return "";
 }
 
-/// The refusals of those without an interval, each on its own or, when there is no other, as one.
+/// Warns of each gain without a stable interval; throws NoAnswer with all messages if none has one.
 void report_refusals(const std::vector<GainPlane>& all, bool quiet) {
   std::vector<std::string> refusals;
   std::string together;
@@ -158,7 +157,7 @@ void report_refusals(const std::vector<GainPlane>& all, bool quiet) {
   for (const std::string& refusal : refusals) report_warning(refusal, quiet);
 }
 
-/// Words for the columns of angles.
+/// Replacements of @KEY@ for the columns of angles.
 Values angle_words(bool continuous) {
   if (continuous) return {{"unit", "rad/s"}, {"angle", "angular frequency of the root pair"}};
   return {{"unit", "rad"}, {"angle", "angle of the root on the unit circle"}};
@@ -180,7 +179,7 @@ void write_boundary(const JobContext& context, const Interval<double>& gains, bo
   table.commit();
 }
 
-/// Tangents, cusps, crossings and ends of the curves within the window.
+/// Writes tangents, cusps, crossings and ends of the curves within the window.
 void write_boundary_features(const JobContext& context, const GainWindow& window, bool continuous) {
   const Case& the_case = context.case_data;
   const auto features = precise_features(the_case, window, continuous);
@@ -196,8 +195,8 @@ void write_boundary_features(const JobContext& context, const GainWindow& window
   table.commit();
 }
 
-/// One row for every stable interval: of D at each P, then of P at each D. A gain at which nothing
-/// stabilises the loop is warned of, since its row is missing.
+/// Writes one row per stable interval: of D at each P, then of P at each D. Warns of a gain without
+/// a stable interval.
 void write_stable_intervals(const JobContext& context, const FixedGains& fixed, bool continuous) {
   const std::vector<GainPlane> all = answers(context.case_data, fixed, continuous);
   Table table(context, columns_of("stable intervals"));
@@ -211,7 +210,7 @@ void write_stable_intervals(const JobContext& context, const FixedGains& fixed, 
   table.commit();
 }
 
-/// One row for every region of the window, the stable ones first, the larger first.
+/// Writes one row per region of the window, stable and large ones first.
 void write_gain_regions(const JobContext& context, const GainWindow& window, bool continuous) {
   const auto regions = with_polynomial<double>(
       context.case_data, continuous,
@@ -246,7 +245,7 @@ struct BoundaryQuestion {
     p = shown_gains(context, "--p", p);
     d = shown_gains(context, "--d", d);
     if (prove)
-      throw WrongInput("--prove works only with --stable-interval and --family: give both");
+      throw WrongInput("--prove needs both --stable-interval and --family: add the missing option");
     if (stable_interval) {
       write_stable_intervals(context, fixed_gains(job, context.case_data), continuous);
     } else if (regions) {
@@ -254,7 +253,7 @@ struct BoundaryQuestion {
     } else if (features) {
       write_boundary_features(context, window(), continuous);
     } else if (job.has("--d")) {
-      throw WrongInput("--d works only with --stable-interval, --regions or --features");
+      throw WrongInput("--d needs --stable-interval, --regions or --features: add one of them");
     } else {
       write_boundary(context, proportional_range(), continuous);
     }
@@ -268,7 +267,7 @@ struct BoundaryQuestion {
     const Range range = parse_range("--d", d);
     return {proportional_range(), {range.min, range.max}};
   }
-  /// The gains of the options; the case's own where neither is given.
+  /// Gains of the options; the case's own gains where neither is given.
   FixedGains fixed_gains(const Job& job, const Case& the_case) const {
     const PdGains<double> own = gains_of(the_case);
     if (!job.has("--p") && !job.has("--d")) return {{own.proportional}, {own.differential}};

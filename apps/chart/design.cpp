@@ -23,20 +23,20 @@ constexpr Named<MinimumAmplitudeOutcome> amplitude_names[] = {
     {MinimumAmplitudeOutcome::none, "none"},
     {MinimumAmplitudeOutcome::aliased, "aliased"}};
 
-constexpr const char* ratios_shown = "ratios are relative to the force not held";
+constexpr const char* ratios_shown = "ratios refer to the vibration under the force not held";
 
 std::string no_gain_text(double proportional_gain, double largest_radius) {
   return "no D keeps the spectral radius below " + format_rounded(largest_radius) +
-         " at P = " + format_rounded(proportional_gain) + " N/m";
+         " at P = " + format_rounded(proportional_gain) + " N/m: change P";
 }
 
-/// Why a single row has no D of minimum amplitude.
+/// Warns why a single row has no D of least amplitude.
 void warn_of_no_gain(MinimumAmplitudeOutcome outcome, double proportional_gain,
                      double largest_radius, bool quiet) {
   if (outcome == MinimumAmplitudeOutcome::none)
     report_warning(std::isfinite(proportional_gain)
                        ? no_gain_text(proportional_gain, largest_radius)
-                       : "no P and D within the search have the required margin",
+                       : "no P and D have the required margin: give a smaller --margin",
                    quiet);
   if (outcome == MinimumAmplitudeOutcome::aliased)
     report_warning(
@@ -50,12 +50,12 @@ struct BestRow {
   double frequency, p;  // Hz, N/m
   MinimumAmplitude quietest;
   MinimumRadius fastest;
-  GainMargins margins;  // of the quietest
+  GainMargins margins;  // with the D of least amplitude
 };
 
-/// At each frequency, side by side on the threads.
-/// @param tuned  P to each frequency by Eq. 6, else that of the case
-/// @param both   P too is the best one
+/// Best gains at each frequency, computed on the threads.
+/// @param tuned  P tuned to each frequency by Eq. 6, else P of the case
+/// @param both   search P too
 std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions& options,
                                const Axis& axis, bool tuned, bool both) {
   const Case& the_case = context.case_data;
@@ -80,15 +80,15 @@ std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions
   return rows;
 }
 
-/// The best D at each frequency, P tuned to each by Eq. 6; without frequencies at the case's own
-/// frequency and P. With `both` the best P and D.
+/// Writes the best D at each frequency, with P tuned to each by Eq. 6; without frequencies at the
+/// case's frequency and P. With `both`, the best P and D.
 void write_best_gains(const JobContext& context, const std::optional<Axis>& frequencies,
                       const AmplitudeOptions& options, bool both) {
   const Case& the_case = context.case_data;
   const double own = excitation_of(the_case).frequency;
   const Axis axis = frequencies.value_or(Axis{own, own, 1});
   Table table(context, columns_of("best gains"));
-  double largest = 0.0;  // spectral radius of all
+  double largest = 0.0;  // largest spectral radius
   for (const auto& [frequency, p, quietest, fastest, margins] :
        best_rows(context, options, axis, frequencies.has_value(), both)) {
     if (!frequencies) {
@@ -111,7 +111,7 @@ void write_best_gains(const JobContext& context, const std::optional<Axis>& freq
   table.commit();
 }
 
-/// The one D whose largest amplitude over a band of frequencies (Hz) is least, at the case's P.
+/// Writes the one D that minimises the largest amplitude ratio over a band (Hz), at the case's P.
 void write_band_gain(const JobContext& context, const Range& band,
                      const AmplitudeOptions& options) {
   const Case& the_case = context.case_data;
@@ -124,9 +124,10 @@ void write_band_gain(const JobContext& context, const Range& band,
   report_warning(held_force_warning(the_case, options.sampling.period, band.max, ratios_shown),
                  context.quiet);
   if (answer.outcome == MinimaxOutcome::not_converged)
-    report_warning("the search stopped early: another D may lower the worst ratio to " +
-                       format_rounded(answer.lower_bound),
-                   context.quiet);
+    report_warning(
+        "the search stopped early: another D may have a lower worst_ratio, but not below " +
+            format_rounded(answer.lower_bound),
+        context.quiet);
   const GainMargins margins = gain_margins(loop, {p, answer.differential_gain});
   warn_of_edge(margins.spectral_radius, options.sampling.period, context.quiet);
   Table table(context, columns_of("band gain"));
@@ -157,9 +158,9 @@ struct DesignQuestion {
     const JobContext context = job.context();
     if (job.has("--family")) return serve_family(job, context);
     for (const char* of_family : {"--largest-ratio", "--schedule", "--prove", "--draws"})
-      if (job.has(of_family)) throw WrongInput(std::string(of_family) + ": add --family too");
+      if (job.has(of_family)) throw WrongInput(std::string(of_family) + ": give --family as well");
     if (both_gains && !band.empty())
-      throw WrongInput("--both-gains with --band works only with --family: add it");
+      throw WrongInput("--both-gains with --band needs --family: add --family");
     const AmplitudeOptions options =
         amplitude_options_of(context.case_data, largest_radius, margin);
     if (!band.empty()) return write_band_gain(context, parse_range("--band", band), options);
@@ -168,7 +169,7 @@ struct DesignQuestion {
     write_best_gains(context, frequencies, options, both_gains);
   }
 
-  /// The gains for the whole family over the band, or at the frequency of the case.
+  /// Writes gains for the whole family over the band, or at the frequency of the case.
   void serve_family(const Job& job, const JobContext& context) const {
     if (!frequency.empty()) throw WrongInput("--family works with --band, not with --frequency");
     Range range;

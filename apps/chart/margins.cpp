@@ -25,7 +25,7 @@ struct ProofWords {
   double stable_to;     // NaN where nothing is proved
 };
 
-/// Whole, but for a hundredth of the way to a loop that is proved unstable.
+/// Whether everything is proved but at most a hundredth of the way to a loop proved unstable.
 bool is_whole(const ProvedMarginEnd& proved, double value) {
   const double open = std::abs(proved.unstable_at - proved.stable_to);
   return proved.stop == ProofStop::at_end && !(open > 0.01 * std::abs(proved.unstable_at - value));
@@ -47,13 +47,13 @@ struct MarginsQuestion {
   void run(const JobContext& context) const;
 };
 
-/// The table, with what is proved if that was asked.
+/// Table of margins, with the columns of the proof if one was requested.
 class MarginsTable {
  public:
   MarginsTable(const JobContext& context, const std::optional<ProvedMargins>& proved)
       : table_(context, columns_of(proved ? "proved margins" : "margins")), proved_(proved) {}
 
-  /// The two ends of one quantity's stable stretch.
+  /// Writes the two ends of one quantity's stable range.
   void write(const char* quantity, const char* unit, double value, const TwoSidedMargin& margin,
              ProvedMargin ProvedMargins::*proved) {
     const ProvedMargin ends = proved_ ? (*proved_).*proved : ProvedMargin{};
@@ -116,7 +116,9 @@ void MarginsQuestion::run(const JobContext& context) const {
   table.write("processing_delay", "s", sampling.processing_delay, margins.processing_delay,
               &ProvedMargins::processing_delay);
   if (!table.is_proved())
-    report_warning("some ends are not proved: the column proof gives the reasons", context.quiet);
+    report_warning(
+        "some ends of the stable ranges are not proved: the column proof gives the reasons",
+        context.quiet);
   table.commit();
 }
 

@@ -27,20 +27,20 @@ struct MaxDelayQuestion {
   void run(const JobContext& context) {
     const Case& the_case = context.case_data;
     if (prove && criterion != "stable")
-      throw WrongInput("--prove works only for stability: give --criterion stable");
+      throw WrongInput("--prove proves only stability: give --criterion stable");
     if (prove) poles_ = proved_poles_of(the_case);
     const LinearLoop loop(the_case);
     answer(context, loop);
     if (loop.walks() && !prove)
       report_warning(
-          "the period was searched in steps of 3 % (short periods: up to 30 %) with the case's "
-          "plant: an unstable interval narrower than a step is missed",
+          "sampling_period was searched in steps of 3 % (short periods: up to 30 %): an unstable "
+          "interval narrower than a step may be missed",
           context.quiet);
   }
 
  private:
-  /// The periods that are proved: from the shortest of the search to a little beyond what was found
-  /// at most, or to a period of the excitation where that has no end.
+  /// Proved periods: from the shortest examined to slightly beyond the longest found, or to one
+  /// period of the excitation where there is no limit.
   Interval<double> proved_periods(const JobContext& context, const LinearLoop& loop,
                                   const MaxDelayOptions& question, double found) const {
     const double shortest = std::min(question.shortest_period, 1e-3 / question.frequency);
@@ -59,9 +59,8 @@ struct MaxDelayQuestion {
     for (const auto& [question, answer, proved] : answers_of(context, loop, axis)) {
       if (answer.outcome == MaxDelayOutcome::beyond_search)
         report_warning("at " + format_rounded(question.frequency) +
-                           " Hz the search found no limit up to a period of " +
-                           format_rounded(answer.sampling_period) +
-                           " s; longer periods were not examined",
+                           " Hz every sampling period is feasible up to the search's end, " +
+                           format_rounded(answer.sampling_period) + " s",
                        context.quiet);
       note(loop, question, answer, context);
       const bool has_proof = proved.upper >= proved.lower;
@@ -76,20 +75,20 @@ struct MaxDelayQuestion {
     table.commit();
     if (on_boundary_ > 0)
       report_warning(std::to_string(on_boundary_) + " of " + std::to_string(axis.count) +
-                         " D lie on the boundary of stability, so their periods are limits: take "
-                         "shorter periods, and let holdfast design find D with a margin",
+                         " values of differential_gain lie on the boundary of stability: take "
+                         "a shorter sampling period, and for it the D that holdfast design finds",
                      context.quiet);
     report_warning(held_force_, context.quiet);
   }
 
-  /// Question at one frequency, with its answer.
+  /// Question at one frequency and its answer.
   struct Answered {
     MaxDelayOptions question;
     MaxDelay answer;
-    Interval<double> proved;  // periods, where that was asked
+    Interval<double> proved;  // proved periods (s), with --prove
   };
 
-  /// At all frequencies, side by side on the threads.
+  /// Answers at all frequencies, computed on the threads.
   std::vector<Answered> answers_of(const JobContext& context, const LinearLoop& loop,
                                    const Axis& axis) const {
     std::vector<Answered> all(static_cast<std::size_t>(axis.count));
@@ -104,18 +103,19 @@ struct MaxDelayQuestion {
     return all;
   }
 
-  /// Notes where D is a limit, and where the hold of the force decides what is attenuated.
+  /// Counts D on the stability boundary; notes where the hold of the force affects the attenuation.
   void note(const LinearLoop& loop, const MaxDelayOptions& question, const MaxDelay& answer,
             const JobContext& context) {
     if (!(answer.sampling_period > 0.0 && std::isfinite(answer.sampling_period))) return;
     const PdGains<double> gains{question.proportional_gain, answer.differential_gain};
     if (loop.excess(question.sampling(answer.sampling_period), gains) > -1e-9) ++on_boundary_;
     if (question.criterion == DelayCriterion::attenuates && held_force_.empty())
-      held_force_ = held_force_warning(context.case_data, answer.sampling_period,
-                                       question.frequency, "attenuates against the force not held");
+      held_force_ = held_force_warning(
+          context.case_data, answer.sampling_period, question.frequency,
+          "--criterion attenuates compares with the vibration under the force not held");
   }
 
-  std::vector<EnclosedPole> poles_;  // of what is proved
+  std::vector<EnclosedPole> poles_;  // for the proofs; empty without --prove
   std::int64_t on_boundary_ = 0;
   std::string held_force_;
 };

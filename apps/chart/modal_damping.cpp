@@ -52,14 +52,15 @@ struct ModalDampingQuestion {
                          " to compute as many",
                      quiet);
     if (not_light > 0)
-      report_warning("damping_ratio_first_order holds only for light devices: for " +
-                         std::to_string(not_light) +
-                         " of the modes shown it errs by 50 % or more of the added damping",
-                     quiet);
+      report_warning(
+          "damping_ratio_first_order holds only for light devices, whose forces are small: for " +
+              std::to_string(not_light) +
+              " of the modes shown it errs by 50 % or more of the added damping",
+          quiet);
     if (lost > 0)
       report_warning(std::to_string(lost) +
-                         " mode(s) have damping nan: the search from the bare span to the full "
-                         "devices and gains lost them",
+                         " mode(s) have damping nan: their roots could not be followed while the "
+                         "devices and gains were increased from 0 to the values of the case",
                      quiet);
   }
 };

@@ -22,8 +22,10 @@ struct ResponseQuestion {
     const HarmonicExcitation<double> excitation = excitation_of(context.case_data);
     const auto response = LinearLoop(context.case_data).response(excitation.frequency);
     report_warning(
-        held_force_warning(context.case_data,
-                           "amplitudes are with the held force; ratios refer to a force not held"),
+        held_force_warning(
+            context.case_data,
+            "amplitude_m is computed with the held force, the ratios compare it with the "
+            "amplitude without control under the force not held"),
         context.quiet);
     const GainGrid grid{parse_axis("--p", shown_gains(context, "--p", p)),
                         parse_axis("--d", shown_gains(context, "--d", d))};

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// An answer as the table has it.
+/// Answer with its name and unit in the table.
 struct Answered {
   const char* name;
   const char* unit;
@@ -30,7 +30,7 @@ constexpr std::array<Answered, 9> answered = {{{"spectral_radius", ""},
                                                {"max_attenuating_period", "s"}}};
 using AnswerValues = std::array<double, answered.size()>;
 
-/// At the case's P; its δ/τ is kept.
+/// Largest sampling period at the case's P, with δ/τ kept.
 double longest_period(const Case& the_case, const LinearLoop& loop, DelayCriterion criterion) {
   MaxDelayOptions question = tuned_delay_question(the_case, excitation_of(the_case).frequency);
   question.proportional_gain = gains_of(the_case).proportional;
@@ -64,7 +64,7 @@ AnswerValues answers_of(const Case& the_case) {
   return values;
 }
 
-/// The keys that the plant and the loop of a case depend on.
+/// Keys of the case that its plant and loop depend on.
 std::vector<std::string> keys_of(const Case& the_case) {
   const bool own = has_own_plant(the_case), masses = is_two_masses(the_case);
   const bool conductor = !own && !masses, endless = is_infinite(the_case);
@@ -96,7 +96,7 @@ std::vector<std::string> keys_of(const Case& the_case) {
   return keys;
 }
 
-/// The case with a key moved, P being held, or following Eq. 6 where it is tuned.
+/// Case with a key changed; P is kept, or follows Eq. 6 where it is tuned.
 Case moved(const Case& the_case, const std::string& key, double value) {
   Case other = the_case;
   set_case_value(other, key, value);
@@ -105,7 +105,7 @@ Case moved(const Case& the_case, const std::string& key, double value) {
   return other;
 }
 
-/// The step of a key that is 0: a part of what would be felt.
+/// Step for a key with the value 0, from a size that would be noticeable.
 double unit_of(const Case& the_case, const std::string& key) {
   if (key == "control.processing_delay") return the_case.control.sampling_period;
   if (key == "absorber.clamp_mass") return 0.01;
@@ -153,7 +153,7 @@ AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerVa
   return result;
 }
 
-/// One row for every answer and parameter, ∂answer/∂parameter and ∂ ln|answer|/∂ ln|parameter|.
+/// Writes ∂answer/∂parameter and ∂ ln|answer|/∂ ln|parameter|, a row per answer and parameter.
 /// Answers that the case does not have (no stable gain, no largest period) have no rows.
 void write_sensitivity(const JobContext& context) {
   const Case& the_case = context.case_data;

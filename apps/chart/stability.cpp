@@ -26,7 +26,7 @@ LoopParameter parameter_of(const std::string& key) {
   throw WrongInput("stability of two masses does not depend on " + key + "; give one of " + known);
 }
 
-/// An axis whose two ends the key admits.
+/// Axis of a chart; throws WrongInput where the key does not admit an end.
 KeyAxis admissible_axis(const std::string& text) {
   KeyAxis axis = parse_key_axis("--axis", text);
   parameter_of(axis.key);
@@ -73,7 +73,7 @@ struct StabilityQuestion {
   }
   void run(const Job& job) const {
     const JobContext context = job.context();
-    if (undecided && !prove) throw WrongInput("--undecided needs a proved chart: give --prove");
+    if (undecided && !prove) throw WrongInput("--undecided works only with --prove: add --prove");
     if (prove && job.has("--family")) return prove_whole_family(job, context);
     if (prove) return prove_gains(context);
     axes.empty() ? run_over_gains(context) : run_over_axes(context);
@@ -103,11 +103,11 @@ void StabilityQuestion::run_over_gains(const JobContext& context) const {
   write_chart(context, {gain_axes(grid), columns()}, rows());
 }
 
-/// A sampling period on an axis takes the processing delay with it in proportion; a tuned P stays
-/// that of the case.
+/// Writes a chart over two keys. A sampling period on an axis changes the processing delay in
+/// proportion; a tuned P stays that of the case.
 void StabilityQuestion::run_over_axes(const JobContext& context) const {
   if (axes.size() != 2) {
-    throw WrongInput("--axis: a chart needs two axes, not " + std::to_string(axes.size()));
+    throw WrongInput("--axis: give two axes KEY=MIN:MAX:COUNT, not " + std::to_string(axes.size()));
   }
   const KeyAxis slow = admissible_axis(axes[0]), fast = admissible_axis(axes[1]);
   if (slow.key == fast.key) throw WrongInput("--axis: both axes are " + slow.key);
@@ -146,8 +146,8 @@ void StabilityQuestion::prove_whole_family(const Job& job, const JobContext& con
   for (const char* other : {"--p", "--d", "--continuous", "--undecided", "--draws"})
     if (job.has(other))
       throw WrongInput(std::string(other) +
-                       ": leave it out: --family --prove judges the sampled loop of each member at "
-                       "its gains; [uncertain] may give ranges of the gains");
+                       ": leave this option out: --family --prove proves the sampled loops of the "
+                       "family at the case's gains, or over ranges of gains in [uncertain]");
   if (context.case_data.uncertain.empty())
     family_members(context.case_data, 2);  // says what to give
   Table table(context, columns_of("proved family"));

@@ -26,7 +26,7 @@ struct CoverageQuestion {
   void run(const JobContext& context) const;
 };
 
-/// Given, or all that the motion sweeps in the second half of the shortest duration.
+/// Window as given, or the extent of the motion in the second half of the shortest duration.
 PhaseWindow window_of(const JobContext& context, const CoverageQuestion& options, double duration) {
   if (options.window) {
     const WindowOption given = parse_window("--window", *options.window);
@@ -37,7 +37,7 @@ PhaseWindow window_of(const JobContext& context, const CoverageQuestion& options
   CaseMotion motion(context.case_data, {options.switching});
   run_to_completion(motion, samples, {}, extent);
   if (!(extent.displacement() > 0) || !(extent.velocity() > 0)) {
-    throw NoAnswer("the motion stays at rest, so that it determines no window: give --window");
+    throw NoAnswer("the motion stays at rest, so it spans no default window: give --window");
   }
   return {-extent.displacement(), extent.displacement(), -extent.velocity(), extent.velocity()};
 }
@@ -46,7 +46,7 @@ std::vector<double> durations_of(const CoverageQuestion& options) {
   std::vector<double> durations = parse_list("--durations", options.durations);
   std::sort(durations.begin(), durations.end());
   if (durations.front() <= 0)
-    throw WrongInput("--durations " + options.durations + ": every duration must be > 0 s");
+    throw WrongInput("--durations " + options.durations + ": every duration must be above 0 s");
   return durations;
 }
 

@@ -50,7 +50,7 @@ struct DeviationQuestion {
     if (last >= std::abs(offset)) tell_why_apart(context, moving, last, trusted);
   }
 
-  /// Neighbours that have not come together in the duration: why, by the orbits they come to.
+  /// Warns why two neighbours have not come together within the duration, from their orbits.
   void tell_why_apart(const JobContext& context, const MovingLoop& moving, double last,
                       const TrustedDigits& trusted) const {
     const auto* first = std::get_if<SampledMasses>(&moving);

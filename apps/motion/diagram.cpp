@@ -12,7 +12,7 @@ namespace {
 std::vector<double> values_of(const Axis& axis, const std::string& text) {
   constexpr std::int64_t most_values = 1'000'000;
   if (axis.count > most_values)
-    throw WrongInput("--axis " + text + ": a diagram has at most " + std::to_string(most_values) +
+    throw WrongInput("--axis " + text + ": give at most " + std::to_string(most_values) +
                      " values");
   std::vector<double> values;
   values.reserve(static_cast<std::size_t>(axis.count));
@@ -32,7 +32,7 @@ struct DiagramQuestion {
     job.add("--switching", switching);
   }
 
-  /// Writes the points of the case's motions along a key. @return how many of them diverge
+  /// Writes the points of the case's motions along a key. @return number of diverging motions
   template <class Write>
   std::size_t run_diagram(const JobContext& context, const std::string& key,
                           const std::vector<double>& values, const DiagramOptions& options,
@@ -47,7 +47,7 @@ struct DiagramQuestion {
       if (is_of_masses(kind) != masses)
         throw WrongInput("--axis " + axis + ": some values give " +
                          modal_words(masses ? there : context.case_data) +
-                         ", the others two masses: give values of one kind");
+                         ", the others two masses: give a range with only one of these models");
     }
     report_warning(dense_work_warning(context.case_data, switching), context.quiet);
     const auto diagram_of = [&](const auto& moving_at) {

@@ -22,7 +22,7 @@ struct SectionQuestion {
   }
 
   void run(const JobContext& context) const {
-    if (from > duration) throw WrongInput("give a --from within --duration: no point is left");
+    if (from > duration) throw WrongInput("--from is after --duration: give an earlier --from");
     Table table(context, columns_of("section"));
     const std::int64_t before = samples_of(context.case_data, from) - 1;
     const std::int64_t samples = samples_of(context.case_data, duration) - 1;

@@ -34,15 +34,16 @@ struct SimulateQuestion {
 
   void run(const JobContext& context) const {
     const std::optional<Kick> kicked = parsed_kick();
-    if (from > duration) throw WrongInput("give a --from within --duration: no row is left");
+    if (from > duration) throw WrongInput("--from is after --duration: give an earlier --from");
     if (kicked) require_within_span("--kick", kicked->displacement, context.case_data);
-    if (kicked && kicked->time > duration) throw WrongInput("give a --kick within --duration");
+    if (kicked && kicked->time > duration)
+      throw WrongInput("the time of --kick is after --duration: give an earlier time");
     const std::int64_t samples = samples_of(context.case_data, duration);
     require_text_meant(context, samples_of(context.case_data, duration - from), "rows",
                        "a later --from or a shorter --duration leaves fewer");
     Table table(context, motion_columns(switching));
     table.expect(samples_of(context.case_data, duration - from));
-    if (elements && plant != "elements") throw WrongInput("--elements needs --plant elements");
+    if (elements && plant != "elements") throw WrongInput("--elements: add --plant elements too");
     if (plant == "elements") {
       write_elements(context, table, samples);
       table.commit();
@@ -65,7 +66,7 @@ struct SimulateQuestion {
     table.commit();
   }
 
-  /// On which side of its play the drive begins.
+  /// Notes the position of the drive in its play at the start.
   void note_first_contact(const Case& the_case, Table& table) const {
     if (no_control || the_case.backlash.width == 0.0) return;
     if (the_case.backlash.law == "none" || the_case.backlash.law == "dead_zone") return;
@@ -74,7 +75,7 @@ struct SimulateQuestion {
                "crosses the whole play");
   }
 
-  /// Rows of the nonlinear cable.
+  /// Writes the rows of the nonlinear cable.
   void write_elements(const JobContext& context, Table& table, std::int64_t samples) const {
     if (kick) throw WrongInput("--plant elements takes no --kick: leave --kick out");
     Progress progress(static_cast<std::uint64_t>(samples), "simulate, samples",

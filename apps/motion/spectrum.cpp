@@ -27,13 +27,13 @@ struct SpectrumQuestion {
   void run(const JobContext& context) const;
 };
 
-/// A motion's z1 without its transient.
+/// Record of z1 without the transient.
 struct SteadyRecord {
   std::vector<double> displacement;
-  TrustedDigits trusted;  // of the samples
+  TrustedDigits trusted;  // digits of the samples
 };
 
-/// z1 of the samples after the discarded time, cut to whole forcing and sampling periods.
+/// Record of z1 after the discarded time, cut to whole forcing and sampling periods.
 SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& options) {
   const double period = context.case_data.control.sampling_period;
   const double discard = options.discard.value_or(options.duration / 2.0);
@@ -71,7 +71,7 @@ SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& op
   return {record, with_rate(digits->result(), moving, samples)};
 }
 
-/// Warning where the second half of a record is not as large as its first.
+/// Warning that the two halves of a record differ in size; else empty.
 std::string unsettled_warning(const std::vector<double>& record) {
   const auto middle = record.begin() + static_cast<std::ptrdiff_t>(record.size() / 2);
   const auto root_mean_square = [](auto begin, auto end) {

@@ -12,7 +12,10 @@ struct ConvertQuestion {
 
   void run() {
     if (!file.empty()) {
-      if (!is_store_name(file)) require_output_name(file, false);
+      const std::filesystem::path name(file);
+      if (name.extension() != ".csv" && !is_netcdf_name(name))
+        throw WrongInput("convert: cannot write " + file +
+                         ": give a name that ends in .csv or .nc");
       context.output = file;
     }
     convert_store(context, store);
@@ -21,19 +24,16 @@ struct ConvertQuestion {
 
 }  // namespace
 
-/// It takes no case: the store has its own. A host gets the table where it gives no file.
+/// Adds the job convert. It takes no case; a host may leave the file out and get the table.
 void add_convert(CLI::App& program) {
   CLI::App* options = add_subcommand(program, "convert");
   const auto question = std::make_shared<ConvertQuestion>();
   options->add_option("IN", question->store, "A store that holdfast has written")
       ->type_name("STORE.zarr")
       ->required();
-  options->add_option("OUT", question->file, "File to be written: .csv, .nc or .zarr")
+  options->add_option("OUT", question->file, "File to be written: .csv or .nc")
       ->type_name("FILE")
       ->required(JobHost::current() == nullptr);
-  options->add_option("--zarr-format", question->context.zarr_format, "Zarr format: 2 or 3")
-      ->check(CLI::Range(2, 3))
-      ->capture_default_str();
   options->add_flag("--quiet", question->context.quiet, "Show no warnings");
   options->add_flag("--yes", question->context.yes,
                     "Allow a text table of more than ten million cells");

@@ -5,7 +5,7 @@
 namespace holdfast::program {
 namespace {
 
-/// The report of the loop is of absorber and computer alone.
+/// Refuses devices in a report on the control loop, which includes only the absorber.
 void require_no_devices(const Case& the_case) {
   if (the_case.devices.empty()) return;
   throw WrongInput(

@@ -29,12 +29,14 @@ struct AbsorptionQuestion {
     job.add("--no-control", no_control);
   }
 
-  /// The end that is asked for, or the one that has devices.
+  /// End of the span as requested, or the end with devices.
   SpanEnd chosen(const std::array<SpanEnd, 2>& ends) const {
     const bool right = end == "right" || (end.empty() && ends[0].devices.empty());
     if (!ends[right ? 1 : 0].devices.empty()) return ends[right ? 1 : 0];
-    throw WrongInput(end.empty() ? "no device is on the span: give [[device]] or an absorber"
-                                 : "--end " + end + ": no device is in that half of the span");
+    throw WrongInput(end.empty()
+                         ? "no device is on the span: give [[device]] or [absorber]"
+                         : "--end " + end +
+                               ": no device is in that half of the span; give the other end");
   }
 
   void run(const JobContext& context) const {

@@ -23,7 +23,7 @@ struct FatigueQuestion {
     const Case& the_case = context.case_data;
     if (by_temperature && the_case.weather.hours.empty())
       throw WrongInput(
-          "--by-temperature needs the hours a year of each temperature: give "
+          "--by-temperature needs the yearly hours of each temperature: give "
           "weather.temperatures and weather.hours, and [stringing]");
     const Range range = counted(the_case);
     require_measured(the_case, range.min, range.max);

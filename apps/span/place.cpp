@@ -12,7 +12,7 @@
 namespace holdfast::program {
 namespace {
 
-/// The number of a device that the user names, 0 for the absorber.
+/// Number of the device given by the user; 0 for the absorber.
 std::size_t device_named(const std::optional<std::string>& word, const Case& the_case) {
   const std::size_t count = the_case.devices.size();
   const bool absorber = word ? *word == "absorber" : count == 0;
@@ -20,7 +20,7 @@ std::size_t device_named(const std::optional<std::string>& word, const Case& the
     if (has_active_absorber(the_case)) return 0;
     throw WrongInput(word ? "--device absorber: the span has no absorber with a computer; give "
                             "[absorber], plant.absorber_mass or [control]"
-                          : "no device is on the span: give [[device]] or an absorber");
+                          : "no device is on the span: give [[device]] or [absorber]");
   }
   const std::string text = word.value_or("1");
   const std::optional<double> number = parse_number(text);
@@ -75,25 +75,25 @@ struct PlaceQuestion {
     question.moves_position = question.is_absorber() ? move.has_value() : !keep.has_value();
     question.margin = margin.value_or(question.margin);
     if (margin && !question.is_absorber())
-      throw WrongInput("--margin is only for the absorber's gains, and device " +
-                       std::to_string(question.device) + " has none");
+      throw WrongInput("--margin works only for the gains of --device absorber: device " +
+                       std::to_string(question.device) + " has none; leave --margin out");
     return question;
   }
 
   void run(const JobContext& context) const;
 };
 
-/// That another device sits at the place of the one that moves; empty where none does.
+/// Note that another device sits at the position of the varied one; else empty.
 std::string companion_note(const Case& the_case, std::size_t number) {
   if (number == 0) return "";
   for (std::size_t k = 0; k < the_case.devices.size(); ++k)
     if (k + 1 != number && the_case.devices[k].position == the_case.devices[number - 1].position)
-      return "device " + std::to_string(k + 1) + " sits at the same place as device " +
-             std::to_string(number) + " and is not moved: if both form one damper, move both";
+      return "device " + std::to_string(k + 1) + " is at the same position as device " +
+             std::to_string(number) + " and stays there: if both form one damper, move both";
   return "";
 }
 
-/// The goal without the absorber, to show its gain over the devices alone.
+/// Goal without the absorber, which shows its gain over the devices alone.
 double without_absorber(Case the_case, const PlacementQuestion& question) {
   the_case.plant.absorber_mass = 0.0;
   const PlacementLevels levels(the_case, question);

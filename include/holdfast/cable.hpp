@@ -1,6 +1,6 @@
 #pragma once
 
-/// The suspended cable: statics, elements, modes.
+/// Umbrella header for the suspended cable: static equilibrium, bar elements, natural modes.
 
 #include "holdfast/cable/bar_chain.hpp"
 #include "holdfast/cable/cable_place_modes.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Lyapunov exponents, chaos indicators, classification.
+/// Umbrella header for Lyapunov exponents, indicators of chaos and the classification of motions.
 
 #include "holdfast/chaos/block_spectrum.hpp"
 #include "holdfast/chaos/chaos_indicators.hpp"

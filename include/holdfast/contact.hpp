@@ -1,6 +1,6 @@
 #pragma once
 
-/// The drive's backlash: laws at samples and in continuous time.
+/// Umbrella header for the drive's backlash: contact laws at samples and in continuous time.
 
 #include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_guard.hpp"

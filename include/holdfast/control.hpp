@@ -1,6 +1,6 @@
 #pragma once
 
-/// The sampled-data loop: gains, hold, delay, quantisation, clock.
+/// Umbrella header for the sampled-data loop: gains, zero-order hold, delay, quantisation, clock.
 
 #include "holdfast/control/controlled_plant.hpp"
 #include "holdfast/control/controller.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Number types, axes, intervals and errors.
+/// Umbrella header for number types, SIMD lanes, axes, intervals and exceptions.
 
 #include "holdfast/core/axis.hpp"
 #include "holdfast/core/errors.hpp"

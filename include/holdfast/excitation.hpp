@@ -1,6 +1,6 @@
 #pragma once
 
-/// Forces on the conductor: harmonics, records, noise.
+/// Umbrella header for forces on the conductor: harmonic, recorded and random forces.
 
 #include "holdfast/excitation/band_limited_noise.hpp"
 #include "holdfast/excitation/force_over_samples.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The whole library except its optional adapters for Ceres, SUNDIALS and SIMD packs.
+/// Umbrella header for the whole library except its adapters for Ceres, SUNDIALS and SIMD packs.
 
 #include "holdfast/cable.hpp"
 #include "holdfast/chaos.hpp"

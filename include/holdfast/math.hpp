@@ -1,6 +1,6 @@
 #pragma once
 
-/// Linear algebra, polynomials, roots, enclosures, statistics and signals.
+/// Umbrella header for linear algebra, polynomials, roots, enclosures, statistics and signals.
 
 #include "holdfast/math/enclosure/complex_enclosure.hpp"
 #include "holdfast/math/enclosure/enclosed_angle.hpp"

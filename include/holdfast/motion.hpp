@@ -1,6 +1,6 @@
 #pragma once
 
-/// Motions of the loop: sampled map and event-driven flow.
+/// Umbrella header for motions of the loop, by the sampled map and by event-driven integration.
 
 #include "holdfast/motion/batch/event_pack.hpp"
 #include "holdfast/motion/batch/event_table.hpp"

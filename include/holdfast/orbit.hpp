@@ -1,6 +1,6 @@
 #pragma once
 
-/// Periodic orbits, their certificates, proofs and continuation.
+/// Umbrella header for periodic orbits: search, stability certificates, proofs and continuation.
 
 #include "holdfast/orbit/cyclic_system.hpp"
 #include "holdfast/orbit/event/event_motion_region.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Basins, sections, diagrams.
+/// Umbrella header for basins of attraction, Poincaré sections and orbit diagrams.
 
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "holdfast/phase_space/basins.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Linear plants: matrices, poles, modes and responses without control.
+/// Umbrella header for linear plants: matrices, poles, modes and responses without control.
 
 #include "holdfast/plant/affine_dynamics.hpp"
 #include "holdfast/plant/conductor_with_absorber.hpp"

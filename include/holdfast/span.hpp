@@ -1,6 +1,7 @@
 #pragma once
 
-/// Spans of lines and stays with their dampers: waves, damping, wind, bending and life.
+/// Umbrella header for spans of overhead lines and for stay cables, both with dampers: waves,
+/// damping, wind, fatigue life.
 
 #include "holdfast/span/device/active_absorber.hpp"
 #include "holdfast/span/device/dynamic_stiffness.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Characteristic polynomials, boundaries, charts, margins, designs, sensitivities.
+/// Umbrella header for linear stability: polynomials, boundaries, charts, margins, designs.
 
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"

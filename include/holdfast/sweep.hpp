@@ -1,6 +1,6 @@
 #pragma once
 
-/// Metrics of many motions, such as peaks and contact changes, for sweeps over parameters.
+/// Umbrella header for metrics of many motions, such as peaks and contact changes, in sweeps.
 
 #include "holdfast/sweep/event_metric_batch.hpp"
 #include "holdfast/sweep/event_metrics.hpp"

@@ -16,7 +16,7 @@ from ._errors import speaking_python, suggestion, words_of
 from ._progress import watch_of
 from ._store import Store, store_name
 from ._table import Table
-from ._typing import CellsHow, How, Interval, Path, Range, Switching
+from ._typing import How, Interval, Path, Range, Switching
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -56,9 +56,8 @@ class Case:
     :class:`Table` and takes besides its own the keywords ``threads`` (0: all), ``instructions``
     (``"baseline"``, ``"avx2"``, ``"avx512"``), ``progress`` (True: tqdm where it is installed, or a
     callable ``(done, total)``), ``output`` (a file of the program's instead; then nothing is returned)
-    and ``yes`` (gigabytes of rows are meant); those with ``store`` also ``zarr_format`` (2 or 3). Chart,
-    boundary, response, design, margins, max_delay and modal_damping take ``family`` (True: the worst over
-    ``[uncertain]``) and ``draws``. What holds for the program holds here: ``holdfast JOB --help`` explains
+    and ``yes`` (gigabytes of rows are meant). Chart, boundary, response, design, margins, max_delay and
+    modal_damping take ``family`` (True: the worst over ``[uncertain]``) and ``draws``. What holds for the program holds here: ``holdfast JOB --help`` explains
     each option further.
 
     :param source: a case file, a dict of its tables (nested or with dotted keys), another case; None:
@@ -210,7 +209,7 @@ class Case:
         """The tables of a job and its warnings."""
         how = dict(how)
         progress = how.pop("progress", None)
-        common = ("threads", "instructions", "output", "yes") + (("zarr_format",) if job in _JOBS_OF_CELLS else ())
+        common = ("threads", "instructions", "output", "yes")
         common += ("family", "draws") if job in _JOBS_OF_FAMILIES else ()
         given = {name: how.pop(name, None) for name in common}
         _refuse_unknown(how)
@@ -361,7 +360,7 @@ class Case:
         continuous: bool = False,
         axes: Optional[Mapping[str, Range]] = None,
         store: Optional[Path] = None,
-        **how: Unpack[CellsHow],
+        **how: Unpack[How],
     ) -> Union[Table, Store]:
         """Where the sampled loop without play is stable: all roots of det(lambda I - S(P, D)) = 0 within the
         unit circle. Columns ``stable`` (bool) and, with ``radius``, ``spectral_radius`` (largest modulus of a
@@ -488,7 +487,7 @@ class Case:
         d: Range = (-40.0, 20.0, 61),
         *,
         store: Optional[Path] = None,
-        **how: Unpack[CellsHow],
+        **how: Unpack[How],
     ) -> Union[Table, Store]:
         """Steady amplitude of the conductor over the gains, without play, in closed form. Columns ``stable``,
         ``amplitude_m`` and ``ratio_to_uncontrolled`` (below 1: control helps), of shape (P, D); NaN where
@@ -719,7 +718,7 @@ class Case:
         :param max_period: longest that is looked for, samples
         :param trace: its samples over one period instead, as of :meth:`simulate`
         :param certificate: all of its certificate instead: multipliers, distances to the switching surfaces,
-            radius of capture, the same orbit in extended precision
+            radius of attraction, the same orbit in extended precision
         :param prove: the theorem on it instead, for the decimals of the case: bounds of its multipliers and of the
             errors of its states, the widths of the backlash in which it is the loop's, a ball that it attracts
         :raises NoAnswer: the motion comes to no orbit of such a period
@@ -826,7 +825,7 @@ class Case:
         max_period: Optional[int] = None,
         switching: Optional[Switching] = None,
         store: Optional[Path] = None,
-        **how: Unpack[CellsHow],
+        **how: Unpack[How],
     ) -> Union[Table, Store]:
         """Which attractor each initial state of a grid comes to. Columns ``attractor, period_s`` over the two
         axes.
@@ -849,7 +848,7 @@ class Case:
         max_period: Optional[int] = None,
         switching: Optional[Switching] = None,
         store: Optional[Path] = None,
-        **how: Unpack[CellsHow],
+        **how: Unpack[How],
     ) -> Union[Table, Store]:
         """The periodic motions in the cells of a plane of two keys: what the case's initial state comes to, and how
         many coexist. Columns ``outcome, forcing_periods, period_s, amplitude_m, border_share, motions, …`` over the
@@ -899,7 +898,7 @@ class Case:
         resume: bool = False,
         part: Optional[tuple[int, int]] = None,
         chunk: Optional[int] = None,
-        **how: Unpack[CellsHow],
+        **how: Unpack[How],
     ) -> Union[Table, Store]:
         """Metrics of the motion over any number of axes, on all cores. A column for each metric, with a
         dimension for each axis.

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, Optional, Union
 from ._store import Store
 from ._table import Table
-from ._typing import CellsHow, How, Interval, Path, Range, Switching
+from ._typing import How, Interval, Path, Range, Switching
 
 class PlausibilityWarning(UserWarning):
     pass
@@ -112,15 +112,15 @@ class Case:
         ...
 
     @overload
-    def chart(self, p: Range=(-1000.0, 200.0, 121), d: Range=(-40.0, 20.0, 121), *, store: None=None, radius: bool=False, continuous: bool=False, axes: Optional[Mapping[str, Range]]=None, **how: Unpack[CellsHow]) -> Table:
+    def chart(self, p: Range=(-1000.0, 200.0, 121), d: Range=(-40.0, 20.0, 121), *, store: None=None, radius: bool=False, continuous: bool=False, axes: Optional[Mapping[str, Range]]=None, **how: Unpack[How]) -> Table:
         ...
 
     @overload
-    def chart(self, p: Range=(-1000.0, 200.0, 121), d: Range=(-40.0, 20.0, 121), *, store: Path, radius: bool=False, continuous: bool=False, axes: Optional[Mapping[str, Range]]=None, **how: Unpack[CellsHow]) -> Store:
+    def chart(self, p: Range=(-1000.0, 200.0, 121), d: Range=(-40.0, 20.0, 121), *, store: Path, radius: bool=False, continuous: bool=False, axes: Optional[Mapping[str, Range]]=None, **how: Unpack[How]) -> Store:
         ...
 
     @overload
-    def chart(self, p: Range=(-1000.0, 200.0, 121), d: Range=(-40.0, 20.0, 121), *, output: Path, store: None=None, radius: bool=False, continuous: bool=False, axes: Optional[Mapping[str, Range]]=None, **how: Unpack[CellsHow]) -> None:
+    def chart(self, p: Range=(-1000.0, 200.0, 121), d: Range=(-40.0, 20.0, 121), *, output: Path, store: None=None, radius: bool=False, continuous: bool=False, axes: Optional[Mapping[str, Range]]=None, **how: Unpack[How]) -> None:
         ...
 
     @overload
@@ -172,15 +172,15 @@ class Case:
         ...
 
     @overload
-    def response(self, p: Range=(-1000.0, 200.0, 61), d: Range=(-40.0, 20.0, 61), *, store: None=None, **how: Unpack[CellsHow]) -> Table:
+    def response(self, p: Range=(-1000.0, 200.0, 61), d: Range=(-40.0, 20.0, 61), *, store: None=None, **how: Unpack[How]) -> Table:
         ...
 
     @overload
-    def response(self, p: Range=(-1000.0, 200.0, 61), d: Range=(-40.0, 20.0, 61), *, store: Path, **how: Unpack[CellsHow]) -> Store:
+    def response(self, p: Range=(-1000.0, 200.0, 61), d: Range=(-40.0, 20.0, 61), *, store: Path, **how: Unpack[How]) -> Store:
         ...
 
     @overload
-    def response(self, p: Range=(-1000.0, 200.0, 61), d: Range=(-40.0, 20.0, 61), *, output: Path, store: None=None, **how: Unpack[CellsHow]) -> None:
+    def response(self, p: Range=(-1000.0, 200.0, 61), d: Range=(-40.0, 20.0, 61), *, output: Path, store: None=None, **how: Unpack[How]) -> None:
         ...
 
     @overload
@@ -304,27 +304,27 @@ class Case:
         ...
 
     @overload
-    def basins(self, axes: Mapping[str, Range], *, store: None=None, fractions: bool=False, duration: Optional[float]=None, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[CellsHow]) -> Table:
+    def basins(self, axes: Mapping[str, Range], *, store: None=None, fractions: bool=False, duration: Optional[float]=None, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> Table:
         ...
 
     @overload
-    def basins(self, axes: Mapping[str, Range], *, store: Path, fractions: bool=False, duration: Optional[float]=None, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[CellsHow]) -> Store:
+    def basins(self, axes: Mapping[str, Range], *, store: Path, fractions: bool=False, duration: Optional[float]=None, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> Store:
         ...
 
     @overload
-    def basins(self, axes: Mapping[str, Range], *, output: Path, store: None=None, fractions: bool=False, duration: Optional[float]=None, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[CellsHow]) -> None:
+    def basins(self, axes: Mapping[str, Range], *, output: Path, store: None=None, fractions: bool=False, duration: Optional[float]=None, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> None:
         ...
 
     @overload
-    def motions(self, keys: Mapping[str, Range], *, store: None=None, starts: Optional[Mapping[str, Range]]=None, each: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[CellsHow]) -> Table:
+    def motions(self, keys: Mapping[str, Range], *, store: None=None, starts: Optional[Mapping[str, Range]]=None, each: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> Table:
         ...
 
     @overload
-    def motions(self, keys: Mapping[str, Range], *, store: Path, starts: Optional[Mapping[str, Range]]=None, each: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[CellsHow]) -> Store:
+    def motions(self, keys: Mapping[str, Range], *, store: Path, starts: Optional[Mapping[str, Range]]=None, each: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> Store:
         ...
 
     @overload
-    def motions(self, keys: Mapping[str, Range], *, output: Path, store: None=None, starts: Optional[Mapping[str, Range]]=None, each: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[CellsHow]) -> None:
+    def motions(self, keys: Mapping[str, Range], *, output: Path, store: None=None, starts: Optional[Mapping[str, Range]]=None, each: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> None:
         ...
 
     @overload
@@ -336,15 +336,15 @@ class Case:
         ...
 
     @overload
-    def sweep(self, axes: Mapping[str, Any], metrics: Sequence[str]=(), *, store: None=None, duration: Optional[float]=None, best_gain: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, client: Any=None, resume: bool=False, part: Optional[tuple[int, int]]=None, chunk: Optional[int]=None, **how: Unpack[CellsHow]) -> Table:
+    def sweep(self, axes: Mapping[str, Any], metrics: Sequence[str]=(), *, store: None=None, duration: Optional[float]=None, best_gain: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, client: Any=None, resume: bool=False, part: Optional[tuple[int, int]]=None, chunk: Optional[int]=None, **how: Unpack[How]) -> Table:
         ...
 
     @overload
-    def sweep(self, axes: Mapping[str, Any], metrics: Sequence[str]=(), *, store: Path, duration: Optional[float]=None, best_gain: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, client: Any=None, resume: bool=False, part: Optional[tuple[int, int]]=None, chunk: Optional[int]=None, **how: Unpack[CellsHow]) -> Store:
+    def sweep(self, axes: Mapping[str, Any], metrics: Sequence[str]=(), *, store: Path, duration: Optional[float]=None, best_gain: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, client: Any=None, resume: bool=False, part: Optional[tuple[int, int]]=None, chunk: Optional[int]=None, **how: Unpack[How]) -> Store:
         ...
 
     @overload
-    def sweep(self, axes: Mapping[str, Any], metrics: Sequence[str]=(), *, output: Path, store: None=None, duration: Optional[float]=None, best_gain: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, client: Any=None, resume: bool=False, part: Optional[tuple[int, int]]=None, chunk: Optional[int]=None, **how: Unpack[CellsHow]) -> None:
+    def sweep(self, axes: Mapping[str, Any], metrics: Sequence[str]=(), *, output: Path, store: None=None, duration: Optional[float]=None, best_gain: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, client: Any=None, resume: bool=False, part: Optional[tuple[int, int]]=None, chunk: Optional[int]=None, **how: Unpack[How]) -> None:
         ...
 
     @overload

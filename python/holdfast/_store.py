@@ -8,9 +8,8 @@ import json
 import math
 import os
 import pathlib
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Union
 
-from . import _options
 from ._typing import How, Path
 
 if TYPE_CHECKING:
@@ -39,21 +38,16 @@ class Store:
         self._description()
 
     def _attributes(self) -> dict[str, Any]:
-        for root, below in (("zarr.json", "attributes"), (".zattrs", None)):
-            try:
-                document = json.loads((self.path / root).read_text(encoding="utf-8"))
-                return document[below] if below else document
-            except (FileNotFoundError, NotADirectoryError):
-                continue
-            except (ValueError, KeyError, TypeError):
-                break
-        return {}
+        try:
+            return json.loads((self.path / "zarr.json").read_text(encoding="utf-8"))["attributes"]
+        except (FileNotFoundError, NotADirectoryError, ValueError, KeyError, TypeError):
+            return {}
 
     def _description(self) -> dict[str, Any]:
         """What holdfast itself needs of the store."""
         description = self._attributes().get("holdfast")
         if not isinstance(description, dict) or "chunk" not in description:
-            raise ValueError(f"{self.path} is not a store that holdfast has written")
+            raise ValueError(f"{self.path} is no Zarr 3 store that holdfast has written")
         return description
 
     @property
@@ -99,7 +93,7 @@ class Store:
             names = os.listdir(self.path / column)
         except FileNotFoundError:
             return 0
-        return sum(1 for name in names if name[0] == "c" or name[0].isdigit())
+        return sum(1 for name in names if name[0] == "c")
 
     @property
     def complete(self) -> bool:
@@ -128,9 +122,9 @@ class Store:
         table._job = self.job
         return table
 
-    def convert(self, file: Path, **how: Any) -> Optional[Store]:
+    def convert(self, file: Path, **how: Any) -> None:
         """As :func:`holdfast.convert`."""
-        return convert(self, file, **how)
+        convert(self, file, **how)
 
     def __fspath__(self) -> str:
         return str(self.path)
@@ -160,24 +154,18 @@ def open_store(path: Path) -> Store:
     return Store(path)
 
 
-def convert(
-    store: Union[Store, Path], file: Path, *, zarr_format: Optional[int] = None, yes: bool = False, progress: Any = None
-) -> Optional[Store]:
-    """Writes a complete store as a table or as another store.
+def convert(store: Union[Store, Path], file: Path, *, yes: bool = False, progress: Any = None) -> None:
+    """Writes a complete store as a table.
 
-    :param file: ``.csv``, ``.nc`` or ``.zarr``
-    :param zarr_format: of a ``.zarr``: 2 or 3
+    :param file: ``.csv`` or ``.nc``
     :param yes: a text of more than ten million cells is meant
-    :return: a new store; nothing for a table
     :raises FileNotFoundError: nothing lies at ``store``
     :raises holdfast.NoAnswer: chunks are missing or damaged; the message names the first one
     """
     from ._case import Case
 
     source = store if isinstance(store, Store) else open_store(store)
-    words = [os.fspath(source), os.fspath(file), *_options.arguments({"zarr_format": zarr_format})]
-    Case()._run("convert", words, {"yes": yes, "progress": progress})
-    return Store(file) if is_store_name(file) else None
+    Case()._run("convert", [os.fspath(source), os.fspath(file)], {"yes": yes, "progress": progress})
 
 
 def is_store_name(path: Path) -> bool:

@@ -26,9 +26,3 @@ class How(TypedDict, total=False):
     yes: bool
     family: bool
     draws: int
-
-
-class CellsHow(How, total=False):
-    """Those of a job whose cells a store can hold."""
-
-    zarr_format: Literal[2, 3]

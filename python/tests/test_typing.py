@@ -64,7 +64,7 @@ def test_words_of_options_are_those_of_the_program():
     texts = job_texts()
     shared = {name: about["words"] for name, about in texts["options"].items() if "words" in about}
     every = {name.lstrip("-").replace("-", "_") for name in texts["options"]}
-    how = set(_typing.How.__annotations__) | set(_typing.CellsHow.__annotations__)
+    how = set(_typing.How.__annotations__)
     assert how <= every and all(word in str(_typing.How.__annotations__["instructions"]) for word in shared["--instructions"])
     aliases = {"Switching": typing.get_args(_typing.Switching)}
     assert list(aliases["Switching"]) == shared["--switching"]

@@ -13,7 +13,7 @@ namespace holdfast::program {
 
 namespace {
 
-/// Whether the user gave one of the keys of the absorber or its computer.
+/// Whether the user gave a key of the absorber or its computer.
 bool speaks_of_absorber(const Case& the_case) {
   const auto& places = the_case.places;
   return std::any_of(places.begin(), places.end(), [](const auto& place) {
@@ -116,7 +116,8 @@ std::string wind_warning(const Case& the_case) {
   if (!the_case.wind || !(the_case.conductor.sag > 0.0)) return {};
   const double frequency = effective_excitation(the_case).frequency;
   if (frequency >= 3.0 && frequency <= 150.0) return {};
-  const std::string found = "the wind sheds vortices at " + format_number(frequency) +
+  const std::string found = "wind.speed and wind.diameter give vortices at " +
+                            format_number(frequency) +
                             " Hz, outside the 3 to 150 Hz of aeolian vibration: ";
   // First mode of the taut string as long and tight as the span: sqrt(H/m)/(2 L), H = m g L²/(8 f).
   const double first_mode = std::sqrt(the_case.conductor.gravity / (32.0 * the_case.conductor.sag));

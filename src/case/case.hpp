@@ -17,15 +17,15 @@ namespace holdfast::program {
 struct ImpedanceTable;
 struct OwnParts;
 
-/// The tables of a case file, one struct each; the members bear the names of the keys. Units,
-/// admissible ranges and meaning of each are in case_keys().
+/// The tables of a case file, one struct each. Members are named as the keys; case_keys() has their
+/// units, admissible ranges and meanings.
 namespace case_tables {
 
-/// A number that nobody gave and nothing stands in for; its users ask for it: needed.hpp.
+/// Value of a number that is neither given nor has a default: require_keys() reports it.
 inline constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 
 struct Conductor {
-  std::string name;  // of the library; "": none
+  std::string name;  // name in the conductor library; "": none
   double mass_per_length = absent;
   double span = absent;
   double sag = absent;
@@ -33,37 +33,37 @@ struct Conductor {
   double youngs_modulus = absent;
   double damping_ratio = absent;
   double gravity = 9.81;
-  double tension = std::numeric_limits<double>::infinity();  // infinity: "sag", what that leaves
+  double tension = std::numeric_limits<double>::infinity();  // infinity: "sag", computed from it
   double bending_stiffness = 0.0;
-  // Infinity: "unknown".
+  // Infinity in each of the next six numbers: "unknown".
   double diameter = std::numeric_limits<double>::infinity();
   double rated_strength = std::numeric_limits<double>::infinity();
   double outer_wire_diameter = std::numeric_limits<double>::infinity();
   double outer_wire_modulus = std::numeric_limits<double>::infinity();
   double layers = std::numeric_limits<double>::infinity();  // whole
   double thermal_expansion = std::numeric_limits<double>::infinity();
-  std::string damping = "chosen";  // by the plant: ratio of the string, Rayleigh's of the cable
+  std::string damping = "chosen";  // "chosen": a ratio for the string, Rayleigh for the cable
   std::array<double, 2> rayleigh_frequencies{2.0, 7.0};  // Hz
 };
 
-/// How the span was strung, which its tension at other temperatures follows from.
+/// Temperature and tension or sag of stringing, from which the tension in other weather follows.
 struct Stringing {
   double temperature = absent;  // °C
   double tension = absent;      // horizontal
-  double sag = absent;          // or its sag
+  double sag = absent;          // alternative to the tension
   std::string state = "final";
-  double ruling_span = std::numeric_limits<double>::infinity();  // infinity: "span"
+  double ruling_span = std::numeric_limits<double>::infinity();  // infinity: "span", its own
 };
 
-/// The weather that a strung span meets.
+/// Temperatures, ice and wind of a strung span.
 struct Weather {
   double temperature = std::numeric_limits<double>::infinity();  // °C; infinity: "stringing"
-  std::vector<double> temperatures;                              // °C, of a year
-  std::vector<double> hours;                                     // a year, at each
-  double ice = 0.0;                                              // radial
+  std::vector<double> temperatures;                              // °C, over a year
+  std::vector<double> hours;                                     // per year, at each
+  double ice = 0.0;                                              // radial thickness
   double ice_density = 900.0;
   double wind_pressure = 0.0;
-  double load_temperature = 0.0;  // °C, at which ice and that wind come
+  double load_temperature = 0.0;  // °C, under ice and wind
 };
 
 struct Absorber {
@@ -93,7 +93,7 @@ struct Plant {
 };
 
 struct Control {
-  double proportional_gain = 0.0;  // not in force while tuned: ask resolved_proportional_gain()
+  double proportional_gain = 0.0;  // unused while tuned, see resolved_proportional_gain()
   bool proportional_gain_tuned = false;
   double differential_gain = 0.0;
   double sampling_period = absent;
@@ -105,7 +105,7 @@ struct Control {
   double measurement_filter = std::numeric_limits<double>::infinity();  // Hz; infinity: "none"
   double drive_bandwidth = std::numeric_limits<double>::infinity();     // Hz; infinity: "none"
   double drive_damping = std::numeric_limits<double>::infinity();       // infinity: "first_order"
-  double jitter = 0.0;                                                  // half width
+  double jitter = 0.0;                                                  // largest deviation
   double jitter_seed = 1.0;                                             // whole
 };
 
@@ -121,7 +121,7 @@ struct Excitation {
   double frequency = absent;  // Hz
   std::string hold = "sampled";
   std::vector<std::array<double, 3>> harmonics;  // amplitude (N), frequency (Hz), phase (rad)
-  std::string record;                            // a file, seen from the working folder; "": none
+  std::string record;                            // file, relative to the working folder; "": none
   std::string record_interpolation = "linear";
   double noise_rms = 0.0;
   double noise_lowest = 1.0;    // Hz
@@ -139,39 +139,39 @@ struct Wind {
   double air_density = 1.225;
 };
 
-/// A passive device clamped on the conductor. What of it counts, its kind says: device_keys.hpp.
+/// A passive device clamped to the conductor. Its kind decides which members are used.
 struct Device {
   std::string kind;
-  double position = 0.0;            // from the left support
-  std::string to = "ground";        // what it pushes against, the ground or a mass that it carries
+  double position = 0.0;            // m from the left support
+  std::string to = "ground";        // body that it acts against: ground, or a mass on the conductor
   double damping = 0.0;             // N s/m
-  double stiffness = 0.0;           // N/m; below 0 of a stiffness alone
+  double stiffness = 0.0;           // N/m; below 0 only for kind "stiffness"
   double inertance = 0.0;           // kg
-  double mass = 0.0;                // kg, what hangs below; of a stockbridge its weights together
+  double mass = 0.0;                // kg, hung mass; of a stockbridge the sum of its weights
   double clamp_mass = 0.0;          // kg, moves with the conductor
-  std::vector<double> frequencies;  // Hz; empty: a tuned mass has a stiffness
-  std::vector<double> damping_ratios;  // of each; empty: a tuned mass has a damping
-  double mass_share = 0.5;             // of a stockbridge: what swings at the first frequency
-  std::string file;                    // measured: seen from the working folder
+  std::vector<double> frequencies;  // Hz; empty: `stiffness` is used
+  std::vector<double> damping_ratios;  // of each frequency; empty: `damping` is used
+  double mass_share = 0.5;             // of a stockbridge: share swinging at its first frequency
+  std::string file;                    // of a measured device, relative to the working folder
 
-  // Table of the file; null of every other kind. CaseSource::attach_record() reads it.
+  // Impedance table of `file`, read by CaseSource::attach_record(); null: not measured.
   std::shared_ptr<const ImpedanceTable> table;
 };
 
-/// A range that a number of the case is uncertain in.
+/// Uncertainty of a number of the case.
 struct Uncertain {
   enum class Form { interval, relative, absolute };
 
   std::string key;  // "conductor.tension"
   Form form;
-  double below;  // lowest end; or how much less, of the value or in the key's unit
-  double above;
+  double below;  // interval: lowest value; else the decrease, relative or in the key's unit
+  double above;  // interval: highest value; else the increase
 };
 
-/// The wind where the line stands, over a year.
+/// Yearly wind statistics at the site of the line.
 struct Site {
-  std::vector<double> speeds;  // m/s, ascending; empty: by Weibull's law, or not known
-  std::vector<double> hours;   // a year, at each
+  std::vector<double> speeds;  // m/s, ascending; empty: Weibull's law, or unknown
+  std::vector<double> hours;   // per year, at each
   double weibull_scale = std::numeric_limits<double>::infinity();  // m/s; infinity: "none"
   double weibull_shape = 2.0;
   double turbulence_intensity = 0.0;
@@ -187,7 +187,7 @@ struct Initial {
 
 }  // namespace case_tables
 
-/// Everything that a case file says, in SI units. load_case() makes one that is checked.
+/// Content of a case file, in the units of case_keys(). load_case() returns a checked case.
 struct Case {
   case_tables::Conductor conductor;
   case_tables::Stringing stringing;
@@ -197,7 +197,7 @@ struct Case {
   case_tables::Plant plant;
   case_tables::Control control;
   case_tables::Backlash backlash;
-  // With wind, its amplitude and frequency do not count: ask effective_excitation().
+  // With [wind] its amplitude and frequency are replaced: see effective_excitation().
   case_tables::Excitation excitation;
   std::optional<case_tables::Wind> wind;
   std::vector<case_tables::Device> devices;
@@ -205,73 +205,75 @@ struct Case {
   case_tables::Initial initial;
   std::vector<case_tables::Uncertain> uncertain;
 
-  // Record of excitation.record; null where it is "". CaseSource::attach_record() reads it.
+  // Force of the file excitation.record, read by CaseSource::attach_record(); null: no file.
   std::shared_ptr<const RecordedForce> force_record;
 
-  // Plant and controller of the user's own; null where there is neither. CaseSource hands it on.
+  // User-defined plant and controller; null: neither. CaseSource passes them to each case.
   std::shared_ptr<const OwnParts> own;
 
-  // Where the user gave a key: "plant.absorber_mass" -> "my.toml:12" or "--set plant....=0.2".
+  // Place of each given key: "plant.absorber_mass" -> "my.toml:12" or "--set plant.model=string".
   std::map<std::string, std::string> places;
   bool is_given(const std::string& key) const { return places.count(key) > 0; }
 
-  // The case file describes its own cable or plant: nothing of the built-in case is in it.
+  // Whether the case file describes its own cable or plant, so that no built-in value is used.
   bool stands_alone = false;
-  bool plant_given = false;      // the user gave a key of [plant] that the two masses depend on
-  bool conductor_given = false;  // or one of [conductor], [absorber] or [reduction]
-  // The frequencies of [reduction] are computed from the conductor: it is the user's, they are not.
+  // Whether the user gave a key of [plant] that the two masses depend on, and a key of [conductor],
+  // [absorber], [reduction], [stringing] or [weather].
+  bool plant_given = false;
+  bool conductor_given = false;
+  // Whether a frequency of [reduction] is computed from the conductor, not given.
   bool first_frequency_computed = false;
   bool second_frequency_computed = false;
 };
 
-/// Whether the case has an absorber with a computer on its span. A file of its own cable has one
-/// where it gives one. The built-in one counts beside [[device]] or a named conductor where the
-/// user says something of it: it is of another cable.
+/// Whether the span has an absorber with a computer. The built-in absorber belongs to another
+/// cable: with [[device]] or conductor.name it counts only if the user gives a key of [absorber],
+/// [control] or plant.absorber_*.
 bool has_active_absorber(const Case& the_case);
 
-/// Whether the plant is one of the user's own, in place of conductor and absorber.
+/// Whether a user-defined plant replaces conductor and absorber.
 bool has_own_plant(const Case& the_case);
 
-/// Whether the conductor is one mass.
+/// Whether plant.model is "two_masses" and no user-defined plant replaces it.
 bool is_two_masses(const Case& the_case);
 
-/// Whether the readings are filtered or the drive lags.
+/// Whether the case has a measurement filter or a drive of finite bandwidth.
 bool has_hardware(const Case& the_case);
 
-/// Whether an absorber hangs on the conductor; without one its devices are alone.
+/// Whether the plant has an absorber: plant.absorber_mass above 0, or a user-defined plant.
 bool has_absorber(const Case& the_case);
 
-/// Whether anything is said of how the span was strung.
+/// Whether [stringing] gives a temperature, a tension or a sag.
 bool has_stringing(const Case& the_case);
 
-/// Whether anything is said of the site.
+/// Whether a key of [site] differs from its default.
 bool has_site(const Case& the_case);
 
-/// The parts of a case that make its loop more than two masses and a computer, for a message.
+/// Names of the features that the plain loop of two masses lacks, for a message; "": none.
 std::string modal_words(const Case& the_case);
 
-/// Whether the conductor is a string without ends.
+/// Whether plant.model is "infinite_string", a string without ends.
 bool is_infinite(const Case& the_case);
 
-/// Whether that conductor is the hanging cable in elements, and not the taut string.
+/// Whether plant.model is "cable", a hanging cable of finite elements.
 bool is_cable(const Case& the_case);
 
-/// The force on the conductor: [excitation] as given, or with its amplitude and frequency made from
+/// The force on the conductor: [excitation] as given, or with amplitude and frequency computed from
 /// [wind]: frequency = strouhal·speed/diameter (Hz), amplitude = ½·air_density·speed²·diameter·
 /// effective_length·lift_coefficient (N).
 case_tables::Excitation effective_excitation(const Case& the_case);
 
-/// A wind for a case without one: it sheds vortices at the frequency of [excitation] from the
-/// conductor, or a strand of its area where its diameter is unknown, in step over one half-wave of
-/// that frequency.
+/// A wind whose vortices have the frequency of [excitation], for a case without [wind]. The
+/// diameter is the conductor's, if unknown that of a strand of its area; the effective length is
+/// half a wavelength, at most the span. Throws MissingKeys.
 case_tables::Wind wind_for(const Case& the_case);
 
-/// Why the wind's vortices are not those of aeolian vibration (3 to 150 Hz), in words for a
-/// warning; empty where they are, or there is no wind.
+/// A warning of vortices outside the 3 to 150 Hz of aeolian vibration, with the reason; empty
+/// within them, without [wind] or with an unknown sag.
 std::string wind_warning(const Case& the_case);
 
-/// The proportional gain in force (N/m): the number given, or for "tuned" Eq. 6,
-/// P = k2 − m2 ω², with ω = 2π·frequency of effective_excitation().
+/// The proportional gain P (N/m) that the loop uses: the number given, or for "tuned" by Eq. 6 of
+/// Kollár 2022, P = k2 − m2 ω², with ω = 2π·frequency of effective_excitation().
 double resolved_proportional_gain(const Case& the_case);
 
 }  // namespace holdfast::program

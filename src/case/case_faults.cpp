@@ -46,7 +46,7 @@ CaseFault jitter_fault(const Case& c) {
   if (2.0 * jitter + late <= period * (1.0 + rounding)) return {};
   return {{"control.jitter", "control.processing_delay", "control.sampling_period"},
           "twice " + said(c, "control.jitter") + " plus " +
-              (late < c.control.processing_delay ? "the fraction of a sample in " : "") +
+              (late < c.control.processing_delay ? "the fraction of a sampling period in " : "") +
               said(c, "control.processing_delay") + " must not exceed " +
               said(c, "control.sampling_period")};
 }
@@ -88,7 +88,7 @@ CaseFault absorber_fault(const Case& c) {
   if (is_two_masses(c))
     return {{"plant.absorber_mass", "plant.model"},
             "plant.absorber_mass = 0: plant.model = \"two_masses\" needs a second mass greater "
-            "than 0 kg; for a span without absorber set another plant.model"};
+            "than 0 kg; for a span without absorber set another plant.model, such as \"string\""};
   const auto& control = c.control;
   if (!control.proportional_gain_tuned && control.proportional_gain == 0.0 &&
       control.differential_gain == 0.0)
@@ -98,19 +98,19 @@ CaseFault absorber_fault(const Case& c) {
           "control.proportional_gain and control.differential_gain to 0"};
 }
 
-/// Fault of hours of a year, one for each of some values.
+/// Fault of the yearly hours that belong to a list of values.
 CaseFault hours_fault(const std::string& of, const std::vector<double>& values,
                       const std::string& key, const std::vector<double>& hours) {
   if (values.size() != hours.size())
     return {{key, of},
-            of + " has " + std::to_string(values.size()) + " numbers and " + key + " " +
-                std::to_string(hours.size()) + ": give one number of hours for each"};
+            of + " has " + std::to_string(values.size()) + " numbers, but " + key + " has " +
+                std::to_string(hours.size()) + ": give both the same number of values"};
   constexpr double most = 8784.0;
   const double all = std::accumulate(hours.begin(), hours.end(), 0.0);
   if (all <= most) return {};
   return {{key},
           key + " add up to " + format_rounded(all) + " h, but a year has " + format_number(most) +
-              " h at most"};
+              " h at most: lower them"};
 }
 
 CaseFault temperatures_fault(const Case& c) {
@@ -151,8 +151,8 @@ CaseFault reduction_fault(const Case& c) {
   const bool needs_extent = r.stiffness_reading != "tangent";
   if (needs_extent && !(r.reading_below + r.reading_above > 0.0)) {
     return {{"reduction.reading_below", "reduction.reading_above", "reduction.stiffness_reading"},
-            "reduction.reading_below and reduction.reading_above must not both be 0 for the "
-            "stiffness reading \"" +
+            "reduction.reading_below and reduction.reading_above must not both be 0 with "
+            "reduction.stiffness_reading = \"" +
                 r.stiffness_reading + "\""};
   }
   return {};
@@ -165,12 +165,14 @@ CaseFault force_fault(const Case& c) {
   if (c.wind && !fine) {
     return {{"wind.speed", "wind.diameter", "wind.effective_length", "wind.strouhal",
              "wind.lift_coefficient", "wind.air_density"},
-            "[wind] gives an excitation of " + format_number(force.amplitude) + " N at " +
-                format_number(force.frequency) + " Hz: make both finite and the frequency > 0"};
+            "[wind] gives a force of " + format_number(force.amplitude) + " N at " +
+                format_number(force.frequency) +
+                " Hz: make both finite and the frequency greater than 0 Hz"};
   }
   if (!std::isinf(resolved_proportional_gain(c))) return {};
   return {{"control.proportional_gain", "excitation.frequency", "plant.absorber_mass"},
-          "the gain of the paper's Eq. 6 overflows: lower the frequency or plant.absorber_mass"};
+          "control.proportional_gain = \"tuned\" overflows: lower the excitation frequency or "
+          "plant.absorber_mass"};
 }
 
 }  // namespace
@@ -192,7 +194,7 @@ CaseFault conductor_fault(const Case& the_case) {
                 " must be less than half of " + said(the_case, "conductor.span")};
   }
   const double strain = parabolic_tension_of(the_case) / (c.youngs_modulus * c.area);
-  // Below, the stretch of a bar of the continuous cable drowns in the round-off of its length.
+  // Below the least strain the stretch of a bar of the continuous cable is lost in round-off.
   constexpr double smallest_strain = 1e-10, largest_strain = 0.1;
   const std::vector<std::string> keys = {
       "conductor.youngs_modulus",  "conductor.area", "conductor.sag",
@@ -200,7 +202,7 @@ CaseFault conductor_fault(const Case& the_case) {
   if ((strain < smallest_strain || strain > largest_strain) && !is_half_borrowed(the_case, keys)) {
     return {keys, "the conductor's own weight would stretch it by " + format_rounded(strain) +
                       " of its length: the strain must be at least 1e-10 (less cannot be computed) "
-                      "and at most 0.1 (more breaks any cable)"};
+                      "and at most 0.1 (more breaks any cable); check [conductor]"};
   }
   return {};
 }
@@ -236,8 +238,8 @@ void check_case(const Case& the_case) {
 void require_within_span(const std::string& option, double displacement, const Case& the_case) {
   const double span = the_case.conductor.span;
   if (!(std::abs(displacement) >= span)) return;
-  throw WrongInput(option + ": a displacement of " + format_number(displacement) +
-                   " m is not less than the span, " + said(the_case, "conductor.span"));
+  throw WrongInput(option + ": the displacement, " + format_number(displacement) +
+                   " m, must be less than the span, " + said(the_case, "conductor.span"));
 }
 
 }  // namespace holdfast::program

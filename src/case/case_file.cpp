@@ -18,10 +18,10 @@
 namespace holdfast::program {
 namespace {
 
-/// Source of a value; a later layer goes over an earlier one.
+/// Source of a value. A later layer overrides an earlier one.
 enum class Layer { builtin, file, override };
 
-/// A value as it was given, and where, in the words of a message.
+/// A key that was given, with its place as a message quotes it.
 struct Given {
   std::string key;
   std::string place;  // "case.toml:3: control.width = 1" or "--set control.width=1"
@@ -53,7 +53,7 @@ std::string in_brackets(const std::string& table, bool is_list) {
   return is_list ? "[[" + table + "]]" : "[" + table + "]";
 }
 
-/// Whether a name, or its part before the dot, is nearly that of the devices.
+/// Whether a name, or its part before the dot, is "device" but for one edit at most.
 bool is_like_device(std::string_view name) {
   return edit_distance(name.substr(0, name.find('.')), device_table) <= 1;
 }
@@ -64,7 +64,7 @@ std::string unknown_table(const std::string& table, const std::string& place, bo
          (device ? "[[device]]" : in_brackets(nearest_case_table(table), false)) + "?";
 }
 
-/// Puts layers of values one over another and sees to it that each is fit.
+/// Reads the layers of a case in order and checks every value.
 class CaseReader {
  public:
   /// Begins with the built-in case.
@@ -95,7 +95,7 @@ class CaseReader {
   void check_faults() const;
 
   Case case_, builtin_;
-  std::filesystem::path folder_;  // of what is being read; empty: the working folder
+  std::filesystem::path folder_;  // of the file being read; empty: the working folder
   std::vector<Given> given_;
   std::string wind_place_;
   Layer wind_layer_ = Layer::builtin;
@@ -119,7 +119,7 @@ std::string no_device(const DeviceKeyName& name, std::size_t devices) {
 }
 
 void require_value(std::string_view value, const std::string& place) {
-  if (value.empty()) throw WrongInput(place + ": expected key=value");
+  if (value.empty()) throw WrongInput(place + ": expected key=value, but there is no value");
 }
 
 toml::table case_override(const std::string& name, std::string_view value,
@@ -130,12 +130,13 @@ toml::table case_override(const std::string& name, std::string_view value,
   return parse_override_value(*key, value, place);
 }
 
-/// A key of a device that is there, or the kind of one more.
+/// Parses an override of a key of an existing device, or of the kind of a new one.
 toml::table device_override(const std::string& text, std::string_view value,
                             const std::string& place, std::size_t devices) {
   const auto name = device_key_name(text);
   if (!name)
-    throw WrongInput(place + ": write the key of a device as device.NUMBER.KEY: device.1.damping");
+    throw WrongInput(place +
+                     ": write the key of a device as device.NUMBER.KEY, such as device.1.damping");
   const DeviceKey* key = find_device_key(name->key);
   if (key == nullptr) throw WrongInput(place + ": " + unknown_device_key(*name));
   const bool adds = name->number == devices + 1 && name->key == "kind";
@@ -144,7 +145,7 @@ toml::table device_override(const std::string& text, std::string_view value,
   return parse_override_value(*key, value, place);
 }
 
-/// Whether a table gives a key, and not the word that says that there is none.
+/// Whether a table gives a key a value other than "" or "sag", which mean none.
 bool gives(const toml::table& table, const char* key) {
   const toml::node* node = table.get(key);
   const auto word = node == nullptr ? std::nullopt : node->value_exact<std::string>();
@@ -164,7 +165,7 @@ bool describes_its_own(const toml::table& root) {
          });
 }
 
-/// Nothing built-in is left but constants of nature and methods.
+/// Discards all built-in values but constants of nature and methods.
 void CaseReader::stand_alone() {
   case_ = Case{};
   case_.stands_alone = true;
@@ -251,7 +252,8 @@ void CaseReader::set(const std::string& name, const toml::node& node, const std:
     set_value(*key, node, place);
   else
     throw WrongInput(place + ": " +
-                     (is_case_table(name) ? "must be a table, [" + name + "]" : unknown_key(name)));
+                     (is_case_table(name) ? "must be a table: write [" + name + "] above its keys"
+                                          : unknown_key(name)));
   given_.push_back({name, place, layer});
   if (layer == Layer::builtin) return;
   case_.places[name] = short_place(place);
@@ -299,18 +301,19 @@ void CaseReader::begin_wind(const std::string& place, Layer layer) {
   wind_layer_ = layer;
 }
 
-/// They are there before any of their values is set, in the order of the file.
+/// Adds the devices of the file, in its order, before any of their values is set.
 void CaseReader::begin_devices(const toml::node& list, const std::string& name, Layer layer) {
   const auto place = [&](const toml::node& node) {
     return name + ":" + std::to_string(line_of(node)) + ": ";
   };
   const toml::array* devices = list.as_array();
   if (devices == nullptr)
-    throw WrongInput(place(list) + "device must be a list of tables: write [[device]] before each");
+    throw WrongInput(place(list) +
+                     "device must be a list of tables: write [[device]] before each device");
   for (const toml::node& device : *devices) {
     if (!device.is_table())
       throw WrongInput(place(device) + "device = " + value_text(device) +
-                       ": must be a list of tables: write [[device]] before each");
+                       ": must be a list of tables: write [[device]] before each device");
     begin_device(place(device) + "[[device]]", layer);
   }
 }
@@ -327,8 +330,8 @@ const Given* CaseReader::last_given(const std::vector<std::string>& keys) const 
   return found == given_.rend() ? nullptr : &*found;
 }
 
-/// The last override among the keys of a fault, else the first of them that the file gives: in a
-/// file the order of the lines says nothing.
+/// The last override among the keys of a fault, else the first of the keys that the file gives: the
+/// order of its lines has no meaning.
 const Given* CaseReader::blamed(const std::vector<std::string>& keys) const {
   const Given* last = last_given(keys);
   if (last == nullptr || last->layer == Layer::override) return last;
@@ -339,7 +342,7 @@ const Given* CaseReader::blamed(const std::vector<std::string>& keys) const {
   return last;
 }
 
-/// Fills in the data of the named conductor that the user does not give, in whatever order.
+/// Fills in the data of the named conductor that the user does not give.
 void CaseReader::fill_from_library() {
   const LibraryConductor* conductor = find_conductor(case_.conductor.name);
   if (conductor == nullptr) return;
@@ -364,8 +367,8 @@ void CaseReader::check_wind() const {
                      "; must be " + key.admissible() +
                      "; holdfast case --init FILE --wind writes a complete [wind]");
   }
-  // An excitation below the layer that brought the wind is replaced; one beside it or above it
-  // would be passed over without a word.
+  // An excitation of a layer below that of [wind] is replaced. In the same or a higher layer it is
+  // refused, since it would be ignored silently.
   const Given* force = last_given({"excitation.amplitude", "excitation.frequency"});
   if (force == nullptr || force->layer < wind_layer_) return;
   throw WrongInput(force->place + ": [wind] replaces this key; remove this key or [wind] (" +
@@ -394,15 +397,15 @@ bool CaseReader::given_by_user(const std::string& key) const {
   return given != nullptr && given->layer != Layer::builtin;
 }
 
-/// Whether a case tells all that its natural frequencies depend on.
+/// Whether a case has all values on which its natural frequencies depend.
 bool can_have_frequencies(const Case& the_case) {
   const case_tables::Conductor& c = the_case.conductor;
   return std::isfinite(c.mass_per_length + c.span + c.sag + c.area + c.youngs_modulus +
                        the_case.absorber.position);
 }
 
-/// Settles keys of a case that stands alone by its others: the absorber's mass and that of the
-/// plant stand for each other, and devices are on a string.
+/// Completes a case without built-in values: a missing absorber.mass or plant.absorber_mass is
+/// taken from the other one, and devices select the string.
 void CaseReader::settle_own() {
   if (!case_.stands_alone) return;
   double &hung = case_.absorber.mass, &of_plant = case_.plant.absorber_mass;
@@ -411,8 +414,8 @@ void CaseReader::settle_own() {
   if (!case_.devices.empty() && !given_by_user("plant.model")) case_.plant.model = "string";
 }
 
-/// The built-in frequencies of [reduction] belong to the built-in conductor and the absorber's
-/// place on it; another one's are computed where they are not given.
+/// The built-in frequencies of [reduction] belong to the built-in conductor and absorber.position.
+/// For others they are computed unless given.
 void CaseReader::settle_frequencies() {
   const auto& keys = case_keys();
   const bool another = std::any_of(keys.begin(), keys.end(), [this](const CaseKey& key) {
@@ -435,7 +438,7 @@ void CaseReader::check_faults() const {
   const CaseFault fault = first_fault(case_);
   if (fault.message.empty()) return;
   const Given* last = last_given(fault.keys);
-  std::vector<std::string> suspects = fault.keys;  // an override goes before what it meets
+  std::vector<std::string> suspects = fault.keys;  // a last override is the only suspect
   if (last != nullptr && last->layer == Layer::override) suspects = {last->key};
   const UnitGuess guess = guessed_unit(case_, suspects, quantities_of_case());
   const Given* given = blamed(guess.keys.empty() ? fault.keys : guess.keys);

@@ -20,15 +20,15 @@ constexpr AdmissibleRange some_lines{1.0, 10000.0, false, false, true};
 constexpr AdmissibleRange some_modes{1.0, 1000.0, false, false, true};
 constexpr AdmissibleRange some_layers{1.0, 5.0, false, false, true};
 constexpr AdmissibleRange up_to_one{0.0, 1.0};
-constexpr AdmissibleRange wind_speeds{0.0, 150.0, true};  // the strongest gust on record had 113
+constexpr AdmissibleRange wind_speeds{0.0, 150.0, true};  // strongest gust on record: 113 m/s
 constexpr AdmissibleRange temperatures{-273.15, 1000.0, true};
 constexpr AdmissibleRange ruling_spans{1.0, 1e4};
 constexpr AdmissibleRange ices{0.0, 0.2};
 constexpr AdmissibleRange ice_densities{100.0, 1000.0};
-constexpr AdmissibleRange wind_pressures{0.0, 2e4};  // 180 m/s
+constexpr AdmissibleRange wind_pressures{0.0, 2e4};  // as of a wind of 180 m/s
 constexpr AdmissibleRange expansions{0.0, 1e-3};
 constexpr AdmissibleRange hours_of_year{0.0, 8784.0};
-/// Whole numbers that a double tells apart.
+/// Range of whole numbers that a double represents exactly.
 constexpr AdmissibleRange seed{0.0, 9007199254740992.0, false, false, true};
 
 template <class Table>
@@ -36,7 +36,7 @@ struct KeysOf : Table {};
 template <class Table>
 struct KeysOf<std::optional<Table>> : Table {};
 
-/// Where the member of a table lies in a case; null for [wind] where the case has none.
+/// Pointer to the member of a table of a case; null for [wind] in a case without it.
 template <auto Table, auto Member>
 ValuePlace where(Case& the_case) {
   auto& table = the_case.*Table;
@@ -66,7 +66,7 @@ CaseKey word(const char* name, Place place, Words words, const char* description
   return {{name, "", description, {}, std::move(words), ValueKind::word}, place};
 }
 
-/// A number that a word may stand for.
+/// A key that admits a number or one word.
 CaseKey or_word(const char* word, CaseKey key, bool* (*tuned)(Case&) = nullptr) {
   key.words = {word};
   key.tuned = tuned;
@@ -103,7 +103,7 @@ const std::vector<CaseKey> listed_keys = {
                           "mass_per_length gravity span^2 / (8 sag)")),
     beyond_two_masses(number(KEY(conductor, bending_stiffness), "N m2", bending_stiffnesses,
                              "bending stiffness EI of a string's modes; for a named conductor the "
-                             "least value, with wires that bend individually")),
+                             "least value, each wire bending individually")),
     beyond_two_masses(or_word("unknown", number(KEY(conductor, diameter), "m", positive,
                                                 "outside diameter; default: wind.diameter"))),
     beyond_two_masses(or_word("unknown", number(KEY(conductor, rated_strength), "N", positive,
@@ -120,20 +120,21 @@ const std::vector<CaseKey> listed_keys = {
                                   "relative growth of the length per kelvin; for a named conductor "
                                   "computed from its wires"))),
     beyond_two_masses(word(KEY(conductor, damping), {"chosen", "ratio", "rayleigh"},
-                           "damping of the modes: one ratio, or Rayleigh's law; \"chosen\": one "
-                           "ratio for a string, Rayleigh's law for a cable")),
+                           "damping of the modes: one ratio for all, or Rayleigh damping; "
+                           "\"chosen\": one ratio for a string, Rayleigh damping for a cable")),
     beyond_two_masses(key(ValueKind::interval, KEY(conductor, rayleigh_frequencies), "Hz", positive,
                           "the two frequencies at which Rayleigh damping equals damping_ratio")),
 
     number(KEY(stringing, temperature), "degC", temperatures,
-           "temperature of the conductor at which its tension or sag was read"),
+           "temperature of the conductor when its tension or sag was measured"),
     number(KEY(stringing, tension), "N", positive, "horizontal tension at stringing.temperature"),
     number(KEY(stringing, sag), "m", positive, "sag at mid-span at stringing.temperature"),
     word(KEY(stringing, state), {"final", "initial"},
-         "state of the conductor, both when read and now; \"final\": after creep and the heaviest "
+         "state of the conductor, when measured and now; \"final\": after creep and the heaviest "
          "load; \"initial\": new"),
-    or_word("span", number(KEY(stringing, ruling_span), "m", ruling_spans,
-                           "ruling span of a line with swinging insulators; it sets the tension")),
+    or_word("span",
+            number(KEY(stringing, ruling_span), "m", ruling_spans,
+                   "ruling span of a line with swinging insulators; it determines the tension")),
 
     or_word("stringing", number(KEY(weather, temperature), "degC", temperatures,
                                 "temperature of the conductor in every job; \"stringing\": "
@@ -159,9 +160,9 @@ const std::vector<CaseKey> listed_keys = {
                            "sideways with the cable")),
 
     number(KEY(reduction, first_frequency), "Hz", positive,
-           "desired lower natural frequency of the plant"),
+           "lower natural frequency that the reduced plant is to have"),
     number(KEY(reduction, second_frequency), "Hz", positive,
-           "desired higher natural frequency of the plant"),
+           "higher natural frequency that the reduced plant is to have"),
     word(KEY(reduction, stiffness_reading), {"tangent", "secant", "least_squares"},
          "fit of a straight line, with slope k1, to the static force over displacement"),
     number(KEY(reduction, reading_below), "m", not_negative,
@@ -169,7 +170,7 @@ const std::vector<CaseKey> listed_keys = {
     number(KEY(reduction, reading_above), "m", not_negative,
            "upper end of the fitted line, distance above the equilibrium"),
 
-    number(KEY(plant, conductor_mass), "kg", positive, "mass m1 that stands for the conductor"),
+    number(KEY(plant, conductor_mass), "kg", positive, "mass m1 that represents the conductor"),
     number(KEY(plant, conductor_stiffness), "N/m", positive, "stiffness k1 of the conductor"),
     number(KEY(plant, conductor_damping), "N s/m", not_negative, "damping c1 of the conductor"),
     number(KEY(plant, absorber_mass), "kg", not_negative,
@@ -221,7 +222,8 @@ const std::vector<CaseKey> listed_keys = {
                             "amplitude of the harmonic force on the conductor")),
     replaced_by_wind(number(KEY(excitation, frequency), "Hz", positive,
                             "frequency of the harmonic force on the conductor")),
-    word(KEY(excitation, hold), {"sampled", "exact"}, "force held over each sample, or exact"),
+    word(KEY(excitation, hold), {"sampled", "exact"},
+         "force held over each sample, or integrated exactly"),
     key(ValueKind::harmonics, KEY(excitation, harmonics), "", {},
         "[amplitude (N), frequency (Hz), phase (rad)] of each additional harmonic"),
     key(ValueKind::file, KEY(excitation, record), "", {},

@@ -22,10 +22,10 @@ std::string harmonics_in_words() {
     parts +=
         (parts.empty() ? "" : ", ") + std::string(part.name) + " " + part.range.in_words(part.unit);
   }
-  return "[[amplitude, frequency, phase], ...]: " + parts + " (may be left out)";
+  return "[[amplitude, frequency, phase], ...]: " + parts + " (the phase may be left out)";
 }
 
-/// Symbols of the equations and other words that a key goes by.
+/// A symbol of the equations or another word for a key.
 struct OtherName {
   std::string_view word;
   std::string_view key;
@@ -66,7 +66,7 @@ std::string_view after_table(std::string_view name) {
   return dot == std::string_view::npos ? name : name.substr(dot + 1);
 }
 
-/// The key that goes by another name; null where none does.
+/// The key that a symbol or another word stands for; null if there is none.
 const CaseKey* key_by_other_name(std::string_view name) {
   std::string word(after_table(name));
   std::transform(word.begin(), word.end(), word.begin(),
@@ -77,7 +77,7 @@ const CaseKey* key_by_other_name(std::string_view name) {
 }
 
 std::size_t distance_to(std::string_view name, const CaseKey& key) {
-  // A key given without its table, or in the wrong one, is near as well.
+  // A key without its table, or in the wrong table, is also similar.
   const std::size_t dot = name.rfind('.');
   const std::string_view last = after_table(name);
   const std::size_t elsewhere = dot == std::string_view::npos ? 1 : 2;
@@ -88,7 +88,7 @@ const CaseKey& number_key_named(std::string_view name) {
   const CaseKey* key = find_case_key(name);
   if (key == nullptr) throw WrongInput(std::string(name) + ": " + unknown_key(name));
   if (!key->is_number()) {
-    throw WrongInput(key->name + " is not a number but " +
+    throw WrongInput(key->name + ": give a key with a number; the value of this key is " +
                      (key->kind == ValueKind::word ? "a word: " : "") + key->admissible());
   }
   return *key;
@@ -187,7 +187,8 @@ void require_in_force(const Case& the_case, const CaseKey& key) {
   if (key.table() == "wind" && !the_case.wind)
     throw WrongInput(key.name + ": the case has no [wind]; add this table");
   if (key.replaced_by_wind && the_case.wind)
-    throw WrongInput(key.name + ": the case has [wind], which replaces this key");
+    throw WrongInput(key.name +
+                     ": [wind] replaces this key; use a key of [wind], or remove [wind]");
 }
 
 void require_admissible(const std::string& option, std::string_view key, double min, double max) {

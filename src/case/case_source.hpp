@@ -10,35 +10,33 @@
 
 namespace holdfast::program {
 
-/// Source of a case, to be read once more with further values.
+/// File text and overrides of a case, from which it can be loaded again with further overrides.
 struct CaseSource {
   std::optional<std::string> text;     // of the case file; none: the built-in case
   std::string name;                    // of that file, for messages
   std::vector<std::string> overrides;  // "control.sampling_period=0.002", in their order
 
-  std::shared_ptr<const RecordedForce> force_record;  // every case that is loaded gets it
+  std::shared_ptr<const RecordedForce> force_record;  // recorded force, passed to every loaded case
 
-  std::shared_ptr<const OwnParts> own;  // likewise
+  std::shared_ptr<const OwnParts> own;  // user-defined parts, passed to every loaded case
 
-  // The impedances of measured devices, by their files.
+  // Impedance tables of measured devices, by file name.
   std::map<std::string, std::shared_ptr<const ImpedanceTable>> tables;
 
-  /// Reads the recorded force that the case names, if it names one, and the impedances of its
-  /// measured devices, for it and for those to be loaded. Throws what read_force_record() and
-  /// read_impedance_table() throw.
+  /// Reads excitation.record, if given, and the impedance tables of measured devices, for this case
+  /// and every case loaded later. Throws what read_force_record() and read_impedance_table() throw.
   void attach_record(Case& the_case);
 
-  /// The case with further overrides behind the others; its plant is not reduced yet.
-  /// Throws what load_case() throws, and for a measured device of another file what
-  /// read_impedance_table() throws.
+  /// Loads the case with further overrides after its own; the plant is not reduced yet. Throws what
+  /// load_case(), require_consistent() and, for a new impedance file, read_impedance_table() throw.
   Case load(const std::vector<std::string>& further = {}) const;
 
  private:
   void attach_tables(Case& the_case) const;
 };
 
-/// Doubt about a recorded force that begins after 0, has a gap or has rows hundreds of sampling
-/// periods apart, as where its time is in ms; empty of any other.
+/// Doubt about a recorded force that begins after 0, has a gap, or has rows more than 300 sampling
+/// periods apart (perhaps with times in ms); empty otherwise.
 std::string record_doubt(const Case& the_case);
 
 }  // namespace holdfast::program

@@ -10,7 +10,7 @@
 namespace holdfast::program {
 namespace {
 
-/// As TOML, a word in place of a number too.
+/// The value of a key as TOML, or its word in place of a number.
 std::string text_of_key(const CaseKey& key, Case& the_case) {
   return key.bears_word(the_case) ? toml_string(key.words.front())
                                   : toml_value(key, key.place(the_case));
@@ -21,18 +21,18 @@ nlohmann::ordered_json json_of_key(const CaseKey& key, Case& the_case) {
   return json_value(key, key.place(the_case));
 }
 
-/// Whether a key counts in the case: not [wind] without wind, not what wind replaces, and not
-/// [site] where nothing is said of it.
+/// Whether a key has a value and an effect in the case. A key of [wind] without wind, a key that
+/// [wind] or [stringing] replaces, and [site] without any given key have none.
 bool is_in_force(const CaseKey& key, const Case& the_case) {
   if (key.table() == "site") return has_site(the_case);
   if (key.table() == "stringing" || key.table() == "weather") {
     if (!has_stringing(the_case)) return false;
   } else if (has_stringing(the_case) &&
              (key.name == "conductor.tension" || key.name == "conductor.sag")) {
-    return false;  // they follow from it
+    return false;  // computed from [stringing]
   }
   if (is_absent(the_case, key)) return false;
-  // Keys that a plant of the user's own replaces are no part of the case.
+  // A user-defined plant replaces the keys of these tables.
   if (has_own_plant(the_case))
     for (const char* table : {"conductor", "absorber", "reduction", "plant", "initial"})
       if (key.table() == table) return false;
@@ -40,7 +40,7 @@ bool is_in_force(const CaseKey& key, const Case& the_case) {
   return !(key.replaced_by_wind && the_case.wind);
 }
 
-/// Comment on a table for a person who changes it; empty for most.
+/// Comment below the header of a table in a written case file; empty for most tables.
 std::string table_comment(const std::string& table) {
   if (table == "conductor")
     return "# Give name, from the library (holdfast conductors), or the conductor's data. Give sag "
@@ -50,8 +50,8 @@ std::string table_comment(const std::string& table) {
     return "# Values given here are used unchanged. Without them the plant is reduced from "
            "[conductor],\n# [absorber] and [reduction].\n";
   if (table == "reduction")
-    return "# Give the frequencies that you measured; those left out are computed for the "
-           "conductor. The\n# higher one should be near the frequency of the excitation.\n";
+    return "# Give the natural frequencies that you measured; those left out are computed for "
+           "the\n# conductor. The higher one should be near the frequency of the excitation.\n";
   if (table == "excitation")
     return "# In place of amplitude and frequency: a table [wind] with speed, diameter (of the\n"
            "# conductor) and effective_length.\n";
@@ -59,13 +59,13 @@ std::string table_comment(const std::string& table) {
 }
 
 constexpr const char* begun_head =
-    "#\n# Remove the # before a key to give the key; the value shown is used as long as the # "
-    "stands.\n# A file that gives conductor.name, mass_per_length, span, tension or sag, or every "
+    "#\n# Remove the # before a key to give the key; the value shown is used as long as the # is "
+    "there.\n# A file that gives conductor.name, mass_per_length, span, tension or sag, or every "
     "number of\n# [plant], describes a cable or plant of its own: then no value of the built-in "
     "case is used for keys\n# that are not given. Numbers are in the unit shown; or give another "
     "unit in quotes: \"28.2 kN\".\n";
 
-/// How a key stands in a case file to begin with: what was given as a value, the rest as a comment.
+/// Form of a key in a starting case file: a value if given, else a comment.
 enum class Standing { left_out, comment, value };
 
 Standing standing_of(const CaseKey& key, const Case& the_case, CaseForm form) {
@@ -80,7 +80,7 @@ Standing standing_of(const CaseKey& key, const Case& the_case, CaseForm form) {
   return is_given || of_new_wind ? Standing::value : Standing::comment;
 }
 
-/// A commented table [[device]] for each; empty for none.
+/// A commented table [[device]] for each device; empty without devices.
 std::string devices_to_toml(const std::vector<case_tables::Device>& devices) {
   std::string text;
   for (const case_tables::Device& device : devices) {
@@ -91,7 +91,7 @@ std::string devices_to_toml(const std::vector<case_tables::Device>& devices) {
   return text;
 }
 
-/// A JSON object for each.
+/// A JSON array with an object for each device.
 nlohmann::ordered_json devices_to_json(const std::vector<case_tables::Device>& devices) {
   auto list = nlohmann::ordered_json::array();
   for (case_tables::Device device : devices) {
@@ -103,7 +103,7 @@ nlohmann::ordered_json devices_to_json(const std::vector<case_tables::Device>& d
   return list;
 }
 
-/// The case, its keys standing as `standing` tells.
+/// The case as a file; `standing` decides the form of each key.
 template <class StandingOf>
 std::string written_case(Case the_case, const char* head, const StandingOf& standing) {
   std::string text = std::string("# A case of holdfast, SI units.\n") + head;

@@ -13,7 +13,7 @@
 
 namespace holdfast::program {
 
-/// Question to a job: everything that its result depends on, and how to show it.
+/// Input of a job: all that its result depends on, and the options of its output.
 struct JobContext {
   std::string job;      // "stability"
   std::string version;  // of the program that computed the numbers; empty: this one
@@ -22,14 +22,13 @@ struct JobContext {
   /// Options that the user gave and that shape the result, name and text: {"--p", "-600:0:41"}.
   std::vector<std::pair<std::string, std::string>> options;
   std::optional<std::filesystem::path> output;  // none or "-": standard output
-  std::vector<std::string> doubts;              // what of the case is not plausible, a line each
-  std::string plant_remark;                     // what is to be known of the reduced plant
-  std::vector<std::pair<std::string, std::string>> notes;  // of the numbers, for the metadata
+  std::vector<std::string> doubts;              // implausible values of the case, a line each
+  std::string plant_remark;                     // remark on the reduced plant; empty: none
+  std::vector<std::pair<std::string, std::string>> notes;  // name and text, for metadata
   bool quiet = false;
-  bool progress = false;  // even where standard error is no terminal
-  bool yes = false;       // a table as large as it becomes is meant
+  bool progress = false;  // show it even if standard error is no terminal
+  bool yes = false;       // write a table even if it is very large
   int threads = 0;        // 0: all
-  int zarr_format = 3;    // of a store, 2 or 3
   bool on_packs = false;  // the job computes on packs: its metadata name the instruction set
   InstructionSet instructions = InstructionSet::baseline;  // of the packs
 };
@@ -38,7 +37,7 @@ inline bool progress_wanted(const JobContext& context) {
   return progress_wanted(context.quiet, context.progress);
 }
 
-/// The version of the program that computed what is written.
+/// The version of the program that computed the written numbers.
 inline std::string computed_by(const JobContext& context) {
   return context.version.empty() ? HOLDFAST_VERSION : context.version;
 }

@@ -9,7 +9,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Another key that would do in the place of one.
+/// A key and an alternative to it.
 struct Instead {
   std::string_view key;
   const char* other;
@@ -44,7 +44,7 @@ bool is_absent(const Case& the_case, const CaseKey& key) {
 }
 
 void require_keys(const Case& the_case, const std::vector<std::string>& keys) {
-  // A tension that is given leaves a sag as soon as it is known what hangs.
+  // With a given tension, the sag follows from mass and span.
   const bool is_tight = std::isfinite(the_case.conductor.tension);
   std::vector<std::string> missing;
   const auto ask = [&](const std::string& name) {
@@ -64,7 +64,7 @@ void require_keys(const Case& the_case, const std::vector<std::string>& keys) {
   for (const std::string& name : missing) listed += (listed.empty() ? "" : ", ") + key_text(name);
   const bool is_named = std::any_of(missing.begin(), missing.end(), is_library_key);
   throw MissingKeys("the case does not give what the job needs: " + listed +
-                    (is_named ? "; conductor.name takes a conductor's data from the library" : ""));
+                    (is_named ? "; or give conductor.name to take data from the library" : ""));
 }
 
 double needed(const Case& the_case, std::string_view key) {

@@ -9,19 +9,19 @@
 
 namespace holdfast::program {
 
-/// Something is asked that needs keys which the case has not; the message names them.
+/// Error for keys that a job needs and the case does not give; the message names them.
 struct MissingKeys : WrongInput {
   using WrongInput::WrongInput;
 };
 
-/// Whether a key of a number has none: nobody gave it, and nothing stands in for it.
+/// Whether a numeric key has no value in the case: neither given nor a default.
 bool is_absent(const Case& the_case, const CaseKey& key);
 
-/// Throws MissingKeys where the case has no value for some of these keys of numbers, in one line:
-/// each of them with its unit, and what would do in its place.
+/// Throws MissingKeys if the case has no value of one of these numeric keys. The message, one line,
+/// names each missing key with its unit and an alternative key.
 void require_keys(const Case& the_case, const std::vector<std::string>& keys);
 
-/// The number of a key. Throws as above.
+/// The number of a key. Throws MissingKeys if the case has none.
 double needed(const Case& the_case, std::string_view key);
 
 }  // namespace holdfast::program

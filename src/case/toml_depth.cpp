@@ -7,7 +7,7 @@ namespace {
 
 constexpr int most_levels = 16;
 
-/// Takes characters off the front of a text and counts levels.
+/// Scans a TOML text and counts the nesting levels of brackets and keys.
 class LevelScanner {
  public:
   explicit LevelScanner(std::string_view text) : text_(text) {}
@@ -61,7 +61,7 @@ class LevelScanner {
     ++at_;
   }
 
-  /// One on a line ends with it at the latest; one over lines may end in two quotes of its own.
+  /// Skips a string. An unclosed one ends with the line; a multi-line one may end in five quotes.
   void pass_string() {
     const char quote = text_[at_];
     const std::string three(3, quote);
@@ -88,7 +88,7 @@ class LevelScanner {
   std::size_t at_ = 0;
   std::size_t line_ = 1;
   int brackets_ = 0;
-  int parts_ = 1;  // of a key
+  int parts_ = 1;  // of the current key: 2 for a.b
 };
 
 }  // namespace

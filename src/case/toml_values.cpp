@@ -47,7 +47,7 @@ bool has_decimal_comma(std::string_view text) {
   return false;
 }
 
-/// A line's value, without what follows a #.
+/// The value on a line of a file, without the comment after #.
 std::string_view value_of_line(std::string_view text, std::size_t line) {
   const auto lines = split(text, '\n');
   const std::string_view all = line >= 1 && line <= lines.size() ? lines[line - 1] : "";
@@ -56,19 +56,19 @@ std::string_view value_of_line(std::string_view text, std::size_t line) {
   return equals == std::string_view::npos ? "" : trimmed(uncommented.substr(equals + 1));
 }
 
-/// Guess at the mistake in a value that no TOML can be read from; empty where there is none.
+/// Guess at the mistake in a value that is not TOML; empty without a guess.
 std::string guess_of_value(std::string_view value) {
   if (value.empty() || value.front() == '[' || value.front() == '"') return "";
   if (has_decimal_comma(value)) return "; write a decimal point, not a comma: 0.5";
   const std::size_t blank = value.find_first_of(" \t");
   const bool number_first = parse_number(value.substr(0, blank)).has_value();
   if (number_first && blank != std::string_view::npos)
-    return "; write the number alone, in the unit that `holdfast case --check` shows, or with "
-           "another unit in quotes: \"28.2 kN\"";
+    return "; write the number alone, in the key's unit (`holdfast case --check` shows it), or "
+           "with another unit in quotes: \"28.2 kN\"";
   return "";
 }
 
-/// Hint behind a refusal: the nearest word, where a word was given and some are admissible.
+/// Hint of an error message: the admissible word nearest to a given word; else empty.
 std::string suggested_word(const std::vector<std::string>& words, const toml::node& node) {
   const auto word = node.value_exact<std::string>();
   if (!word || words.empty()) return "";
@@ -95,7 +95,7 @@ std::string read_word(const KeyForm& key, const toml::node& node, const std::str
 std::string read_file_name(const KeyForm& key, const toml::node& node, const std::string& place,
                            const std::filesystem::path& folder) {
   const auto name = node.value_exact<std::string>();
-  // The system's names of files end at a zero, and a case file is UTF-8.
+  // A file name of the system contains no zero byte, and a case file is UTF-8.
   const bool is_name = name && name->find('\0') == std::string::npos && is_utf8(*name);
   if (!is_name || (name->empty() && !key.may_be_none))
     throw WrongInput(place + ": must be " + key.admissible());
@@ -140,7 +140,7 @@ std::vector<double> read_numbers(const KeyForm& key, const toml::node& node,
   return values;
 }
 
-/// [amplitude, frequency, phase], of which the last may be left out; nothing where it is not that.
+/// A harmonic [amplitude, frequency, phase], the phase optional; none if the node is not one.
 std::optional<std::array<double, 3>> harmonic_of(const toml::node& node, const std::string& place) {
   const toml::array* numbers = node.as_array();
   const auto& parts = harmonic_parts();
@@ -171,7 +171,7 @@ std::vector<std::array<double, 3>> read_harmonics(const KeyForm& key, const toml
 
 std::string in_toml(const std::string& text) { return toml_string(text); }
 
-/// A float: digits alone would be an integer, of which TOML has only 64 bits.
+/// A number with a point or exponent, since a TOML integer has only 64 bits.
 std::string in_toml(double value) {
   std::string text = format_number(value);
   const bool whole = text.find_first_of(".e") == std::string::npos;

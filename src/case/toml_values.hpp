@@ -13,42 +13,41 @@
 
 namespace holdfast::program {
 
-/// Excess nesting of a text, deeper than in any case, and its line.
+/// Line and message of a nesting that is too deep in a TOML text.
 struct TomlExcess {
   std::size_t line = 0;
-  std::string message;  ///< "brackets are nested deeper than 16"
+  std::string message;  ///< "brackets are nested deeper than 16 levels"
 };
 
-/// Looks for brackets and keys (`a.b.c`) of more than 16 levels in a text that is to be read as
-/// TOML, without recursion: what reads it, and what takes its tables apart, recurses, and a small
-/// file could exhaust the stack. Strings and comments are passed over.
+/// The first bracket or key (`a.b.c`) of a TOML text nested deeper than 16 levels; none if there is
+/// none. Unlike this search, the parser of the text recurses, so that a small file could exhaust
+/// its stack. Strings and comments are skipped.
 std::optional<TomlExcess> toml_excess(std::string_view text);
 
-/// The tables of a case file. Throws WrongInput with file and line and, where there is a guess,
-/// what is probably wrong.
+/// Parses a case file. Throws WrongInput with file, line and, if guessed, the probable mistake.
 toml::table parse_case_text(std::string_view text, const std::string& name);
 
-/// The value of an override, under "value": TOML, or a word or a name without quotes.
-/// Throws WrongInput, which begins with the place.
+/// Parses the value of an override into a table with the key "value". Words and names need no
+/// quotes. Throws WrongInput, whose message begins with the place.
 toml::table parse_override_value(const KeyForm& key, std::string_view value,
                                  const std::string& place);
 
-/// A number, or a text of one with a unit, in the own unit; nothing where the node is neither, NaN
-/// where it is a number of some other kind. Throws WrongInput, which begins with the place and
-/// names the units that would do, for a unit of something else.
+/// A number in `unit`, from a TOML number or a text with a unit ("28.2 kN"). None if the node is
+/// neither; NaN if a double cannot represent the number. Throws WrongInput for a wrong unit; the
+/// message begins with the place and names the admissible units.
 std::optional<double> number_in(const toml::node& node, const std::string& unit,
                                 const std::string& place);
 
-/// Gives a key the value that a node holds; a relative name of a file is one to the folder. Throws
-/// WrongInput, which begins with the place, where that is not admissible.
+/// Sets a key to the value of a TOML node; a relative file name is relative to `folder`. Throws
+/// WrongInput, whose message begins with the place, if the value is not admissible.
 void read_value(const KeyForm& key, const ValuePlace& value, const toml::node& node,
                 const std::string& place, const std::filesystem::path& folder);
 
-/// A value as a file would have it.
+/// The value of a key as TOML, and as JSON.
 std::string toml_value(const KeyForm& key, const ValuePlace& value);
 nlohmann::ordered_json json_value(const KeyForm& key, const ValuePlace& value);
 
-/// As a file would have it, numbers with their shortest digits; the beginning where it is long.
+/// A TOML node as text, shortened to 60 characters; numbers have the fewest exact digits.
 std::string value_text(const toml::node& node);
 
 /// A TOML string: quotes, backslashes and control characters are escaped.

@@ -12,10 +12,10 @@
 namespace holdfast::program {
 namespace {
 
-/// The forms that a range may have.
+/// Admissible forms of a range, for messages.
 constexpr const char* forms = "[lowest, highest], \"± 5 %\" or \"± 0.001\"";
 
-/// The text behind a sign of "more or less"; nothing where there is none.
+/// The text after a leading ±, +- or +/-; none without such a sign.
 std::optional<std::string_view> behind_sign(std::string_view text) {
   for (const std::string_view sign : {"\u00b1", "+-", "+/-"})
     if (text.substr(0, sign.size()) == sign) return trimmed(text.substr(sign.size()));
@@ -28,7 +28,7 @@ case_tables::Uncertain read_uncertain(const std::string& key, const toml::node& 
                                       const std::string& place) {
   const CaseKey* known = find_case_key(key);
   if (known == nullptr) throw WrongInput(place + ": " + unknown_key(key));
-  if (!known->is_number()) throw WrongInput(place + ": only a number can be uncertain");
+  if (!known->is_number()) throw WrongInput(place + ": only a key with a number can be uncertain");
   const auto refuse = [&] { throw WrongInput(place + ": must be " + forms); };
   if (const toml::array* ends = node.as_array(); ends != nullptr && ends->size() == 2) {
     std::array<double, 2> value{};
@@ -49,8 +49,8 @@ case_tables::Uncertain read_uncertain(const std::string& key, const toml::node& 
             quantity->value / 100.0};
   const auto value = in_own_unit(*quantity, known->unit);
   if (!value)
-    throw WrongInput(place + ": " + quantity->unit + " is not a unit of this key: use %, " +
-                     units_in_words(known->unit));
+    throw WrongInput(place + ": " + quantity->unit + " is not a unit of this key: use %" +
+                     (known->unit.empty() ? "" : ", " + units_in_words(known->unit)));
   return {key, case_tables::Uncertain::Form::absolute, *value, *value};
 }
 
@@ -61,7 +61,7 @@ toml::table uncertain_override(std::string_view value, const std::string& place)
     return toml::parse("value = " + std::string(value));
   } catch (const toml::parse_error&) {
     throw WrongInput(place + ": must be " + forms +
-                     "; a unit stands in quotes: [\"1 ms\", \"2 ms\"]");
+                     "; write a number with a unit in quotes: [\"1 ms\", \"2 ms\"]");
   }
 }
 
@@ -73,7 +73,7 @@ std::vector<UncertainRange> uncertain_ranges(const Case& the_case) {
     if (one.form != Form::interval) {
       const double value = case_value(the_case, one.key);
       if (!std::isfinite(value))
-        throw WrongInput("uncertain." + one.key + ": the case gives no " + one.key +
+        throw WrongInput("uncertain." + one.key + ": the case has no value of " + one.key +
                          " to vary: give [lowest, highest]");
       const double scale = one.form == Form::relative ? std::abs(value) : 1.0;
       range.lowest = value - one.below * scale;
@@ -81,12 +81,12 @@ std::vector<UncertainRange> uncertain_ranges(const Case& the_case) {
     }
     if (!(range.lowest < range.highest))
       throw WrongInput("uncertain." + one.key +
-                       ": a percentage of 0 is no range: give [lowest, highest]");
+                       ": a percentage of the value 0 is no range: give [lowest, highest]");
     const CaseKey& key = *find_case_key(one.key);
     for (const double end : {range.lowest, range.highest})
       if (!key.range.contains(end))
-        throw WrongInput("uncertain." + one.key + ": " + format_rounded(end) + " " + key.unit +
-                         " is not admissible: " + key.admissible());
+        throw WrongInput("uncertain." + one.key + ": end " + format_rounded(end) + " " + key.unit +
+                         " of the range is not admissible: must be " + key.admissible());
     ranges.push_back(range);
   }
   return ranges;

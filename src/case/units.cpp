@@ -86,7 +86,7 @@ const std::vector<Unit> listed_units = {
     {"", "%", 1, 1e2},
 };
 
-/// Signs of a unit in the table's writing.
+/// Signs in the spelling of a unit, and their replacements in the table of units.
 constexpr std::array<std::pair<const char*, const char*>, 9> writings = {{
     {"\u00b2", "2"},
     {"\u00b3", "3"},
@@ -105,7 +105,7 @@ std::string in_table_writing(std::string_view text) {
   return unit;
 }
 
-/// Letters and signs of a quotient, and 1/s.
+/// Whether a text begins with a letter, % or 1/ and has only characters of units.
 bool is_like_a_unit(std::string_view text) {
   const auto is_letter = [](char sign) {
     return (sign >= 'a' && sign <= 'z') || (sign >= 'A' && sign <= 'Z') || sign == '%';

@@ -7,34 +7,34 @@
 
 namespace holdfast::program {
 
-/// A unit that a quantity may be written in beside its own.
+/// A unit in which the value of a key may be written, other than the key's own unit.
 struct Unit {
-  const char* own;           ///< that of the key, in which the case has it: "N/m"
+  const char* own;           ///< unit of the key, in which the case stores it: "N/m"
   const char* name;          ///< "kN/m"
-  double numerator;          ///< a value in it is so many numerator/denominator of the own unit:
-  double denominator = 1.0;  ///< two numbers, so that 5.5 mm2 is 5.5e-6 m2 to the last digit
-  double offset = 0.0;       ///< of a temperature, before the factor
-  bool is_mistaken = true;   ///< numbers are often given in it where the own one is meant
+  double numerator;          ///< one unit is numerator/denominator of the own unit;
+  double denominator = 1.0;  ///< two numbers make 5.5 mm2 exactly 5.5e-6 m2
+  double offset = 0.0;       ///< added to a temperature before it is scaled
+  bool is_mistaken = true;   ///< whether numbers are often given in it by mistake
 
   double factor() const { return numerator / denominator; }
   double in_own(double value) const { return (value + offset) * numerator / denominator; }
 };
 
-/// All of them, by the own unit.
+/// All units other than own units, grouped by own unit.
 const std::vector<Unit>& other_units();
 
-/// "28.2 kN", "1.23 lb/ft", "-20 °F", "5.5 mm^2": a number, a blank or none, and a unit; nothing
-/// where the text is not that.
+/// A number with a unit, such as "28.2 kN", "1.23 lb/ft", "-20 °F" or "5.5 mm^2", with or without
+/// the blank. written_quantity() returns none for any other text.
 struct WrittenQuantity {
   double value;
-  std::string unit;  ///< in the table's writing: "mm2", "degF"
+  std::string unit;  ///< spelled as in other_units(): "mm2", "degF"
 };
 std::optional<WrittenQuantity> written_quantity(std::string_view text);
 
-/// The value in the own unit; nothing where the quantity's unit is none of it.
+/// The value converted to a key's own unit; none if the written unit cannot be converted to it.
 std::optional<double> in_own_unit(const WrittenQuantity& quantity, std::string_view own);
 
-/// The units that would do: "N, mN, kN, MN, lbf, kip or kgf"; empty where there is none.
+/// The admissible units for an own unit: "N, mN, kN, MN, lbf, kip or kgf"; "" without any.
 std::string units_in_words(std::string_view own);
 
 }  // namespace holdfast::program

@@ -20,13 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Text that stands in the page for the case.
+/// Placeholder of the case in the page.
 constexpr const char* empty_case = R"({"name":"","text":""})";
 
-/// Folder of a library that the program is part of; empty: it is a program.
+/// Folder of the library that contains the program; empty for the program itself.
 fs::path folder_of_library;
 
-/// Where the page lies beside the program: as installed, and as built; or in the library's folder.
+/// Paths of the page beside the program, as installed and as built, or in the library's folder.
 std::vector<fs::path> places_of_page() {
   if (!folder_of_library.empty()) return {folder_of_library / "explorer.html"};
   std::error_code ignored;
@@ -51,8 +51,8 @@ std::optional<fs::path> built_page() {
   return std::nullopt;
 }
 
-/// The case file itself, empty for the built-in case; the whole case where something was set over
-/// it or its plant is reduced, which a browser has not all packages for.
+/// The case file's text, empty for the built-in case. If keys were set or the plant is reduced,
+/// which a browser may not be able to do, the full case.
 std::string text_of_case(const Case& the_case, const CaseSource& source) {
   if (source.overrides.empty() && !plant_is_reduced(source.load())) return source.text.value_or("");
   return case_to_toml(the_case);
@@ -75,7 +75,7 @@ void write_explorer_page(const fs::path& output, const Case& the_case, const Cas
       source.overrides.empty() || source.name.empty() ? source.name : source.name + " with --set";
   const nlohmann::ordered_json json = {{"name", name}, {"text", text_of_case(the_case, source)}};
   OutputFile page(output);
-  // Its strings may hold no tag.
+  // The strings must not contain a tag.
   page.write(replaced(read_input(*file), empty_case, replaced(json.dump(), "<", "\\u003c")));
   page.commit();
 }

@@ -12,7 +12,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Without play, of a stable loop.
+/// Steady amplitude (m) of a stable loop without play; NaN for two samples or fewer per period.
 double controlled_amplitude(const Case& the_case, const LinearLoop& loop, double frequency) {
   if (!(2.0 * frequency * the_case.control.sampling_period < 1.0))
     return std::numeric_limits<double>::quiet_NaN();

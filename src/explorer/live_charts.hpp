@@ -9,27 +9,27 @@
 
 namespace holdfast::program {
 
-// Charts that the explorer draws anew while the hand still moves: the numbers of the jobs
+// Charts that the explorer redraws while the user moves a control: the numbers of the jobs
 // `stability` and `response` without their tables.
 
-/// The cells of the job `stability` over P and D, P slowest: 1 where the loop without play is
-/// stable. On any plant of the case. Throws InvalidParameter, WrongInput.
+/// The cells of the job `stability` over the gains P and D, P slowest: 1 if the loop without play
+/// is stable, else 0. The plant may be any of the case. Throws InvalidParameter, WrongInput.
 std::vector<std::uint8_t> stable_cells(const Case& the_case, const GainGrid& grid);
 
 /// Steady amplitudes of the conductor (m) at a frequency (Hz), without play.
 struct AmplitudesAt {
   double frequency;
-  double controlled;    ///< NaN where the loop is not stable, or there are two samples a period
-  double uncontrolled;  ///< under the true force
+  double controlled;    ///< NaN if unstable, or for at most two samples per period
+  double uncontrolled;  ///< amplitude without control
 };
 
-/// Amplitudes under forces of other frequencies than the case's, its gains as they are.
+/// Steady amplitudes over the excitation frequency, for the case's force amplitude and gains.
 struct Amplitudes {
-  bool stable;  ///< the loop without play
+  bool stable;  ///< whether the loop without play is stable
   std::vector<AmplitudesAt> at;
 };
 
-/// @param frequencies  above 0 Hz
+/// @param frequencies  frequencies (Hz), > 0, at which the amplitudes are computed
 Amplitudes amplitudes_over(const Case& the_case, const Axis& frequencies);
 
 }  // namespace holdfast::program

@@ -12,9 +12,8 @@ namespace holdfast::program {
 
 struct CaseSource;
 
-/// Surroundings of a job that another program runs in its own memory, in place of files, standard
-/// error and a terminal: where its case comes from, and what takes its tables, its warnings and how
-/// far it is.
+/// Environment of a job that another program runs in its memory, instead of files, standard error
+/// and a terminal. It provides the case and receives the job's tables, warnings and progress.
 ///
 ///     JobHost host;
 ///     host.source = std::make_shared<CaseSource>();   // the built-in case
@@ -22,20 +21,20 @@ struct CaseSource;
 ///     do_job({"orbit"});
 ///     host.tables.front().columns …
 struct JobHost {
-  /// The host of this thread; null where jobs run by themselves.
+  /// The host of this thread; null if there is none.
   static JobHost* current() { return innermost; }
 
   std::shared_ptr<CaseSource> source;  // in place of --case and --set
-  std::vector<ReceivedTable> tables;   // of those that go to no file
+  std::vector<ReceivedTable> tables;   // results that go to no file
   std::vector<std::string> warnings;
-  std::atomic<std::uint64_t> steps_done{0}, steps{0};  // of the job that counts them; 0: none yet
+  std::atomic<std::uint64_t> steps_done{0}, steps{0};  // of a job that counts steps; 0: none yet
 
  private:
   friend class HostScope;
   static inline thread_local JobHost* innermost = nullptr;
 };
 
-/// Makes a host that of the thread while it lives; hosts may be nested.
+/// Makes a host the current host of this thread while the object exists; scopes may be nested.
 class HostScope {
  public:
   explicit HostScope(JobHost& host) : outer_(JobHost::innermost) { JobHost::innermost = &host; }

@@ -25,7 +25,7 @@ void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
   constexpr std::uintptr_t large = std::uintptr_t{1} << 21;
   const auto first = (reinterpret_cast<std::uintptr_t>(memory) + large - 1) / large * large;
   const auto last = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / large * large;
-  // It is a wish: that the system does not grant it is no error.
+  // Only advice to the system: a refusal is no error.
   if (last > first) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
 #endif
 }
@@ -47,7 +47,7 @@ void ReceivedColumn::put(std::string_view text) {
     if (!text.empty()) throw std::logic_error("a text in the column of numbers " + about_.name);
     return put(std::numeric_limits<double>::quiet_NaN());
   }
-  // Few words, and often the same one again.
+  // Few words, and often that of the previous row.
   std::size_t number = whole_.empty() ? 0 : static_cast<std::size_t>(whole_.back());
   if (number >= words_.size() || words_[number] != text) {
     number = 0;
@@ -68,7 +68,7 @@ void ReceivedColumn::put_into_others(double value) {
     whole_.push_back(static_cast<std::int64_t>(value));
     return;
   }
-  // One that is not whole, as NaN for "none", makes a column of numbers of it.
+  // A number that is not whole, as NaN for "none", turns the column into one of numbers.
   numbers_.assign(whole_.begin(), whole_.end());
   whole_.clear();
   kind_ = Kind::numbers;

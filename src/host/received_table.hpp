@@ -10,29 +10,29 @@
 
 namespace holdfast::program {
 
-/// Asks the system to back memory that is about to be written by large pages, of which there are
-/// few to be had one after the other: the first touch of megabytes costs as much as a fast kernel
-/// does. Without effect where there are none, or the memory is small.
+/// Asks the system for large pages behind memory that is to be written, since the first access to
+/// many small pages costs as much time as a fast kernel. Without effect if the system has no large
+/// pages, or the memory is small.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
-/// A column of a table in memory. By what the job puts into it, it holds
+/// A column of a table in memory. By the datatype its cells are
 ///  - numbers (datatype "double"),
 ///  - whole numbers (datatype "integer" or "boolean"), or
-///  - words (datatype "string"), each kept once: a cell is the number of its word.
+///  - words (datatype "string"), each stored once: a cell is the index of its word.
 class ReceivedColumn {
  public:
   enum class Kind { numbers, whole_numbers, words };
 
   explicit ReceivedColumn(Column about);
 
-  /// Asks for the memory of so many rows at once.
+  /// Reserves memory for `rows` rows.
   void reserve(std::size_t rows);
 
   const Column& about() const { return about_; }
   Kind kind() const { return kind_; }
   std::size_t rows() const { return kind_ == Kind::numbers ? numbers_.size() : whole_.size(); }
 
-  /// 0 without a sign.
+  /// Appends a number; zero loses its sign.
   void put(double value) {
     if (kind_ == Kind::numbers)
       numbers_.push_back(value + 0.0);
@@ -45,14 +45,14 @@ class ReceivedColumn {
     else
       put(static_cast<double>(value));
   }
-  /// Where the column is one of numbers: an empty text is NaN there, and any other an error.
+  /// Appends a text; in a column of numbers "" is NaN, and other text throws std::logic_error.
   void put(std::string_view text);
 
-  /// Words of cells that are given by them, as those of a grid are.
+  /// Sets the words of a column whose cells are appended as indices, as in a grid.
   void set_words(std::vector<std::string> words) { words_ = std::move(words); }
 
   std::vector<double>& numbers() { return numbers_; }
-  /// Whole numbers, or those of the words.
+  /// Whole numbers, or the indices of words.
   std::vector<std::int64_t>& whole_numbers() { return whole_; }
   const std::vector<std::string>& words() const { return words_; }
 
@@ -72,9 +72,9 @@ struct ReceivedAxis {
   std::vector<double> values;
 };
 
-/// The table of a job in memory, in place of its text.
+/// The table of a job in memory, instead of CSV.
 struct ReceivedTable {
-  std::vector<ReceivedAxis> axes;  // of a grid, the first slowest; else none
+  std::vector<ReceivedAxis> axes;  // axes of a grid, the first slowest; else none
   std::vector<ReceivedColumn> columns;
   std::string origin;  // JSON: version, job, options, case and, where few, the trusted digits
 };

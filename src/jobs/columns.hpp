@@ -8,12 +8,12 @@
 
 namespace holdfast::program {
 
-/// The columns of a table, as texts/jobs.toml has them.
-/// @param table   "gain regions"
-/// @param values  what the texts leave open
+/// Columns of a table, from texts/jobs.toml.
+/// @param table   name of the table, such as "gain regions"
+/// @param values  replacements of @KEY@ in the texts
 std::vector<Column> columns_of(const std::string& table, const Values& values = {});
 
-/// Columns of a grid with the words of their numbers.
+/// Columns of a grid, each with the words that its integer values stand for.
 std::vector<CellColumn> cell_columns_of(const std::string& table, const Values& values = {});
 
 }  // namespace holdfast::program

@@ -7,10 +7,10 @@
 
 namespace holdfast::program {
 
-/// texts/jobs.toml, which is compiled in: what the jobs are called and asked, and what they write.
+/// Contents of texts/jobs.toml, compiled in: names, options and table columns of the jobs.
 const toml::table& job_texts();
 
-/// The texts of an array; none where it is none.
+/// Strings of a TOML array; empty for nullptr.
 std::vector<std::string> words_of(const toml::array* texts);
 
 }  // namespace holdfast::program

@@ -22,7 +22,7 @@ Words words_in(const std::string& text) {
   return {parts.begin(), parts.end()};
 }
 
-/// A feature by the name that the rules have for it.
+/// Feature of a case, by its name in the rules.
 struct Feature {
   std::string name;
   bool (*is_of)(const Case& the_case);
@@ -75,7 +75,7 @@ Words feature_names() {
   return names;
 }
 
-/// Whether a feature is of the plant, which a conductor cannot have beside its own.
+/// Whether a feature is a plant, of which a case has only one.
 bool is_of_plant(const std::string& name) {
   const Words plants = {"two_masses",      "string",  "cable",
                         "infinite_string", "devices", "devices_on_two_masses",
@@ -117,14 +117,14 @@ bool any_asked(const Words& questions, const Asked& asked) {
                      [&](const std::string& words) { return asked.has(words); });
 }
 
-/// The first of some features that a case has; empty where it has none.
+/// First feature that a case has, of some; empty if it has none.
 std::string first_of(const Words& wanted, const Words& there) {
   for (const std::string& name : there)
     if (std::find(wanted.begin(), wanted.end(), name) != wanted.end()) return name;
   return "";
 }
 
-/// Part of the question that makes a rule hold.
+/// Words of the question to which a rule applies.
 std::string asked_words(const Rule& rule, const Asked& asked) {
   for (const std::string& words : rule.asked)
     if (asked.has(words)) return words;
@@ -155,7 +155,7 @@ Support support_of(const Words& there, const Asked& asked) {
   return support;
 }
 
-/// A question of the table as it would come from a command line.
+/// Question of the table as given on a command line.
 Asked asked_of(const std::string& question) {
   const Words words = words_in(question);
   Asked asked{words[0], {}};
@@ -168,7 +168,7 @@ Asked asked_of(const std::string& question) {
   return asked;
 }
 
-/// The jobs of the table's questions about a feature of which no rule refuses all that is there.
+/// Jobs of the table's questions about a feature that no rule refuses for this case.
 std::string jobs_that_answer(const std::string& feature, const Words& there) {
   std::map<std::string, bool> answers;
   for (const SupportCell& cell : support_cells())
@@ -240,7 +240,7 @@ SupportCell cell_of(const std::string& question, const Words& named) {
   return cell;
 }
 
-/// The options of a question that rules speak of, each once: "orbit --map".
+/// Options of a question that occur in the rules, each once: "orbit --map".
 std::string without_numbers(const std::string& question) {
   const Words words = words_in(question);
   std::string kept = words[0];
@@ -260,7 +260,7 @@ std::string without_numbers(const std::string& question) {
   return kept;
 }
 
-/// A text that the page tells once, by its number.
+/// Numbered texts of the page, each written once.
 class Footnotes {
  public:
   std::string of(const Support& support) {
@@ -282,8 +282,7 @@ class Footnotes {
   Words texts_;
 };
 
-/// The features beside which a question is asked for the page, of two masses or of a conductor;
-/// each last of what a case has.
+/// Features that the page asks about, of two masses or a conductor; each is the last of its case.
 std::vector<Words> singles_asked(bool on_conductor) {
   std::vector<Words> asked;
   for (const std::string& name : feature_names()) {
@@ -293,7 +292,7 @@ std::vector<Words> singles_asked(bool on_conductor) {
   return asked;
 }
 
-/// All two that one case can have beside those of the page: of plants and of laws it has one.
+/// All pairs of further features that one case can have, with one plant and one law of the play.
 std::vector<Words> pairs_asked() {
   const auto is_law = [](const std::string& name) {
     return name == "immediate" || name == "play" || name == "dead_zone";
@@ -308,14 +307,14 @@ std::vector<Words> pairs_asked() {
   return pairs;
 }
 
-/// Whether a question knows the option that one of the features is.
+/// Whether a question admits the option among the features.
 bool knows(const toml::node_view<const toml::node>& group, const std::string& question,
            const std::string& name) {
   return name != "exact" ||
          (group["switching"].value_or(false) && question.find("--switching") == std::string::npos);
 }
 
-/// A table of the page.
+/// One table of the page.
 std::string table_of(const toml::node_view<const toml::node>& group, bool on_conductor,
                      Footnotes& reasons) {
   const Words all = feature_names();

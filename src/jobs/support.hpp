@@ -7,45 +7,44 @@
 
 namespace holdfast::program {
 
-/// Question about a case: a job with the options that it was given, "--prove", and each with its
-/// value too, "--switching exact".
+/// Question about a case: a job and its options, each by its name ("--prove") and also with its
+/// value ("--switching exact").
 struct Asked {
   std::string job;
   std::vector<std::string> options;
 
-  /// Whether all words of "margins --prove" are asked: the job first, then options.
+  /// Whether the question has the job and all options of a text such as "margins --prove".
   bool has(const std::string& words) const;
 };
 
-/// Answer of texts/support.toml to a question about a case.
+/// Result of the rules of texts/support.toml for a question about a case.
 struct Support {
-  std::string refusal;     ///< why it is not answered; empty where it is
-  std::string idealised;   ///< what the answer leaves out, a sentence each; empty: nothing
-  std::string reason;      ///< of either, without what it is of
-  std::string refused_by;  ///< what alone the job as a whole refuses, by its name in the rules
+  std::string refusal;     ///< why the question is refused; empty: it is answered
+  std::string idealised;   ///< what the answer leaves out; empty: nothing
+  std::string reason;      ///< the rule's text alone, without job and feature
+  std::string refused_by;  ///< feature that the job refuses with any options; else empty
 };
 
-/// @param the_case  of which no plant need be settled
+/// @param the_case  case; its plant need not be computed yet
 Support support_of(const Case& the_case, const Asked& asked);
 
-/// A question of the table about a case with some of its features.
+/// Cell of the support table: a question about a case with some features.
 struct SupportCell {
-  std::string question;               ///< with small numbers: "margins --prove"
+  std::string question;               ///< a small example: "margins --prove"
   std::vector<std::string> features;  ///< in words
   std::vector<std::string> settings;  ///< "KEY=VALUE" that give it the features
-  bool can_be_asked;                  ///< whether a command line can
+  bool can_be_asked;                  ///< whether a command line can give the features
   Support support;
 };
 
-/// The cells of the page, of one feature on two masses and on plant.model = "string", a question's
-/// together, the features in one order.
+/// Cells of docs/support.md, one feature each, on two masses and on plant.model = "string"; grouped
+/// by question, features in a fixed order.
 std::vector<SupportCell> support_cells();
 
-/// The cells of all pairs of features that one case can have, on two masses where neither is
-/// another plant.
+/// Cells of all pairs of features that a case can have; on two masses unless one is another plant.
 std::vector<SupportCell> support_pairs();
 
-/// docs/support.md.
+/// Text of docs/support.md.
 std::string support_page();
 
 }  // namespace holdfast::program

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array all_sets = {InstructionSet::baseline, InstructionSet::avx2,
                                  InstructionSet::avx512};
 
-/// Whether the program has kernels for it.
+/// Whether the program has kernels for the instruction set.
 bool is_compiled([[maybe_unused]] InstructionSet set) {
 #ifdef HOLDFAST_HAS_AVX2
   if (set == InstructionSet::avx2) return true;
@@ -22,7 +22,7 @@ bool is_compiled([[maybe_unused]] InstructionSet set) {
   return set == InstructionSet::baseline;
 }
 
-/// Whether the processor has it and the system keeps its registers.
+/// Whether the processor has the instruction set and the system saves its registers.
 bool processor_has([[maybe_unused]] InstructionSet set) {
   if (set == InstructionSet::baseline) return true;
 #if defined(__x86_64__)

@@ -6,31 +6,30 @@
 
 namespace holdfast::program {
 
-/// The instruction sets that the kernels on packs are compiled for, each with what the one before
-/// has.
+/// Instruction sets for which the SIMD kernels are compiled. Each includes the set before it.
 enum class InstructionSet {
-  baseline,  ///< what the compiler takes by itself: SSE2 on x86-64
-  avx2,      ///< x86-64-v3: packs of four
-  avx512,    ///< x86-64-v4: packs of eight
+  baseline,  ///< default of the compiler: SSE2 on x86-64
+  avx2,      ///< x86-64-v3: four lanes of double
+  avx512,    ///< x86-64-v4: eight lanes of double
 };
 
-/// "baseline", "avx2", "avx512".
+/// Name of an instruction set: "baseline", "avx2" or "avx512".
 std::string_view name_of(InstructionSet set);
 
-/// The instruction set of that name. Throws WrongInput for a name that is none.
+/// The instruction set of a name. Throws WrongInput for an unknown name.
 InstructionSet instruction_set_named(std::string_view name);
 
-/// Sets of this program that this processor has, narrowest first; the baseline is one of them.
+/// Instruction sets of both program and processor, narrowest first; always with the baseline.
 std::vector<InstructionSet> available_instruction_sets();
 
-/// The widest of them.
+/// The widest available instruction set.
 InstructionSet best_instruction_set();
 
-/// "baseline, avx2".
+/// Names of the available instruction sets: "baseline, avx2".
 std::string available_instruction_names();
 
-/// The one of the name, or the best one where that is empty. Throws WrongInput where the name is
-/// none, and where this program or this processor has not got it.
+/// The instruction set of a name, or the best one if the name is empty. Throws WrongInput if the
+/// name is unknown, or this program or this processor lacks the set.
 InstructionSet chosen_instruction_set(std::string_view name);
 
 }  // namespace holdfast::program

@@ -12,8 +12,8 @@
 
 namespace holdfast::program {
 
-/// The kernels on one type of pack: to be read by the unit of its instruction set alone. Every name
-/// in here bears the pack.
+/// The kernels for one type of SIMD pack, to be included only by the unit of its instruction set.
+/// The pack is part of every name in this class.
 template <class Pack>
 class KernelsOn {
   template <int Degree>
@@ -26,7 +26,7 @@ class KernelsOn {
         };
   }
 
-  /// The caller's, as MetricGroup wants it: no kernel of the program looks at samples.
+  /// Adapter from a MotionSource to the source of MetricGroup; the samples are ignored.
   struct Source {
     MotionSource& caller;
     const detail::SweepMatrices::Matrices& of(const IdealLoop<double>& loop) {

@@ -80,7 +80,7 @@ Json of_file(const Written& file) {
   return {{"bytes", file.bytes}, {"crc64_xz", hexadecimal(file.checksum, 16)}};
 }
 
-/// Names a file, at the beginning of its JSON.
+/// Adds the file name (as URL) and the title to the JSON.
 void add_names(Json& json, const JobContext& context, const std::string& file_name) {
   json["url"] = url_of(file_name);
   json["dc:title"] = "holdfast " + context.job;

@@ -17,7 +17,7 @@ namespace holdfast::program {
 #ifdef HOLDFAST_HAS_SIMD
 using simd::parallel_rows;
 #else
-/// Without oneTBB: the same tiles one after the other.
+/// The function simd::parallel_rows for a build without oneTBB: tiles one after the other.
 template <class Kernel, class Compute>
 void parallel_rows(std::int64_t rows, std::int64_t tile, int, const Kernel& kernel,
                    const Compute& compute) {
@@ -28,8 +28,8 @@ void parallel_rows(std::int64_t rows, std::int64_t tile, int, const Kernel& kern
 }
 #endif
 
-/// Calls `compute(i)` for i = 0 … count − 1, side by side on the threads, each a step of the job's
-/// progress. Throws Interrupted, and what a call throws.
+/// Calls `compute(i)` for i = 0 … count − 1 in parallel on the job's threads. Each call is a step
+/// of the job's progress. Throws Interrupted, and the exceptions of `compute`.
 template <class Compute>
 void side_by_side(const JobContext& context, const std::string& job, std::int64_t count,
                   const Compute& compute) {
@@ -42,7 +42,7 @@ void side_by_side(const JobContext& context, const std::string& job, std::int64_
   throw_if_interrupted();
 }
 
-/// Deals tiles of states or cells out to threads, `for_tiles` of the library.
+/// Function that distributes tiles of states or cells to threads, the `for_tiles` of the library.
 inline auto tiles_on(const JobContext& context) {
   return [&context](std::size_t count, std::size_t tile, const auto& job) {
     parallel_rows(static_cast<std::int64_t>(count), static_cast<std::int64_t>(tile),

@@ -12,8 +12,8 @@
 namespace holdfast::program {
 namespace {
 
-/// A name that promises netCDF or a store would lie about what stands in the file. Charts and
-/// sweeps keep the promise elsewhere.
+/// The output path. Throws WrongInput for a name of a netCDF file or a store, since this class
+/// writes CSV.
 const std::optional<std::filesystem::path>& csv_target(
     const std::optional<std::filesystem::path>& path) {
   if (is_netcdf_name(path) || is_store_name(path)) {
@@ -85,7 +85,7 @@ void require_text_meant(const JobContext& context, std::int64_t count, const std
     throw WrongInput(
         std::to_string(count) + " " + what +
         (received ? " would take gigabytes of memory: " : " would make a table of gigabytes: ") +
-        instead + "; give --yes to " + (received ? "take them" : "write them as text"));
+        instead + "; give --yes to " + (received ? "compute them anyway" : "write them as text"));
 }
 
 void tell_trust(const JobContext& context, Table& table, const TrustedDigits& trusted) {

@@ -12,15 +12,15 @@
 
 namespace holdfast::program {
 
-/// A job's result: a CSV table and, for a named file, its metadata; both appear at commit() or
-/// neither does.
+/// A job's result: a CSV table and, for a named file, a file of metadata. At commit() both files
+/// appear or neither.
 ///
 ///     Table table(context, {{"time_s", "s", "time"}, {"z1_m", "m", "displacement"}});
 ///     table.row(0.0, 0.1);
 ///     table.commit();
 ///
-/// Throws what OutputFile and CsvWriter throw; a path that cannot be written is refused before
-/// anything is computed.
+/// Throws the exceptions of OutputFile and CsvWriter. A path that cannot be written is refused
+/// before the computation.
 class Table {
  public:
   Table(const JobContext& context, const std::vector<Column>& columns);
@@ -30,13 +30,13 @@ class Table {
     writer_.row(cells...);
   }
 
-  /// For rows whose width is known only when the program runs: cell() … end_row().
+  /// Writer for rows whose number of cells is known only at run time: cell() … end_row().
   CsvWriter& writer() { return writer_; }
 
   /// Sets the trusted digits in the metadata; call before commit().
   void trust(const TrustedDigits& trusted) { trusted_ = trusted; }
 
-  /// How many rows are to come, where that is known.
+  /// Reserves memory for the given number of rows, if the table is kept in memory.
   void expect(std::int64_t rows);
 
   /// Adds a note on the numbers to the metadata.
@@ -44,8 +44,8 @@ class Table {
     context_.notes.emplace_back(name, text);
   }
 
-  /// Warns where a cell is no number in a column whose description does not say what `nan` means
-  /// there, and throws NoAnswer where more than a tenth of them are; call before commit().
+  /// Warns of NaN cells in columns whose description does not mention `nan`. Throws NoAnswer if
+  /// more than a tenth of the cells of such a column are NaN. Call before commit().
   void require_numbers();
 
   void commit();
@@ -58,18 +58,18 @@ class Table {
   std::unique_ptr<OutputFile> metadata_;  // none for standard output
   JobContext context_;
   std::vector<Column> columns_;
-  std::vector<ReceivedColumn> received_;  // in place of text, where a host takes them
+  std::vector<ReceivedColumn> received_;  // in place of text, if a host takes the table
   TrustedDigits trusted_;
 };
 
-/// Throws WrongInput where so many rows or cells would be more text than anybody reads, unless
-/// --yes says that they are meant.
-/// @param what      "cells", "rows"
-/// @param instead   what makes fewer, or another file
+/// Throws WrongInput if a table has more than 10⁷ rows or cells as text, or 2·10⁸ in memory, unless
+/// --yes was given.
+/// @param what      counted things in the message: "cells" or "rows"
+/// @param instead   advice in the message: how to get fewer, or another file format
 void require_text_meant(const JobContext& context, std::int64_t count, const std::string& what,
                         const std::string& instead);
 
-/// Puts the digits of a table into its metadata and, where there are few, tells the user.
+/// Writes the number of trusted digits into a table's metadata, and warns the user if it is small.
 void tell_trust(const JobContext& context, Table& table, const TrustedDigits& trusted);
 
 }  // namespace holdfast::program

@@ -15,7 +15,7 @@ constexpr int none = -1000;
   try {
     code = work();
   } catch (...) {
-    // The code says it: the words are this process's own.
+    // The exit code is enough; the message belongs to the parent.
   }
   _exit(code);
 }

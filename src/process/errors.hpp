@@ -7,36 +7,36 @@
 
 namespace holdfast::program {
 
-/// Why the program ends, on one line.
+/// Exception that ends the program, with a message of one line.
 class Refusal : public std::runtime_error {
  public:
   explicit Refusal(const std::string& message);
 };
 
-/// The user asked for something that cannot be asked: exit code 2.
+/// Invalid input of the user: exit code 2.
 struct WrongInput : Refusal {
   using Refusal::Refusal;
 };
 
-/// The question is fair and the computation has no answer to it: exit code 1. The message says why.
+/// Valid input for which the computation has no answer: exit code 1. The message gives the reason.
 struct NoAnswer : Refusal {
   using Refusal::Refusal;
 };
 
-/// A result could not be written, in the system's words: exit code 1.
+/// A result could not be written: exit code 1. The message contains that of the system.
 struct OutputError : Refusal {
   using Refusal::Refusal;
 };
 
-/// The system's words for one of its error numbers: "No space left on device".
+/// The system's message for an error number: "No space left on device".
 std::string system_words(int error);
 
 /// Throws WrongInput: "cannot read PATH: WHY".
 [[noreturn]] void refuse_to_read(const std::filesystem::path& path, const std::string& why);
 
-/// Throws "cannot write PATH: WORDS" for what a job was asked to write: OutputError where the
-/// machine is in trouble (full disk, input or output error, too many open files, lack of memory),
-/// WrongInput for whatever else, since the path is to blame then.
+/// Throws "cannot write PATH: WORDS" for an output of a job. OutputError if the machine is the
+/// cause (full disk, input or output error, too many open files, lack of memory), else WrongInput,
+/// since the path is the cause.
 [[noreturn]] void refuse_to_write(const std::filesystem::path& path, int error);
 
 }  // namespace holdfast::program

@@ -34,13 +34,13 @@ std::string message_of(const std::exception_ptr& fault) {
   }
 }
 
-/// For where there is no memory for the words either.
+/// Reports lack of memory, without allocating any.
 void tell_lack_of_memory() {
   constexpr std::string_view line = "holdfast: no memory is left\n";
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-/// Ends where a library's destructor throws for want of memory, which comes here uncaught.
+/// Terminate handler, for a library's destructor that throws std::bad_alloc.
 [[noreturn]] void end_without_memory() {
   try {
     if (const std::exception_ptr fault = std::current_exception()) std::rethrow_exception(fault);
@@ -49,7 +49,7 @@ void tell_lack_of_memory() {
     remove_unfinished_files();
     _exit(exit_code::no_answer);
   } catch (...) {
-    // A fault of the program, which ends as such.
+    // Any other exception is a fault of the program.
   }
   std::abort();
 }
@@ -62,7 +62,7 @@ void report_error(const std::string& message) {
     return;
   }
   constexpr std::size_t longest = 1500;
-  // Over the line of a job's progress, if one is shown.
+  // Overwrites the progress line of a job, if one is shown.
   const std::string begin = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
   const std::string line = begin + "holdfast: " + shortened(one_line(message), longest) + "\n";
   std::fwrite(line.data(), 1, line.size(), stderr);

@@ -14,20 +14,19 @@ inline constexpr int wrong_input = 2;
 inline constexpr int interrupted = 130;
 }  // namespace exit_code
 
-/// The code of an exception: WrongInput, holdfast::InvalidParameter 2; Interrupted 130; anything
-/// else 1.
+/// Exit code of an exception: 2 for WrongInput and InvalidParameter, 130 for Interrupted, else 1.
 int exit_code_of(const std::exception_ptr& fault);
 
-/// Runs the program's work and gives its exit code. An exception becomes one line on standard
-/// error that begins with `holdfast: `, and its exit_code_of().
+/// Runs the program's work and returns its exit code. For an exception it writes one line that
+/// begins with `holdfast: ` to standard error, and returns exit_code_of() it.
 int run_guarded(const std::function<int()>& work);
 
-/// Writes `holdfast: ` and the message on one line of standard error; the host of a job gets it as
-/// a warning.
+/// Writes `holdfast: ` and the message as one line to standard error; with a JobHost, adds the
+/// message to the host's warnings instead.
 void report_error(const std::string& message);
 
-/// Reports with `warning: ` before it; nothing when there is none or it is not wanted. A host gets
-/// every one: it has its own way of not wanting them.
+/// Reports a warning with `warning: ` before it; nothing if the message is empty or `quiet`. A
+/// JobHost gets every warning, also if `quiet`.
 void report_warning(const std::string& message, bool quiet);
 
 }  // namespace holdfast::program

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t path_size = 4096;
 
-/// A path that the signal handler may read: in use only once it is whole.
+/// A path that the signal handler may read once `state` is 2.
 struct Slot {
-  std::atomic<int> state{0};  // 0 free, 1 being filled, 2 to be removed
+  std::atomic<int> state{0};  // 0 free, 1 being filled, 2 complete
   char path[path_size] = {};
 };
 
@@ -25,12 +25,12 @@ pthread_t taker = pthread_self();  // the thread that takes the signals
 std::array<Slot, 8> slots;
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may take no lock");
 
-/// Time for a computation to look at the flag: more than the two seconds for which the processes of
-/// a group wait for each other.
+/// Time for a computation to check the flag; longer than the two seconds for which processes of a
+/// group wait for each other.
 constexpr unsigned seconds_to_end = 3;
 
-/// A signal to the process comes to any thread that does not block it. Only where one thread takes
-/// them all can it hold them back.
+/// Passes a signal on to the thread `taker`; true if passed on. A signal arrives at any thread that
+/// does not block it, but only one thread can hold all signals back.
 bool handed_on(int signal_number) {
   return pthread_equal(pthread_self(), taker) == 0 && pthread_kill(taker, signal_number) == 0;
 }
@@ -60,7 +60,7 @@ void handle(int signal_number, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
   sigemptyset(&action.sa_mask);
-  // No SA_RESTART: a write that waits for a slow reader shall end as well.
+  // No SA_RESTART: a write that waits for a slow reader must also end.
   sigaction(signal_number, &action, nullptr);
 }
 

@@ -5,41 +5,41 @@
 
 namespace holdfast::program {
 
-/// The user (SIGINT, SIGHUP) or the system (SIGTERM) asked the program to end: exit code 130.
+/// Request to end the program by the user (SIGINT, SIGHUP) or the system (SIGTERM): exit code 130.
 class Interrupted : public std::exception {
  public:
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// To be called by the thread that writes results, which takes all signals; the others hand theirs
-/// on to it. From here on SIGINT, SIGTERM and SIGHUP (a closed terminal) set a flag, and a closed
-/// pipe or a file beyond the size that the system allows is an error that write() reports. A second
-/// signal ends the program at once, and so do three seconds in which a computation has not looked
-/// at the flag, as a library's cannot; unfinished files are removed even then.
+/// Installs the signal handlers; call in the thread that writes results. That thread takes all
+/// signals; other threads pass theirs on to it. SIGINT, SIGTERM and SIGHUP (a closed terminal) set
+/// a flag. A closed pipe, or a file beyond the size limit of the system, becomes an error of
+/// write(). The program ends at once after a second signal, or if a computation, for example in a
+/// library, has not checked the flag for three seconds. Unfinished files are removed in every case.
 void install_signal_handlers();
 
-/// Removes what RemovedBySignal names, for an end without any further step. A signal handler may.
+/// Removes the files named by RemovedBySignal. May be called in a signal handler.
 void remove_unfinished_files();
 
-/// For a child process before it becomes another program, which would keep ignoring what this one
-/// ignores.
+/// Restores the default action of signals that this program ignores; call in a child process before
+/// it becomes another program.
 void restore_signals_of_child();
 
-/// Whether a signal has come. A long loop asks, or calls throw_if_interrupted().
+/// Whether a signal or request_stop() came. A long loop checks this, or throw_if_interrupted().
 bool interrupted();
 
-/// Throws Interrupted when a signal has come.
+/// Throws Interrupted if interrupted().
 void throw_if_interrupted();
 
-/// Asks the computation to end as a signal does, without one; and takes that back.
+/// Ask the computation to end as after a signal, and withdraw that request.
 void request_stop();
 void forget_asking();
 
-/// Forgets a signal that came, so that tests can raise one.
+/// Clears the flag of a received signal, so that a test can raise one.
 void clear_interrupt();
 
-/// Holds back what asks the program to end, while the object lives, in the thread that takes the
-/// signals: they are seen when it goes. For a few steps of which none or all shall be done.
+/// Holds back the signals that end the program, in the thread that takes them, while the object
+/// exists; they arrive when it is destroyed. For a few steps that must be done all or not at all.
 class SignalsHeld {
  public:
   SignalsHeld();
@@ -51,8 +51,8 @@ class SignalsHeld {
   sigset_t before_ = {};
 };
 
-/// Names a file that a second signal shall remove, while the object lives. Beyond a fixed number
-/// of files at once, and for paths of 4096 bytes or more, it does nothing.
+/// Names a file that the program removes when a signal ends it at once, while the object exists.
+/// Without effect beyond eight files at a time, or for a path of 4096 bytes or more.
 class RemovedBySignal {
  public:
   explicit RemovedBySignal(const char* path);

@@ -7,16 +7,15 @@
 
 namespace holdfast::program {
 
-/// Remembers what was computed of a key, for any thread: what a job, the cells of a sweep or the
-/// questions of a report ask for again and again. All is forgotten where more than `most` are
-/// known.
+/// Cache of values computed by key, for concurrent threads: the cells of a sweep or the parts of a
+/// report need equal values repeatedly. When `most` values are stored, a new one clears the cache.
 template <class Key, class Value>
 class Memo {
  public:
   explicit Memo(std::size_t most) : most_(most) {}
 
-  /// The value of a key, by `compute` where it is not known. Threads that ask for one key at once
-  /// may compute it each, and all get the first value; what `compute` throws is not remembered.
+  /// The value of a key, computed by `compute` if it is not stored. Threads with an equal key may
+  /// compute it at once; all get the value stored first. Exceptions of `compute` are not stored.
   template <class Compute>
   Value of(const Key& key, const Compute& compute) {
     {

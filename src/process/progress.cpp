@@ -16,11 +16,11 @@ namespace {
 constexpr std::int64_t milliseconds_between_updates = 100;
 constexpr const char* clear_line = "\r\033[K";
 
-/// Lock of what is shown on standard error: a line at a time.
+/// Lock of standard error, for one line at a time.
 std::mutex showing;
-const Progress* counting = nullptr;  // the job's, while there is one; guarded by `showing`
-std::atomic<bool> yielded{false};    // the terminal belongs to the result
-std::atomic<bool> ticks{false};      // a job does; those that it does meanwhile are part of it
+const Progress* counting = nullptr;  // the job's, or null; guarded by `showing`
+std::atomic<bool> yielded{false};    // whether the terminal is left to the result
+std::atomic<bool> ticks{false};      // whether a Ticking is active; further ones show nothing
 
 bool standard_error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
@@ -41,7 +41,7 @@ void show(const std::string& text) {
   std::fflush(stderr);
 }
 
-/// Shows how far a job is; the caller holds `showing`.
+/// Shows the progress of a job; the caller has locked `showing`.
 void show_status(const std::string& status) {
   if (!yielded) show(standard_error_is_terminal() ? clear_line + status : status + "\n");
 }
@@ -73,7 +73,7 @@ Ticking::Ticking(std::string job, bool enabled, std::chrono::milliseconds first)
   try {
     thread_ = std::thread([this, first] { run(first); });
   } catch (const std::system_error&) {
-    ticks = false;  // a system that has no thread left for it leaves the job mute
+    ticks = false;  // no thread is available: the job shows nothing
   }
 }
 
@@ -138,7 +138,7 @@ void Progress::advance(std::uint64_t steps, std::uint64_t samples) {
   const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start_);
   std::int64_t due = next_draw_.load();
   if (now.count() < due) return;
-  // One of the threads that come here at once draws.
+  // Only one of the threads that arrive at the same time draws.
   if (!next_draw_.compare_exchange_strong(due, now.count() + milliseconds_between_updates)) return;
   const std::lock_guard<std::mutex> lock(showing);
   show_status(status());

@@ -12,26 +12,26 @@ namespace holdfast::program {
 
 struct JobHost;
 
-/// Whether progress is to be shown: never when quiet, else when asked for or on a terminal.
+/// Whether to show progress: never with `quiet` or a JobHost; else if asked for, or on a terminal.
 bool progress_wanted(bool quiet, bool asked_for);
 
-/// How far a job is.
+/// Counted steps of a job.
 struct ProgressCount {
-  std::uint64_t done = 0;  // steps, those skipped counted
+  std::uint64_t done = 0;  // steps done, skipped ones included
   std::uint64_t total = 0;
-  std::uint64_t skipped = 0;  // done before: they say nothing of the rate
-  double samples = 0.0;       // taken by motions; 0: the job does not say
+  std::uint64_t skipped = 0;  // steps done by an earlier run, not part of the rate
+  double samples = 0.0;       // samples taken by motions; 0: not counted
 };
 
-/// Shows on standard error that a job is at work, from a second after its begin on: its name and
-/// the time, or where it counts its steps what its Progress says. On a terminal every second;
-/// elsewhere a line after 1, 2, 4, … s. Ends with the object, or when the result goes to the same
+/// Shows on standard error that a job is running, from one second after its start: its name and the
+/// time, or the status of its Progress. On a terminal the line is renewed every second, elsewhere a
+/// line appears after 1, 2, 4, … s. It ends with the object, or when the result goes to the
 /// terminal.
 class Ticking {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// @param first  when the first line is due
+  /// @param first  time until the first line
   Ticking(std::string job, bool enabled, std::chrono::milliseconds first = std::chrono::seconds(1));
   ~Ticking();
   Ticking(const Ticking&) = delete;
@@ -48,24 +48,24 @@ class Ticking {
   std::thread thread_;
 };
 
-/// To be called before results are written to standard output: where that is the terminal which
-/// shows progress, nothing of the kind is shown any more.
+/// Ends the display of progress, if standard output and standard error are a terminal. Call before
+/// results are written to standard output.
 void yield_terminal_to_result();
 
-/// Shows on standard error how much of a job is done, its rate and the time that remains; at most
-/// ten times a second. On a terminal one line is drawn over and cleared at the end; elsewhere each
-/// is a line of its own, and the last says the total.
+/// Shows on standard error the done part of a job, its rate and the remaining time, at most ten
+/// times a second. On a terminal one line is overwritten, and cleared at the end; elsewhere each
+/// status is a new line, and the last line gives the total.
 class Progress {
  public:
-  /// @param label  of the job, and after a comma what its steps are: "stability", "sweep, cells"
+  /// @param label  name of the job and, after a comma, of its steps: "stability", "sweep, cells"
   Progress(std::uint64_t total, std::string label, bool enabled);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Counts steps done. May be called from many threads.
+  /// Counts steps done, and samples taken in them. May be called from several threads.
   void advance(std::uint64_t steps = 1, std::uint64_t samples = 0);
-  /// Counts steps that were done by an earlier run.
+  /// Counts steps that an earlier run has done.
   void skip(std::uint64_t steps);
 
  private:
@@ -76,7 +76,7 @@ class Progress {
 
   std::uint64_t total_;
   std::string label_;
-  JobHost* host_;  // that gets the count, if there is one
+  JobHost* host_;  // gets the count; null: none
   bool enabled_;
   bool on_terminal_;
   Clock::time_point start_;
@@ -86,8 +86,8 @@ class Progress {
   std::atomic<std::int64_t> next_draw_{0};  // ms after start
 };
 
-/// The line that Progress shows: `stability: 40/100, 12.5/s, 5 s left`, or where the steps have a
-/// name `sweep: 40/100 cells, 12.5 cells/s, 1.2e+08 samples/s, 5 s left`.
+/// The status line of Progress: `stability: 40/100, 12.5/s, 5 s left`, or with named steps `sweep:
+/// 40/100 cells, 12.5 cells/s, 1.2e+08 samples/s, 5 s left`.
 std::string progress_text(const std::string& label, const ProgressCount& count, double seconds);
 
 }  // namespace holdfast::program

@@ -2,8 +2,8 @@
 
 namespace holdfast::program {
 
-/// Number of worker threads: `requested` where that is > 0, else the cores that this process may
-/// run on (sched_getaffinity), which the batch system or taskset has left to it; at least 1.
+/// Number of worker threads: `requested` if > 0, else the number of cores on which this process may
+/// run (sched_getaffinity; a batch system or taskset may restrict them), at least 1.
 int worker_threads(int requested);
 
 }  // namespace holdfast::program

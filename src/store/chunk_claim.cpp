@@ -29,14 +29,14 @@ ChunkClaim::ChunkClaim(const fs::path& chunk_file) : file_(claim_beside(chunk_fi
     const bool made = opened.is_open();
     if (!made && errno != EEXIST) refuse(file_, errno);
     if (!made) opened = Descriptor(open(file_.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW));
-    if (!opened.is_open() && errno == ENOENT) continue;  // its holder is done
+    if (!opened.is_open() && errno == ENOENT) continue;  // its process has finished
     if (!opened.is_open()) refuse(file_, errno);
     const int fault = lock_file(opened.number());
     if (fault == EWOULDBLOCK) {
       answer_ = Answer::elsewhere;
       return;
     }
-    // Its holder may have removed it since it was opened.
+    // Its process may have removed it since it was opened.
     if (!has_name(opened.number(), file_)) continue;
     if (fault != 0 && !made) return;
     answer_ = Answer::ours;

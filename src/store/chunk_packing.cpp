@@ -14,7 +14,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Little-endian, as the codecs want it.
+/// Bytes of a number in little-endian order, as the codecs require.
 template <class Number>
 std::string bytes_of(Number number) {
   std::string bytes;
@@ -47,7 +47,7 @@ std::string compressed(std::string_view bytes) {
 }
 
 std::optional<std::string> expanded(std::string_view file, std::size_t size) {
-  // A damaged size allocates nothing.
+  // Checked first, so that a damaged size allocates no memory.
   if (ZSTD_getFrameContentSize(file.data(), file.size()) != size) return std::nullopt;
   std::string bytes(size, '\0');
   if (ZSTD_decompress(bytes.data(), size, file.data(), file.size()) != size) return std::nullopt;

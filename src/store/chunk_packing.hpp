@@ -7,27 +7,27 @@
 
 namespace holdfast::program {
 
-/// How the bytes of a chunk lie in its file: as codecs of Zarr that notice damage.
+/// Encoding of a chunk's bytes in its file, by Zarr codecs that detect damage.
 enum class ChunkPacking {
-  zstd,      ///< Zstandard with the checksum of its content, and a seal that says where it belongs
-  checksum,  ///< as they are, and the CRC-32C of them behind; where they belong is not in it
+  zstd,      ///< Zstandard with a checksum of the content, and a seal that identifies the chunk
+  checksum,  ///< plain bytes followed by their CRC-32C; the chunk is not identified
 };
 
-/// Zstandard, or where the program is built without it the checksum alone.
+/// Default packing: Zstandard, or the checksum alone in a program built without Zstandard.
 ChunkPacking usual_packing();
 
-/// The level of compression, a balance for numbers that hardly repeat.
+/// Compression level of Zstandard, a balance of time and size for numbers that hardly repeat.
 inline constexpr int zstd_level = 1;
 
-/// The file of a chunk: the same bytes at the same place give the same file. Its seal, the
-/// CRC-64/XZ of place and bytes, is a skippable frame behind that of the bytes, over which every
-/// reader of Zstandard passes (RFC 8878, 3.1.2).
-/// @param place  names the chunk among all others of all stores
-/// Throws std::bad_alloc, and NoAnswer, which names the package, where the program cannot pack so.
+/// Content of a chunk's file; equal bytes at an equal place give equal files. With Zstandard a
+/// seal, the CRC-64/XZ of place and bytes, follows as a skippable frame, which every reader of
+/// Zstandard ignores (RFC 8878, 3.1.2).
+/// @param place  name of the chunk, unique among all chunks of all stores
+/// Throws std::bad_alloc, or NoAnswer, naming the package, if the program lacks Zstandard.
 std::string packed_chunk(std::string_view bytes, ChunkPacking packing, std::string_view place = "");
 
-/// The bytes of a file; nothing where they are not `size` ones, damaged, or those of another place.
-/// Throws as above.
+/// The bytes of a chunk from its file; nullopt if the file is damaged, has not `size` bytes or,
+/// with Zstandard, belongs to another place. Throws the exceptions of packed_chunk().
 std::optional<std::string> unpacked_chunk(std::string_view file, std::size_t size,
                                           ChunkPacking packing, std::string_view place = "");
 

@@ -23,23 +23,23 @@
 namespace holdfast::program {
 namespace {
 
-/// A number in which two processes hardly agree.
+/// Number that is almost certainly different for any two processes.
 std::uint64_t number_of_this_process() {
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   return checksum(std::to_string(now) + "-" + std::to_string(getpid()));
 }
 
-/// A chunk that is kept while the next one is computed: a thread need not wait for the disk.
+/// A chunk that is written while the next is computed, so that a thread need not wait for the disk.
 class ChunkUnderWay {
  public:
-  /// Keeps another one once the last is done.
+  /// Starts writing a chunk, after the previous one is written.
   template <class Keep>
   void begin(Keep&& keep) {
     finish();
     done_ = std::async(way, std::forward<Keep>(keep));
   }
 
-  /// Throws what could not be kept.
+  /// Waits for the chunk; throws the exception of its writing.
   void finish() {
     if (done_.valid()) done_.get();
   }
@@ -47,14 +47,14 @@ class ChunkUnderWay {
  private:
 #ifdef __EMSCRIPTEN__  // a module has one thread
   static constexpr std::launch way = std::launch::deferred;
-#else  // where the system has no further thread it is kept when it is asked for
+#else  // without a further thread it is written in finish()
   static constexpr std::launch way = std::launch::async | std::launch::deferred;
 #endif
 
   std::future<void> done_;
 };
 
-/// One process at work on a store.
+/// The work of one process on a store.
 class StoreFilling {
  public:
   StoreFilling(const JobContext& context, const StoreFolder& store, const ChunkWork& work)
@@ -79,8 +79,8 @@ class StoreFilling {
   }
 
  private:
-  /// The first process goes in order; one that joins later begins elsewhere, so that they rarely
-  /// meet.
+  /// First ticket of this process. The first process goes in order; later ones start at random
+  /// places, so that they rarely try the same chunk.
   std::int64_t first_ticket() const {
     if (!store_.has(chunk_of(0))) return 0;
     return static_cast<std::int64_t>(number_of_this_process() %
@@ -91,7 +91,7 @@ class StoreFilling {
     return work_.part.number - 1 + ticket * work_.part.of;
   }
 
-  /// Work of one thread: the next chunk, until there is none; then what others have not done.
+  /// Work of one thread: chunk after chunk, then the chunks that other processes have not finished.
   void take_chunks(const std::atomic<bool>& stop) {
     std::vector<std::int64_t> elsewhere;
     ChunkUnderWay under_way;
@@ -106,7 +106,7 @@ class StoreFilling {
     while (!stop && !elsewhere.empty()) see_to_others(elsewhere, under_way);
   }
 
-  /// Waits for what others have, and does what they leave.
+  /// Waits for the chunks of other processes, and computes those that they abandon.
   void see_to_others(std::vector<std::int64_t>& elsewhere, ChunkUnderWay& under_way) {
     const std::size_t before = elsewhere.size();
     elsewhere.erase(
@@ -118,8 +118,8 @@ class StoreFilling {
     throw_if_interrupted();
   }
 
-  /// Whether the chunk is done, here or elsewhere, or under way here.
-  /// @param last  nobody comes to it any more
+  /// Computes a chunk unless it is done or claimed. True if it is done or being written here.
+  /// @param last  whether no other process will take the chunk
   bool see_to(std::int64_t chunk, bool last, ChunkUnderWay& under_way) {
     throw_if_interrupted();
     const bool done = is_done(chunk);
@@ -129,7 +129,7 @@ class StoreFilling {
     if (claim->was_left()) store_.remove_leftovers(chunk);
     if (claim->answer() == ChunkClaim::Answer::elsewhere) return false;
     if (claim->answer() == ChunkClaim::Answer::unknown && !last) return false;
-    // Its last holder may have finished it before it was ours.
+    // Another process may have finished it before this claim.
     if (is_done(chunk)) return count_found(chunk);
     if (store_.has(chunk))
       tell(store_.file_of(chunk).string() +
@@ -137,7 +137,7 @@ class StoreFilling {
     under_way.begin(
         [this, chunk, claim = std::move(claim), result = work_.compute(chunk)]() mutable {
           store_.put(chunk, result.values);
-          claim.reset();  // the chunk is there
+          claim.reset();  // the chunk is written
           progress_.advance(static_cast<std::uint64_t>(store_.grid().cells_of(chunk)),
                             static_cast<std::uint64_t>(result.samples));
         });
@@ -148,7 +148,7 @@ class StoreFilling {
     return store_.has(chunk) && (!work_.verify || store_.read(chunk));
   }
 
-  /// From any thread, also to the host, which the first one alone has.
+  /// Reports a warning from any thread, also to the host, which only the first thread has.
   void tell(const std::string& warning) const {
     const std::lock_guard<std::mutex> one_at_a_time(telling_);
     std::optional<HostScope> here;
@@ -167,7 +167,7 @@ class StoreFilling {
   const ChunkWork& work_;
   JobHost* host_ = JobHost::current();
   mutable std::mutex telling_;
-  std::int64_t tickets_;  // one a chunk of the part
+  std::int64_t tickets_;  // number of chunks of the part
   std::int64_t first_ticket_;
   std::atomic<std::int64_t> taken_{0};
   Progress progress_;
@@ -186,7 +186,7 @@ void report_kept_chunks(const StoreFolder& store, const std::string& how_to_go_o
                  (kept == 1 ? " chunk is" : " chunks are") + " kept in " + store.folder().string() +
                  "; " + how_to_go_on);
   } catch (...) {
-    // The fault that brought us here is the one to be told.
+    // The original fault is the one to report.
   }
 }
 

@@ -12,40 +12,40 @@ namespace holdfast::program {
 /// Computed values of a chunk.
 struct ChunkResult {
   ChunkValues values;
-  std::int64_t samples = 0;  ///< of the motions of its cells
+  std::int64_t samples = 0;  ///< number of samples that its motions took
 };
 
-/// Every `of`-th chunk from number `number` on, both counted from 1: one of `of` parts of a store.
+/// One of `of` parts of a store: every `of`-th chunk from chunk `number` on, both counted from 1.
 struct StorePart {
   std::int64_t number = 1;
   std::int64_t of = 1;
 };
 
-/// How the missing chunks of a store come to be.
+/// Computation of the missing chunks of a store.
 struct ChunkWork {
-  std::string steps;  ///< of the progress: "sweep, cells"
-  /// Computes a chunk, on any thread. What a chunk becomes depends on its number alone.
+  std::string steps;  ///< label of the progress: "sweep, cells"
+  /// Computes the chunk of a given number, on any thread. The result depends on the number alone.
   std::function<ChunkResult(std::int64_t)> compute;
-  std::function<void(std::int64_t)> found = nullptr;  ///< told of each that was there; any thread
-  bool verify = false;  ///< chunks that are there are read, and those that are damaged made anew
-  StorePart part = {};  ///< the others are left
+  std::function<void(std::int64_t)> found = nullptr;  ///< called with each chunk already done
+  bool verify = false;  ///< whether done chunks are read, and damaged ones computed again
+  StorePart part = {};  ///< chunks to compute
 };
 
-/// Computes what a store lacks. Its threads take one chunk after the other, and so do those of
-/// other processes that fill the same store: none takes what a living one has, and at the end each
-/// waits for what the others have, or does what they leave. All chunks of the part are there when
-/// it returns.
+/// Computes the missing chunks of a store on several threads. Other processes may fill the store at
+/// the same time: a chunk that a running process has claimed is not taken. At the end each thread
+/// waits for the chunks of others, or computes those that they abandon. On return all chunks of the
+/// part are done.
 ///
-/// Throws Interrupted, what a computation throws, and what StoreFolder::put() throws; every
-/// finished chunk stays.
+/// Throws Interrupted, and the exceptions of `work.compute` and StoreFolder::put(). Finished chunks
+/// remain.
 void fill_store(const JobContext& context, const StoreFolder& store, const ChunkWork& work);
 
-/// Makes or enters the store and fills it. Says on standard error how much is kept where it does
-/// not end.
+/// Creates or enters the store and fills it. If an exception ends it, reports on standard error how
+/// many chunks are kept.
 void fill_store(const JobContext& context, const StoreDescription& description,
                 const ChunkWork& work);
 
-/// Says on standard error how much of a store is kept, after a fault.
+/// Reports on standard error how many chunks of a store are kept; `how_to_go_on` ends the message.
 void report_kept_chunks(const StoreFolder& store, const std::string& how_to_go_on) noexcept;
 
 }  // namespace holdfast::program

@@ -30,7 +30,7 @@ std::string_view bytes_of(const std::vector<double>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
 }
 
-/// Checksum of the numbers of lists, so that another record of the same name is noticed.
+/// Checksum of lists of numbers, by which another record of the same name is noticed.
 template <class... Lists>
 std::string checksum_of(const Lists&... lists) {
   std::uint64_t sum = 0;
@@ -56,7 +56,7 @@ Column column_of(const Json& json) {
           json.at("description").get<std::string>(), json.at("datatype").get<std::string>()};
 }
 
-/// Attribute that a holdfast needs to go on with the store or to convert it, beside those of CF.
+/// Attribute from which holdfast continues or converts the store, in addition to those of CF.
 Json holdfast_attribute(const StoreDescription& store) {
   const JobContext& origin = store.origin;
   Json json = {{"version", computed_by(origin)}, {"job", origin.job}};
@@ -100,7 +100,7 @@ Json attributes_of(const CellColumn& column) {
   return attributes;
 }
 
-/// An array with what is said of it, in either format.
+/// An array with its dimensions and attributes.
 struct ArrayDescription : StoreArray {
   std::vector<std::string> dimensions;
   Json attributes;
@@ -136,7 +136,7 @@ Json codecs_of(ElementType type, ChunkPacking packing) {
   return Json::array({bytes, last});
 }
 
-Json array_of_format_3(const ArrayDescription& array, ChunkPacking packing) {
+Json json_of(const ArrayDescription& array, ChunkPacking packing) {
   constexpr std::array<const char*, 3> names = {"float64", "int64", "int8"};
   Json json = {{"zarr_format", 3}, {"node_type", "array"}};
   json["shape"] = array.grid.shape;
@@ -152,94 +152,34 @@ Json array_of_format_3(const ArrayDescription& array, ChunkPacking packing) {
   return json;
 }
 
-Json array_of_format_2(const ArrayDescription& array) {
-  constexpr std::array<const char*, 3> names = {"<f8", "<i8", "|i1"};
-  Json json = {{"zarr_format", 2}};
-  json["shape"] = array.grid.shape;
-  json["chunks"] = array.grid.chunk;
-  json["dtype"] = names.at(static_cast<std::size_t>(array.type));
-  json["compressor"] = {{"id", "zstd"}, {"level", zstd_level}};
-  json["fill_value"] = fill_value(array.type);
-  json["order"] = "C";
-  json["filters"] = nullptr;
-  json["dimension_separator"] = ".";
-  return json;
-}
-
 std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json& holdfast_part(Json& root, int format) {
-  return (format == 2 ? root : root.at("attributes")).at("holdfast");
-}
-
-/// The root with the checksum of all the rest of it.
-Json sealed(Json root, int format) {
-  // Read again, since bytes that are no text have been replaced by then.
+/// The root with a checksum of its other content added.
+Json sealed(Json root) {
+  // Parsed again, since text_of() has replaced bytes that are not UTF-8.
   root = Json::parse(text_of(root));
   const std::string sum = std::to_string(checksum(text_of(root)));
-  holdfast_part(root, format)["checksum"] = sum;
+  root["attributes"]["holdfast"]["checksum"] = sum;
   return root;
-}
-
-Documents documents_of_format_3(const StoreDescription& store) {
-  Documents documents;
-  Json consolidated = Json::object();
-  for (const ArrayDescription& array : described_arrays(store)) {
-    const Json json = array_of_format_3(array, store.packing);
-    documents.emplace_back(fs::path(array.name) / root_of_format_3, text_of(json));
-    consolidated[array.name] = json;
-  }
-  Json root = {{"zarr_format", 3}, {"node_type", "group"}};
-  root["attributes"] = root_attributes(store);
-  root["consolidated_metadata"] = {
-      {"kind", "inline"}, {"must_understand", false}, {"metadata", consolidated}};
-  documents.emplace_back(root_of_format_3, text_of(sealed(root, 3)));
-  return documents;
-}
-
-Documents documents_of_format_2(const StoreDescription& store) {
-  if (store.packing != ChunkPacking::zstd)
-    throw NoAnswer(
-        "--zarr-format 2: this program was built without Zstandard (Debian package libzstd-dev); "
-        "give --zarr-format 3");
-  Documents documents;
-  Json consolidated = Json::object();
-  const auto add = [&](const std::string& path, const Json& json) {
-    documents.emplace_back(path, text_of(json));
-    consolidated[path] = json;
-  };
-  for (const ArrayDescription& array : described_arrays(store)) {
-    Json attributes = array.attributes;
-    attributes["_ARRAY_DIMENSIONS"] = array.dimensions;
-    add(array.name + "/.zarray", array_of_format_2(array));
-    add(array.name + "/.zattrs", attributes);
-  }
-  add(".zgroup", {{"zarr_format", 2}});
-  const Json root = sealed(root_attributes(store), 2);
-  consolidated[root_of_format_2] = root;
-  documents.emplace_back(".zmetadata",
-                         text_of({{"zarr_consolidated_format", 1}, {"metadata", consolidated}}));
-  documents.emplace_back(root_of_format_2, text_of(root));
-  return documents;
 }
 
 void require(bool holds) {
   if (!holds) throw std::invalid_argument("its description is not one that holdfast writes");
 }
 
-/// The root without its checksum, which was right.
-Json unsealed(Json root, int format) {
-  Json& part = holdfast_part(root, format);
+/// The root without its checksum, after the checksum was found right.
+Json unsealed(Json root) {
+  Json& part = root.at("attributes").at("holdfast");
   const auto sum = part.at("checksum").get<std::string>();
   part.erase("checksum");
   require(sum == std::to_string(checksum(text_of(root))));
   return root;
 }
 
-/// Whether an array can have the name, which becomes that of its folder: as those of holdfast's
-/// keys and columns are, and no other than the names before.
+/// Whether a name is valid for an array and its folder: letters, digits and underscores, and
+/// different from all names before.
 bool is_array_name(const std::string& name, std::set<std::string>& before) {
   const auto is_of_name = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -273,7 +213,7 @@ JobContext origin_of(const Json& attributes, const Json& json) {
   return origin;
 }
 
-/// Whether the chunks are as chunk_shape() makes them: cells in a run.
+/// Whether the chunks have a shape that chunk_shape() gives, so that each is a run of cells.
 bool is_sound(const ChunkGrid& grid) {
   const auto positive = [](std::size_t count) { return count > 0; };
   if (grid.shape.empty() || grid.shape.size() != grid.chunk.size()) return false;
@@ -290,10 +230,9 @@ bool is_sound(const ChunkGrid& grid) {
   return grid.chunk == chunk_shape(grid.shape, static_cast<std::size_t>(of_file));
 }
 
-StoreDescription description_of(const Json& attributes, int format) {
+StoreDescription description_of(const Json& attributes) {
   const Json& json = attributes.at("holdfast");
   StoreDescription store;
-  store.format = format;
   store.origin = origin_of(attributes, json);
   for (const Json& axis : json.at("axes")) store.axes.push_back({column_of(axis), {}});
   for (const Json& column : json.at("columns")) store.columns.push_back(cells_of(column));
@@ -358,13 +297,24 @@ void append_case(StorePlan& plan, const Case& the_case) {
 std::size_t size_of(ElementType type) { return type == ElementType::byte ? 1 : 8; }
 
 Documents store_documents(const StoreDescription& store) {
-  return store.format == 2 ? documents_of_format_2(store) : documents_of_format_3(store);
+  Documents documents;
+  Json consolidated = Json::object();
+  for (const ArrayDescription& array : described_arrays(store)) {
+    const Json json = json_of(array, store.packing);
+    documents.emplace_back(fs::path(array.name) / store_root, text_of(json));
+    consolidated[array.name] = json;
+  }
+  Json root = {{"zarr_format", 3}, {"node_type", "group"}};
+  root["attributes"] = root_attributes(store);
+  root["consolidated_metadata"] = {
+      {"kind", "inline"}, {"must_understand", false}, {"metadata", consolidated}};
+  documents.emplace_back(store_root, text_of(sealed(root)));
+  return documents;
 }
 
-StoreDescription read_description(std::string_view root, int format) {
+StoreDescription read_description(std::string_view root) {
   try {
-    const Json json = unsealed(Json::parse(root), format);
-    return description_of(format == 2 ? json : json.at("attributes"), format);
+    return description_of(unsealed(Json::parse(root)).at("attributes"));
   } catch (const Json::exception& fault) {
     throw std::invalid_argument(fault.what());
   } catch (const Refusal& fault) {

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "a store's numbers are little-endian");
 
-/// Calls with what fills the numbers of an array where there are none, which tells their type.
+/// Calls `call` with the fill value of an array, whose type is the array's number type.
 template <class Call>
 auto with_fill(ElementType type, const Call& call) {
   if (type == ElementType::byte) return call(std::int8_t{-1});
@@ -32,7 +32,7 @@ auto with_fill(ElementType type, const Call& call) {
   return call(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// The bytes of a file of `count` cells; those beyond the values are filled.
+/// The bytes of a file of `count` cells; cells beyond the values have the fill value.
 std::string bytes_of(const std::vector<double>& values, std::size_t count, ElementType type) {
   return with_fill(type, [&](auto fill) {
     std::vector<decltype(fill)> numbers(count, fill);
@@ -71,11 +71,10 @@ void write_file(const fs::path& file, std::string_view bytes) {
   refuse_to_read(folder, system_words(error));
 }
 
-/// Text of a root in a format; nothing where there is no such file.
-std::optional<std::string> root_text(const fs::path& folder, int format) {
+/// Text of the root file; nullopt if there is none.
+std::optional<std::string> root_text(const fs::path& folder) {
   int error = 0;
-  std::optional<std::string> text =
-      read_whole_file(folder / (format == 2 ? root_of_format_2 : root_of_format_3), error);
+  std::optional<std::string> text = read_whole_file(folder / store_root, error);
   if (!text && error != ENOENT && error != ENOTDIR) refuse_to_look_into(folder, error);
   return text;
 }
@@ -95,50 +94,47 @@ bool holds_nothing_but(const fs::path& folder, const std::vector<std::string>& k
   return true;
 }
 
-/// Whether nothing is there, or leftovers of a store whose root was not written any more; without
-/// chunks, of which nobody could tell what they belong to.
+/// Whether the folder is empty, or has only leftovers of a store without root and chunks. Chunks
+/// without a root cannot be assigned to a computation.
 bool may_begin_store(const fs::path& folder, const StoreDescription& description) {
   const std::vector<StoreArray> arrays = arrays_of(description);
-  std::vector<std::string> known = {".zgroup", ".zmetadata", FolderLock::file_name};
+  std::vector<std::string> known = {FolderLock::file_name};
   for (std::size_t k = 0; k < arrays.size(); ++k) {
     known.push_back(arrays[k].name);
-    if (k >= description.axes.size() &&
-        !holds_nothing_but(folder / arrays[k].name,
-                           {root_of_format_3, root_of_format_2, ".zarray"}))
+    if (k >= description.axes.size() && !holds_nothing_but(folder / arrays[k].name, {store_root}))
       return false;
   }
   return holds_nothing_but(folder, known);
 }
 
-/// The root, from which they were made, has a checksum of its own.
+/// Documents without the root, which has its own checksum.
 auto documents_but_root(const StoreDescription& store) {
   auto documents = store_documents(store);
   documents.pop_back();
   return documents;
 }
 
-/// The root of a store that is being removed.
+/// Name of the root file of a store that is being removed.
 constexpr const char* removed_root = ".removed";
 
-/// The description in a root; nothing where it is none of holdfast's.
-std::optional<StoreDescription> description_in(const std::string& root, int format) {
+/// Description in the text of a root file; nullopt if holdfast did not write it.
+std::optional<StoreDescription> description_in(const std::string& root) {
   try {
-    return read_description(root, format);
+    return read_description(root);
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   }
 }
 
-/// Description of the store whose removal was cut short.
+/// Description of a store whose removal was interrupted; nullopt if there is none.
 std::optional<StoreDescription> removed_store_in(const fs::path& folder) {
   int error = 0;
   const std::optional<std::string> text = read_whole_file(folder / removed_root, error);
   if (!text) return std::nullopt;
-  auto description = description_in(*text, 3);
-  return description ? description : description_in(*text, 2);
+  return description_in(*text);
 }
 
-/// A number as it stands in a name: without a sign and leading zeros.
+/// Whether the text is a number below `end` as in file names: no sign, no leading zeros.
 bool is_index_below(std::string_view text, std::size_t end) {
   std::size_t number = 0;
   const auto [rest, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -146,13 +142,11 @@ bool is_index_below(std::string_view text, std::size_t end) {
          rest == text.data() + text.size();
 }
 
-/// Whether a file is that of a chunk: `c.4.0`, or without the letter in format 2.
-bool is_chunk_name(std::string_view name, int format, const ChunkGrid& grid) {
+/// Whether a file name is that of a chunk, `c.4.0`.
+bool is_chunk_name(std::string_view name, const ChunkGrid& grid) {
   std::vector<std::string_view> parts = split(name, '.');
-  if (format == 3) {
-    if (parts.front() != "c") return false;
-    parts.erase(parts.begin());
-  }
+  if (parts.front() != "c") return false;
+  parts.erase(parts.begin());
   if (parts.size() != grid.shape.size()) return false;
   for (std::size_t axis = 0; axis < parts.size(); ++axis)
     if (!is_index_below(parts[axis], static_cast<std::size_t>(grid.along(axis)))) return false;
@@ -161,7 +155,7 @@ bool is_chunk_name(std::string_view name, int format, const ChunkGrid& grid) {
 
 [[noreturn]] void refuse_link(const fs::path& path) {
   throw WrongInput("cannot write " + path.string() +
-                   ": it is a symbolic link, which holdfast does not follow");
+                   ": it is a symbolic link, which holdfast does not follow; remove the link");
 }
 
 [[noreturn]] void refuse_folder(const fs::path& folder) {
@@ -180,11 +174,8 @@ void require_same_plan(const fs::path& folder, const StoreDescription& before,
 }  // namespace
 
 std::optional<StoreDescription> store_in(const fs::path& folder) {
-  for (const int format : {3, 2}) {
-    const std::optional<std::string> text = root_text(folder, format);
-    if (text) return description_in(*text, format);
-  }
-  return std::nullopt;
+  const std::optional<std::string> text = root_text(folder);
+  return text ? description_in(*text) : std::nullopt;
 }
 
 StoreFolder StoreFolder::enter(const fs::path& folder, const StoreDescription& description) {
@@ -194,7 +185,7 @@ StoreFolder StoreFolder::enter(const fs::path& folder, const StoreDescription& d
   if (!there) {
     remove_store(folder);
     if (may_begin_store(folder, description)) store.begin();
-    // Read anew: another process may have begun a store meanwhile, this one or another.
+    // Read again: another process may have created a store meanwhile, this one or another.
     there = store_in(folder);
   }
   if (!there) refuse_folder(folder);
@@ -207,21 +198,23 @@ StoreFolder StoreFolder::enter(const fs::path& folder, const StoreDescription& d
 
 StoreFolder StoreFolder::open(const fs::path& folder) {
   std::optional<StoreDescription> there = store_in(folder);
-  if (!there) throw WrongInput(folder.string() + " is not a store that holdfast has written");
+  if (!there)
+    throw WrongInput(folder.string() +
+                     " is no Zarr 3 store that holdfast has written; give the .zarr folder of one");
   StoreFolder store(folder, std::move(*there));
   store.read_axes();
   store.require(documents_but_root(store.description_));
   return store;
 }
 
-/// No array may lie behind a link: what is written there would be written elsewhere.
+/// Refuses arrays behind links, which would be written elsewhere.
 void StoreFolder::refuse_links() const {
   std::error_code error;
   for (const StoreArray& array : arrays_)
     if (fs::is_symlink(folder_ / array.name, error)) refuse_link(folder_ / array.name);
 }
 
-/// Leaves nothing where it cannot come to its end, but what another process has begun meanwhile.
+/// Writes axes and descriptions of a new store; on failure removes it if no other process began it.
 void StoreFolder::begin() const {
   try {
     each_axis_file([&](std::size_t axis, std::int64_t chunk) {
@@ -235,12 +228,12 @@ void StoreFolder::begin() const {
   }
 }
 
-/// Seal of a file of the store: its name, and what the store was asked.
+/// Seal of a file of the store: its name and the identity of the plan.
 std::string StoreFolder::seal_of(const fs::path& file) const {
   return file.lexically_relative(folder_).generic_string() + " of " + identity_;
 }
 
-/// The bytes of a file of an array; cells beyond the values are filled.
+/// Packed content of an array's file; cells beyond the values have the fill value.
 std::string StoreFolder::packed(const StoreArray& array, std::int64_t chunk,
                                 const std::vector<double>& values) const {
   const auto count = static_cast<std::size_t>(array.grid.cells_of_file());
@@ -248,7 +241,7 @@ std::string StoreFolder::packed(const StoreArray& array, std::int64_t chunk,
                       seal_of(file_of(array, chunk)));
 }
 
-/// The values of a file; nothing where it is missing or damaged, or cannot be read.
+/// Values in a file; nullopt if it is missing, damaged or unreadable.
 std::optional<std::vector<double>> StoreFolder::values_in(const StoreArray& array,
                                                           std::int64_t chunk) const {
   const fs::path file = file_of(array, chunk);
@@ -262,7 +255,7 @@ std::optional<std::vector<double>> StoreFolder::values_in(const StoreArray& arra
   return values_of(*bytes, static_cast<std::size_t>(array.grid.cells_of(chunk)), array.type);
 }
 
-/// Calls for each file of an axis, with its number.
+/// Calls `call(axis, chunk)` for every file of every axis.
 template <class Call>
 void StoreFolder::each_axis_file(const Call& call) const {
   for (std::size_t axis = 0; axis < description_.axes.size(); ++axis)
@@ -277,7 +270,7 @@ void StoreFolder::write_axis(std::size_t axis, std::int64_t chunk) const {
   write_file(file_of(array, chunk), packed(array, chunk, values));
 }
 
-/// Mends files for whoever comes later, so that they say what the store's plan says.
+/// Repairs damaged axes, and descriptions that differ from the given ones.
 void StoreFolder::mend(const Documents& documents) const {
   each_axis_file([&](std::size_t axis, std::int64_t chunk) {
     if (!values_in(arrays_[axis], chunk)) write_axis(axis, chunk);
@@ -307,13 +300,12 @@ void StoreFolder::read_axes() {
     description_.axes[axis].values = std::move(values[axis]);
 }
 
-/// All files of an array lie in one folder: each costs a file system as little as can be.
+/// All files of an array are in one folder, which costs the file system least.
 fs::path StoreFolder::file_of(const StoreArray& array, std::int64_t chunk) const {
   if (chunk < 0 || chunk >= array.grid.chunks())
     throw std::out_of_range("no such chunk in the store");
-  std::string file = description_.format == 3 ? "c" : "";
-  for (const std::int64_t index : array.grid.place(chunk))
-    file += (file.empty() ? "" : ".") + std::to_string(index);
+  std::string file = "c";
+  for (const std::int64_t index : array.grid.place(chunk)) file += "." + std::to_string(index);
   return folder_ / array.name / file;
 }
 
@@ -365,27 +357,25 @@ std::optional<std::int64_t> StoreFolder::chunks_done_in(const fs::path& folder) 
 }
 
 std::int64_t StoreFolder::chunks_done() const {
-  // Files are counted that lie there: of how many chunks a root speaks is anybody's word.
+  // Existing files are counted, since the number of chunks in a root file may be wrong.
   std::error_code error;
   std::int64_t done = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / array_of(0).name, error))
-    if (is_chunk_name(entry.path().filename().string(), description_.format, grid()) &&
-        entry.is_regular_file(error))
+    if (is_chunk_name(entry.path().filename().string(), grid()) && entry.is_regular_file(error))
       ++done;
   return done;
 }
 
-/// Whether holdfast gives a file of an array the name: of a chunk, its claim, a document, or before
-/// it is whole.
+/// Whether a name is one that holdfast gives in an array's folder: of a chunk, its claim, a
+/// document, or a temporary file of these.
 bool StoreFolder::gives(const std::string& name, const ChunkGrid& grid) const {
   constexpr std::string_view claim = ".claim";
   const std::string whole = name_behind_temporary(name).value_or(name);
-  for (const char* document : {root_of_format_3, root_of_format_2, ".zarray"})
-    if (whole == document) return true;
+  if (whole == store_root) return true;
   std::string_view chunk = whole;
   if (chunk.size() > claim.size() && chunk.substr(chunk.size() - claim.size()) == claim)
     chunk = chunk.substr(1, chunk.size() - 1 - claim.size());
-  return is_chunk_name(chunk, description_.format, grid);
+  return is_chunk_name(chunk, grid);
 }
 
 void StoreFolder::remove_array(const OwnFolder& folder, const StoreArray& array) const {
@@ -399,12 +389,11 @@ void StoreFolder::remove_array(const OwnFolder& folder, const StoreArray& array)
 void StoreFolder::remove() const {
   const OwnFolder folder(folder_);
   if (!folder.is_open()) return;
-  const char* root = description_.format == 2 ? root_of_format_2 : root_of_format_3;
-  folder.rename(root, removed_root);
+  folder.rename(store_root, removed_root);
   for (const StoreArray& array : arrays_) remove_array(folder, array);
-  for (const char* name : {".zmetadata", ".zgroup", removed_root}) folder.remove_file(name);
+  folder.remove_file(removed_root);
   for (const std::string& name : folder.names())
-    if (name_behind_temporary(name) == root) folder.remove_file(name);
+    if (name_behind_temporary(name) == store_root) folder.remove_file(name);
   folder.remove_file(FolderLock::file_name, true);
   rmdir(folder_.c_str());
 }

@@ -12,62 +12,60 @@
 
 namespace holdfast::program {
 
-/// The values of a chunk: for each column of the store those of its cells.
+/// Values of a chunk: a list per column of the store, with a value per cell.
 using ChunkValues = std::vector<std::vector<double>>;
 
-/// Cells of a grid as a Zarr store, a folder that xarray and zarr read while it grows. The axes are
-/// coordinates, the columns arrays over them; numbers, units and meanings are as in netCDF. Nothing
-/// in it is reached through a link.
+/// A Zarr store with the cells of a grid: a folder that xarray and zarr can read while it is
+/// filled. The axes are coordinates, the columns arrays over them; numbers, units and descriptions
+/// are as in netCDF. Nothing is written through a symbolic link.
 ///
-/// A chunk is a file for each column; it is done when that of the first column is there, which is
-/// written last. A file appears whole or not at all, and bears a checksum. Any number of threads
-/// and processes, also of several machines, may fill one folder at once without knowing of each
-/// other. A chunk number outside the store throws std::out_of_range.
+/// A chunk has one file per column. The file of the first column is written last: once it exists,
+/// the chunk is done. A file appears complete or not at all, and contains a checksum. Threads and
+/// processes, also of several machines, may fill one folder concurrently. A chunk number outside
+/// the store throws std::out_of_range.
 class StoreFolder {
  public:
-  /// Makes the store, or goes on with the one that is there.
+  /// Creates the store, or continues an existing one, whose damaged descriptions are repaired.
   ///
-  /// Throws WrongInput where the folder holds something else or a store of another plan (naming
-  /// each entry that differs, with both texts), or cannot be written; OutputError where the disk is
-  /// full. What describes a store that is there, and its axes, are mended where they are damaged.
+  /// Throws WrongInput if the folder has other content, is a store of another plan (the message
+  /// gives each differing entry with both texts) or cannot be written; OutputError for a full disk.
   static StoreFolder enter(const std::filesystem::path& folder,
                            const StoreDescription& description);
 
-  /// A store to be read. Throws WrongInput where there is none in the folder, and where a file that
-  /// describes it, or one of its axes, is missing, damaged, or another store's.
+  /// Opens a store for reading. Throws WrongInput if the folder has no store, or if a file with its
+  /// description or an axis is missing, damaged or of another store.
   static StoreFolder open(const std::filesystem::path& folder);
 
   const StoreDescription& description() const { return description_; }
   const std::filesystem::path& folder() const { return folder_; }
   const ChunkGrid& grid() const { return description_.grid; }
 
-  /// Whether the chunk is done; whether it is whole, read() tells.
+  /// Whether the chunk is done; only read() checks whether it is undamaged.
   bool has(std::int64_t chunk) const;
 
-  /// The values of a chunk; nothing where it is missing or damaged.
+  /// Values of a chunk; nullopt if it is missing or damaged.
   std::optional<ChunkValues> read(std::int64_t chunk) const;
-  /// Values of one column of a chunk.
+  /// Values of one column of a chunk; nullopt if its file is missing or damaged.
   std::optional<std::vector<double>> read_column(std::size_t column, std::int64_t chunk) const;
 
-  /// Keeps a chunk. Throws OutputError, which names the file, where it cannot be written; what was
-  /// there stays whole.
+  /// Writes a chunk. Throws OutputError, which names the file, if that fails; existing files remain
+  /// complete.
   void put(std::int64_t chunk, const ChunkValues& values) const;
 
-  /// Removes what a process that was killed has left of a chunk; its claim is the caller's.
+  /// Removes temporary files of a chunk that a killed process has left, but not the chunk's claim.
   void remove_leftovers(std::int64_t chunk) const;
 
-  /// The file that makes the chunk done.
+  /// Path of the file whose existence marks the chunk as done.
   std::filesystem::path file_of(std::int64_t chunk) const { return file_of(array_of(0), chunk); }
 
-  /// How many chunks are done.
+  /// Number of chunks done.
   std::int64_t chunks_done() const;
-  /// Chunks done of whatever store is in a folder; nothing where none is.
+  /// Number of chunks done in the store of a folder; nullopt if the folder has no store.
   static std::optional<std::int64_t> chunks_done_in(const std::filesystem::path& folder);
 
-  /// Removes what a store of this description has, and the folder where nothing else lies in it:
-  /// files with names that holdfast gives, where the user owns the folder. All else stays, and what
-  /// cannot be removed. The root goes first, under another name: a removal that is cut short is
-  /// finished by remove_store(), or by whoever enters the folder.
+  /// Removes the files of this store, and the folder if it is then empty. Only files with names
+  /// that holdfast gives are removed, in folders that the user owns; all else remains. The root
+  /// file is renamed first: remove_store() or the next enter() completes an interrupted removal.
   void remove() const;
 
  private:
@@ -99,22 +97,22 @@ class StoreFolder {
   std::string identity_ = plan_identity(description_.plan);
 };
 
-/// Removes the store in a folder, or what is left of one whose removal was cut short; nothing where
-/// there is neither. See StoreFolder::remove().
+/// Removes the store in a folder, or completes an interrupted removal; without effect if there is
+/// neither. See StoreFolder::remove().
 void remove_store(const std::filesystem::path& folder);
 
-/// The description of the store in a folder; nothing where there is no folder, or none in it that
+/// Description of the store in a folder; nullopt if the folder does not exist or has no store that
 /// holdfast wrote.
 std::optional<StoreDescription> store_in(const std::filesystem::path& folder);
 
-/// The right to compute a chunk, by a file that nobody else has locked. Processes that are ended,
-/// however hard, lose it; on a file system without locks it is a hint alone.
+/// Exclusive right to compute a chunk, represented by a locked file. The right ends with the
+/// process, even if it is killed. On a file system without locks it is only a hint.
 class ChunkClaim {
  public:
   enum class Answer {
     ours,
-    elsewhere,  ///< another process has it and is alive
-    unknown,    ///< it has a file, and here are no locks that tell whether its process is alive
+    elsewhere,  ///< another running process has the claim
+    unknown,    ///< a claim file exists; without locks its process may be running or not
   };
 
   /// @param chunk_file  StoreFolder::file_of() of the chunk
@@ -126,10 +124,10 @@ class ChunkClaim {
 
   Answer answer() const { return answer_; }
 
-  /// Whether it was left by a process that was killed.
+  /// Whether a killed process has left this claim.
   bool was_left() const { return was_left_; }
 
-  /// Whether a chunk has a claim, be its process alive or not.
+  /// Whether a claim file of the chunk exists, whether its process is running or not.
   static bool exists(const std::filesystem::path& chunk_file);
 
  private:

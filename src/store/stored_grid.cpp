@@ -1,12 +1,10 @@
 #include "store/stored_grid.hpp"
 
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "case/model/own/own_parts.hpp"
-#include "io/file/output.hpp"
 #include "output/grid/cell_writer.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
@@ -42,12 +40,11 @@ StoreDescription store_description(const JobContext& context, const GridLayout& 
   for (const GridAxis& axis : layout.axes) store.grid.shape.push_back(axis.count());
   store.grid.chunk = chunk_shape(store.grid.shape, most);
   store.plan = plan_of(context);
-  store.format = context.zarr_format;
   return store;
 }
 
 void refuse_chunk(const StoreFolder& store, std::int64_t chunk) {
-  throw NoAnswer("the chunk " + store.file_of(chunk).string() + " or one beside it is " +
+  throw NoAnswer("a file of the chunk " + store.file_of(chunk).string() + " is " +
                  (store.has(chunk) ? "damaged" : "missing") +
                  ": repeat the command that made the store, with --resume if it has that option");
 }
@@ -61,7 +58,7 @@ ChunkValues whole_chunk(const StoreFolder& store, std::int64_t chunk) {
   return std::move(*values);
 }
 
-/// Cells that become chunks of a store.
+/// Writer of cells as the chunks of a Zarr store.
 class ZarrCells final : public CellWriter {
  public:
   ZarrCells(const JobContext& context, const GridLayout& layout)
@@ -75,31 +72,13 @@ class ZarrCells final : public CellWriter {
     });
   }
 
-  /// Every chunk has appeared by itself.
+  /// Without effect: every chunk has appeared when it was full.
   void commit() override {}
 
  private:
   StoreFolder store_;
   WaitingCells waiting_;
 };
-
-/// Another format or packing of the same store, which can be gone on with as well.
-void copy_store(const StoreFolder& store, const JobContext& context) {
-  StoreDescription description = store.description();
-  description.format = context.zarr_format;
-  description.packing = usual_packing();
-  const bool was_there = store_in(*context.output).has_value();
-  const StoreFolder copy = StoreFolder::enter(*context.output, description);
-  try {
-    for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk) {
-      throw_if_interrupted();
-      copy.put(chunk, whole_chunk(store, chunk));
-    }
-  } catch (...) {  // half of a copy is of no use to anybody
-    if (!was_there) copy.remove();
-    throw;
-  }
-}
 
 }  // namespace
 
@@ -115,10 +94,6 @@ void append_stored(const StoreFolder& store, GridOutput& output) {
 
 void convert_store(const JobContext& context, const std::filesystem::path& folder) {
   const StoreFolder store = StoreFolder::open(folder);
-  std::error_code error;
-  if (context.output && std::filesystem::equivalent(folder, *context.output, error))
-    throw WrongInput("convert: " + folder.string() + " would overwrite itself: give another name");
-  if (is_store_name(context.output)) return copy_store(store, context);
   const StoreDescription& description = store.description();
   JobContext of_job = description.origin;
   of_job.output = context.output;

@@ -11,23 +11,22 @@
 
 namespace holdfast::program {
 
-/// The store of a job's grid; its plan is the job with its options as they were given, and the
-/// case.
-/// @param most  cells of a chunk
+/// Description of a store for a job's grid. Its plan consists of the job, its options as given, and
+/// the case. Throws WrongInput for a case with a plant of the caller's own.
+/// @param most  largest number of cells of a chunk
 StoreDescription store_description(const JobContext& context, const GridLayout& layout,
                                    std::size_t most = values_in_chunk);
 
-/// Throws NoAnswer, which names the chunk's file and says that it is missing or damaged.
+/// Throws NoAnswer, which names the chunk's file and says whether it is missing or damaged.
 [[noreturn]] void refuse_chunk(const StoreFolder& store, std::int64_t chunk);
 
-/// Hands the cells of a store, those of the job's table, to an output, in order.
-/// Throws NoAnswer where chunks are missing or damaged, naming the first, and what GridOutput
-/// throws.
+/// Appends the cells of a store to an output, in order, with the columns of the job's table.
+/// Throws NoAnswer for the first missing or damaged chunk, and the exceptions of GridOutput.
 void append_stored(const StoreFolder& store, GridOutput& output);
 
-/// Writes a store as a table, a netCDF file or another store, as the job itself would have.
-/// Throws what StoreFolder::open() and append_stored() throw.
-/// @param context  of the job `convert`; its output
+/// Writes a store as a table or a netCDF file, as the job itself would have.
+/// Throws the exceptions of StoreFolder::open() and append_stored().
+/// @param context  context of the job `convert`, with its output
 void convert_store(const JobContext& context, const std::filesystem::path& folder);
 
 }  // namespace holdfast::program

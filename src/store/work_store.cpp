@@ -27,7 +27,7 @@ WorkStore::WorkStore(const fs::path& folder, const StoreDescription& description
 void WorkStore::remove() { store_.remove(); }
 
 void remove_left_work_store(const fs::path& folder) {
-  // Before anything is opened in it: the folder of somebody else is none of ours.
+  // Checked first: nothing is opened in the folder of another user.
   const OwnFolder own(folder);
   std::error_code error;
   if (!own.is_open() || !fs::exists(folder / FolderLock::file_name, error)) return;
@@ -35,7 +35,7 @@ void remove_left_work_store(const fs::path& folder) {
     const FolderLock held(folder);
     remove_store(folder);
   } catch (const Refusal&) {
-    // Another program has it, or it cannot be read: it stays.
+    // The store remains: another program uses it, or it cannot be read.
   }
 }
 

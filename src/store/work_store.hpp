@@ -7,19 +7,19 @@
 
 namespace holdfast::program {
 
-/// A store of which a table or a netCDF file is made once it is complete, and which then goes. One
-/// program has it at a time, with whatever its launcher started beside it.
+/// A temporary store, from which a table or a netCDF file is made once it is complete; it is then
+/// removed. One program uses it at a time, with the other processes of its launcher.
 class WorkStore {
  public:
-  /// Makes the store, or goes on with the one that is there; one without chunks is begun again.
+  /// Creates the store, or continues an existing one; an existing one without chunks starts anew.
   ///
-  /// Throws WrongInput where chunks are there and `resume` is false (saying that --resume goes on
-  /// with them); OutputError where another program has it; and what StoreFolder::enter() throws.
+  /// Throws WrongInput if it has chunks and `resume` is false (the message names --resume);
+  /// OutputError if another program uses it; and the exceptions of StoreFolder::enter().
   WorkStore(const std::filesystem::path& folder, const StoreDescription& description, bool resume);
 
   const StoreFolder& store() const { return store_; }
 
-  /// Removes it; call once it is not needed any more.
+  /// Removes the store; call when it is no longer needed.
   void remove();
 
  private:
@@ -27,7 +27,7 @@ class WorkStore {
   FolderLock lock_;
 };
 
-/// Removes what is left in a folder of a work store whose program is gone; anything else stays.
+/// Removes a work store that an ended program has left in a folder; any other content remains.
 void remove_left_work_store(const std::filesystem::path& folder);
 
 }  // namespace holdfast::program

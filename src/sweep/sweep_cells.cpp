@@ -27,7 +27,7 @@ CellOutcome outcome_of(MinimumAmplitudeOutcome outcome) {
   return CellOutcome::computed;
 }
 
-/// The admissible ones of some cells in a run as motions, and what is found of each.
+/// Motions and results of consecutive cells of a sweep; inadmissible cells have no motion.
 class SweepCells {
  public:
   SweepCells(const SweepPlan& plan, std::int64_t first, std::int64_t count)
@@ -48,7 +48,7 @@ class SweepCells {
     }
   }
 
-  /// Appends what was found to the columns of the plan's store.
+  /// Appends the results to the columns of the plan's store.
   void append_to(ChunkResult& chunk) const {
     chunk.values.resize(plan_.metrics().size() + (plan_.wants(SweepMetric::outcome) ? 0 : 1));
     for (std::size_t k = 0; k < chunk.values.size(); ++k) {
@@ -84,9 +84,9 @@ class SweepCells {
     return plan_.wants(SweepMetric::ratio_to_uncontrolled) || plan_.wants(SweepMetric::attenuates);
   }
 
-  /// Adds each distinct motion without control once: many cells share theirs.
+  /// Adds the motion without control of a cell, unless an earlier cell has the same.
   void add_uncontrolled(const Case& the_case, std::int64_t cell) {
-    std::vector<double> values;  // of the axes that it depends on
+    std::vector<double> values;  // on the axes that change this motion
     for (std::size_t k = 0; k < plan_.layout().axes.size(); ++k) {
       const std::string& key = plan_.layout().axes[k].column.name;
       const bool is_of_control = key.rfind("backlash.", 0) == 0 || key.rfind("control.", 0) == 0;
@@ -100,10 +100,12 @@ class SweepCells {
     number_of_.push_back(known_[values]);
   }
 
-  /// False where there is no best gain, with the outcome that says why.
+  /// Sets D to the best gain. False if there is none; the outcome then has the reason.
   bool take_best_gain(std::size_t place, Case& the_case, BestGains& gains) {
     if (!has_closed_forms(the_case))
-      throw WrongInput("--best-gain works only for two_masses with an ideal drive");
+      throw WrongInput(
+          "--best-gain needs plant.model = \"two_masses\", a measured velocity, no filter, no "
+          "drive lag and a delay up to one sampling period");
     const IdealLoop<double> loop = ideal_loop_of(the_case);
     validate(loop);
     const MinimumAmplitude& best = gains.of(loop);
@@ -131,7 +133,7 @@ class SweepCells {
       result.motion = metrics[k];
       result.outcome = outcome_of(metrics[k].end);
       if (result.outcome == CellOutcome::accumulates)
-        note("too many changes of contact within one sampling period");
+        note("the contact changes too often within one sampling period to be computed");
     }
   }
 
@@ -162,7 +164,7 @@ class SweepCells {
   std::vector<CellResult> results_;
   std::vector<MovingLoop> motions_;  // of the admissible cells
   std::vector<std::size_t> cells_;   // their places in the run
-  // Motions without control, by the values that tell them apart, and which of them a cell's is.
+  // Distinct motions without control, their index by values of axes, and the index for each cell.
   std::vector<MovingLoop> uncontrolled_;
   std::map<std::vector<double>, std::size_t> known_;
   std::vector<std::size_t> number_of_;
@@ -172,7 +174,7 @@ class SweepCells {
 }  // namespace
 
 ChunkResult compute_cells(const SweepPlan& plan, std::int64_t first, std::int64_t count) {
-  constexpr std::int64_t most_at_once = 4096;  // their motions are all in memory
+  constexpr std::int64_t most_at_once = 4096;  // bounds the memory for motions
   ChunkResult chunk;
   for (std::int64_t done = 0; done < count; done += most_at_once) {
     SweepCells cells(plan, first + done, std::min(most_at_once, count - done));

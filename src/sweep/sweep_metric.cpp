@@ -12,7 +12,7 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// The code of a verdict on what is not admissible: behind those of AttractorType.
+/// Code of the verdict on a cell without motion, after the codes of AttractorType.
 constexpr double invalid_code = static_cast<double>(AttractorType::undecided) + 1.0;
 
 double verdict_code(const CellResult& result) {
@@ -47,7 +47,7 @@ constexpr double (*values_of_cells[])(Cell) = {
     [](Cell cell) { return cell.differential_gain; },
     [](Cell cell) { return static_cast<double>(cell.outcome); }};
 
-/// In the order of SweepMetric.
+/// Columns of the metrics, in the order of SweepMetric.
 const std::vector<CellColumn>& columns_of_metrics() {
   static const std::vector<CellColumn> columns = cell_columns_of("sweep metrics");
   return columns;
@@ -65,8 +65,8 @@ SweepMetric metric_named(const std::string& name) {
   const std::vector<std::string> names = names_of_metrics();
   const auto known = std::find(names.begin(), names.end(), name);
   if (known != names.end()) return static_cast<SweepMetric>(known - names.begin());
-  throw WrongInput("--metric " + name + ": unknown; did you mean " + nearest_name(names, name) +
-                   "? There are " + metric_names());
+  throw WrongInput("--metric " + name + ": unknown metric; did you mean " +
+                   nearest_name(names, name) + "? The metrics are " + metric_names());
 }
 
 const std::vector<SweepMetric>& usual_metrics() {

@@ -11,8 +11,7 @@
 
 namespace holdfast::program {
 
-/// Metrics that a sweep can tell of a cell; each bears the name of its column. Definitions and
-/// units are in metric_column().
+/// Metrics of a cell of a sweep, named as their columns. metric_column() has definitions and units.
 enum class SweepMetric {
   first_peak,
   steady_peak,
@@ -31,22 +30,21 @@ enum class SweepMetric {
   outcome,
 };
 
-/// How the computation of a cell ended.
 enum class CellOutcome {
   computed,
   diverges,     ///< the motion left the range of numbers within the duration
   invalid,      ///< the case is not admissible; nothing was computed
-  no_gain,      ///< no best D: none lets the motion settle; nothing was computed
-  aliased,      ///< no best D: the samples do not show the vibration; nothing was computed
-  accumulates,  ///< the motion's changes of contact do: it cannot be followed
+  no_gain,      ///< no best D, since no D lets the motion settle; nothing was computed
+  aliased,      ///< no best D, since the excitation is aliased; nothing was computed
+  accumulates,  ///< too many changes of contact within one sampling period to follow the motion
 };
 
-/// Whether there is a motion that the metrics tell of.
+/// Whether a cell has a motion, and so metrics.
 inline bool has_motion(CellOutcome outcome) {
   return outcome == CellOutcome::computed || outcome == CellOutcome::diverges;
 }
 
-/// Results of a cell; what was not asked for stays as it is here.
+/// Results of a cell. A result that was not asked for has the value below.
 struct CellResult {
   CellOutcome outcome = CellOutcome::invalid;
   MotionMetrics motion = {};
@@ -54,23 +52,23 @@ struct CellResult {
   double largest_exponent = std::numeric_limits<double>::quiet_NaN();   // per sample
   std::int64_t period = 0;  // samples of the certified orbit; 0: none
   AttractorType kind = AttractorType::undecided;
-  double differential_gain = std::numeric_limits<double>::quiet_NaN();  // N s/m, in force
+  double differential_gain = std::numeric_limits<double>::quiet_NaN();  // D (N s/m) of the motion
 };
 
-/// The metric of that name. Throws WrongInput, which names the nearest one.
+/// The metric with the given name. Throws WrongInput, which names the most similar metric.
 SweepMetric metric_named(const std::string& name);
 
-/// Metrics of a sweep that names none: how much of the vibration is left.
+/// Default metrics of a sweep: steady peak, its ratio to no control, attenuation and outcome.
 const std::vector<SweepMetric>& usual_metrics();
 
-/// Name, unit and definition.
+/// Name, unit and definition of a metric.
 const CellColumn& metric_column(SweepMetric metric);
 
-/// The value of a cell, as CellColumn wants it: where the motion diverges, peaks, forces and
-/// stroke are inf; where there is no motion, reals are nan and whole numbers 0.
+/// The value of a metric in a cell, as CellColumn stores it. If the motion diverges, peaks, forces
+/// and stroke are inf; without a motion, reals are nan and whole numbers 0.
 double metric_value(SweepMetric metric, const CellResult& result);
 
-/// Every name, separated by commas, for a help text.
+/// All names of metrics, separated by commas, for a help text.
 std::string metric_names();
 
 }  // namespace holdfast::program

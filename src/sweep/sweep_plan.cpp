@@ -30,7 +30,7 @@ GridAxis sweep_axis(const std::string& text) {
   const CaseKey* key = find_case_key(name);
   if (key != nullptr && !key->is_number())
     throw WrongInput("--axis " + text + ": " + name +
-                     " is not a number; run one sweep for each of its values with --set");
+                     " has no numbers as values; run one sweep for each of its values with --set");
   const KeyValues axis = parse_key_values("--axis", text);
   if (key == nullptr) {
     throw WrongInput("--axis " + text + ": unknown key " + name + "; did you mean " +
@@ -41,7 +41,7 @@ GridAxis sweep_axis(const std::string& text) {
 
 std::vector<GridAxis> sweep_axes(const std::vector<std::string>& texts) {
   if (texts.empty())
-    throw WrongInput("--axis: a sweep needs at least one, for example --axis " +
+    throw WrongInput("--axis is missing: a sweep needs at least one, for example --axis " +
                      std::string(sampling_key) + "=0.001:0.03:30");
   std::vector<GridAxis> axes;
   std::set<std::string> keys;
@@ -53,16 +53,19 @@ std::vector<GridAxis> sweep_axes(const std::vector<std::string>& texts) {
     cells *= static_cast<double>(axes.back().count());
   }
   if (cells > most_cells)
-    throw WrongInput("--axis: " + format_rounded(cells) + " cells are more than the limit of 2^53");
+    throw WrongInput("--axis: " + format_rounded(cells) +
+                     " cells exceed the limit of 2^53: lower a COUNT");
   return axes;
 }
 
-/// The axes of the question; of a family the numbers of its members.
+/// The axes of a sweep; for a family one axis with the numbers of its members.
 std::vector<GridAxis> axes_of(const SweepOptions& options) {
   if (options.members == 0) return sweep_axes(options.axes);
   if (!options.axes.empty() || !options.part.empty() || options.resume)
-    throw WrongInput("--family draws the cells of a sweep: leave --axis, --part and --resume out");
-  return {{{"member", "", "number of the member of the family"},
+    throw WrongInput(
+        "--family computes members of the family in place of the cells of axes: leave --axis, "
+        "--part and --resume out");
+  return {{{"member", "", "number of the member of the family, from 0"},
            Axis{0.0, options.members - 1.0, options.members}}};
 }
 
@@ -72,20 +75,20 @@ std::vector<SweepMetric> sweep_metrics(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     metrics.push_back(metric_named(name));
     if (std::count(metrics.begin(), metrics.end(), metrics.back()) > 1)
-      throw WrongInput("--metric " + name + ": given twice");
+      throw WrongInput("--metric " + name + ": given twice; remove one");
   }
   return metrics;
 }
 
 std::string table_of(const GridAxis& axis) { return find_case_key(axis.column.name)->table(); }
 
-/// Whether an axis is of what a plant that is not given is reduced from.
+/// Whether an axis is over a key from which the plant may be reduced.
 bool is_of_conductor(const GridAxis& axis) {
   const std::string table = table_of(axis);
   return table == "conductor" || table == "absorber" || table == "reduction";
 }
 
-/// Axes that decide what the plant is. A key of [plant] goes over what the reduction gives.
+/// The axes on which the reduction of the plant depends. A key of [plant] overrides its result.
 std::vector<std::size_t> axes_shaping_plant(const Case& the_case,
                                             const std::vector<GridAxis>& axes) {
   const bool reduced =
@@ -97,7 +100,7 @@ std::vector<std::size_t> axes_shaping_plant(const Case& the_case,
   return shaping;
 }
 
-/// The best gain takes the place of D, and a motion needs time to settle.
+/// Throws WrongInput for --best-gain with an axis over D or without time for a motion to settle.
 void require_room_for_best_gain(const SweepOptions& options, const std::vector<GridAxis>& axes) {
   if (!options.best_gain) return;
   if (!(options.duration > 0.0)) throw WrongInput("--best-gain needs a --duration above 0");
@@ -107,7 +110,7 @@ void require_room_for_best_gain(const SweepOptions& options, const std::vector<G
   }
 }
 
-/// Samples of one motion; none where τ is not admissible.
+/// Number of samples of one motion; 0 if τ is not admissible.
 double samples_of(double duration, double sampling_period) {
   const bool countable = sampling_period > 0.0 && duration / sampling_period < 9e15;
   return countable ? static_cast<double>(samples_within(duration, sampling_period)) : 0.0;
@@ -156,7 +159,7 @@ void SweepPlan::settle_case() {
   }
 }
 
-/// Throws what a reduction throws, each time it is asked.
+/// The reduced case of the overrides. Throws what the reduction threw, on every call.
 Case SweepPlan::reduced_case(const std::vector<std::string>& overrides) const {
   const auto reduced = [source = context_.case_source, overrides] {
     Case the_case = source.load(overrides);
@@ -189,7 +192,7 @@ Case SweepPlan::case_of(std::int64_t cell) const {
   return the_case;
 }
 
-/// Requires the keys of the loops; a fault of one cell alone is told as its outcome.
+/// Throws MissingKeys for keys that every loop needs. Other faults are outcomes of single cells.
 void SweepPlan::require_loops() const {
   try {
     require_loop_keys(case_of(0));
@@ -214,9 +217,9 @@ double SweepPlan::counted_samples() const {
          samples_of(options_.duration, context_.case_data.control.sampling_period);
 }
 
-/// Chunks that take some tenths of a second, so that little is lost with one and much is done by
-/// each, and enough of them for many cores, but none with fewer cells than fill the lanes of a
-/// processor. They depend on the plan alone, as they must be found again.
+/// The number of cells of a chunk. A chunk takes some tenths of a second, so that an interruption
+/// loses little; there are enough chunks for many cores, each with enough cells for all SIMD lanes.
+/// The number depends on the plan alone, so that a resumed sweep finds the same chunks.
 double SweepPlan::chosen_chunk_cells() const {
   constexpr double samples_of_chunk = 1e8, most_chunks_wanted = 64.0;
   const bool orbits = wants(SweepMetric::period_samples) || wants(SweepMetric::verdict);

@@ -18,29 +18,28 @@
 
 namespace holdfast::program {
 
-/// Question to the job `sweep`.
+/// Options of the job `sweep`.
 struct SweepOptions {
   std::vector<std::string> axes;     // KEY=AXIS, the first slowest
-  std::vector<std::string> metrics;  // by name; none: usual_metrics()
+  std::vector<std::string> metrics;  // names; empty: usual_metrics()
   double duration = 20.0;            // s
   std::int64_t largest_period =
       OrbitLimits{}.largest_period;  // samples, of the search for an orbit
   Switching switching = Switching::sampled;
-  bool best_gain = false;        // D of each cell is that of least steady amplitude
+  bool best_gain = false;        // whether each cell has the D of least steady amplitude
   std::int64_t chunk_cells = 0;  // most cells of a chunk; 0: chosen from the plan
   bool resume = false;
   std::string part;                 // K/N: the K-th of N parts of a store; empty: all
-  bool instructions_given = false;  // --instructions was: they are not to be chosen
-  int members = 0;                  // of the case's family, in place of axes; 0: axes
+  bool instructions_given = false;  // whether --instructions was given
+  int members = 0;                  // members of the case's family that replace axes; 0: axes
 };
 
-/// The cells of a sweep: the product of any number of axes over keys of a case, numbered with the
-/// first axis slowest, in the chunks of a store; or members of the case's family. Nothing in it
-/// grows with the number of cells, the members apart.
+/// The cells of a sweep and their chunks in a store. Cells are the grid of any number of axes over
+/// keys of a case, numbered with the first axis slowest, or members of the case's family. The
+/// memory needed does not grow with the number of cells, only with that of members.
 ///
-/// Throws WrongInput from the constructor for axes that are not admissible or are none, for an
-/// unknown metric, and for more than 2⁵³ cells; a value that its key does not admit is no fault of
-/// the plan but the outcome of its cells.
+/// The constructor throws WrongInput for missing or inadmissible axes, an unknown metric, and more
+/// than 2⁵³ cells. A value that its key does not admit is no error: its cells are invalid.
 class SweepPlan {
  public:
   SweepPlan(const JobContext& context, const SweepOptions& options);
@@ -53,25 +52,22 @@ class SweepPlan {
   bool wants(SweepMetric metric) const;
   const SweepOptions& options() const { return options_; }
 
-  /// The context that was given, its case's plant reduced where no axis shapes that.
+  /// The given context; the plant of its case is reduced, unless an axis changes the reduction.
   const JobContext& context() const { return context_; }
 
-  /// Computes on the packs of another instruction set from now on.
+  /// Selects another SIMD instruction set for all later cells.
   void use(InstructionSet set) { context_.instructions = set; }
 
-  /// The case of a cell. Throws WrongInput, or NoAnswer where its plant cannot be reduced. Any
-  /// thread may ask.
+  /// The case of a cell. Throws WrongInput; NoAnswer if its plant cannot be reduced. Thread-safe.
   Case case_of(std::int64_t cell) const;
   const std::vector<FamilyMember>& members() const { return members_; }
-  /// Its value on an axis.
   double axis_value(std::size_t axis, std::int64_t cell) const;
 
-  /// Samples of the motions of all cells, those without control not counted; cells that are not
-  /// admissible count as none. To a few digits where the sampling periods are more than a million.
+  /// Number of samples of the controlled motions of all cells; a cell with an inadmissible sampling
+  /// period has none. An estimate if the axis of sampling periods has over a million values.
   double samples() const { return samples_; }
 
-  /// The store of the cells: the metrics that were asked for and, if it is not one of them, the
-  /// outcome.
+  /// The description of the store of the cells, with the requested metrics and the outcome.
   StoreDescription store() const;
 
  private:
@@ -87,34 +83,31 @@ class SweepPlan {
   std::vector<SweepMetric> metrics_;
   std::vector<FamilyMember> members_;
   GridLayout layout_;
-  std::vector<std::size_t> shaping_axes_;  // those that change what the plant is reduced from
-  /// The case by their values, its plant reduced; where there are such axes. A reduction takes some
-  /// tenths of a second, and many cells share theirs.
+  std::vector<std::size_t> shaping_axes_;  // axes that change the reduction of the plant
+  /// Cases with reduced plants (tenths of a second each) by the values on these axes; else null.
   std::shared_ptr<Memo<std::vector<std::string>, std::shared_future<Case>>> reduced_cases_;
   double samples_ = 0.0;
   ChunkGrid grid_;
 };
 
-/// Computes cells in a run, the columns of the plan's store(); a cell that diverges or is not
-/// admissible is a value among the others. What a cell gets does not depend on its neighbours; its
-/// last digits do on the instruction set of the plan's context. Throws Interrupted.
+/// Computes `count` consecutive cells from `first`: the columns of the plan's store(). A cell that
+/// diverges or is not admissible has values too. Results do not depend on neighbouring cells; their
+/// last digits depend on the instruction set of the plan's context. Throws Interrupted.
 ChunkResult compute_cells(const SweepPlan& plan, std::int64_t first, std::int64_t count);
 
-/// Why a cell has no motion, or one that cannot be followed; empty where neither is so. Computes
-/// it.
+/// Computes a cell to find why it has no motion or one that cannot be followed; empty otherwise.
 std::string fault_of_cell(const SweepPlan& plan, std::int64_t cell);
 
-/// Computes a sweep and writes it. Its cells are a store from the first chunk on, the output itself
-/// where that is a `.zarr`; else a work store beside the output, of which table or netCDF file are
-/// made at the end. Any number of processes fill a `.zarr` together.
+/// Computes a sweep and writes it. Each chunk is stored once computed: in the output, if that is a
+/// `.zarr`, else in a work store beside the output, from which the table or netCDF file is made at
+/// the end. Several processes can fill one `.zarr` together.
 ///
-/// Throws WrongInput for what SweepPlan, GridOutput and StoreFolder refuse, NoAnswer and
-/// OutputError as they do, Interrupted; where chunks are left to be gone on with, standard error
-/// says so.
+/// Throws WrongInput, NoAnswer and OutputError as SweepPlan, GridOutput and StoreFolder do, and
+/// Interrupted. If the kept chunks can be continued, standard error says so.
 void write_sweep(const JobContext& context, const SweepOptions& options);
 
-/// Writes to standard output how large a sweep would be, and computes nothing: axes, cells, chunks,
-/// samples, bytes of the cells. Of several processes the first one writes.
+/// Writes the size of a sweep to standard output without computing it: axes, cells, chunks, cells
+/// of a chunk, samples and bytes of the cells. Of several processes only the first one writes.
 void write_sweep_size(const JobContext& context, const SweepOptions& options);
 
 }  // namespace holdfast::program

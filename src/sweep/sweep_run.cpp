@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the result goes to a file of that name, beside which a work folder can lie.
+/// Whether the output is a named regular file or store, beside which a work folder can be kept.
 bool has_named_output(const JobContext& context) {
   if (!context.output || *context.output == "-") return false;
   if (is_store_name(context.output)) return true;
@@ -39,27 +39,26 @@ bool has_named_output(const JobContext& context) {
 
 constexpr const char* passing_folder = "holdfast-sweep-";
 
-/// The output itself, or the work store beside it, where an interrupted sweep is gone on with; else
-/// one for this run alone.
+/// Folder of the chunks: output, work store beside it (continued if interrupted), or temporary.
 fs::path store_folder(const JobContext& context, bool named) {
   if (is_store_name(context.output)) return *context.output;
   if (named) return fs::path(context.output->string() + ".zarr");
-  // Rests of killed sweeps that were for one run alone: nobody goes on with them.
+  // Temporary folders of killed sweeps are never continued.
   for (const fs::path& left : passing_folders(passing_folder)) remove_left_work_store(left);
   return new_passing_folder(passing_folder);
 }
 
 constexpr std::int64_t no_cell = std::numeric_limits<std::int64_t>::max();
 
-/// How many cells of a sweep diverge, have no motion and are chaotic, and the first without one.
+/// Numbers of cells that diverge, have no motion or are chaotic, and the first without motion.
 struct FaultCounts {
   std::int64_t diverging = 0, without_motion = 0, chaotic = 0, first = no_cell;
 };
 
-/// The cells whose motion is none, diverges or is chaotic. Any thread may add some.
+/// Counter of the cells that diverge, have no motion or are chaotic. Thread-safe.
 class SweepFaults {
  public:
-  /// @param verdicts  of the same cells; none where they were not asked for
+  /// @param verdicts  verdicts of the same cells; empty if they were not requested
   void add(std::int64_t first_cell, const std::vector<double>& outcomes,
            const std::vector<double>& verdicts) {
     FaultCounts found;
@@ -74,22 +73,22 @@ class SweepFaults {
     add(found);
   }
 
-  /// For a warning; empty where there are none.
+  /// A warning of cells that diverge or have no motion; empty if there are none.
   std::string text(const SweepPlan& plan) const {
     std::string text;
     if (all_.diverging > 0) text = std::to_string(all_.diverging) + " diverge";
     if (all_.without_motion > 0)
       text += (text.empty() ? "" : ", ") + std::to_string(all_.without_motion) +
               " have no motion, the first because: " + fault_of_cell(plan, all_.first);
-    return text.empty() ? text : "of " + std::to_string(plan.cells()) + " cells " + text;
+    return text.empty() ? text : "of " + std::to_string(plan.cells()) + " cells, " + text;
   }
 
-  /// Words on the chaotic cells, likewise.
+  /// A warning of chaotic cells; empty if there are none.
   std::string chaos_text(const SweepPlan& plan) const {
     if (all_.chaotic == 0) return "";
-    return "of " + std::to_string(plan.cells()) + " cells " + std::to_string(all_.chaotic) +
-           " are chaotic: rounding decides their motions after some time, and each metric holds "
-           "for one possible motion";
+    return "of " + std::to_string(plan.cells()) + " cells, " + std::to_string(all_.chaotic) +
+           " are chaotic: their motions depend on rounding after some time, so each metric "
+           "describes one of many possible motions";
   }
 
  private:
@@ -105,7 +104,6 @@ class SweepFaults {
   std::mutex mutex_;
 };
 
-/// The place of a metric among the columns of a sweep's store, which has it.
 std::size_t column_of(const StoreDescription& store, SweepMetric metric) {
   const std::string& name = metric_column(metric).column.name;
   std::size_t place = 0;
@@ -113,12 +111,12 @@ std::size_t column_of(const StoreDescription& store, SweepMetric metric) {
   return place;
 }
 
-/// The warning of the force as it is held, of the corner of a sweep where that matters most.
+/// The held-force warning for the corner of the sweep with the largest effect; empty if negligible.
 std::string held_force_warning_of(const SweepPlan& plan) {
   if (!plan.wants(SweepMetric::ratio_to_uncontrolled) && !plan.wants(SweepMetric::attenuates))
     return "";
   const std::vector<GridAxis>& axes = plan.layout().axes;
-  const std::size_t ends = std::min<std::size_t>(axes.size(), 6);  // of which both are looked at
+  const std::size_t ends = std::min<std::size_t>(axes.size(), 6);  // axes tried at both ends
   std::string warning;
   double largest = 0.0;
   for (std::size_t corner = 0; corner < (std::size_t{1} << ends); ++corner) {
@@ -134,15 +132,17 @@ std::string held_force_warning_of(const SweepPlan& plan) {
       const double difference = std::abs(held_share(the_case, period, frequency) - 1.0);
       if (!(difference > largest)) continue;
       largest = difference;
-      warning = held_force_warning(the_case, "ratios are relative to the force not held");
-    } catch (const Refusal&) {  // not admissible, and told as the outcome of its cell
+      warning = held_force_warning(
+          the_case,
+          "ratios are relative to the vibration without control under the force not held");
+    } catch (const Refusal&) {  // not admissible: the outcome of its cell
     } catch (const InvalidParameter&) {
     }
   }
   return warning;
 }
 
-/// That the best gain knows nothing of a play; "" where no cell has one.
+/// A warning that --best-gain ignores play; "" if no cell has play.
 std::string best_gain_warning(const SweepPlan& plan) {
   const auto& backlash = plan.context().case_data.backlash;
   const std::vector<GridAxis>& axes = plan.layout().axes;
@@ -151,11 +151,11 @@ std::string best_gain_warning(const SweepPlan& plan) {
   });
   if (!plan.options().best_gain || !(varies || (backlash.width > 0.0 && backlash.law != "none")))
     return "";
-  return "--best-gain chooses D for the loop without play, but the metrics hold for the motion "
+  return "--best-gain chooses D for the loop without play, but the metrics are those of the motion "
          "with play: another D may be better";
 }
 
-/// The part that K/N stands for.
+/// The part of the store given by K/N; all of it for an empty text.
 StorePart part_of(const SweepPlan& plan, const std::string& text) {
   if (text.empty()) return {};
   const std::size_t bar = text.find('/');
@@ -171,13 +171,14 @@ StorePart part_of(const SweepPlan& plan, const std::string& text) {
   return {static_cast<std::int64_t>(number), static_cast<std::int64_t>(of)};
 }
 
-/// A number that some members have, and which member has it.
+/// A value of a metric, and the number of the member that has it.
 using MemberValue = std::pair<double, std::size_t>;
 
-/// Writes of each metric that is a number the values that 5, 50 and 95 per cent of the members do
-/// not exceed (nearest rank), and the members with the least and the largest.
+/// Writes, for each numeric metric, mean, extremes and the 5, 50 and 95 % quantiles over the
+/// members (nearest rank), with the members that have the least and the largest value.
 void write_quantiles(const SweepPlan& plan, const StoreFolder& store) {
   Table table(plan.context(), columns_of("sweep of a family"));
+  const std::size_t outcome = column_of(store.description(), SweepMetric::outcome);
   for (std::size_t k = 0; k < plan.metrics().size(); ++k) {
     const Column& column = metric_column(plan.metrics()[k]).column;
     if (column.datatype == "string") continue;
@@ -185,11 +186,14 @@ void write_quantiles(const SweepPlan& plan, const StoreFolder& store) {
     double sum = 0.0;
     for (std::int64_t chunk = 0, cell = 0; chunk < plan.grid().chunks(); ++chunk) {
       const auto stored = store.read_column(k, chunk);
-      if (!stored) refuse_chunk(store, chunk);
-      for (const double value : *stored) {
-        if (!std::isnan(value)) values.emplace_back(value, static_cast<std::size_t>(cell));
-        if (!std::isnan(value)) sum += value;
-        ++cell;
+      const auto outcomes = store.read_column(outcome, chunk);
+      if (!stored || !outcomes) refuse_chunk(store, chunk);
+      for (std::size_t i = 0; i < stored->size(); ++i, ++cell) {
+        const double value = (*stored)[i];
+        // A whole number of a member without motion is stored as 0, which is not its value.
+        if (std::isnan(value) || !has_motion(static_cast<CellOutcome>((*outcomes)[i]))) continue;
+        values.emplace_back(value, static_cast<std::size_t>(cell));
+        sum += value;
       }
     }
     if (values.empty()) continue;
@@ -207,7 +211,7 @@ void write_quantiles(const SweepPlan& plan, const StoreFolder& store) {
   table.commit();
 }
 
-/// One sweep, which other processes may work on too.
+/// One run of a sweep, which other processes may share.
 class SweepRun {
  public:
   SweepRun(const JobContext& context, const SweepOptions& options)
@@ -215,7 +219,7 @@ class SweepRun {
         part_(part_of(plan_, options.part)),
         named_(options.members == 0 && has_named_output(context)) {
     if (is_of_family() && is_store_name(context.output))
-      throw WrongInput("--family: the quantiles are a table: give an --output that ends in .csv");
+      throw WrongInput("--family writes a table of quantiles: give an --output that ends in .csv");
   }
 
   void run() {
@@ -236,8 +240,7 @@ class SweepRun {
   bool is_to_stay() const { return is_store_name(context().output); }
   const StoreFolder& store() const { return work_ ? work_->store() : *store_; }
 
-  /// The set that was asked for; else that of the store which is gone on with, where this processor
-  /// has it.
+  /// Selects the requested instruction set, else that of the continued store if available.
   void choose_instructions() {
     if (plan_.options().instructions_given || !named_ || !(plan_.options().resume || is_to_stay()))
       return;
@@ -254,7 +257,7 @@ class SweepRun {
       return;
     }
     if (!is_of_family()) output_.emplace(context(), plan_.layout());
-    // The output is known to be writable now; a process that is killed shall leave nothing of it.
+    // The output is known to be writable. Closed, it leaves no part if the process is killed.
     if (named_) output_.reset();
     const fs::path folder = store_folder(context(), named_);
     try {
@@ -288,7 +291,7 @@ class SweepRun {
   }
 
   void conclude() {
-    if (part_.of > 1) return;  // the others may not be there yet
+    if (part_.of > 1) return;  // other parts may not be computed yet
     if (is_of_family()) {
       write_quantiles(plan_, store());
       work_->remove();
@@ -304,7 +307,7 @@ class SweepRun {
     report_warning(held_force_warning_of(plan_), context().quiet);
   }
 
-  /// After a fault: says how to go on, or removes what cannot be gone on with.
+  /// After a fault: reports how to continue, or removes a store that cannot be continued.
   void leave() noexcept {
     if (named_)
       return report_kept_chunks(store(), std::string("repeat the same command") +
@@ -312,15 +315,15 @@ class SweepRun {
     try {
       work_->remove();
     } catch (...) {
-      // It stays until another sweep finds it.
+      // The next sweep removes it.
     }
   }
 
   SweepPlan plan_;
   StorePart part_;
-  bool named_;  // the output is a file, and the work store stays beside it for --resume
+  bool named_;  // the output has a name; its work store is kept for --resume
   std::optional<GridOutput> output_;
-  std::optional<StoreFolder> store_;  // one that stays
+  std::optional<StoreFolder> store_;  // the output, if it is a store
   std::optional<WorkStore> work_;
   SweepFaults faults_;
 };

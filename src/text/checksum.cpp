@@ -5,8 +5,8 @@
 namespace holdfast::program {
 namespace {
 
-/// A cyclic redundancy check with the register inverted at both ends, bits of a byte lowest first.
-/// @tparam polynomial  lowest bit for the highest power
+/// Cyclic redundancy check with the register inverted at both ends; bits of a byte lowest first.
+/// @tparam polynomial  coefficients of the polynomial, the lowest bit for the highest power
 template <class Register, Register polynomial>
 Register check_of(std::string_view bytes, Register of_bytes_before) {
   // Remainders after eight steps of the division, for a register that holds one byte.

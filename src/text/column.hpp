@@ -11,7 +11,7 @@ struct Column {
   std::string description;
   std::string datatype = "double";  // of CSV on the Web: double, integer, boolean, string
 
-  /// Whether a cell may be no number: then the description says what that means.
+  /// Whether cells may be NaN: the description then says what `nan` means.
   bool may_be_nan() const { return description.find("nan") != std::string::npos; }
 };
 

@@ -28,13 +28,13 @@ std::from_chars_result read_digits(std::string_view text, double& value) {
 #else
 
 char* rounded_digits(char* first, char* last, double value, int digits) {
-  // One more, for the zero that ends a text of C and is then written over.
+  // One more character, for the zero that ends a C string and is then overwritten.
   std::array<char, 40> text{};
   const int length = std::snprintf(text.data(), text.size(), "%.*g", digits, value);
   return std::copy_n(text.data(), std::min<std::ptrdiff_t>(length, last - first), first);
 }
 
-// Many times faster than trying how many digits of the C library's are enough.
+// Much faster than a search for the number of digits with the C library.
 char* shortest_digits(char* first, char* last, double value) {
   if (!std::isfinite(value)) return rounded_digits(first, last, value, 1);
   std::string digits = nlohmann::json(value).dump();
@@ -54,7 +54,7 @@ std::from_chars_result read_digits(std::string_view text, double& value) {
   const double read = std::strtod(copy.c_str(), &end);
   const char* const rest = begin + (end - copy.c_str());
   if (rest == begin) return {begin, std::errc::invalid_argument};
-  // The caller tells a number out of range by its text, whatever strtod makes of it.
+  // The caller recognises a number out of range by its text, whatever strtod returns.
   const bool written_infinite = copy.find_first_of("iI") != std::string::npos;
   if (std::isinf(read) && !written_infinite) return {rest, std::errc::result_out_of_range};
   value = read;

@@ -6,14 +6,14 @@
 
 namespace holdfast::program {
 
-/// An enumerator and what it is called in tables.
+/// An enumerator with its name in tables.
 template <class Enum>
 struct Named {
   Enum value;
   const char* name;
 };
 
-/// Name of the value in the list, which has every enumerator.
+/// Name of a value by a list of all enumerators; "" if the list lacks the value.
 template <class Enum, std::size_t Count>
 constexpr const char* name_in(const Named<Enum> (&names)[Count], Enum value) {
   for (const Named<Enum>& one : names)
@@ -21,7 +21,7 @@ constexpr const char* name_in(const Named<Enum> (&names)[Count], Enum value) {
   return "";
 }
 
-/// The first of a list that bears the name, or null.
+/// Pointer to the first element of a list with the given `name`; null if there is none.
 template <class List>
 auto find_named(const List& list, std::string_view name) {
   const auto found =

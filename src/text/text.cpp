@@ -71,7 +71,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 
 char* put_number(char* place, double value) {
   if (!std::isnan(value)) return shortest_digits(place, place + longest_number, value);
-  constexpr std::string_view none = "nan";  // to_chars would tell the sign of a NaN
+  constexpr std::string_view none = "nan";  // to_chars would write the sign of a NaN
   return std::copy(none.begin(), none.end(), place);
 }
 
@@ -101,7 +101,7 @@ std::optional<double> parse_number(std::string_view text) {
   const auto result = read_digits(text, value);
   const bool whole = result.ptr == text.data() + text.size() && !text.empty();
   if (!whole || result.ec == std::errc::invalid_argument) return std::nullopt;
-  // Out of a double's range: too small is as good as zero, too large is infinite.
+  // Outside the range of double: too small a number becomes 0, too large a number infinity.
   if (result.ec == std::errc::result_out_of_range) {
     const bool negative = text.front() == '-';
     const bool tiny =

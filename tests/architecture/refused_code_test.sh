@@ -73,12 +73,12 @@ refuses 'declares its measured quantities by `ports()`' <<CODE
 $own_plant
 auto map = holdfast::loop_map(OwnPlant{}, {0.01});
 CODE
-refuses 'its plant is a TwoMass, a LinearPlant or made by with_controller()' <<CODE
+refuses 'use a TwoMass, a LinearPlant or with_controller()' <<CODE
 #include "holdfast/motion/implemented_loop.hpp"
 $own_plant
 holdfast::ImplementedLoopOf<OwnPlant> loop{};
 CODE
-refuses 'its plant is a TwoMass, a LinearPlant or made by with_controller()' <<CODE
+refuses 'use a TwoMass, a LinearPlant or with_controller()' <<CODE
 #include "holdfast/motion/ideal_loop.hpp"
 $own_plant
 holdfast::IdealLoop<double, OwnPlant> loop{};

@@ -91,7 +91,7 @@ TEST(MotionClassification, OfExactSwitchingIsPeriodicByCertificate) {
       EXPECT_EQ(found.indicators.certified_period, found.classification.period);
       EXPECT_EQ(found.classification.rests_on.find("Certified orbit"), 0U)
           << found.classification.rests_on;
-      EXPECT_NE(found.classification.rests_on.find("change alike"), std::string::npos);
+      EXPECT_NE(found.classification.rests_on.find("changes agree"), std::string::npos);
       EXPECT_TRUE(found.indicators.largest_exponent->negative());
     }
   }
@@ -212,7 +212,7 @@ TEST(MotionClassification, AShortRecordDecidesNothing) {
   loop.digital.force = {{}, random_record(41.0, 0.01)};
   const EventClassification found = classified_from_rest(loop);
   EXPECT_EQ(found.classification.kind, AttractorType::undecided);
-  EXPECT_NE(found.classification.rests_on.find("ends before"), std::string::npos);
+  EXPECT_NE(found.classification.rests_on.find("too short"), std::string::npos);
   EXPECT_FALSE(found.indicators.largest_exponent.has_value());
 }
 

@@ -311,10 +311,10 @@ TEST(OwnController, WhatIsNotAdmissibleIsRefusedByName) {
   };
   OwnLoop loop = sound;
   loop.digital.gains.differential = -1.0;
-  EXPECT_NE(refusal(loop).find("gain D beside a controller"), std::string::npos) << refusal(loop);
+  EXPECT_NE(refusal(loop).find("gain D in addition to"), std::string::npos) << refusal(loop);
   loop = sound;
   loop.digital.limits.largest_force = 1.0;
-  EXPECT_NE(refusal(loop).find("limits beside a controller"), std::string::npos) << refusal(loop);
+  EXPECT_NE(refusal(loop).find("limits (1: set)"), std::string::npos) << refusal(loop);
   loop = sound;
   loop.plant.controller = OwnController();
   EXPECT_NE(refusal(loop).find("controller"), std::string::npos) << refusal(loop);

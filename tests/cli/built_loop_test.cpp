@@ -288,7 +288,8 @@ TEST(BuiltLoop, ADiagramIsOfOneKindOfLoop) {
   for (const std::string axis :
        {"control.measurement_filter=5:100:3", "control.drive_bandwidth=5:100:3",
         "control.processing_delay=0.0005:0.004:3"})
-    expect_refused("diagram --quiet --axis " + axis, {"--axis " + axis, "values of one kind"});
+    expect_refused("diagram --quiet --axis " + axis,
+                   {"--axis " + axis, "only one of these models"});
 }
 
 /// 1/(2 Z_c s + M_c s² + K_p) under the true force.

@@ -297,9 +297,9 @@ TEST(Plausibility, IsDoubtedByEveryKindOfJobAndOnTheFirstLineOfTheAnswers) {
     const Outcome outcome = run_holdfast(job + " --set backlash.width=0.5");
     EXPECT_EQ(outcome.exit_code, 0) << job << outcome.errors;
     EXPECT_EQ(outcome.error_lines(), 1U) << job << outcome.errors;
-    expect_holds(outcome.errors, {"is it in mm"});
+    expect_holds(outcome.errors, {"did you mean mm"});
     if (job == "answers") {
-      expect_holds(lines_of(outcome.output).at(1), {"is it in mm"});
+      expect_holds(lines_of(outcome.output).at(1), {"did you mean mm"});
     }
   }
 }
@@ -354,7 +354,7 @@ TEST(Plausibility, ARecordInMillimetresIsNamedAsSuch) {
             std::to_string(1e3 * record.number(row, "displacement_m")) + "\n";
   const std::string file = (folder / "in-mm.csv").string();
   write_text(file, text);
-  expect_said("fit --data '" + file + "'", {"in-mm.csv: displacement_m reaches", "in mm, 0.00"});
+  expect_said("fit --data '" + file + "'", {"in-mm.csv: displacement_m reaches", "in mm (0.00"});
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST(DigitsInMetadata, OfAnotherLoopAreThoseThatAnotherRoundingConfirms) {
       "backlash.width=0 --set control.displacement_quantum=0.0001",
       errors);
   expect_holds(metadata, {"\"trusted_until_s\""});
-  expect_holds(errors, {"that another rounding confirms"});
+  expect_holds(errors, {"that a run with other rounding errors confirms"});
 }
 
 TEST(DigitsInMetadata, OfASweepAreThoseOfItsChaoticCells) {
@@ -74,7 +74,7 @@ TEST(DigitsInMetadata, OfASweepAreThoseOfItsChaoticCells) {
   const Outcome judged = run_holdfast(sweep + " --metric verdict");
   const auto chaotic = judged.output.find("chaotic") != std::string::npos;
   EXPECT_TRUE(chaotic);
-  expect_holds(judged.errors, {"are chaotic: rounding decides"});
+  expect_holds(judged.errors, {"are chaotic: their motions depend on rounding"});
   EXPECT_EQ(run_holdfast(sweep + " --metric verdict --quiet").errors, "");
 }
 

@@ -89,11 +89,12 @@ TEST(Help, OptionsOfEveryJobMayStandBeforeIt) {
 }
 
 TEST(Help, OptionsWithoutAJobAreToldToHaveNone) {
-  expect_refused("--case mine.toml", {"which job"});
-  expect_refused("--quiet", {"which job"});
-  expect_refused("--case margins", {"which job"});
+  expect_refused("--case mine.toml", {"no job is given"});
+  expect_refused("", {"no job is given"});
+  expect_refused("--case margins", {"no job is given"});
   expect_refused("--duration 1 simulate", {"--duration", "after"});
   expect_refused("--quiet margns", {"margins"});
+  expect_refused("max_delay", {"max-delay"});
   expect_refused("-x", {"-x"});
 }
 

@@ -176,13 +176,14 @@ TEST(Margins, SayWhatIsNotProved) {
     }
     EXPECT_TRUE(nothing || proof == "proved" || proof.rfind("in part: ", 0) == 0) << proof;
   }
-  EXPECT_EQ(is_whole, told.errors.find("some ends are not proved") == std::string::npos);
+  EXPECT_EQ(is_whole,
+            told.errors.find("some ends of the stable ranges are not proved") == std::string::npos);
 }
 
 TEST(Margins, RefusesProofsOfWhatItCannotProve) {
   expect_refused("margins --prove --set control.velocity=difference",
-                 {"--prove", "ideal computer"});
-  expect_refused("margins --prove --set plant.model=infinite_string", {"without ends"});
+                 {"--prove", "measured velocity"});
+  expect_refused("margins --prove --set plant.model=infinite_string", {"can drift"});
   expect_refused("max-delay --prove", {"--criterion stable"});
   expect_refused("max-delay --prove --criterion attenuates", {"--criterion stable"});
 }
@@ -193,13 +194,13 @@ TEST(Stability, RefusesProofsOfWhatItCannotProve) {
   expect_refused("stability --prove --radius", {"--radius"});
   expect_refused("stability --prove --undecided 0", {"--undecided"});
   expect_refused("stability --prove --continuous --set plant.model=string", {"two_masses"});
-  expect_refused("stability --prove --set plant.model=infinite_string", {"without ends"});
+  expect_refused("stability --prove --set plant.model=infinite_string", {"can drift"});
   expect_refused("stability --prove --output x.nc", {"x.nc", ".csv"});
   for (const std::string computer :
        {"velocity=difference", "displacement_quantum=1e-5", "largest_force=3", "jitter=1e-4"}) {
-    expect_refused("stability --prove --set control." + computer, {"--prove", "ideal computer"});
+    expect_refused("stability --prove --set control." + computer, {"--prove", "measured velocity"});
     expect_refused("stability --prove --set plant.model=string --set control." + computer,
-                   {"--prove", "ideal computer"});
+                   {"--prove", "measured velocity"});
   }
   expect_refused("stability --prove --p -557:-556.9999999999999:5", {"cell"});
 }

@@ -192,11 +192,11 @@ TEST(OrbitJob, RefusesWhatItCannotFollow) {
   const std::string map = "orbit --map backlash.width=0.0001:0.001 --map ";
   expect_refused("orbit --map backlash.width=0.0001:0.001", {"two keys, not 1"});
   expect_refused(map + "backlash.width=0.0001:0.001", {"both keys"});
-  expect_refused(map + "control.differential_gain=-5:-1", {"must lie in"});
+  expect_refused(map + "control.differential_gain=-5:-1", {"must lie between"});
   expect_refused(map + "control.differential_gain=-13:-13", {"smaller"});
   expect_refused(map + "plant.absorber_mass=-1:1", {"plant.absorber_mass must be"});
   expect_refused("orbit --map control.sampling_period=0.0005:0.002 --map excitation.frequency=5:15",
-                 {"together"});
+                 {"cannot both be keys"});
   expect_refused(map + "control.differential_gain=-20:-1 --set backlash.law=immediate",
                  {"--switching exact"});
   const std::string cells = "basins --map backlash.width=0.001:0.002:2 --map ";
@@ -204,7 +204,7 @@ TEST(OrbitJob, RefusesWhatItCannotFollow) {
   expect_refused(cells + "backlash.width=0.001:0.002:2", {"both keys"});
   expect_refused(cells + "control.sampling_period=-1:1:2", {"must be greater than 0 s"});
   expect_refused("basins --motions", {"--map"});
-  expect_refused("orbit --follow backlash.width=0.001:0.002", {"must lie in"});
+  expect_refused("orbit --follow backlash.width=0.001:0.002", {"must lie between"});
   expect_refused("orbit --follow control.sampling_period=0.0005:0.002",
                  {"changes the ratio of sampling and excitation period"});
   expect_refused("orbit --follow initial.z1=0:1", {"[plant]"});
@@ -218,7 +218,7 @@ TEST(OrbitJob, RefusesWhatItCannotProve) {
   expect_refused("orbit --prove --certificate", {"--certificate"});
   expect_refused("orbit --prove --map backlash.width=0:1 --map plant.absorber_mass=0.1:0.2",
                  {"--map"});
-  expect_refused("orbit --prove --follow plant.absorber_mass=0.15:0.17", {"linear"});
+  expect_refused("orbit --prove --follow plant.absorber_mass=0.15:0.17", {"with --prove"});
   expect_refused("orbit --prove --follow backlash.width=0:0.002 --set backlash.width=0",
                  {"without backlash"});
   expect_refused("orbit --prove --max-period 50", {"coincide only every 100 samples"}, 1);

@@ -123,7 +123,7 @@ void expect_what_the_motions_are(const fs::path& report) {
                {"periodic(2100)", "meet: the same orbit", "--set initial.z1=1e-5"});
   // Five forcing periods: five copies of the motion, each one of them later.
   expect_holds(motion_named(page, "as Fig. 11a, farther apart"),
-               {"periodic(500)", "stay apart: copies", "of 5<"});
+               {"periodic(500)", "stay apart: the same orbit", "of 5<"});
   EXPECT_EQ(count_of(page, "<strong>different orbits</strong>"), 1U);  // with 3 ms
 }
 
@@ -270,7 +270,7 @@ TEST_F(Report, OfADivergingCaseSaysSoInThePage) {
       page_of("--set control.sampling_period=0.011 --set control.processing_delay=0.011");
   expect_holds(page, {"No picture: the motion diverges"});
   expect_holds(motion_named(page, "this case"), {"<td class=\"verdict\">diverges</td>",
-                                                 "left all bounds", "holdfast verdict --set"});
+                                                 "exceeded all bounds", "holdfast verdict --set"});
 }
 
 TEST_F(Report, OnTheConductorShowsItsModes) {
@@ -278,7 +278,7 @@ TEST_F(Report, OnTheConductorShowsItsModes) {
       "--set plant.model=string --set plant.modes=3 --set control.differential_gain=-2";
   const std::string page = page_of(string);
   expect_holds(page, {"Damping of the conductor&#39;s modes", "two masses and the cable",
-                      "Does this hold on the cable?"});
+                      "Are these results valid on the cable?"});
   EXPECT_EQ(page.find("No picture"), std::string::npos);
   EXPECT_EQ(read_text(place() / "data/modal-damping-control.csv"),
             run_holdfast("modal-damping --count 40 --quiet " + string).output);

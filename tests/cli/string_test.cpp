@@ -168,10 +168,10 @@ TEST(String, JobsOfTwoMassesRefuseIt) {
     expect_refused(options + " --quiet --set plant.model=string", {"two_masses"});
   for (const std::string options : {"lyapunov", "lyapunov --history"})
     expect_refused(options + " --switching exact --quiet --set plant.model=string",
-                   {"the paper's model"});
+                   {"the model of Kollár (2022)"});
   expect_refused("modal-damping", {"plant.model=cable"});
   expect_refused("simulate --switching exact --kick 0.1:0.001 --quiet --set plant.model=string",
-                 {"--kick", "only for the paper's model"});
+                 {"--kick", "only for a conductor in the model of Kollár (2022)"});
 }
 
 TEST(String, WrongInputIsNamed) {
@@ -202,11 +202,12 @@ TEST(String, WrongInputIsNamed) {
 TEST(String, SaysWhatTheModesLeftOutWouldChange) {
   const std::string ask = "boundary --stable-interval --p -557 --set plant.model=string";
   expect_said(ask + " --set plant.modes=20",
-              {"more at the clamp", "with all modes the interval is"});
+              {"more mass at the clamp", "with all modes the interval is"});
   const std::string settled = " --set absorber.clamp_mass=0.01 --set control.sampling_period=0.01";
   const std::string errors = run_holdfast(ask + settled).errors;
   EXPECT_EQ(errors.find("warning"), std::string::npos) << errors;
-  expect_said(ask + settled + " --set conductor.damping_ratio=0.0005", {"returning waves"});
+  expect_said(ask + settled + " --set conductor.damping_ratio=0.0005",
+              {"waves returning from the supports"});
   expect_said(ask + settled + " --set excitation.frequency=700", {"is faster than these"});
   // Without plant.modes the answer hardly moves with the computer's speed; 20 modes are 14 g.
   const CsvTable slow = table_of(ask + " --quiet --set control.sampling_period=2e-4");

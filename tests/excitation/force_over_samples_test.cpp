@@ -15,6 +15,10 @@ std::shared_ptr<const RecordedForce> record_of_steps(RecordInterpolation interpo
                                                interpolation);
 }
 
+MultiHarmonicForce force_with_record() {
+  return {force_of_three_lines().harmonics, record_of_steps(RecordInterpolation::linear)};
+}
+
 /// The largest force of the harmonics, at any phases.
 double sum_of_amplitudes(const MultiHarmonicForce& force) {
   double sum = 0.0;
@@ -24,8 +28,7 @@ double sum_of_amplitudes(const MultiHarmonicForce& force) {
 
 TEST(ForceOverSamples, ExactlyItIsTheForceItself) {
   test::Random random(1331);
-  MultiHarmonicForce force = force_of_three_lines();
-  force.record = record_of_steps(RecordInterpolation::linear);
+  const MultiHarmonicForce force = force_with_record();
   ForceOverSamples over(force, ForceHold::exact, 0.001);
   for (std::int64_t j = 0; j < 60; ++j) {
     const double time = static_cast<double>(j) * 0.001;
@@ -43,9 +46,7 @@ TEST(ForceOverSamples, ExactlyItIsTheForceItself) {
 }
 
 TEST(ForceOverSamples, AnInstantOfEveryPeriodIsThatInstant) {
-  MultiHarmonicForce with_record = force_of_three_lines();
-  with_record.record = record_of_steps(RecordInterpolation::linear);
-  for (const MultiHarmonicForce& force : {force_of_three_lines(), with_record}) {
+  for (const MultiHarmonicForce& force : {force_of_three_lines(), force_with_record()}) {
     for (const ForceHold hold : {ForceHold::exact, ForceHold::sampled}) {
       ForceOverSamples over(force, hold, 0.0013);
       for (const double after : {0.0, 0.0004, 0.0013}) {
@@ -60,8 +61,7 @@ TEST(ForceOverSamples, AnInstantOfEveryPeriodIsThatInstant) {
 }
 
 TEST(ForceOverSamples, HeldItIsThatOfTheSample) {
-  MultiHarmonicForce force = force_of_three_lines();
-  force.record = record_of_steps(RecordInterpolation::linear);
+  const MultiHarmonicForce force = force_with_record();
   ForceOverSamples over(force, ForceHold::sampled, 0.001);
   for (std::int64_t j = 0; j < 60; ++j) {
     const double time = static_cast<double>(j) * 0.001;
@@ -112,8 +112,7 @@ TEST(ForceOverSamples, ItsPhasesAreThoseOfTheSampleInAnyOrder) {
 }
 
 TEST(ForceOverSamples, EveryBreakOfARecordIsMetOnceInItsOrder) {
-  MultiHarmonicForce force;
-  force.record = record_of_steps(RecordInterpolation::held);
+  const MultiHarmonicForce force{{}, record_of_steps(RecordInterpolation::held)};
   const double period = 0.001;
   ForceOverSamples over(force, ForceHold::exact, period);
   EXPECT_FALSE(over.is_regular());

@@ -14,9 +14,9 @@ namespace {
 using namespace holdfast::program;
 using holdfast::fuzz::require;
 
-void read_as_root(std::string_view text, int format) {
+void read_as_root(std::string_view text) {
   try {
-    const StoreDescription store = read_description(text, format);
+    const StoreDescription store = read_description(text);
     const std::int64_t last = store.grid.chunks() - 1;
     require(store.grid.first_cell(last) + store.grid.cells_of(last) == store.grid.cells(),
             "the last chunk ends with the last cell");
@@ -39,8 +39,7 @@ void read_as_chunk(std::string_view bytes) {
 /// Any bytes as each of the things that lie in a store.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes(reinterpret_cast<const char*>(data), size);
-  read_as_root(bytes, 3);
-  read_as_root(bytes, 2);
+  read_as_root(bytes);
   read_as_chunk(bytes);
   name_behind_temporary(bytes);
   return 0;

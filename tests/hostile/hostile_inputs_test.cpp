@@ -110,7 +110,6 @@ std::vector<std::string> some_option(Random& random) {
       "--interval --data --parameters --target --axis --frequency --band --largest-radius "
       "--criterion --from --kick --switching --discard --window --offset --durations --cells "
       "--max-period --follow --transient --strobes --standard-error --tangent --metric --chunk "
-      "--zarr-format "
       "--init --check --resume --dry-run --quiet --progress --radius --continuous --plain "
       "--largest --history --trace --certificate --fractions --details --best-gain --no-control "
       "--help --version --regions --features --stable-interval --both-gains "

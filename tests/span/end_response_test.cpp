@@ -139,6 +139,7 @@ TEST(PerfectAbsorption, OfAHeavyAbsorberIsThatOfTheForceAlone) {
   EXPECT_NEAR(gains.proportional, 3072.5, 5e-2);
   EXPECT_THROW(perfect_absorption(string, string.wave_speed() / 21.3 / 2.0, active, omega),
                InvalidParameter);
+  EXPECT_THROW(perfect_absorption(string, 1.5, active, turn_of(1.0 / period)), InvalidParameter);
 }
 
 }  // namespace

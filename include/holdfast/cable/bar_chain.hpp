@@ -13,19 +13,20 @@
 
 namespace holdfast {
 
-/// Tension T = EA (l − l₀)/l₀ (N) of a bar of length l = |reach| (m) and unstretched length l₀ (m).
+/// Tension T = EA (l − l₀)/l₀ (N) of an elastic bar. `reach` (m) is the vector from its left to its
+/// right node, l = |reach|, l₀ (m) the unstretched `length`, EA (N) the axial stiffness.
 template <class Scalar>
 Scalar bar_tension(const Vector<Scalar, 2>& reach, double length, double axial_stiffness) {
   return axial_stiffness * (reach.norm() - length) / length;
 }
 
-/// Force T n (N) of a bar on its first node: its tension T along n = reach/|reach|.
+/// Force T n (N) of a bar on its left node: its tension T along the unit vector n = reach/|reach|.
 template <class Scalar>
 Vector<Scalar, 2> bar_pull(const Vector<Scalar, 2>& reach, double length, double axial_stiffness) {
   return reach * Scalar(axial_stiffness * (Scalar(1.0 / length) - Scalar(1) / reach.norm()));
 }
 
-/// Stiffness (EA/l₀) n nᵀ + (T/l)(I − n nᵀ) (N/m) of a bar: derivative of bar_pull() by `reach`.
+/// Derivative (EA/l₀) n nᵀ + (T/l)(I − n nᵀ) (N/m) of bar_pull() with respect to `reach`.
 template <class Scalar>
 Matrix<Scalar, 2> bar_stiffness(const Vector<Scalar, 2>& reach, double length,
                                 double axial_stiffness) {
@@ -35,10 +36,10 @@ Matrix<Scalar, 2> bar_stiffness(const Vector<Scalar, 2>& reach, double length,
                                                 (Matrix<Scalar, 2>::Identity() - along);
 }
 
-/// A cable as N elastic bars between N + 1 nodes, the outer two being the supports.
-/// The unstretched lengths of the bars add up to that of the cable. One node lies at the absorber.
-/// The bars left of this node all have one unstretched length, and the bars right of it another.
-/// Positions are 2 × (N − 1), a column [x, y]ᵀ (m) per free node from the left support, y downward.
+/// A cable as a chain of N elastic bars and N + 1 nodes; the outer two nodes are the supports. The
+/// unstretched lengths of the bars add up to that of the cable. One node lies at the absorber. All
+/// bars left of this node are equally long, and so are all bars right of it. Each free node has the
+/// position [x, y]ᵀ (m) relative to the left support, y downward.
 /// @tparam Real  `double`; a parameter so that the class is compiled only where it is used
 template <class Real>
 class BasicBarChain {
@@ -48,7 +49,7 @@ class BasicBarChain {
 
   /// @param conductor  conductor of the cable, one that `validate` accepts
   /// @param position   distance x_p (m) of the absorber from the left support in the bare cable
-  /// @param elements   number N of bars, ≥ 2
+  /// @param elements   number N of bars, 2 … 10⁶
   /// @throws InvalidParameter outside these ranges or unless 0 < x_p < span
   BasicBarChain(const Conductor<Real>& conductor, Real position, int elements)
       : conductor_(checked(conductor, position, elements)),
@@ -69,8 +70,7 @@ class BasicBarChain {
   int free_nodes() const { return elements() - 1; }
   /// Index of the free node at the absorber's place.
   int loaded_node() const { return loaded_node_; }
-  /// Unstretched length l₀ (m) of bar `element`, between the free nodes `element` − 1 and
-  /// `element`.
+  /// Unstretched length l₀ (m) of bar `element`, from free node `element` − 1 to `element`.
   Real length(int element) const { return lengths_[static_cast<std::size_t>(element)]; }
   /// Axial stiffness EA (N), the same for all bars.
   Real axial_stiffness() const { return cable_.axial_stiffness(); }
@@ -101,8 +101,8 @@ class BasicBarChain {
     return smallest;
   }
 
-  /// Positions (m) of the free nodes on the exact catenary under a load P (N) at the absorber. They
-  /// are the first guess for the equilibrium of the bars.
+  /// Positions (m) of the free nodes on the exact catenary under a load P (N, downward) at the
+  /// absorber, a first guess for the equilibrium of the bars; NaN if no catenary is found.
   Nodes catenary_positions(Real load) const {
     const LoadedCable<Real> loaded = cable_.under_load(load, place_);
     Nodes nodes(2, free_nodes());
@@ -135,7 +135,7 @@ using BarChain = BasicBarChain<double>;
 
 /// Equilibrium of a bar chain.
 struct ChainEquilibrium {
-  BarChain::Nodes nodes;       ///< positions (m) of the free nodes, 2 × (N − 1)
+  BarChain::Nodes nodes;       ///< positions (m) of the free nodes, valid if converged
   EquilibriumOutcome outcome;  ///< converged: forces balanced to round-off, every bar in tension
   double unbalanced;           ///< largest component (N) of the unbalanced force at any node
 };
@@ -194,8 +194,7 @@ ChainEquilibrium chain_equilibrium(const BasicBarChain<Real>& chain, double load
   require_finite("load", load, "N");
   ChainEquilibrium result{chain.catenary_positions(load), EquilibriumOutcome::not_converged, 0.0};
   auto forces = unbalanced_forces(chain, result.nodes, load);
-  // A bar's pull is a difference of lengths times EA/l₀: its round-off, not the forces', is what
-  // remains.
+  // A bar's pull is EA/l₀ times a difference of lengths, whose round-off limits the force balance.
   const double resolution = 64.0 * std::numeric_limits<double>::epsilon() *
                             (chain.axial_stiffness() * chain.conductor().span / chain.length(0));
   for (int step = 0; step < 60 && forces.norm() > 1e-3 * resolution; ++step) {

@@ -13,10 +13,10 @@
 
 namespace holdfast {
 
-/// Mass that hangs on a cable at the absorber's place.
+/// Mass attached to a cable at the absorber's place.
 struct HungMass {
-  double weight;          ///< mass (kg), ≥ 0, whose weight the cable carries at rest
-  double sideways = 0.0;  ///< mass (kg), ≥ 0, that moves along the span with the cable
+  double weight;          ///< mass (kg), ≥ 0, of which only the weight counts, not the inertia
+  double sideways = 0.0;  ///< mass (kg), ≥ 0, whose inertia counts along the span only
 };
 
 /// Distribution of a bar's mass on its two nodes. Each entry states the relative error of the wave
@@ -30,12 +30,12 @@ enum class BarMass {
 struct CablePlaceModes {
   EquilibriumOutcome outcome;            ///< outcome of the search for the equilibrium
   std::vector<PlaceMode<double>> modes;  ///< modes by ascending ω; none without an equilibrium
-  int apart = 0;                         ///< number of single modes; bundles of modes follow them
+  int apart = 0;  ///< number of single modes before the first bundle of cable_place_modes()
 };
 
 namespace detail {
 
-/// Lanczos' process on K⁻¹M (stiffness K, masses M) in the inner product of K, begun with the
+/// Lanczos' process on K⁻¹M (stiffness K, masses M) in the inner product of K, started from the
 /// deflection under a unit force. The result is a tridiagonal matrix T (s²): the receptance is the
 /// static one times the (1, 1) entry of (I + s²T)⁻¹. Vectors are orthogonalised up to twice.
 template <class Real>
@@ -129,28 +129,28 @@ inline void widen_bundles(std::vector<PlaceMode<double>>& modes, const std::vect
 
 }  // namespace detail
 
-/// The undamped modes of a hanging cable about its equilibrium with the absorber's weight, with
-/// their vertical shapes φ_n at the absorber's node:
+/// The modes of an undamped hanging cable about its equilibrium with the absorber's weight, with
+/// their vertical shapes φ_n at the absorber's node. They approximate the receptance of this node:
 ///
-///     H(s) = eᵀ (K + s²M)⁻¹ e ≈ Σ φ_n² / (s² + ω_n²),
+///     H(s) = eᵀ (K + s²M)⁻¹ e ≈ Σ φ_n² / (s² + ω_n²).
 ///
 /// K is the tangent stiffness of the bars, M their mass matrix with `hung.sideways`, e the vertical
-/// unit vector of the absorber's node. `steps` steps of Lanczos' process keep the first 2·`steps`
-/// moments of H about s = 0 exactly. Slow modes are found singly, faster ones in bundles that widen
-/// with frequency. A mode is single if its residual in the process is below 10⁻⁷ of its 1/ω². A
-/// bundle's damping ratio is half its relative width in frequency, so that no wave returns to the
-/// absorber. Modes with a node at the absorber do not appear. Work: O(bars · steps²).
+/// unit vector of the node. Lanczos' process of `steps` steps makes the first 2·`steps`
+/// coefficients of H in powers of s² exact. It finds slow modes singly. In place of several fast
+/// modes it finds one, a bundle. A mode is single if its residual in the process is below
+/// 10⁻⁷/ω_n². A bundle gets half its relative bandwidth as damping ratio, so that no wave returns.
+/// Modes that leave the absorber's node at rest do not appear. Work: O(bars · steps²).
 /// @tparam Real  `double`; a parameter so that the function is compiled only where it is used
 /// @param chain  the cable's bars, at least six per shortest wavelength of interest
 /// @param hung   mass on the absorber's node
 /// @param steps  number of Lanczos steps, 1 … 2(N − 1) for N bars
 /// @param mass   distribution of the bars' mass on the nodes
-/// @throws InvalidParameter for masses or steps that are not admissible
+/// @throws InvalidParameter for a negative mass, or steps outside this range
 template <class Real>
 CablePlaceModes cable_place_modes(const BasicBarChain<Real>& chain, const HungMass& hung, int steps,
                                   BarMass mass = BarMass::averaged) {
   require_non_negative("hanging mass", hung.weight, "kg");
-  require_non_negative("mass that goes sideways", hung.sideways, "kg");
+  require_non_negative("hung mass that takes part in motion along the span", hung.sideways, "kg");
   require_within("number of Lanczos steps", steps, "", 1, 2.0 * chain.free_nodes());
   const ChainEquilibrium rest = chain_equilibrium(chain, hung.weight * chain.conductor().gravity);
   CablePlaceModes found{rest.outcome, {}};

@@ -15,12 +15,12 @@ namespace holdfast {
 /// force over the area of the whole conductor. A strain ε is mechanical: it excludes thermal
 /// expansion and is 0 in the unloaded conductor at the reference temperature.
 struct WireCurves {
-  std::array<double, 5> initial{};  ///< a_k of σ = Σ a_k ε^k (Pa), first loading within an hour
-  std::array<double, 5> creep{};    ///< a_k of σ = Σ a_k ε^k (Pa), after ten years under stress
-  double modulus = 0.0;             ///< slope dσ/dε (Pa) of unloading, ≥ 0; 0: no such wires
-  double expansion = 0.0;           ///< coefficient of thermal expansion α (1/K)
+  std::array<double, 5> initial{};  ///< a₀ … a₄ of σ = Σ a_k ε^k (Pa): new, loaded for one hour
+  std::array<double, 5> creep{};  ///< a₀ … a₄ of σ = Σ a_k ε^k (Pa): after ten years of creep
+  double modulus = 0.0;           ///< slope dσ/dε (Pa) of unloading, ≥ 0; 0: no such wires
+  double expansion = 0.0;         ///< coefficient of thermal expansion α (1/K)
 
-  /// Stress (Pa) at a strain on one of the curves; 0 where the wires are slack.
+  /// Stress (Pa) at a strain on the curve `initial` or `creep`; 0 where the wires are slack.
   static double on(const std::array<double, 5>& curve, double strain) {
     if (strain <= 0.0) return 0.0;
     double stress = 0.0;
@@ -41,7 +41,7 @@ struct ConductorCurves {
   WireCurves outer;                     ///< curves of the outer, conducting wires
   WireCurves core;                      ///< curves of the core; modulus 0: no core
   double reference_temperature = 20.0;  ///< temperature (°C) at which both materials are unstressed
-  double largest_strain = 0.01;         ///< largest strain at which the curves hold
+  double largest_strain = 0.01;         ///< largest strain for which the curves are valid
   bool creeps = false;                  ///< whether the initial and creep curves differ
 };
 
@@ -81,7 +81,7 @@ struct SpanTension {
   double sag;          ///< sag (H/w)(cosh(wL/2H) − 1) (m), in the plane of the load w
   double core_share;   ///< core's share of the force, 0 … 1
   double strain;       ///< mechanical strain of outer wires or core, whichever is larger
-  bool within_curves;  ///< whether the stress–strain curves hold at `strain`
+  bool within_curves;  ///< whether the stress–strain curves are valid at `strain`
 };
 
 /// Sag H/w (cosh(wL/2H) − 1) (m) of a catenary of tension H (N), weight w (N/m) and span L (m).
@@ -90,35 +90,36 @@ inline double catenary_sag(double horizontal_tension, double weight_per_length, 
   return 2.0 * horizontal_tension / weight_per_length * half * half;
 }
 
-/// Measured tension of a strung span, and the heaviest load that the span has borne.
+/// Measured tension of a strung span, with the heaviest load on the span so far.
 struct Stringing {
-  SpanWeather weather;        ///< weather in which the tension was read
-  double horizontal_tension;  ///< horizontal tension H (N) as read, > 0
-  bool is_final = false;      ///< whether the span had already crept and borne that load
-  std::optional<SpanWeather> heaviest = {};  ///< heaviest load that the span has borne, if any
+  SpanWeather weather;        ///< weather during the measurement
+  double horizontal_tension;  ///< measured horizontal tension H (N), > 0
+  bool is_final = false;      ///< whether H was measured after creep and heaviest load
+  std::optional<SpanWeather> heaviest = {};  ///< heaviest load so far; none: creep alone counts
 };
 
 /// The change of state of a strung span: its tension at every temperature and load, when new and
-/// after years.
+/// after ten years of creep and the heaviest load.
 ///
-/// The conductor has the unstressed length L₀. Under the tension H the catenary has the length
-/// S = (2H/w) sinh(wL/2H) and the strain ε = S/L₀ − 1. At the temperature T, the wires of the area
-/// A bear the mean tension:
+/// The conductor has the unstressed length L₀. Under the load w and the horizontal tension H its
+/// catenary has the length S = (2H/w) sinh(wL/2H) and the strain ε = S/L₀ − 1. At the temperature T
+/// the stresses balance the mean tension:
 ///
-///     A Σ σ_c(ε − α_c (T − T₀)) = H (L/2 + (H/2w) sinh(wL/H))/S
+///     A Σ_c σ_c(ε − α_c (T − T₀)) = H (L/2 + (H/2w) sinh(wL/H))/S
 ///
-/// with c the outer wires or the core, T₀ the reference temperature. Slack wires bear nothing,
-/// which gives the knee point. When new, σ_c is the initial curve. Ten years of creep in stringing
-/// weather leave a permanent strain in each material, as does the heaviest load: the strain where
-/// its unloading line of slope `modulus` has zero stress. The final σ_c follows the line of the
-/// larger permanent strain up to the initial curve. Source: experimental plastic elongation method;
+/// The sum is over the outer wires and the core, A is the cross section of the conductor and T₀ the
+/// reference temperature. Slack wires have no stress. In a new conductor σ_c is the initial curve.
+/// Ten years of creep in the weather of the stringing leave a permanent strain in each material,
+/// and so does the heaviest load. At this strain the unloading line of slope `modulus` reaches
+/// zero. The final σ_c follows the line of the larger permanent strain, up to the initial curve. If
+/// `creeps` is false, no permanent strain remains. Source: experimental plastic elongation method;
 /// CIGRE Technical Brochure 324, Sag-tension calculation methods for overhead lines, 2016.
 class StrungSpan {
  public:
   /// @param curves  stress–strain curves of the conductor
   /// @param area    cross section A (m²), > 0
   /// @param span    span L (m), > 0; the ruling span where insulators swing between several spans
-  /// @param stringing  reading of the tension, and the heaviest load borne
+  /// @param stringing  measured tension, and the heaviest load so far
   /// @throws InvalidParameter naming the parameter that is out of range
   StrungSpan(const ConductorCurves& curves, double area, double span, const Stringing& stringing)
       : curves_(curves), area_(area), span_(span) {
@@ -129,7 +130,7 @@ class StrungSpan {
     const SpanWeather& then = stringing.weather;
     string_with(unstressed_length(then, stringing.horizontal_tension), stringing);
     if (!stringing.is_final) return;
-    // Creep and load lengthen a span, so that it was strung shorter than it is found.
+    // Creep and load lengthen a span: when strung it was shorter than when measured.
     const double found = length_;
     const auto missing = [&](double shortening) {
       string_with(found * (1.0 - shortening), stringing);

@@ -9,7 +9,7 @@ namespace holdfast {
 /// A conductor (or stay) that hangs between two level supports.
 ///
 /// Coordinates: x to the right from the left support, 0 … L; displacement w downward. For a stay
-/// inclined by α take the chord as span and the gravity normal to it (g cos α).
+/// inclined by α, the span is the chord and the gravity its component g cos α normal to the chord.
 template <class Scalar>
 struct Conductor {
   Scalar mass_per_length;  ///< mass μ per unstretched length (kg/m), > 0
@@ -28,13 +28,14 @@ struct Conductor {
   Scalar axial_stiffness() const { return youngs_modulus * area; }
   /// Horizontal tension H = μ g L² / (8 f) (N) of the parabola with the sag f.
   Scalar parabolic_tension() const { return weight() * span / (Scalar(8) * sag); }
-  /// Effective length L_e = L (1 + 8 (f/L)²) (m), which additional tension stretches.
+  /// Effective length L_e = L (1 + 8 (f/L)²) (m): a tension h stretches the cable by h L_e/EA.
   Scalar effective_length() const {
     const Scalar ratio = sag / span;
     return span * (Scalar(1) + Scalar(8) * ratio * ratio);
   }
-  /// Irvine's parameter λ² = (μ g L/H)² L E A / (H L_e): 0 for the taut string, ∞ for the
-  /// inextensible cable. Source: H. M. Irvine, Cable Structures, MIT Press, 1981.
+  /// Irvine's parameter λ² = (μ g L/H)² L E A / (H L_e), with tension H and effective length L_e;
+  /// 0: taut string, ∞: inextensible cable. Source: H. M. Irvine, Cable Structures, MIT Press,
+  /// 1981.
   Scalar irvine_parameter() const {
     const Scalar tension = parabolic_tension();
     const Scalar slope = weight() / tension;

@@ -11,7 +11,7 @@ namespace holdfast {
 /// Model of the absorber on the continuous cable.
 enum class AbsorberReading {
   weight,       ///< a weight without inertia
-  rigid_mass,   ///< a mass fixed to its node, with inertia along the span too, Rayleigh-damped
+  rigid_mass,   ///< a mass fixed to its node, with inertia in both directions and the damping α M
   spring_mass,  ///< a mass below its node on a vertical spring and a vertical damper
 };
 
@@ -48,7 +48,7 @@ struct RayleighDamping {
   }
 };
 
-/// Rayleigh damping with the damping ratio ζ at two frequencies ω/2π (Hz):
+/// Rayleigh damping with the damping ratio ζ at the two frequencies ω₁/2π and ω₂/2π (Hz):
 /// α = 2 ζ ω₁ω₂/(ω₁ + ω₂), β = 2 ζ/(ω₁ + ω₂).
 /// @throws InvalidParameter for ζ outside 0 … 1 or a frequency that is not positive
 inline RayleighDamping rayleigh_damping(double damping_ratio, double first_frequency,
@@ -63,12 +63,13 @@ inline RayleighDamping rayleigh_damping(double damping_ratio, double first_frequ
 }
 
 /// The cable with its absorber as elastic bars: M v̇ + C v + f(q) = F with positions q, velocities
-/// v, lumped masses M, internal forces f and loads F. C = α M + β K, K at the equilibrium with the
-/// absorber's weight. The class computes the rates and their Jacobian; it has no solver.
+/// v, lumped masses M, internal forces f and loads F. The damping matrix is C = α M + β K with the
+/// stiffness K at the equilibrium with the absorber's weight. The class computes the time
+/// derivative of the state and its Jacobian; it has no solver.
 ///
-/// State: [x, y, ẋ, ẏ] (m, m/s) per free node. With a spring–mass, [a, ȧ] follows the four states
-/// of the loaded node, a (m) being the absorber's drop from rest. The Jacobian's entries lie within
-/// `half_bandwidth()` of the diagonal. `push()` adds downward forces at the absorber's place.
+/// State: [x, y, ẋ, ẏ] (m, m/s) per free node. With a spring–mass, [a, ȧ] follows the states of its
+/// node; a (m) is the absorber's drop from the equilibrium. The Jacobian is zero farther than
+/// `half_bandwidth()` from the diagonal. `push()` adds downward forces at the absorber.
 /// @tparam Real  `double`; a parameter so that the class is compiled only where it is used
 template <class Real>
 class BasicCableElements {
@@ -80,7 +81,7 @@ class BasicCableElements {
 
   /// @param conductor  conductor of the cable, one that `validate` accepts
   /// @param position   distance x_p (m) of the absorber from the left support, inside the span
-  /// @param elements   number N of bars, ≥ 2
+  /// @param elements   number N of bars, 2 … 10⁶
   /// @param absorber   absorber on the node at x_p
   /// @param damping    damping of the cable; both factors ≥ 0
   /// @throws InvalidParameter outside these ranges, or for an absorber that `validate` refuses
@@ -109,7 +110,7 @@ class BasicCableElements {
   /// Equilibrium with the absorber's weight.
   const ChainEquilibrium& rest() const { return rest_; }
 
-  /// State at rest under a further force at the absorber's place.
+  /// State at rest under a force in addition to the absorber's weight.
   struct Start {
     States state;                ///< states() numbers with zero velocities; valid if converged
     EquilibriumOutcome outcome;  ///< converged: this equilibrium and rest() were both found
@@ -129,16 +130,16 @@ class BasicCableElements {
     return start;
   }
 
-  /// Drops z of the absorber's node and a of the absorber from rest, with their velocities: [z, ż,
-  /// a, ȧ] (m, m/s, m, m/s); only with a spring–mass.
+  /// Drop z of the absorber's node and drop a of the absorber from the equilibrium, with their
+  /// velocities: [z, ż, a, ȧ] (m, m/s, m, m/s); only with a spring–mass.
   Vector<Real, 4> at_absorber(const Real* state) const {
     const int own = first_state(chain_.loaded_node());
     return {state[own + 1] - rest_.nodes(1, chain_.loaded_node()), state[own + 3], state[own + 4],
             state[own + 5]};
   }
 
-  /// Adds the arguments to the velocities (m/s) of the absorber's node and of the absorber, and to
-  /// the absorber's displacement (m); only with a spring–mass.
+  /// Adds `node_velocity` (m/s) to the motion of the absorber's node, `displacement` (m) and
+  /// `velocity` (m/s) to that of the absorber, all downward; only with a spring–mass.
   void strike(Real* state, Real node_velocity, Real displacement, Real velocity) const {
     const int own = first_state(chain_.loaded_node());
     state[own + 3] += node_velocity;
@@ -163,7 +164,7 @@ class BasicCableElements {
   /// Computes d(state)/dt for any number type; both arrays have states() numbers.
   template <class Scalar>
   void rate(const Scalar* state, Scalar* rate_of_state) const {
-    // Each bar is computed once: it pulls its left node forth and its right node back.
+    // Each bar is computed once; its pull acts on its left node, and reversed on its right node.
     NodeMotion<Scalar> here = motion_of(state, 0);
     Vector<Scalar, 2> pull_before = pull_of(0, motion_of(state, -1), here);
     for (int node = 0; node < chain_.free_nodes(); ++node) {
@@ -226,7 +227,7 @@ class BasicCableElements {
     }
   }
 
-  /// Smallest tension (N) of the bars; the model of the cable holds while this tension is positive.
+  /// Smallest tension (N) of the bars; the model of the cable is valid while this is positive.
   Real margin(const Real* state) const { return chain_.smallest_tension(positions(state)); }
 
   /// Positions (m) of the free nodes.
@@ -250,7 +251,8 @@ class BasicCableElements {
     if (is_sprung() && absorber_.sideways) masses[0] += absorber_.mass;
     return masses;
   }
-  /// Damping rates (1/s) of a node by α M, along the span and vertically; the clamp is undamped.
+  /// Damping rates (1/s) of a node by α M, along the span and vertically. Only the clamp's
+  /// vertical motion is undamped.
   Vector<Real, 2> mass_drag(int node) const {
     Vector<Real, 2> drag = Vector<Real, 2>::Constant(damping_.mass_factor);
     if (is_sprung() && node == chain_.loaded_node())

@@ -9,23 +9,23 @@
 
 namespace holdfast {
 
-/// Extent of a segment of an elastic catenary, as a function of the forces at its left end.
+/// Horizontal and vertical extent of a segment of an elastic catenary.
 template <class Scalar>
 struct CatenaryExtent {
   Scalar horizontal;             ///< horizontal extent (m)
   Scalar vertical;               ///< vertical extent (m), downward positive
-  Matrix<Scalar, 2> derivative;  ///< ∂(horizontal, vertical)/∂(H, V) (m/N), positive definite
+  Matrix<Scalar, 2> derivative;  ///< ∂(horizontal, vertical)/∂(H, V), forces at the left end (m/N)
 };
 
-/// The extent of a segment of an elastic catenary of weight w (N per unstretched metre) and axial
-/// stiffness EA. H is its horizontal tension, V the upward force on its left end. The tension at
-/// the unstretched coordinate s has the components (H, V − w s), T = √(H² + (V − w s)²), and
+/// The extent x, y (m) of a segment of an elastic catenary of unstretched length l. w is its weight
+/// (N per unstretched metre), EA its axial stiffness, H its horizontal tension, V the upward force
+/// on its left end. At the unstretched coordinate s the tension is T(s) = √(H² + (V − w s)²):
 ///
 ///     x = H l/EA + (H/w) [asinh(V/H) − asinh((V − w l)/H)]
 ///     y = l (2V − w l)/(2EA) + [T(0) − T(l)]/w
 ///
-/// The derivative of (x, y) by (H, V) is the Hessian of the energy ∫ (T²/2EA + T) ds: symmetric,
-/// and positive definite for H > 0. Source: Irvine 1981, Sect. 1.4.
+/// The derivative of (x, y) by (H, V) is the Hessian of the complementary energy ∫ (T²/2EA + T) ds:
+/// symmetric, positive definite for H > 0. Source: H. M. Irvine, Cable Structures, 1981, Sect. 1.4.
 /// @param weight          w (N/m), > 0
 /// @param stiffness       EA (N), > 0
 /// @param tension         H (N), > 0
@@ -53,25 +53,25 @@ CatenaryExtent<Scalar> catenary_extent(const Scalar& weight, const Scalar& stiff
 
 /// Outcome of the search for an equilibrium.
 enum class EquilibriumOutcome {
-  converged,  ///< bars: all forces balance; catenary: meets both supports to 2·10⁻¹¹ of the span
+  converged,  ///< bars: forces balance to round-off; catenary: ends within 2·10⁻¹¹ L of supports
   not_converged,  ///< no equilibrium found: slack bars, or a load too large for the precision
 };
 
-/// Equilibrium of the whole cable under one vertical point load; NaN where none was found.
+/// Equilibrium of the whole cable under one vertical point load; forces are NaN if none is found.
 template <class Scalar>
 struct LoadedCable {
   Scalar tension;              ///< horizontal tension H (N), constant along the cable
   Scalar vertical_force;       ///< upward force V (N) of the left support on the cable
-  EquilibriumOutcome outcome;  ///< whether the cable meets both supports
+  EquilibriumOutcome outcome;  ///< whether the equilibrium was found
 };
 
-/// The exact statics of an elastic cable: two catenaries that meet under the point load.
+/// The exact statics of an elastic cable: two elastic catenaries, joined at the point load.
 ///
-/// The unstretched length is chosen so that the bare cable has the given sag. Across a load P (N,
-/// downward) the vertical force drops by P. With the right end on the support (L, 0), the
-/// complementary energy ∫ (T²/2EA + T) ds − H L is stationary in (H, V). This energy is strictly
-/// convex: every load has exactly one solution, and Newton's method with backtracking finds it from
-/// any start. Source: Irvine 1981, Sect. 1.4.
+/// The unstretched length l₀ follows from the given sag of the bare cable. Across a downward
+/// load P (N) the vertical force in the cable drops by P. When the right end lies on its support
+/// (L, 0), the energy ∫ (T²/2EA + T) ds − H L is stationary in (H, V). This energy is
+/// strictly convex: every load has exactly one solution, and Newton's method with backtracking
+/// finds it from any start. Source: H. M. Irvine, Cable Structures, 1981, Sect. 1.4.
 template <class Scalar>
 class HangingCable {
  public:
@@ -148,7 +148,7 @@ class HangingCable {
     return {none, none, EquilibriumOutcome::not_converged};
   }
 
-  /// Extent of the whole cable under a load P (N) at s_p (m), and its derivative by (H, V).
+  /// Extent (m) of the whole cable with the forces H, V of `cable` and a load P (N) at s_p (m).
   CatenaryExtent<Scalar> whole(const LoadedCable<Scalar>& cable, const Scalar& load,
                                const Scalar& place) const {
     const auto left = extent(cable, place);
@@ -164,7 +164,7 @@ class HangingCable {
     return catenary_extent<Scalar>(weight_, stiffness_, cable.tension, cable.vertical_force, s);
   }
 
-  /// Position [x, drop] (m) of the material point at any s (m), with a load P (N) at s_p (m).
+  /// Position [x, drop] (m) of the material point s (m), 0 ≤ s ≤ l₀, with a load P (N) at s_p (m).
   Vector<Scalar, 2> point(const LoadedCable<Scalar>& cable, const Scalar& load, const Scalar& place,
                           const Scalar& s) const {
     const auto left = extent(cable, s < place ? s : place);
@@ -226,7 +226,7 @@ class HangingCable {
   EquilibriumOutcome bare_outcome_ = EquilibriumOutcome::not_converged;
 };
 
-/// Force and displacement of the loaded point of a cable by the exact statics.
+/// Force–displacement relation of the loaded point of a cable by the exact statics.
 ///
 /// The interface equals that of `IrvinePointLoad`; the displacement w is measured from the bare
 /// cable. Results are NaN where `HangingCable::under_load` finds no equilibrium.
@@ -262,10 +262,7 @@ class CatenaryPointLoad {
     return cable_.point(loaded, load, place_, s)[1] - cable_.extent(cable_.bare(), s).vertical;
   }
 
-  /// Tangent stiffness dP/dw (N/m) of the loaded point at a load P (N).
-  ///
-  /// The supports are fixed: J d(H, V) = J_right [0, 1]ᵀ dP. J is the derivative of the extent of
-  /// the whole cable, J_right that of its part right of the load. dw follows from the left part.
+  /// Tangent stiffness dP/dw (N/m) of the loaded point at a load P (N), with both supports fixed.
   Scalar stiffness(const Scalar& load) const {
     const auto loaded = cable_.under_load(load, place_);
     const auto left = cable_.extent(loaded, place_).derivative;

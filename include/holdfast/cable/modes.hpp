@@ -32,12 +32,13 @@ struct CableMode {
   }
 };
 
-/// The dimensionless frequency ω̄ of the n-th symmetric mode, n ≥ 1: with y = ω̄/2,
+/// The dimensionless frequency ω̄ of the n-th symmetric mode, n ≥ 1, for Irvine's parameter λ² > 0.
+/// It is the root, with y = ω̄/2, of
 ///
 ///     tan y = y − (4/λ²) y³.
 ///
-/// Multiplied by cos y, the equation has no pole, and its residual has opposite signs at
-/// y = (n ∓ 1/2) π, so that bisection solves it for every λ² > 0. Source: H. M. Irvine, T. K.
+/// Multiplied by cos y, the equation has no pole, and its residual has opposite signs at y = (n ∓
+/// 1/2) π. Bisection between these points solves it for every λ² > 0. Source: H. M. Irvine, T. K.
 /// Caughey, The linear theory of free vibrations of a suspended cable, Proc. R. Soc. A 341 (1974).
 template <class Scalar>
 Scalar symmetric_frequency(int n, const Scalar& irvine_parameter) {
@@ -57,7 +58,7 @@ Scalar symmetric_frequency(int n, const Scalar& irvine_parameter) {
 
 /// The `count` lowest in-plane modes in ascending order of frequency. At a crossover
 /// (two equal frequencies) the symmetric mode comes first.
-/// @throws InvalidParameter for an inadmissible conductor, or count < 1
+/// @throws InvalidParameter for an inadmissible conductor, or a count outside 1 … 10⁵
 inline std::vector<CableMode> irvine_modes(const Conductor<double>& conductor, int count) {
   validate(conductor);
   require_within("number of modes", count, "", 1, 100000);

@@ -19,9 +19,9 @@ namespace holdfast {
 ///     ĥ³ + (2 + λ²/24) ĥ² + (1 + λ²/12) ĥ − (λ²/2) x̂_p (1 − x̂_p) P̂ (1 + P̂) = 0
 ///     w(x) = μ g L²/(H (1 + ĥ)) [ P̂ x̂_< (1 − x̂_>) − (ĥ/2) x̂ (1 − x̂) ],
 ///
-/// x̂_<, x̂_> are the smaller and the larger of x̂, x̂_p. w is measured from the bare cable. Both
-/// hold for small slopes (f/L up to about 1/8) and P̂ > −1/2, below which ĥ would rise again.
-/// Source: H. M. Irvine, Cable Structures, MIT Press, 1981, Sect. 2.4.
+/// x̂_<, x̂_> are the smaller and the larger of x̂ and x̂_p; w is the displacement from the bare cable.
+/// The equations hold for small slopes (f/L up to about 1/8) and P̂ > −1/2; for P̂ < −1/2 the cubic's
+/// ĥ rises again. Source: H. M. Irvine, Cable Structures, MIT Press, 1981, Sect. 2.4.
 template <class Scalar>
 class IrvinePointLoad {
  public:
@@ -86,7 +86,7 @@ class IrvinePointLoad {
     return weight_ / (scale() * form * rate);
   }
 
-  /// Load −μ g L/2 (N), at and below which the equations of this class do not hold.
+  /// Load −μ g L/2 (N), at and below which the equations of this class are not valid.
   Scalar lowest_load() const { return -weight_ / Scalar(2); }
 
  private:
@@ -95,8 +95,8 @@ class IrvinePointLoad {
   Scalar tension_, weight_, span_, parameter_, place_;
 };
 
-/// Statics of the absorber's place with force and displacement measured as in Kollár 2022, Fig. 2:
-/// from the equilibrium with the absorber's weight, downward positive.
+/// Statics of the absorber's place. Force and displacement are downward positive and measured from
+/// the equilibrium with the absorber's weight, as in Kollár 2022, Fig. 2.
 ///
 /// @tparam PointLoad  `IrvinePointLoad<double>` (parabola) or `CatenaryPointLoad<double>` (exact)
 template <class PointLoad>
@@ -127,7 +127,8 @@ class StaticsFromRest {
   double stiffness(double force) const { return model_.stiffness(resting_load_ + force); }
 
   /// Force F (N) that displaces the absorber's place by w (m), by Newton's method on the increasing
-  /// w(F) within a bracket. @throws InvalidParameter where F would not be above lowest_force()
+  /// w(F) within a bracket.
+  /// @throws InvalidParameter for a w that is not finite or needs an F not above lowest_force()
   double force(double displacement_sought) const {
     require_finite("displacement", displacement_sought, "m");
     const double floor = lowest_force() * (1.0 - 1e-9);
@@ -148,8 +149,8 @@ class StaticsFromRest {
     return guess;
   }
 
-  /// Lower limit (N) of the force in addition to the absorber's weight, set by `IrvinePointLoad`:
-  /// with the absorber's weight it is an upward load of half the cable's weight.
+  /// Lower limit (N) of the force in addition to the absorber's weight. At this limit the force and
+  /// the weight together pull up with half the cable's weight, the limit of `IrvinePointLoad`.
   double lowest_force() const { return model_.lowest_load() - resting_load_; }
 
  private:
@@ -179,11 +180,11 @@ StaticsFromRest<CatenaryPointLoad<Scalar>> exact_statics(const Conductor<Scalar>
   return {{conductor, position}, absorber_mass * conductor.gravity};
 }
 
-/// Straight line that replaces the force F(w) of the cable (Kollár 2022, Eq. 2).
+/// Linearisation of the cable's force F(w) over the displacement w (Kollár 2022, Eq. 2).
 enum class StiffnessReading {
-  tangent,        ///< slope at the equilibrium with the absorber's weight
-  secant,         ///< (F(below) − F(−above)) / (below + above)
-  least_squares,  ///< slope of the line nearest to F(w) over −above … below
+  tangent,  ///< slope at the equilibrium with the absorber's weight
+  secant,   ///< slope of the chord over ReadingRange, (F(below) − F(−above))/(below + above)
+  least_squares,  ///< slope of the least-squares line of F(w), −above ≤ w ≤ below
 };
 
 /// Displacements (m) from the equilibrium with the absorber's weight over which k₁ is determined.
@@ -218,15 +219,15 @@ double least_squares_slope(const Statics& statics, double middle, double half) {
 /// The conductor's stiffness k₁ = ΔP/Δw (N/m) at the absorber's place (Kollár 2022, Eq. 2).
 ///
 /// The least-squares line need not pass through the equilibrium.
-/// @throws InvalidParameter for a negative or empty range, and for one in which the statics do not
-/// hold; StiffnessReading::tangent ignores the range
+/// @throws InvalidParameter for a negative or empty range, or one that needs a force not above
+/// Statics::lowest_force(); StiffnessReading::tangent ignores the range
 template <class Statics>
 double conductor_stiffness(const Statics& statics, StiffnessReading reading,
                            const ReadingRange& range) {
   if (reading == StiffnessReading::tangent) return statics.stiffness(0.0);
-  require_non_negative("reading range below", range.below, "m");
-  require_non_negative("reading range above", range.above, "m");
-  require_positive("width of the reading range", range.below + range.above, "m");
+  require_non_negative("largest displacement downward", range.below, "m");
+  require_non_negative("largest displacement upward", range.above, "m");
+  require_positive("sum of the largest displacements", range.below + range.above, "m");
   const double width = range.below + range.above;
   if (reading == StiffnessReading::secant)
     return (statics.force(range.below) - statics.force(-range.above)) / width;

@@ -13,8 +13,7 @@
 
 namespace holdfast {
 
-/// The taut string: a conductor so tight that its sag is negligible, with an optional bending
-/// stiffness.
+/// A taut string: a conductor with negligible sag and an optional bending stiffness.
 template <class Scalar>
 struct TautString {
   Scalar tension;                ///< tension T (N), > 0
@@ -54,7 +53,7 @@ inline void validate(const TautString<double>& string) {
     throw InvalidParameter("damping ratio zeta", string.damping_ratio, "", ">= 0 and < 1");
 }
 
-/// The taut string of a conductor, with the tension H = μ g L²/(8 f) that belongs to its sag f.
+/// The taut string of a conductor with sag f: tension H = μ g L²/(8 f), bending stiffness 0.
 template <class Scalar>
 TautString<Scalar> taut_string(const Conductor<Scalar>& conductor) {
   return {conductor.parabolic_tension(), conductor.mass_per_length, conductor.span,
@@ -62,8 +61,8 @@ TautString<Scalar> taut_string(const Conductor<Scalar>& conductor) {
 }
 
 /// The receptance H(s) = sinh(s a/c) sinh(s (L − a)/c) / (s Z_c sinh(s L/c)) (m/N) of the string at
-/// a place a from the left support, with all its modes. Decaying exponentials avoid overflow at
-/// every s with Re s ≥ 0. The arguments are not checked.
+/// a place a, for all its modes; c is the wave speed, Z_c the wave impedance and L the span.
+/// Decaying exponentials avoid overflow for Re s ≥ 0. The arguments are not checked.
 /// @param string  the string; its damping and bending stiffness are ignored
 /// @param place   distance a (m) from the left support, inside the span
 /// @param s       complex frequency (1/s), Re s ≥ 0, not the pole of a mode
@@ -96,13 +95,13 @@ std::vector<PlaceMode<Scalar>> string_modes(const TautString<Scalar>& string, co
   return modes;
 }
 
-/// An infinitely long string with a clamp, as one mode: its receptance H(s) (m/N) is given by
-/// 1/H = 2 Z_c s + M s² + k with Z_c = √(T μ). Waves do not return from its ends.
+/// An infinitely long string with a clamp, as one mode. Its receptance H(s) (m/N) satisfies 1/H = 2
+/// Z_c s + M s² + k with Z_c = √(T μ). No waves return from the ends of the string.
 ///
-/// A mode needs a stiffness and a mass that this string lacks; both affect only the thirteenth
-/// digit. The stiffness k = 10⁻¹³ · 2 Z_c/τ has a time constant of 10¹³ samples. The mass M is at
-/// least 10⁻¹³ · 2 Z_c τ; with this least mass the velocity settles long before the next sample.
-/// The computer thus reads the velocity just before its own force changes.
+/// A mode needs a stiffness k and a mass M, which an infinite string without clamp lacks. Both are
+/// chosen so small that they change only the thirteenth digit: k = 10⁻¹³ · 2 Z_c/τ has the time
+/// constant 10¹³ τ, and M is at least 10⁻¹³ · 2 Z_c τ. With this least mass the velocity follows a
+/// force within far less than τ, so that it is settled when the computer samples it.
 /// @param wave_impedance   Z_c (N s/m), > 0
 /// @param clamp_mass       M (kg) of the clamp, ≥ 0
 /// @param sampling_period  τ (s), > 0
@@ -118,19 +117,19 @@ inline PlaceMode<double> infinite_string_mode(double wave_impedance, double clam
   return {omega, impedance / (2.0 * mass * omega), 1.0, mass};
 }
 
-/// The modes of the string for use at frequencies below mode `count`: the modes 1 … count singly,
-/// and the modes above, up to a given frequency, in bundles of increasing size. A bundle that
-/// begins with mode n has h = 1 + (n − count − 1)/10 modes, rounded down; fewer with bending
-/// stiffness.
+/// The modes of the string in a reduced number, accurate at frequencies below mode `count`. The
+/// modes 1 … count are single. The modes above, up to the frequency `highest`, are combined in
+/// bundles of increasing size. A bundle that begins with mode n has h = 1 + (n − count − 1)/10
+/// modes, rounded down, and fewer with bending stiffness.
 ///
-/// A bundle of h modes is one mode of mass M = μL/(2h) whose φ² is the mean of their φ². At its
-/// frequency ω = √(ω(n − ½) ω(n + h − ½)) it deflects statically as its h modes do together. Its
-/// damping covers its bandwidth, so that waves leave the place a and do not return, as on a
-/// the place at high frequencies like a mass 1/Σ(φ²/M).
+/// A bundle of h modes is one mode of mass M = μL/(2h); its φ² is the mean φ² of its modes. With
+/// the frequency ω = √(ω(n − ½) ω(n + h − ½)) its static deflection is nearly that of its h modes.
+/// Its damping ratio is about half its relative bandwidth, so that no waves return to the place a.
+/// Without bundles the string would act at high frequencies like a mass 1/Σ(φ²/M) at the place.
 /// @param string   string whose modes are bundled
 /// @param place    distance a (m) from the left support, inside the span
 /// @param count    number of modes that are not bundled, 1 … 10⁴
-/// @param highest  highest ω (rad/s) of the bundles; no bundles where mode count + 1 reaches it
+/// @param highest  highest ω (rad/s) of the bundles; no bundles if mode count + 1 is not below it
 /// @throws InvalidParameter in the cases of `string_modes`, and for a frequency that is not finite
 template <class Scalar>
 std::vector<PlaceMode<Scalar>> bundled_string_modes(const TautString<Scalar>& string,
@@ -149,7 +148,7 @@ std::vector<PlaceMode<Scalar>> bundled_string_modes(const TautString<Scalar>& st
   for (Scalar first(count + 1); string.angular_frequency(first) < highest; first += size) {
     const Scalar waves = first * pi<Scalar> / string.span;
     const Scalar stiff = waves * waves * string.bending_stiffness / string.tension;
-    // d ln ω/d ln n, so that a bundle is as wide of a beam as of a string.
+    // d ln ω/d ln n: a bundle has the same relative bandwidth for a beam as for a string.
     const Scalar spread = (Scalar(1) + Scalar(2) * stiff) / (Scalar(1) + stiff);
     size = floor(Scalar(1) + (first - Scalar(count + 1)) / (Scalar(10) * spread));
     const Scalar lower = string.angular_frequency(first - half);

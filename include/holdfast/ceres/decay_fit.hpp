@@ -123,8 +123,8 @@ inline double median_deviation(const Eigen::VectorXd& residuals) {
 }
 
 /// Factor of (JᵀJ)⁻¹ in the covariance of p free unknowns, for n residuals r with derivatives J:
-/// Σr²/(n − p), for measures at least (1 %)²; with Huber's loss [Σψ²/(n − p)]/(mean ψ′)² with the
-/// bounded residuals ψ. Source: P. J. Huber, Robust Statistics, 1981, Sect. 7.6.
+/// Σr²/(n − p), for measures at least (1 %)²; with Huber's loss [Σψ²/(n − p)]/(mean ψ′)², where ψ
+/// are the bounded residuals. Source: P. J. Huber, Robust Statistics, 1981, Sect. 7.6.
 inline double variance_factor(const DecayResiduals& residuals, const Linearisation& at) {
   const auto freedom = static_cast<double>(at.residuals.size() - at.jacobian.cols());
   if (is_measured(residuals.target))
@@ -149,7 +149,7 @@ inline std::vector<double> standard_errors(const DecayResiduals& residuals, cons
   const Eigen::MatrixXd covariance =
       variance_factor(residuals, at) *
       (at.jacobian.transpose() * at.jacobian).ldlt().solve(Eigen::MatrixXd::Identity(free, free));
-  // The columns stand in the order of the unknowns, the answer in that of the question.
+  // The columns are in the order of the unknowns, the result in the order of `free`.
   std::vector<PlantParameter> ordered = fit_options.free;
   std::sort(ordered.begin(), ordered.end());
   std::vector<double> errors;
@@ -176,8 +176,8 @@ inline DecayMinimum minimum_of(const DecayResiduals& residuals, const DecayFitOp
   return minimum;
 }
 
-/// Whether the record determines the minimum: at least one standard error is at most its parameter.
-/// Otherwise the cost is so flat that the solver stops at an arbitrary point.
+/// Whether the record determines the minimum: at least one parameter is not below its standard
+/// error. Otherwise the cost is so flat that the solver stops at an arbitrary point.
 inline bool is_determined(const DecayMinimum& minimum, const DecayFitOptions& fit_options) {
   for (std::size_t k = 0; k < fit_options.free.size(); ++k)
     if (minimum.standard_errors[k] <= parameter_of(minimum.plant, fit_options.free[k])) return true;
@@ -242,10 +242,10 @@ inline void validate(const DecayRecord& record, const TwoMass<double>& plant,
     require_finite("time", t[k], "s");
     require_finite("displacement", z[k], "m");
     if (k > 0 && t[k] <= t[k - 1])
-      throw InvalidParameter("time", t[k], "s", "later than the one before");
+      throw InvalidParameter("time", t[k], "s", "later than the previous instant");
   }
   if (z.front() == 0.0)
-    throw InvalidParameter("first displacement", 0.0, "m", "not 0, to start a decay");
+    throw InvalidParameter("first displacement", 0.0, "m", "nonzero: the decay starts from it");
   if (fit_options.free.empty())
     throw InvalidParameter("number of free parameters", 0.0, "", ">= 1");
   for (const PlantParameter parameter : fit_options.free) {
@@ -270,7 +270,7 @@ inline void make_robust(DecayResiduals& residuals, const DecayFitOptions& fit_op
     const auto deepest = std::min_element(runs.begin(), runs.end(), deeper);
     const double deviation =
         median_deviation(linearise(residuals, fit_options, deepest->theta).residuals);
-    if (!(deviation > 1e-12)) return;  // an exact record: nothing lies far out
+    if (!(deviation > 1e-12)) return;  // an exact record has no outliers
     residuals.huber_scale = 1.345 * deviation;
     for (DecayRun& run : runs) run = run_from(residuals, fit_options, run.theta);
   }
@@ -278,18 +278,19 @@ inline void make_robust(DecayResiduals& residuals, const DecayFitOptions& fit_op
 
 }  // namespace detail
 
-/// Fits the plant's decay from rest at z₁ = z₂ = z₀ to a record, from several starts of the
-/// absorber's damping c₂, if that is free. A heavily and a lightly damped absorber often fit the
-/// same record, so that all minima are reported.
+/// Fits the plant's free decay from rest at z₁ = z₂ = z₀ to a record of z₁. If the absorber's
+/// damping c₂ is free, the fit starts from several values of it and reports all minima: a heavily
+/// and a lightly damped absorber often fit the same record.
 ///
-/// The unknowns are the logarithms of the parameters, each within a factor 10⁶ of its given value
-/// (c₂: of critical damping 2 √(k₂m₂); z₀: of the first z₁). Derivatives are exact (dual numbers).
+/// The unknowns are the logarithms of the parameters. Each parameter stays within a factor 10⁶ of
+/// its value in `plant`, c₂ of the critical damping 2 √(k₂m₂), z₀ of the record's first z₁.
+/// Derivatives are exact (dual numbers).
 /// @param record       at least 8 ascending instants; z₁ ≠ 0 at the first one
 /// @param plant        values of the parameters that are not free, and start values of the others
 /// @param fit_options  free parameters and the quantities that are fitted
 /// @throws InvalidParameter for an inadmissible plant; a record with fewer instants, not ascending,
-///         not finite, or with z₁ = 0 at first; no free parameter, one listed twice, or at least as
-///         many free parameters as fitted measures
+///         not finite, or with z₁ = 0 at its first instant; no free parameter, one listed twice,
+///         one other than c₂ that starts from 0, or at least as many as fitted measures
 inline DecayFit fit_decay(const DecayRecord& record, const TwoMass<double>& plant,
                           const DecayFitOptions& fit_options = {}) {
   detail::validate(record, plant, fit_options);

@@ -16,7 +16,7 @@ enum class PlantParameter {
   absorber_damping,     ///< damping c₂ (N s/m) of the absorber
 };
 
-/// Value of a parameter of the plant, in the unit of that member of TwoMass.
+/// The value of one parameter of the plant, in the unit stated at PlantParameter.
 inline double parameter_of(const TwoMass<double>& plant, PlantParameter parameter) {
   using Plant = TwoMass<double>;
   constexpr double Plant::*members[] = {&Plant::conductor_mass, &Plant::conductor_stiffness,
@@ -28,11 +28,11 @@ inline double parameter_of(const TwoMass<double>& plant, PlantParameter paramete
 /// Quantities of a record to which the plant is fitted.
 enum class DecayTarget {
   first_peak_and_period,            ///< relative errors of first peak and period
-  first_peak_period_and_decrement,  ///< relative errors of first peak, period and decrement
+  first_peak_period_and_decrement,  ///< relative errors of peak, period and log. decrement
   time_history,                     ///< errors of z₁ at every instant
 };
 
-/// Whether a target consists of measures of the record, not of its time history.
+/// Whether a target consists of measures (peak, period, decrement), not of the time history.
 inline bool is_measured(DecayTarget target) { return target != DecayTarget::time_history; }
 
 /// Options of a fit.
@@ -40,11 +40,11 @@ struct DecayFitOptions {
   /// Parameters that are fitted, each listed once.
   std::vector<PlantParameter> free = {PlantParameter::absorber_damping};
   DecayTarget target = DecayTarget::time_history;  ///< quantities that are fitted
-  /// Whether Huber's loss limits outliers (time history only). Its scale, 1.345 standard deviations
-  /// from the median residual at the deepest minimum, is 95 % efficient for Gaussian noise.
+  /// Whether Huber's loss limits outliers (time history only). Its scale is 1.345 standard
+  /// deviations, estimated from the median |residual| (95 % efficient for Gaussian noise).
   bool robust = true;
-  /// Whether z₀ is fitted too, which a measured record requires; otherwise z₀ is the record's first
-  /// value, exact in a computed record. Only for the time history.
+  /// Whether the initial displacement z₀ is fitted too (time history only), as a measured record
+  /// requires. Otherwise z₀ is the record's first value, which is exact in a computed record.
   bool fit_initial_displacement = true;
 };
 
@@ -52,12 +52,13 @@ struct DecayFitOptions {
 struct DecayMinimum {
   TwoMass<double> plant;        ///< the given plant with the free parameters as fitted
   double initial_displacement;  ///< initial displacement z₀ (m)
-  /// Standard errors of the free parameters in the order of DecayFitOptions::free; NaN where the
-  /// record does not determine them. For a time history they follow from the residuals' scatter,
-  /// with a robust loss by Huber's sandwich formula; for measures from the relative misfit, ≥ 1 %.
+  /// Standard errors of the free parameters in the order of DecayFitOptions::free. They follow from
+  /// the scatter of the residuals, which for measures is taken as at least 1 %. With a robust loss
+  /// they follow from Huber's covariance formula (Robust Statistics, 1981, Sect. 7.6).
   std::vector<double> standard_errors;
   double residual;  ///< root mean square residual: in m for the time history, else relative
-  /// Cost ½ Σ loss at the minimum, dimensionless; residuals of a history are relative to |z(0)|.
+  /// Cost ½ Σ loss(residual), dimensionless; the loss is the square or Huber's. Residuals of a time
+  /// history are relative to the record's first |z₁|.
   double cost;
   int found_from;  ///< number of starts that led to this minimum
 };

@@ -18,7 +18,7 @@ namespace holdfast::placement {
 
 namespace detail {
 
-/// A point of the unit cube: each value scaled to 0 … 1 between its bounds.
+/// A point of the unit cube: each device value scaled to 0 … 1 between its bounds.
 using Place = std::vector<double>;
 
 /// Evaluator of the levels at points of the unit cube; keeps the best point so far.
@@ -83,9 +83,9 @@ class LevelQuestions {
 /// sum of their squares is the p-th power of the p-norm of level/scale.
 struct NormResiduals {
   LevelQuestions& questions;
-  double power, scale;          // p, and the largest level where the run begins
-  std::size_t count;            // of the levels
-  std::exception_ptr& failure;  // of the levels, which is not thrown through Ceres
+  double power, scale;          // p, and the largest level at the start of the run
+  std::size_t count;            // number of levels
+  std::exception_ptr& failure;  // exception from the levels, not thrown through Ceres
 
   bool operator()(double const* const* shifted, double* residuals) const {
     constexpr double largest = 1e100;
@@ -170,10 +170,9 @@ inline std::vector<Place> poll_basis(int turn, std::size_t size) {
   return basis;
 }
 
-/// Minimises the largest level from a point by direct search, since the derivative jumps where
-/// another level becomes the largest. Each turn tries steps along another basis; after two turns
-/// without improvement the step is halved (OrthoMADS: Abramson, Audet, Dennis & Le Digabel, SIAM J.
-/// Optim. 20 (2009)).
+/// Minimises the largest level from a point by direct search, since its derivative jumps where the
+/// largest level changes. Each turn tries steps along another basis; two turns without improvement
+/// halve the step (OrthoMADS: Abramson, Audet, Dennis & Le Digabel, SIAM J. Optim. 20 (2009)).
 inline void refine(LevelQuestions& questions, Place place, double step, double resolution) {
   constexpr int most_turns = 120, patience = 2;
   int failed = 0;
@@ -252,12 +251,12 @@ class GridOfStarts {
 inline void validate(const std::vector<MovableValue>& values, const PlacementOptions& options) {
   require_within("number of varied values", static_cast<double>(values.size()), "", 1, 6);
   for (const MovableValue& value : values) {
-    require_finite("bounds of a varied value", value.upper - value.lower, "");
+    require_finite("upper minus lower bound of a varied value", value.upper - value.lower, "");
     require_positive("upper minus lower bound of a varied value", value.upper - value.lower, "");
     if (value.by_ratio) require_positive("lower bound of a varied value", value.lower, "");
     require_within("grid points along a varied value", value.places, "", 2, 1000);
     if (!std::isnan(value.present))
-      require_within("present value of a varied value", value.present, "", value.lower,
+      require_within("present value of a varied quantity", value.present, "", value.lower,
                      value.upper);
   }
   require_within("number of runs", options.runs, "", 1, 1000);
@@ -307,19 +306,20 @@ inline Placement answer_of(LevelQuestions& questions) {
 
 }  // namespace detail
 
-/// Searches for the values of a device at which the largest level over a band is least:
+/// Searches for the values of a device at which the largest of several levels is lowest:
 ///
 ///     min over the values of  max_k level_k(values)
 ///
-/// The maximum has kinks, and many minima where the device's place passes nodes of the waves. The
-/// search starts from the best points of a grid and from the present values. From each, Ceres
-/// minimises p-norms that approach the maximum, within the bounds and by central differences; then
-/// a direct search minimises the maximum itself. The result is the best of all points
-/// evaluated. If the present values are admissible, the result is at least as good.
+/// The maximum has kinks, and many minima as the device's place passes the nodes of the modes. The
+/// search starts from the best local minima of a grid and from the present values. From each start,
+/// Ceres minimises p-norms of the levels one after the other, within the bounds and by central
+/// differences. Then a direct search minimises the maximum itself. The result is the best of all
+/// points evaluated, so that it is at least as good as the present values.
 ///
 /// This is a search and no proof: a minimum narrower than the grid may be missed.
 /// @param values   1 … 6 values that vary
-/// @param levels   function evaluated some hundred times; an exception from it ends the search
+/// @param levels   function, called at each grid point and up to some thousand times more; an
+///                 exception from it ends the search
 /// @param options  options of the search
 /// @throws InvalidParameter for values or options outside the ranges stated at their members, and
 ///         the exceptions of `levels` and `options.watch`

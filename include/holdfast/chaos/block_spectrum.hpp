@@ -16,28 +16,30 @@
 
 namespace holdfast {
 
-/// The Lyapunov exponents that are computed.
+/// The choice of Lyapunov exponents to be computed.
 enum class LyapunovScope {
   all,      ///< the whole spectrum
   largest,  ///< only the first exponent, from one tangent vector
 };
 
-/// The Lyapunov spectrum of the sampled loop with backlash, computed from blocks of its contacts.
+/// The Lyapunov spectrum of the sampled loop with backlash, computed from blocks of samples.
 ///
-/// The exponents equal those of `LyapunovSpectrum` with S or S* applied at every sample. But the
-/// tangent vectors Q are multiplied by the maps W_k of whole blocks, and orthogonalised only after
-/// a stretch of K blocks: W_K … W₁ Q = Q' R. The number
+/// A block (`ItineraryBlock`) records whether the drive transmits a force at each of its samples.
+/// The exponents equal those of `LyapunovSpectrum` with S (force transmitted) or S* (in the
+/// backlash) applied at every sample. Here the tangent vectors, the columns of Q, are multiplied by
+/// the maps W_k of whole blocks. They are orthogonalised only after a stretch of K blocks:
+/// W_K … W₁ Q = Q' R with orthonormal Q' and triangular R. The number
 ///
 ///     a = √(Σ_k ‖W_k … W₁ Q‖²) ‖R⁻¹‖,   k = 1 … K
 ///
-/// measures the amplification of round-off in the diagonal of R. The length of a stretch is chosen
-/// from the growth in the previous one. A stretch with a > `largest_amplification` is repeated in
-/// halves, a single block sample by sample. Vectors are orthogonalised in balanced coordinates
-/// (`ItineraryBlocks`); spectrum() converts the result to the loop's coordinates. Columns that a
-/// map annihilates are dropped. Several stretches share one logarithm, that of their product.
+/// measures the amplification of round-off in the diagonal of R. The a of one stretch decides the
+/// length of the next. A stretch with a > `largest_amplification` is split into halves, a single
+/// block into samples. Vectors are orthogonalised in balanced coordinates (`ItineraryBlocks`);
+/// spectrum() converts the result to the loop's coordinates. Tangent vectors that a singular map
+/// sends to zero are dropped; their exponents are −∞.
 ///
 /// Work per block of six samples and per tangent vector: 25 multiply-adds (20 without processing
-/// delay); per stretch: orthogonalising a 5 × 4 matrix (5 × 5 before the first null direction).
+/// delay). Work per stretch: orthogonalising a 5 × 4 matrix (5 × 5 before a vector is dropped).
 template <class Scalar>
 class BlockSpectrum {
  public:
@@ -46,8 +48,8 @@ class BlockSpectrum {
   /// The length of the longest stretch between two orthogonalisations, in blocks.
   static constexpr int most_blocks = 64;
 
-  /// @param blocks  blocks of the loop whose S and S* are the tangent maps
-  /// @param scope   with `largest` all exponents but the first are −∞
+  /// @param blocks  maps of blocks of samples, products of S and S* of the loop
+  /// @param scope   exponents to be computed; with `largest` all others are −∞
   explicit BlockSpectrum(std::shared_ptr<const ItineraryBlocks> blocks,
                          LyapunovScope scope = LyapunovScope::all);
 
@@ -58,13 +60,12 @@ class BlockSpectrum {
     if (++count_ == planned_) close_block();
   }
 
-  /// Restarts the averages after the blocks pushed and the partial block `open`; only the
-  /// directions of the tangent vectors are kept.
+  /// Adds the incomplete block `open`, then restarts the averages but keeps the tangent vectors.
   void restart(ItineraryBlock open);
 
-  /// The Lyapunov spectrum over the blocks pushed and the partial block `open`.
+  /// The Lyapunov spectrum over all blocks added so far and the incomplete block `open`.
   LyapunovSpectrum<double, 5> spectrum(ItineraryBlock open = empty_block) const;
-  /// The number of complete batches of samples, on which the standard errors rest.
+  /// The number of complete batches of samples, used for the standard errors.
   std::size_t complete_batches() const { return sums_.complete_batches(); }
 
  private:

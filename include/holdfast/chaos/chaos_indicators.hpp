@@ -20,15 +20,15 @@
 
 namespace holdfast {
 
-/// The length and the resolution with which a motion is examined. The defaults suit motions of up
-/// to a few thousand samples per period.
+/// The options of chaos_indicators(): numbers of samples and frequencies. The defaults suit motions
+/// of up to a few thousand samples per period.
 struct IndicatorOptions {
   std::int64_t transient = 5000;  ///< samples left out at the start, 0 … 10⁷
   std::int64_t samples = 20160;  ///< number of samples examined, 2000 … 100 000; a multiple of 2,
-                                 ///< 3, 5 and 7 is a multiple of many periods
-  double base_frequency = 1.0;   ///< frequency f, cycles per sample, with subharmonics f/m
-  std::int64_t zero_one_stride = 1;     ///< samples per step of the 0–1 test, 1 … samples/500
-  bool forcing_incommensurate = false;  ///< value of ChaosIndicators::forcing_incommensurate
+                                 ///< 3, 5 and 7 holds most short periods a whole number of times
+  double base_frequency = 1.0;   ///< f (cycles per sample): lines are sought at multiples of f/m
+  std::int64_t zero_one_stride = 1;  ///< n: the 0–1 test uses every n-th sample; 1 … samples/500
+  bool forcing_incommensurate = false;  ///< whether no response repeats: see ChaosIndicators
 };
 
 /// Validates the options. @throws InvalidParameter where a member is outside its range
@@ -51,8 +51,7 @@ ExponentEstimate largest_exponent(const LyapunovSpectrum<double, Size>& spectrum
   return exponent_estimate(value, found.standard_errors[which]);
 }
 
-/// A detector of divergence: a motion diverges when some |x_i| exceeds 10³⁰ times the largest |x_i|
-/// of its first 100 samples.
+/// A motion diverges when some |x_i| exceeds 10³⁰ times the largest |x_i| of its first 100 samples.
 template <int Size>
 class DivergenceGuard {
  public:
@@ -84,7 +83,7 @@ inline double extent_of(const std::vector<double>& series, std::size_t from, std
   return *high - *low;
 }
 
-/// The extent max − min of a series' last quarter over the first quarter's; empty if that is 0.
+/// The ratio of extents (max − min), last to first quarter of a series; empty if the first is 0.
 inline std::optional<double> extent_growth(const std::vector<double>& series) {
   const std::size_t size = series.size(), quarter = size / 4;
   const double first = extent_of(series, 0, quarter);
@@ -122,7 +121,7 @@ void weigh_returns(const std::vector<Vector<double, Size>>& states,
 }
 
 /// The Lyapunov exponents of a discrete system from its tangent maps; none without a map. Before
-/// restart() the basis turns into the directions of the exponents, and nothing is averaged.
+/// restart() only the basis is advanced; nothing is averaged.
 template <int Size>
 class TangentMaps {
  public:
@@ -200,23 +199,22 @@ ChaosIndicators indicators_of_system(
 ///     auto slope = [](const Vector<double, 1>& x) { return Matrix<double, 1>(4 - 8 * x[0]); };
 ///     classify(chaos_indicators<1>({0.3}, logistic, value, {}, slope)).kind;  // chaotic
 ///
-/// Each callable may have a state of its own, like the index of a forcing. A step first calls
-/// `advance(state)`, which replaces the state by the next one, then `tangent(before)` and
-/// `contact()`, both for that step. The basis of the exponents is advanced through the whole
-/// transient before the averages of the exponents begin.
+/// Each callable may have internal state, for example the index of a forcing. A step calls
+/// `advance(state)`, then `tangent(before)`, where `before` is the state before the step. After the
+/// transient it also calls `contact()`. In the transient no exponents are averaged.
 ///
-/// A motion diverges when its state is not finite or exceeds 10³⁰ times the largest coordinate of
-/// its first 100 samples; then nothing else is computed. Otherwise the smallest lag n ≤ samples/6
-/// is sought at which every state x_j of the second half is within 10⁻⁹ of x_{j−n}. Closest return
-/// and determinism (radius 0.05) are those of the last 1000 states. Distances are those of
-/// `RelativeDistance`. The spectrum is tested for lines on multiples of f/m, f being the base
-/// frequency and m ≤ 128. Bounded work: transient + samples steps, the 0–1 test, one search for
-/// repetition (at worst samples²/12 distances), two spectra, and 10⁶ distances.
+/// A motion diverges when a state is not finite or exceeds 10³⁰ times the largest coordinate of the
+/// first 100 samples; then only `diverged_at` is set. Otherwise `repeat` is the smallest lag n ≤
+/// samples/6 for which every state x_j of the second half is within 10⁻⁹ of x_{j−n}.
+/// `closest_return` and `determinism` (radius 0.05) are computed from the last 1000 states. All
+/// distances are those of `RelativeDistance`. `lines` is computed for m ≤ 128. Bounded work:
+/// transient + samples steps, the 0–1 test, one search for repetition (at worst samples²/12
+/// distances), two spectra, and 10⁶ distances.
 /// @param initial     the state at sample 0
 /// @param advance     replaces a state by the next one
-/// @param observable  a number computed from a state, for the spectrum and the 0–1 test
-/// @param options     length and resolution of the examination
-/// @param tangent     ∂(next state)/∂(state); without it there are no exponents
+/// @param observable  scalar function of a state, for spectrum, 0–1 test and `extent_growth`
+/// @param options     numbers of samples, base frequency and stride
+/// @param tangent     Jacobian ∂(next state)/∂(state), Size × Size; empty: no exponents
 /// @param contact     true where the drive transmits; empty for a system without contacts
 /// @throws InvalidParameter for options out of their ranges or an initial state that is not finite
 template <int Size>

@@ -19,14 +19,14 @@ enum class AttractorType {
   quasi_periodic,         ///< ≥ 2 frequencies without a common period; nearby motions stay near
   irregular_contracting,  ///< neighbouring motions converge, but no repetition was found
   chaotic,                ///< bounded as far as observed; nearby motions separate exponentially
-  diverges,               ///< exceeds every bound
+  diverges,               ///< state grows without bound
   undecided,              ///< indicators are missing or contradict each other
 };
 
 /// The largest Lyapunov exponent and its 99 % interval, value ± half_width. A true exponent of 0 is
 /// below the interval with probability 1/200, and above it with probability 1/200.
 struct ExponentEstimate {
-  double value;       ///< exponent; −∞ where every direction is a null direction
+  double value;       ///< exponent; −∞ where every deviation becomes exactly zero
   double half_width;  ///< half width of the interval, ≥ 0
 
   /// Whether the whole interval is above zero.
@@ -35,9 +35,9 @@ struct ExponentEstimate {
   bool negative() const { return value + half_width < 0.0; }
 };
 
-/// The estimate from an exponent and its standard error by batch means. The half width is the
-/// standard error times Student's 99 % quantile, plus 10⁻¹² for the rounding of logarithms. The
-/// quantile is for 32 batches, the fewest of a series with more than 64 steps.
+/// The 99 % interval of an exponent whose standard error was computed by batch means. The half
+/// width is 2.744 times the standard error, plus 10⁻¹² for the rounding of logarithms. 2.744 is
+/// Student's 99 % quantile for 32 batches, the fewest in a series of 64 steps or more.
 /// @param value           the exponent, natural logarithm per step
 /// @param standard_error  ≥ 0, not NaN
 /// @throws InvalidParameter where the standard error is out of its range
@@ -47,30 +47,31 @@ inline ExponentEstimate exponent_estimate(double value, double standard_error) {
   return {value, quantile * standard_error + rounding};
 }
 
-/// The measures of the lines in the spectrum of an observable; f is the base frequency.
+/// The measures of the spectral lines of an observable; f is the base frequency.
 struct SpectralIndicators {
-  int division;               ///< smallest m for which multiples of f/m contain `share`; 0: none
-  double share;               ///< share of the power that the multiples of f/m must contain
-  std::size_t lines_holding;  ///< number of lines that contain 99 % of the power
-  double continuous;          ///< share of the power between the lines
+  int division;  ///< smallest m whose multiples of f/m contain `share` of the power; 0: none
+  double share;  ///< share of the power that is required on the multiples of f/m
+  std::size_t lines_holding;  ///< smallest number of lines that contain 99 % of the power
+  double continuous;          ///< share of the power in the floor between the lines
 };
 
-/// The indicators that decide the kind of a motion; those not computed stay empty.
+/// The indicators that decide the kind of a motion; one that is not computed is empty.
 struct ChaosIndicators {
-  std::optional<std::int64_t> diverged_at;       ///< sample at which the motion exceeded all bounds
+  std::optional<std::int64_t> diverged_at;       ///< sample at which the motion diverged
   std::optional<std::int64_t> certified_period;  ///< period of a certified orbit (samples)
-  std::optional<RepeatSearch> repeat;            ///< lag at which the states repeat, ≥ 3 times
-  std::optional<ExponentEstimate> largest_exponent;  ///< exponent, natural log per step
+  std::optional<RepeatSearch> repeat;            ///< search for a lag at which the states repeat
+  std::optional<ExponentEstimate> largest_exponent;  ///< largest exponent, natural log per step
   std::optional<double> zero_one;                    ///< median K of the 0–1 test
   std::optional<SpectralIndicators> lines;           ///< spectral lines of the observable
-  std::optional<double> extent_growth;  ///< extent of the last quarter over the extent of the first
+  std::optional<double> extent_growth;  ///< ratio of the observable's extents (max − min),
+                                        ///< last quarter of the series to first
   std::optional<double> neighbour;      ///< neighbour_distance(): final distance of a nearby motion
-  std::optional<double> closest_return;          ///< closest_return() of the last states
-  std::optional<double> determinism;             ///< recurrence_determinism() of the last states
+  std::optional<double> closest_return;          ///< closest_return() of the last 1000 states
+  std::optional<double> determinism;             ///< recurrence_determinism(), last 1000 states
   std::optional<SwitchingComplexity> switching;  ///< complexity of the contacts, if known
   std::optional<double> forcing_periods;         ///< number of forcing periods in the series
-  bool forcing_incommensurate = false;  ///< whether f τ is no fraction with a bounded denominator,
-                                        ///< so that no forced response repeats
+  bool forcing_incommensurate = false;           ///< whether forcing and sampling have no
+                                                 ///< common period: no response repeats
 };
 
 /// The kind of a motion with its period and the reason.
@@ -93,22 +94,23 @@ inline std::string attractor_type_text(const Classification& classification) {
   return attractor_type_text(classification.kind, classification.period);
 }
 
-/// The least K of the 0–1 test with which a series counts as chaotic.
+/// The smallest result K of the 0–1 test for which a series counts as chaotic.
 inline constexpr double zero_one_high = 0.8;
-/// The largest K of the 0–1 test of a regular series; a K between both limits decides nothing.
+/// The largest result K of the 0–1 test for which a series counts as regular. The test is
+/// inconclusive for K between zero_one_low and zero_one_high.
 inline constexpr double zero_one_low = 0.2;
-/// The largest share of the power between the lines with which a spectrum counts as pure lines.
+/// The largest share of power between the lines for which a spectrum counts as a line spectrum.
 inline constexpr double lines_only_share = 1e-3;
-/// The fewest periods of the forcing from which a forced motion can be classified.
+/// The smallest number of forcing periods for which a forced motion is classified.
 inline constexpr double fewest_forcing_periods = 20.0;
-/// The largest factor by which the extent of a steady motion may grow or shrink from the first to
-/// the last quarter of the series.
+/// The largest factor by which the extent (max − min) of a steady motion may grow or shrink from
+/// the first to the last quarter of the series.
 inline constexpr double steady_growth = 2.0;
-/// The initial distance of a neighbouring motion, as a share of the motion's extent.
+/// The initial distance of the neighbour in neighbour_distance(), as a share of the extent.
 inline constexpr double neighbour_start = 1e-9;
-/// The least final distance, as a share of the extent, of a neighbouring motion that has separated.
+/// The smallest final distance, as a share of the extent, of a neighbour that has separated.
 inline constexpr double neighbour_parted = 1e-3;
-/// The largest final distance, as a share of the extent, of a neighbouring motion that stays near.
+/// The largest final distance, as a share of the extent, of a neighbour that stays near.
 inline constexpr double neighbour_stays = 1e-7;
 
 namespace detail {
@@ -129,7 +131,7 @@ class Classifier {
   Classification classify() const {
     if (indicators_.diverged_at) {
       return {AttractorType::diverges, 0,
-              "The motion has left all bounds by sample " +
+              "The motion exceeded all bounds by sample " +
                   std::to_string(*indicators_.diverged_at) + "."};
     }
     if (indicators_.certified_period) {
@@ -141,7 +143,7 @@ class Classifier {
                        " periods of the forcing");
     }
     if (indicators_.repeat && indicators_.repeat->lag > 0) return repeating();
-    if (!indicators_.largest_exponent) return undecided("The largest exponent is unknown");
+    if (!indicators_.largest_exponent) return undecided("The largest Lyapunov exponent is unknown");
     if (!is_steady()) {
       return undecided("The motion is not steady: the extent of its last quarter is " +
                        number_text(*indicators_.extent_growth) + " times that of the first");
@@ -167,7 +169,7 @@ class Classifier {
           "Neighbouring motions converge under a forcing or sampling that does not repeat");
     if (regular.kind == AttractorType::undecided) return regular;
     return undecided(
-        "The forcing or the sampling does not repeat, and the exponent does not decide");
+        "The forcing or sampling does not repeat, and the sign of the exponent is uncertain");
   }
 
   /// Whether the motion is undecided and neighbour_distance(), not computed yet, could decide.
@@ -182,7 +184,7 @@ class Classifier {
       return undecided("The motion repeats although neighbouring motions separate from it");
     return {AttractorType::periodic, static_cast<std::int64_t>(indicators_.repeat->lag),
             "There is no certificate, but the second half of the record " + repeat_text() +
-                ", three times and more, to " + number_text(indicators_.repeat->tolerance) +
+                ", at least three times, within " + number_text(indicators_.repeat->tolerance) +
                 " of its extent."};
   }
 
@@ -191,7 +193,7 @@ class Classifier {
     if (!(indicators_.zero_one && *indicators_.zero_one >= zero_one_high))
       return undecided("Neighbouring motions separate, but the 0-1 test does not show chaos");
     if (has_lines_alone() || has_one_base())
-      return undecided("Neighbouring motions separate, but the spectrum has only lines");
+      return undecided("Neighbouring motions separate, but the spectrum consists of lines");
     return chaotic();
   }
 
@@ -203,12 +205,14 @@ class Classifier {
 
   Classification neutral() const {
     if (!(is_regular() || stays_beside_neighbour()) || !searched_in_vain())
-      return undecided("The exponent may be zero, and no other measure decides");
+      return undecided("The largest exponent may be zero, and no other indicator is conclusive");
     if (!has_lines_alone() || has_one_base())
-      return undecided("The exponent may be zero, and the spectrum shows no second frequency");
-    return weighed(AttractorType::quasi_periodic,
-                   "The exponent is zero within its error and the spectrum has lines without a "
-                   "common base");
+      return undecided(
+          "The largest exponent may be zero, and the spectrum shows no second frequency");
+    return weighed(
+        AttractorType::quasi_periodic,
+        "The largest exponent is zero within its error, and the spectral lines have no common "
+        "base frequency");
   }
 
   Classification contracting() const {
@@ -219,13 +223,13 @@ class Classifier {
                      "common multiple");
     }
     if (!searched_in_vain())
-      return undecided("Neighbouring motions converge, but no repetition was searched for");
+      return undecided("Neighbouring motions converge, but repetition was not searched for");
     if (has_one_base() || (is_regular() && has_lines_alone()))
       return undecided(
-          "The motion is regular but does not repeat: it settles slowly or has a long period");
+          "The motion is regular but does not repeat: it converges slowly or has a long period");
     return irregular(
         "Neighbouring motions converge, but the motion does not repeat; its period may be longer, "
-        "or the contacts never settle");
+        "or the order of contacts never repeats");
   }
 
   Classification weighed(AttractorType kind, const std::string& why,
@@ -246,30 +250,31 @@ class Classifier {
   }
 
   std::string exponent_text() const {
-    if (!indicators_.largest_exponent) return "largest exponent unknown";
+    if (!indicators_.largest_exponent) return "the largest exponent is unknown";
     const ExponentEstimate& found = *indicators_.largest_exponent;
     return "largest exponent " + number_text(found.value) + " +- " + number_text(found.half_width) +
            " per sample (99 %)";
   }
   std::string zero_one_text() const {
-    if (!indicators_.zero_one) return "no 0-1 test was made";
+    if (!indicators_.zero_one) return "the 0-1 test was not computed";
     return "0-1 test K = " + number_text(*indicators_.zero_one);
   }
   std::string repeat_text() const {
-    if (!indicators_.repeat) return "no repetition was searched for";
+    if (!indicators_.repeat) return "repetition was not searched for";
     const RepeatSearch& found = *indicators_.repeat;
     if (found.lag > 0) return "repeats after " + std::to_string(found.lag) + " samples";
-    return "no repetition within " + std::to_string(found.largest_lag) + " samples to " +
-           number_text(found.tolerance) + " of the motion's extent";
+    return "no repetition within " + std::to_string(found.largest_lag) +
+           " samples and a tolerance of " + number_text(found.tolerance) +
+           " of the motion's extent";
   }
   std::string lines_text() const {
     if (!indicators_.lines) return "no spectrum was computed";
     const SpectralIndicators& found = *indicators_.lines;
     const std::string text = number_text(100.0 * found.continuous) +
                              " % of the power between the lines, " +
-                             std::to_string(found.lines_holding) + " lines hold 99 %";
+                             std::to_string(found.lines_holding) + " lines contain 99 %";
     if (found.division == 0) return text;
-    return text + ", multiples of f/" + std::to_string(found.division) + " hold " +
+    return text + ", multiples of f/" + std::to_string(found.division) + " contain " +
            number_text(100.0 * found.share) + " %";
   }
 
@@ -309,25 +314,29 @@ class Classifier {
 
 }  // namespace detail
 
-/// Classifies a motion by its indicators. The first rule that applies decides:
+/// Classifies a motion by its indicators. The first rule that applies decides. The exponent is the
+/// largest one, with its 99 % interval. A *line spectrum* has `continuous` ≤ `lines_only_share`; a
+/// spectrum has a *base* if `division` > 0.
 ///
-///  1. the motion left all bounds → diverges;
-///  2. a certified orbit → periodic; else fewer than `fewest_forcing_periods` → undecided;
-///  3. the series repeats to a tolerance, three times or more → periodic, by recurrence; but
-///     undecided where the largest exponent is above zero, as on an unstable orbit or by round-off;
-///  4. no exponent, or an extent that changes by more than a factor `steady_growth` → undecided;
-///  5. exponent above zero by its 99 % interval: chaotic if a neighbour has separated, or if K ≥
-///     `zero_one_high` and the spectrum, if known, does not consist of lines; else undecided;
-///  6. exponent zero within its interval: quasi-periodic if a repetition was sought in vain, the
-///     spectrum consists of lines without a common base, and K ≤ `zero_one_low` or, where a
-///     neighbour stays near, K < `zero_one_high`; else undecided;
-///  7. exponent below zero: quasi-periodic if forcing and sampling are incommensurate, K ≤
-///     `zero_one_low` and the spectrum, if known, consists of lines. Else undecided if no
-///     repetition was sought, if the lines have a common base, or if K ≤ `zero_one_low` and the
-///     spectrum consists of lines: the motion may settle or repeat later. Else irregular, exponent
-///     <= 0: a piecewise affine loop can switch without a pattern while neighbours come together.
+///  1. The motion diverged → diverges.
+///  2. An orbit is certified → periodic. Else if there are fewer forcing periods than
+///     `fewest_forcing_periods` → undecided.
+///  3. The series repeats at least three times within a tolerance → periodic; but undecided if the
+///     exponent is above zero, as on an unstable orbit.
+///  4. The exponent is unknown, or the extent changes by a factor over `steady_growth` → undecided.
+///  5. The exponent is above zero → chaotic if a neighbouring motion separates, or if K ≥
+///     `zero_one_high` and the spectrum, if known, has no base and is no line spectrum. Else
+///     undecided.
+///  6. The interval of the exponent contains zero → quasi-periodic if a search found no repetition,
+///     there is a line spectrum without base, and K ≤ `zero_one_low`. Where a neighbouring motion
+///     stays near, K < `zero_one_high` suffices. Else undecided.
+///  7. The exponent is below zero → quasi-periodic if forcing and sampling are incommensurate, K ≤
+///     `zero_one_low` and the spectrum, if known, is a line spectrum. Else undecided if repetition
+///     was not searched for, the spectrum has a base, or K ≤ `zero_one_low` with a line spectrum:
+///     the motion may settle or repeat later. Else irregular: contacts can change without a pattern
+///     while neighbouring motions converge.
 ///
-/// No single statistic suffices for `chaotic`. The result holds for the length of the series only.
+/// No single statistic suffices for `chaotic`. The result is valid only for the series' length.
 inline Classification classify(const ChaosIndicators& indicators) {
   return detail::Classifier(indicators).classify();
 }

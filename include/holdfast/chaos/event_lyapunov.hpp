@@ -15,24 +15,25 @@
 
 namespace holdfast {
 
-/// An EventMotion with the Lyapunov spectrum along that motion. The object may be passed to
-/// run_trajectory in place of the motion, so that a time history is recorded at the same time.
+/// An EventMotion with its Lyapunov spectrum. run_trajectory() accepts the object in place of the
+/// motion, to record a time history at the same time.
 ///
-/// The tangent is that of VariationalFlow, orthogonalised at every sample. With N the order of the
-/// plant, there are N + 3 exponents. Each of these causes makes one exponent −∞:
-/// - the drive has been engaged: from then on its gap is a function of the state;
-/// - the controller takes no differences of displacements: the last reading has no effect;
+/// The tangent maps of VariationalFlow are applied and orthogonalised at every sample. A plant of
+/// order N has N + 3 exponents, for deviations of its state, u_{j−1}, the Δz of the last reversal,
+/// and the last reading of z₁. Each of these causes makes one exponent −∞:
+/// - the drive was engaged at some time: the next reversal then follows from the state;
+/// - the controller forms no velocity from displacements: the last reading has no effect;
 /// - there is no processing delay: u_{j−1} has no effect from t_j on.
-/// In stick Δż = 0 and the drive's position is known. After a phase of stick at most N − 1
-/// exponents are finite, plus one for each command or reading that is stored during stick and acts
-/// later. The phase with the fewest finite exponents decides: without processing delay one more
-/// exponent is −∞, with delay up to two more. With delay and differences of displacements N + 2
-/// exponents may be finite, or N + 1 if this object is made before the first measurement. A gap
-/// that is never left adds an exponent 0.
+///
+/// A phase of stick (Δż = 0) leaves at most N − 1 finite exponents, plus one for each command or
+/// reading that is stored in stick and acts later. The phase with the fewest finite exponents
+/// determines the result. With processing delay and differences of displacements N + 2 exponents
+/// may be finite, or N + 1 if this object is constructed before the first sample. If the drive
+/// never leaves its gap, one exponent is 0.
 ///
 /// An exact −∞ is detected by the structural rank (structural_rank.hpp) of the product of all maps.
-/// Pivots would not show it: in a product of several maps a zero becomes round-off, which later
-/// maps amplify. Work per sample of two masses: the tangent's and some 1500 multiply-adds.
+/// Numerical pivots cannot detect it, because later maps amplify the round-off of an exact zero.
+/// Work per sample of two masses: that of VariationalFlow and some 1500 multiply-adds.
 template <class Contact>
 class EventLyapunov {
  public:
@@ -51,8 +52,7 @@ class EventLyapunov {
   /// Advances the motion and its tangent vectors to the next sample.
   void advance();
 
-  /// Adds a displacement (m) to the conductor, without effect on the tangent vectors; to be called
-  /// before `sense()`.
+  /// Adds a displacement (m) to the conductor, not to the tangent vectors; call before sense().
   void displace_conductor(double displacement) { motion_->displace_conductor(displacement); }
   /// The instant t_j (s) of the present sample.
   double time() const { return motion_->time(); }
@@ -61,9 +61,9 @@ class EventLyapunov {
 
   /// The Lyapunov spectrum over the samples since the last restart, natural logarithm per sample.
   const LyapunovSpectrum<double, size>& spectrum() const { return spectrum_; }
-  /// The number of complete batches of samples, on which the standard errors rest.
+  /// The number of complete batches of samples, used for the standard errors.
   std::size_t complete_batches() const { return spectrum_.complete_batches(); }
-  /// Restarts the averages; only the tangent vectors are kept.
+  /// Restarts the averages; only the tangent vectors and the number of exponents −∞ are kept.
   void restart() { spectrum_.restart(); }
 
  private:
@@ -79,13 +79,12 @@ void EventLyapunov<Contact>::advance() {
   spectrum_.push(tangent_.map(), tangent_.rank_of_product());
 }
 
-/// The five leading Lyapunov exponents of a motion that may switch between its samples, from its
-/// present state, natural logarithm per sample. They are not valid once the motion's `counts()`
-/// report accumulating changes of contact.
+/// The five leading Lyapunov exponents, natural logarithm per sample, of an EventMotion from its
+/// present state. They are invalid if `motion.counts().accumulates` is true after the call.
 ///
 ///     const LyapunovResult result = run_event_lyapunov(motion, {1000000, 1000, 1e-5});
 ///
-/// @param motion  the motion; it ends after the last sample used
+/// @param motion  the motion; it is advanced to the end of the run
 /// @param run     length and accuracy of the average
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible

@@ -32,20 +32,20 @@ constexpr ItineraryBlock followed_by(ItineraryBlock block, bool engaged) {
   return static_cast<ItineraryBlock>(2 * block + (engaged ? 1 : 0));
 }
 
-/// The block that holds one sample of another block, 0 ≤ sample < samples_of(block).
+/// The block of a single sample of another block, 0 ≤ sample < samples_of(block).
 constexpr ItineraryBlock sample_of(ItineraryBlock block, int sample) {
   return followed_by(empty_block, ((block >> (samples_of(block) - 1 - sample)) & 1) != 0);
 }
 
-/// The tangent maps of every block: products of one 5 × 5 matrix per sample, S where the force is
-/// transmitted and S* in the backlash.
+/// The tangent maps of all blocks. The map of a block is the product of one 5 × 5 matrix for each
+/// sample, S where the force is transmitted and S* in the backlash.
 ///
-/// The products are those of T⁻¹ S T and T⁻¹ S* T, where T is diagonal with powers of two that
-/// balance |S| + |S*|: displacements, velocities and forces get similar sizes without rounding.
+/// The maps are stored in balanced coordinates, as products of T⁻¹ S T and T⁻¹ S* T. The diagonal
+/// matrix T of powers of two gives displacements, velocities and forces similar sizes.
 class ItineraryBlocks {
  public:
   static constexpr int length = 6;  ///< number of samples in the longest blocks
-  /// A tangent map with contiguous rows.
+  /// A tangent map, stored row by row.
   using Map = Eigen::Matrix<double, 5, 5, Eigen::RowMajor>;
 
   /// @param engaged   S, the map of [z; u_{j−1}] over a sample while the force is transmitted
@@ -53,16 +53,16 @@ class ItineraryBlocks {
   template <class Scalar>
   ItineraryBlocks(const Matrix<Scalar, 5>& engaged, const Matrix<Scalar, 5>& backlash);
 
-  /// @param tangent_loop  the loop whose S and S* are the tangent maps
+  /// @param tangent_loop  loop whose maps S and S* are used
   /// @param gains         P (N/m) and D (N s/m)
   template <class Scalar>
   ItineraryBlocks(const SampledLoop<Scalar>& tangent_loop, const PdGains<Scalar>& gains)
       : ItineraryBlocks(tangent_loop.engaged_map(gains), tangent_loop.backlash_map()) {}
 
-  /// The map T⁻¹ M T, where M is the product of the maps of the block's samples, the last leftmost.
+  /// The map T⁻¹ M T, where M is the product of the block's S and S*, the last sample's leftmost.
   const Map& map(ItineraryBlock block) const { return maps_[block]; }
 
-  /// The smallest rank, to working precision, among the maps of a block's samples.
+  /// The smallest rank, to working precision, among the S and S* of a block; 5 for an empty block.
   int rank(ItineraryBlock block) const { return ranks_[block]; }
   /// The smaller of the ranks of S and S*.
   int smallest_rank() const { return std::min(ranks_[2], ranks_[3]); }

@@ -24,23 +24,23 @@ namespace holdfast {
 /// The length and accuracy of an averaged Lyapunov spectrum.
 struct LyapunovRun {
   std::int64_t most_samples;  ///< largest number of samples averaged after the discarded ones, ≥ 1
-  std::int64_t discard = 0;   ///< samples left out while motion and basis settle, ≥ 0
-  double standard_error = 0;  ///< sufficient standard error of λ₁, ≥ 0; 0: all samples are used
-  LyapunovScope scope = LyapunovScope::all;  ///< the exponents that are computed
+  std::int64_t discard = 0;   ///< samples left out while motion and tangent vectors settle, ≥ 0
+  double standard_error = 0;  ///< standard error of λ₁ that ends the run, ≥ 0; 0: no early end
+  LyapunovScope scope = LyapunovScope::all;  ///< exponents to be computed
 };
 
 /// Validates the settings of a run. @throws InvalidParameter where a field is not admissible
 inline void validate(const LyapunovRun& run) {
-  require_within("samples of a Lyapunov run", static_cast<double>(run.most_samples), "", 1, 9e15);
-  require_within("samples left out", static_cast<double>(run.discard), "", 0, 9e15);
-  require_non_negative("standard error asked for", run.standard_error, "");
+  require_within("samples of the Lyapunov run", static_cast<double>(run.most_samples), "", 1, 9e15);
+  require_within("discarded samples", static_cast<double>(run.discard), "", 0, 9e15);
+  require_non_negative("required standard error", run.standard_error, "");
 }
 
 /// The outcome of a Lyapunov run.
 enum class LyapunovOutcome {
   accurate,      ///< the required standard error was reached
-  sample_limit,  ///< all samples were used before the required error was reached
-  diverged,      ///< the state left the range of numbers; exponents are averages up to then, NaN
+  sample_limit,  ///< all samples were used, and the required error was not reached
+  diverged,      ///< the state became infinite or NaN; exponents are averages up to then, or NaN
                  ///< if this happened within the discarded samples
 };
 
@@ -48,10 +48,11 @@ enum class LyapunovOutcome {
 /// after the tangent vectors have settled (settled_means()).
 struct LyapunovResult {
   LyapunovOutcome outcome;  ///< reason for the end of the run
-  /// The exponents λ₁ … λ₅ in the order of the QR factorisation, −∞ for a null direction. λ₂ … λ₅
-  /// are NaN where only λ₁ was computed.
+  /// The exponents λ₁ … λ₅ in the order of the QR factorisation; −∞ for a direction in which
+  /// deviations become exactly zero. λ₂ … λ₅ are NaN where only λ₁ was computed.
   Vector<double, 5> exponents;
-  /// Standard errors, including the bias that the first samples may have left (settled_means()).
+  /// The standard errors of the exponents, including a remaining bias of the first samples
+  /// (settled_means()); 0 for −∞, NaN with fewer than four complete batches.
   Vector<double, 5> standard_errors;
   std::int64_t samples;       ///< number of samples averaged
   std::int64_t settling = 0;  ///< samples left out in addition to LyapunovRun::discard
@@ -65,7 +66,7 @@ struct LyapunovResult {
   }
 };
 
-/// The fewest complete batches with which a run may end early.
+/// The smallest number of complete batches after which a run may end early.
 inline constexpr std::size_t fewest_batches = 32;
 
 namespace detail {
@@ -127,22 +128,22 @@ LyapunovResult run_average(Lyapunov& motion, const LyapunovRun& run,
 
 }  // namespace detail
 
-/// An observer of trajectories that accumulates the Lyapunov spectrum. The tangent map of a sample
-/// is S where the force is transmitted, S* in the backlash.
+/// An observer for run_trajectory() that accumulates the Lyapunov spectrum. The tangent map of a
+/// sample is S where the force is transmitted, S* in the backlash.
 ///
-/// S and S* should be those of the motion's own loop. Kollár 2022 combines S and S* for δ = τ with
-/// a trajectory for δ = 0. Table 2 of that paper is reproduced with the blocks of a loop for δ = τ.
+/// S and S* should belong to the loop of the motion. In Table 2 of Kollár 2022, however, the motion
+/// has the delay δ = 0, while S and S* have δ = τ. To reproduce it, pass a loop with δ = τ.
 /// @tparam Scalar  number type of the loop, `double`
 template <class Scalar>
 class LyapunovObserver {
  public:
-  /// @param tangent_loop  the loop whose S and S* are the tangent maps
+  /// @param tangent_loop  loop whose maps S (drive engaged) and S* (in the backlash) are used
   /// @param gains         P (N/m) and D (N s/m) of the motion
   LyapunovObserver(const SampledLoop<Scalar>& tangent_loop, const PdGains<Scalar>& gains)
       : LyapunovObserver(std::make_shared<const ItineraryBlocks>(tangent_loop, gains)) {}
 
-  /// @param blocks  blocks of the loop whose S and S* are the tangent maps
-  /// @param scope   exponents that are computed
+  /// @param blocks  products of the maps S and S* of a loop over blocks of samples
+  /// @param scope   exponents to be computed
   explicit LyapunovObserver(std::shared_ptr<const ItineraryBlocks> blocks,
                             LyapunovScope scope = LyapunovScope::all)
       : engine_(std::move(blocks), scope) {}
@@ -157,10 +158,9 @@ class LyapunovObserver {
     open_ = empty_block;
   }
 
-  /// The Lyapunov spectrum over the samples since the last restart, equal to that of a QR
-  /// factorisation at every sample. The call changes nothing.
+  /// The Lyapunov spectrum since the last restart, equal to that of a QR step at every sample.
   LyapunovSpectrum<Scalar, 5> spectrum() const { return engine_.spectrum(open_); }
-  /// The number of complete batches of samples, on which the standard errors rest.
+  /// The number of complete batches of samples, used for the standard errors.
   std::size_t complete_batches() const { return engine_.complete_batches(); }
   /// Restarts the averages; only the directions of the tangent vectors are kept.
   void restart() {
@@ -210,8 +210,8 @@ LyapunovResult run_sampled(Motion& motion, const Exponents& exponents, const Lya
 ///     auto blocks = std::make_shared<const ItineraryBlocks>(loop, gains);
 ///     const LyapunovResult result = run_lyapunov(motion, blocks, {1000000, 1000, 1e-5});
 ///
-/// @param motion  a SampledMotion of a scalar type; it ends after the last sample used
-/// @param blocks  blocks of the loop whose S and S* are the tangent maps
+/// @param motion  a SampledMotion of `double`, not of a SIMD pack; advanced to the end of the run
+/// @param blocks  products of the tangent maps S and S* of the motion's loop; not null
 /// @param run     length and accuracy of the average
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible or there are no blocks

@@ -16,8 +16,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// An orthogonal basis none of whose vectors is an invariant or null direction of a loop's maps:
-/// the reflection I − 2 v vᵀ / ‖v‖², v_i = √(i + 1).
+/// An orthogonal basis whose vectors are generic, not invariant or null directions of a loop's
+/// maps: the reflection I − 2 v vᵀ / ‖v‖², v_i = √(i + 1).
 /// @param size  size of the maps
 template <class Scalar = double, int Size = 7>
 Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
@@ -33,11 +33,11 @@ Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
 ///
 ///     M_j Q_j = Q_{j+1} R_{j+1},   λ_i = (1/n) Σ_j ln |(R_j)_ii|   (natural logarithm per step)
 ///
-/// A tangent map of rank r < Size has Size − r null directions. As many exponents are exactly −∞,
-/// not logarithms of round-off. The rank is determined to working precision: a direction that one
-/// step contracts by more than about 10¹⁵ relative to others is a null direction.
-/// Source: Kollár 2022, Eq. (16), whose Gram–Schmidt steps are this QR with a worse conditioning;
-/// G. Benettin et al., Meccanica 15 (1980).
+/// If r < Size is the smallest rank of the maps, Size − r directions are null directions: their
+/// exponents are exactly −∞, not logarithms of round-off. Ranks are determined to working
+/// precision: a direction that one map contracts about 10¹⁵ times as much as others is null.
+/// Source: Kollár 2022, Eq. (16), which computes Q and R less accurately by Gram–Schmidt steps; G.
+/// Benettin et al., Meccanica 15 (1980).
 template <class Scalar, int Size>
 class LyapunovSpectrum {
  public:
@@ -45,13 +45,12 @@ class LyapunovSpectrum {
   struct State {
     Matrix<Scalar, Size> basis;      ///< orthogonal basis Q_n
     BatchSums<Scalar, Size> sums;    ///< sums of ln |R_ii|
-    Vector<Scalar, Size> remainder;  ///< part of the sums not in any batch yet
+    Vector<Scalar, Size> remainder;  ///< part of Σ ln |R_ii| that belongs to no batch
     int finite = Size;               ///< number of exponents that are not −∞
   };
 
-  /// @param initial_basis  Q₀, orthogonal. Its leading columns must not span a subspace that the
-  ///                       maps leave invariant: maps with an invariant coordinate axis need
-  ///                       another basis than the identity
+  /// @param initial_basis  Q₀, orthogonal. Its leading columns must not span an invariant subspace
+  ///                       of the maps. The identity is unsuitable if an axis is invariant
   explicit LyapunovSpectrum(const Matrix<Scalar, Size>& initial_basis =
                                 Matrix<Scalar, Size>::Identity(Size < 0 ? 0 : Size,
                                                                Size < 0 ? 0 : Size))
@@ -75,14 +74,14 @@ class LyapunovSpectrum {
   /// converged); −∞ for a null direction, NaN before the first step.
   Vector<Scalar, Size> exponents() const;
 
-  /// The exponents' standard errors by batch means; 0 for a null direction, NaN with too few steps.
+  /// The exponents' standard errors by batch means: 0 for a null direction, NaN with < 4 batches.
   Vector<Scalar, Size> standard_errors() const {
     return with(state_.sums.standard_errors(), Scalar(0));
   }
 
-  /// The exponents over the steps after the directions have settled (settled_means()), with
-  /// standard errors that remain valid where the sums are bounded. A null direction has the
-  /// exponent −∞ and the standard error 0.
+  /// The exponents over the steps after the initial transient (settled_means()), with standard
+  /// errors that are valid also for bounded sums of ln |R_ii|, as on a periodic orbit. A null
+  /// direction has the exponent −∞ and the standard error 0.
   SettledMeans<Size> settled() const {
     SettledMeans<Size> found = settled_means(state_.sums);
     found.means = with(found.means, -std::numeric_limits<double>::infinity());
@@ -92,11 +91,10 @@ class LyapunovSpectrum {
 
   /// The number n of maps since the start or the last restart.
   std::int64_t steps() const { return state_.sums.steps(); }
-  /// The number of complete batches of steps, on which the standard errors rest.
+  /// The number of complete batches of steps, used for the standard errors.
   std::size_t complete_batches() const { return state_.sums.complete_batches(); }
 
-  /// Restarts the averages; only the directions of the tangent vectors and the number of null
-  /// directions are kept.
+  /// Restarts the averages; only the tangent vectors and the number of null directions are kept.
   void restart() {
     state_.sums = BatchSums<Scalar, Size>(1, state_.basis.rows());
     state_.remainder.setZero();

@@ -29,13 +29,13 @@ struct ModalTangents : ModalSpectrum<Scalar> {
 
 }  // namespace detail
 
-/// Classifies the motion of a conductor given by its modes, like classify_motion() of an IdealLoop;
-/// undecided where two of the plant's natural motions cannot be separated numerically.
+/// Classifies the motion of a conductor given by its modes, as classify_motion() does for an
+/// IdealLoop. The motion is undecided where modal_motion() returns nullopt: two poles of the plant
+/// are then too close to be separated numerically.
 /// @param loop           the loop with its excitation and backlash
-/// @param initial_state  state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂]
+/// @param initial_state  state [q₁, q̇₁, …, z₂, ż₂] of `modal_plant`; q_n: coordinate of mode n
 /// @param limits         limits of the search for an orbit
-/// Work: that of find_periodic_orbit(), and 0.2 million multiply-adds per natural motion and
-/// thousand samples examined.
+/// Work: that of find_periodic_orbit(), and 200 multiply-adds per NaturalMotion and sample.
 /// @throws InvalidParameter where an argument is not admissible
 template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 SampledClassification classify_motion(const Loop& loop, const ModalMotion::Full& initial_state,
@@ -43,7 +43,8 @@ SampledClassification classify_motion(const Loop& loop, const ModalMotion::Full&
   const std::optional<ModalMotion> motion = modal_motion(loop, initial_state);
   if (!motion) {
     SampledClassification unknown;
-    unknown.classification.rests_on = "Two natural motions of the plant cannot be told apart.";
+    unknown.classification.rests_on =
+        "Two natural motions of the plant are too close to be separated.";
     return unknown;
   }
   const auto look = [&](const IndicatorOptions& plan) {

@@ -18,20 +18,19 @@
 namespace holdfast {
 
 /// The five leading Lyapunov exponents of a conductor given by its modes, along a sequence of
-/// contacts. They are computed from five deviations that are orthonormalised at every sample.
+/// contacts. They are computed from five tangent vectors that are orthonormalised at every sample.
 ///
-/// All five are finite except for a conductor with a single mode: its fifth exponent is −∞ without
-/// processing delay, and also once the drive has been in its backlash. Work per sample: 130
-/// multiply-adds per natural motion.
+/// With a single mode the fifth exponent is −∞ without processing delay and once the drive has been
+/// in its backlash; otherwise all are finite. Work per sample: 130 multiply-adds per NaturalMotion.
 template <class Scalar = double>
 class ModalSpectrum {
  public:
-  /// @param loop  the loop; all its natural motions must be known
+  /// @param loop  a loop for which modal_motion() does not return nullopt
   explicit ModalSpectrum(const ModalLoop& loop)
       : ModalSpectrum(NaturalMotions(loop, plant_poles(loop.modes, loop.absorber)), loop.gains,
                       loop.sampling.processing_delay > 0.0) {}
 
-  /// @param motions  natural motions of the loop
+  /// @param motions  natural motions of conductor and absorber in the loop
   /// @param gains    P and D while the drive transmits
   /// @param late     whether there is a processing delay, δ > 0
   ModalSpectrum(const NaturalMotions& motions, const PdGains<double>& gains, bool late)
@@ -60,10 +59,10 @@ class ModalSpectrum {
     sums_.add(logarithms, 1);
   }
 
-  /// Adds one sample. run_trajectory calls its observers in this form.
+  /// Adds one sample; makes this class an observer for run_trajectory().
   void operator()(const MotionSample<double>& sample) { push(sample.engaged); }
 
-  /// Restarts the averages; only the directions of the deviations are kept.
+  /// Restarts the averages; only the directions of the tangent vectors are kept.
   void restart() { sums_ = BatchSums<Scalar, leading>(1); }
 
   /// The Lyapunov spectrum over the samples since the last restart.
@@ -72,7 +71,7 @@ class ModalSpectrum {
                                         Vector<Scalar, leading>::Zero(),
                                         static_cast<int>(finite_)});
   }
-  /// The number of complete batches of samples, on which the standard errors rest.
+  /// The number of complete batches of samples, used for the standard errors.
   std::size_t complete_batches() const { return sums_.complete_batches(); }
 
  private:
@@ -85,7 +84,7 @@ class ModalSpectrum {
 
 /// The five leading Lyapunov exponents of a motion of a conductor given by its modes, from its
 /// present state, natural logarithm per sample.
-/// @param motion  a ModalMotion; it ends after the last sample used
+/// @param motion  a ModalMotion; it is advanced to the end of the run
 /// @param loop    the loop of the motion
 /// @param run     length and accuracy of the average
 /// @param pause   called every 2¹² samples; may throw to end the run

@@ -28,12 +28,12 @@
 
 namespace holdfast {
 
-/// The kind of a motion of a loop with backlash, with its certified orbit or its indicators.
+/// The classification of a motion with backlash, with its certified orbit or its indicators.
 /// @tparam Search  OrbitResultOf<Orbit>, Orbit being the type of the loop's orbits
 template <class Search>
 struct ClassifiedMotion {
   Classification classification;  ///< kind of the motion and its reason
-  /// Result of the search for a periodic orbit, with the orbit if there is one. Its outcome is
+  /// Result of the search for a periodic orbit, with the orbit if there is one. The outcome is
   /// `incommensurate` also under a recorded force or with jittering samples.
   Search search;
   ChaosIndicators indicators;  ///< indicators; for a certified orbit only its period and exponent
@@ -62,11 +62,10 @@ std::string certificate_text(const Orbit& orbit, const std::string& shown) {
   return text + ": " + shown + ", its largest multiplier is " +
          (modulus > 0.0 ? number_text(modulus)
                         : "exp(" + number_text(orbit.multipliers.front().log_modulus) + ")") +
-         ", and it closes to " + number_text(orbit.closure_error) + " in m and m/s.";
+         ", and its closure error is " + number_text(orbit.closure_error) + " (m, m/s).";
 }
 
-/// Classifies a motion by the result of the orbit search, where that search certified an orbit or
-/// saw the motion diverge.
+/// Classifies a motion by its orbit search, if that certified an orbit or saw the motion diverge.
 /// @param shown   statement about the orbit's contacts, for certificate_text()
 /// @return whether the search decided
 template <class Search>
@@ -312,7 +311,7 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
   std::optional<IndicatorOptions> options = indicator_options(loop);
   if (!options) {
     found.classification.rests_on =
-        "The recorded force ends before the samples that a verdict needs.";
+        "The recorded force is too short: a verdict needs at least 4200 samples.";
     return;
   }
   // Neither forcing nor samples follow a rule that is known to repeat.
@@ -327,7 +326,7 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
   if (!classify(found, start, *options, criteria, look)) {
     found.classification = {};
     found.classification.rests_on =
-        "Changes of contact accumulate: the motion cannot be followed further.";
+        "Changes of contact accumulate in one period: the motion cannot be computed further.";
     return;
   }
   if (irregular)
@@ -337,16 +336,15 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
 
 }  // namespace detail
 
-/// Classifies a motion by the periodic orbit on which it settles or, where none is found, by the
-/// indicators of its samples.
+/// Classifies a motion by the orbit on which it settles or, without one, by its ChaosIndicators.
 ///
 ///     classify_motion(loop, Vector<double, 4>::Zero()).classification.kind;  // periodic
 ///
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
 /// @param limits         limits of the search for an orbit
-/// Work: that of find_periodic_orbit() and of chaos_indicators() for N ≤ 10⁵ samples. If these do
-/// not decide: 3 N samples for the distance of a neighbouring motion, then all again with N = 10⁵.
+/// Work: that of find_periodic_orbit() and of chaos_indicators() for N ≤ 10⁵ samples. If undecided,
+/// also neighbour_distance() with 3 N samples; if still undecided, both again with N = 99 960.
 /// @throws InvalidParameter where an argument is not admissible
 template <class Scalar>
 SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
@@ -359,7 +357,7 @@ SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
                                     return detail::indicators_of_motion(loop, motion, plan);
                                   });
 }
-/// Classifies a motion of an IdealLoop; the initial state is any Eigen column.
+/// Classifies a motion of an IdealLoop from an initial state given as any Eigen column vector.
 template <class Scalar, class Column>
 SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
                                       const Eigen::MatrixBase<Column>& initial_state,
@@ -368,16 +366,16 @@ SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
   return classify_motion(loop, state, limits);
 }
 
-/// Classifies a motion of an implemented loop. The exponents include the saltation at each change
-/// of contact.
+/// Classifies a motion of an implemented loop. The exponents include the saltation matrices of
+/// contact changes. The rules are those of `classify`, with these additions:
 ///
-/// The rules are those of `classify`. Three cases do not occur in an IdealLoop:
-/// - a recorded force or a jittering clock: no orbit is sought, and no motion is called
-/// quasi-periodic; with a jittering clock only rest is called periodic. A negative exponent means
-/// `irregular_contracting`: neighbouring motions converge under the same forcing. Only samples
-/// before the end of the record count; with fewer than 4200 of them the motion is undecided;
-/// - a quantised measurement: exponents and multipliers take a quantised reading as constant;
-/// - changes of contact that accumulate: the motion is undecided.
+/// - Under a recorded force or with a jittering clock no orbit is sought, and no motion is called
+///   quasi-periodic. With a jittering clock only rest is called periodic. A negative exponent means
+///   `irregular_contracting`: neighbouring motions converge under the same forcing.
+/// - A recorded force of fewer than 4200 samples leaves the motion undecided.
+/// - For exponents and multipliers a quantised reading counts as constant.
+/// - The motion is undecided if contact changes accumulate (SwitchCounts::accumulates).
+///
 /// @param loop           the loop with its implemented hardware
 /// @param initial_state  x₀, N × 1, finite; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s)
 /// @param limits         limits of the search for an orbit
@@ -394,16 +392,17 @@ EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<
   auto search = find_event_orbit(motion, limits);
   found.search = {search.outcome, std::move(search.orbit), search.samples, search.candidates,
                   search.neutral_state};
-  if (detail::is_decided_by_search(found, "its contacts change alike in three successive periods"))
+  if (detail::is_decided_by_search(found, "its contact changes agree in three successive periods"))
     return found;
   detail::weigh_samples(loop, motion, found);
   if (found.search.outcome == OrbitOutcome::neutral)
-    found.classification.rests_on += " A multiplier is 1: nothing restores state variable " +
-                                     std::to_string(*found.search.neutral_state) +
-                                     " (counted from 0), so that the motion belongs to a family.";
+    found.classification.rests_on +=
+        " A multiplier is 1: a deviation of state variable " +
+        std::to_string(*found.search.neutral_state) +
+        " (counted from 0) does not decay, so the motion belongs to a family.";
   return found;
 }
-/// Classifies a motion of an implemented loop; the initial state is any Eigen column.
+/// Classifies a motion of an implemented loop from an initial state given as any Eigen column.
 template <class Plant, class Column>
 EventClassificationOf<states_of<Plant>> classify_motion(
     const ImplementedLoopOf<Plant>& loop, const Eigen::MatrixBase<Column>& initial_state,

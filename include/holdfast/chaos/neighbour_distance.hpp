@@ -12,16 +12,15 @@ namespace holdfast {
 
 /// The final distance of a neighbouring motion y from a motion x, as a share of the extent: the
 /// mean of |x_i − y_i| over the last quarter of the samples, divided by max x_i − min x_i, for the
-/// coordinate i whose ratio is largest. The neighbour starts after the transient, with z displaced
-/// by `neighbour_start` of the extent of z.
+/// coordinate i where this is largest. The neighbour starts after the transient, with z₁ displaced
+/// by `neighbour_start` times the extent of z₁ in the second half of the transient.
 ///
-/// This distance detects sensitive dependence without tangents. Where neighbours separate
-/// exponentially, it becomes comparable to the extent; on an invariant circle or torus it stays at
-/// its initial size.
-/// @param motion     SampledMotion, EventMotion or ModalMotion before a sample; a copy is run
+/// The distance detects sensitive dependence without tangent maps. If neighbours separate
+/// exponentially, it grows to the order of 1; on an invariant circle or torus it stays small.
+/// @param motion     SampledMotion, EventMotion or ModalMotion before a sample; passed by value
 /// @param transient  samples left out at the start, ≥ 2
 /// @param samples    number of samples of both motions, ≥ 4
-/// @return nothing where z does not move or a state leaves the range of numbers
+/// @return nullopt where z₁ is constant or a state is not finite
 /// @throws InvalidParameter where `transient` or `samples` is too small
 template <class Motion>
 std::optional<double> neighbour_distance(Motion motion, std::int64_t transient,

@@ -10,18 +10,18 @@
 
 namespace holdfast {
 
-/// The distance between states of a series, each coordinate measured in its own extent:
+/// The distance between states of a series, each coordinate divided by its extent in the series:
 ///
 ///     d(x, y) = max_i |x_i − y_i| / (max x_i − min x_i)
 ///
-/// so that 0 ≤ d ≤ 1 in any units. A coordinate that is constant to round-off, 10⁻¹³ of its size,
-/// is left out; where a coordinate is mere round-off about zero, `sizes` must be given.
+/// so that 0 ≤ d ≤ 1 within the series. A coordinate counts as constant and is left out if its
+/// extent is at most 10⁻¹³ of its largest magnitude, in the series or in `sizes`.
 template <int Size>
 class RelativeDistance {
  public:
-  /// @param states  the series whose extents are the units
-  /// @param sizes   largest |x_i| of each coordinate before the series, if larger than in the
-  ///               series, for example before a decay
+  /// @param states  the series from which the extents are computed
+  /// @param sizes   largest |x_i| of each coordinate before the series, needed where a coordinate
+  ///               has decayed to round-off about zero
   /// @throws InvalidParameter where the series is empty or a state is not finite
   explicit RelativeDistance(const std::vector<Vector<double, Size>>& states,
                             const Vector<double, Size>& sizes = no_sizes()) {
@@ -52,8 +52,8 @@ class RelativeDistance {
 
 /// The closest return of a series: the least RelativeDistance between any two of its states.
 ///
-/// Work: N²/2 distances, N ≤ 5000.
-/// @param states  x_j at successive samples, whose extents are the units
+/// Work: N²/2 distances for N states.
+/// @param states  x_j at successive samples; their extents define the distance
 /// @return 1 for a single state
 /// @throws InvalidParameter for no or more than 5000 states, or a state that is not finite
 template <int Size>
@@ -74,19 +74,18 @@ struct RepeatSearch {
   double tolerance;         ///< tolerance of a repeat, as a share of the extent
 };
 
-/// The smallest lag n at which the whole second half of a series repeats itself,
+/// Searches for the smallest lag n after which a series of N states repeats in its second half,
 ///
-///     d(x_j, x_{j−n}) ≤ tolerance   for every j ≥ N/2
+///     d(x_j, x_{j−n}) ≤ tolerance   for every j ≥ N/2,   n ≤ N / (2 repeats)
 ///
-/// with room for `repeats` repetitions: n ≤ N / (2 repeats). Such a lag is evidence and no proof:
-/// slow drift or a longer period may pass a coarse tolerance. Work: one distance for a lag that
-/// fails at once; at worst N²/(4 repeats), N ≤ 10⁶.
+/// where d is the RelativeDistance of the second half. A lag is no proof: slow drift or a longer
+/// period may pass a coarse tolerance. Work: one distance per lag, at worst N²/(4 repeats) in all.
 /// @param states     x_0 … x_{N−1} at successive samples
 /// @param tolerance  share of the extent of the second half, 0 ≤ tolerance < 1
-/// @param repeats    number of repetitions that must fit, ≥ 1
-/// @param sizes      size of each coordinate, as in RelativeDistance
-/// @throws InvalidParameter for no or more than 10⁶ states, a state not finite, or arguments out of
-///         their ranges
+/// @param repeats    number of repetitions that must fit into the second half, ≥ 1
+/// @param sizes      largest |x_i| of each coordinate, as in RelativeDistance
+/// @throws InvalidParameter for no or more than 10⁶ states, a state that is not finite, or a
+/// tolerance or number of repeats out of its range
 template <int Size>
 RepeatSearch repeats_after(const std::vector<Vector<double, Size>>& states, double tolerance,
                            std::size_t repeats = 3,
@@ -106,15 +105,15 @@ RepeatSearch repeats_after(const std::vector<Vector<double, Size>>& states, doub
   return {0, largest, tolerance};
 }
 
-/// The determinism of a series from its recurrence plot without the main diagonal: among the pairs
-/// of states nearer to each other than a radius, the share that lies on diagonal lines of two or
-/// more pairs; 0 without such pairs.
+/// The determinism of a series: the share of recurrent pairs of states that lie on diagonal lines
+/// of its recurrence plot. A pair (x_j, x_{j−n}), n ≥ 1, is recurrent if its RelativeDistance is at
+/// most `radius`. A diagonal line is two or more successive recurrent pairs with the same lag n.
 ///
-/// The determinism is near 1 for a motion on a closed curve and about 1 − (1 − rate)² for a random
-/// series, the rate being the share of pairs within the radius. Work: N²/2 distances and no
-/// storage, N ≤ 5000.
-/// @param states  x_j at successive samples, whose extents are the units
+/// The determinism is near 1 for a motion on a closed curve and about 1 − (1 − p)² for a random
+/// series, where p is the share of recurrent pairs. Work: N²/2 distances for N states.
+/// @param states  x_j at successive samples; their extents define the distance
 /// @param radius  share of the extent, > 0
+/// @return share, 0 … 1; 0 if no pair is recurrent
 /// @throws InvalidParameter for fewer than two or more than 5000 states, a state that is not
 /// finite, or a radius that is not positive
 template <int Size>

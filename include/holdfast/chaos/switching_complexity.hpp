@@ -15,8 +15,8 @@ struct SwitchingComplexity {
   std::size_t switches;  ///< number of changes of contact
 };
 
-/// The entropy H_k (bits) of the words of k symbols in a sequence, from their frequencies. The
-/// estimate is too low unless n is many times 2^k. Work: n + 2^k.
+/// The entropy H_k (bits) of the words of k symbols in a sequence, from the frequencies of these
+/// words. The estimate is too low unless n is many times 2^k. Work: n + 2^k.
 /// @param sequence  n symbols; successive words overlap
 /// @param block     word length k, 0 … 20 and ≤ n; H₀ = 0
 /// @throws InvalidParameter where k is out of its range
@@ -40,10 +40,10 @@ inline double block_entropy(const std::vector<bool>& sequence, std::size_t block
 
 /// The complexity of a sequence of contacts, from its block entropies.
 ///
-/// The word length k is the largest with 2^{k+1} ≤ n/32, at most 12, so that each possible word is
-/// expected 32 times. A sequence with a period N ≤ k has h_k = 0; with a longer period h_k is above
-/// 0 and falls with k. With rare changes of contact h_k is small because most samples add no
-/// information; so only values for equal sampling periods are comparable.
+/// The word length k is the largest with 2^{k+1} ≤ n/32 for n symbols, at most 12. Each of the
+/// 2^{k+1} words then occurs ≥ 32 times on average. A sequence with a period N ≤ k has h_k = 0;
+/// with a longer period h_k may be above 0. With rare changes of contact h_k is small, because most
+/// samples add no information; so only values for equal sampling periods are comparable.
 /// @param sequence  64 … 10⁶ symbols
 /// @throws InvalidParameter where the number of symbols is out of its range
 /// @tparam Sequence  std::vector<bool>

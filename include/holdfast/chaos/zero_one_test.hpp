@@ -103,25 +103,26 @@ inline double median_of_sorted(const std::vector<double>& sorted) {
 /// The 0–1 test for chaos of a series φ₁ … φ_N, which needs neither a state space nor an embedding.
 ///
 ///     p(n) = Σ_{j≤n} φ_j cos jc,   q(n) = Σ_{j≤n} φ_j sin jc
-///     D(n) = mean_j [(p(j+n) − p(j))² + (q(j+n) − q(j))²] − (mean φ)² (1 − cos nc)/(1 − cos c)
-///     K_c  = correlation of D(n) with n,   n = 1 … N/10;   K = median of K_c over c
+///     D(n) = mean_j [(p(j+n) − p(j))² + (q(j+n) − q(j))²]
+///     K_c  = correlation of D(n) with n,   n = 1 … min(N/10, 500);   K = median of K_c over c
 ///
-/// D stays bounded for a regular series and grows like n for a chaotic one. The oscillating term
-/// is removed by subtracting the mean from the series first, so that K is independent of shift and
-/// scale. The c are π/5 + (3π/5) {k g}, k = 1, 2, …, with {·} the fractional part and g =
-/// 0.7548776662466927, 1/g the root of x³ = x + 1: evenly spread and equal in every run. At the
-/// few c that coincide with a frequency of the series K_c is 1 without chaos; the median ignores
-/// them.
+/// D stays bounded for a regular series and grows like n for a chaotic one. The mean of φ is
+/// subtracted first, since it would add an oscillating term to D. K is independent of shift and
+/// scale of φ. The frequencies c = π/5 + (3π/5) {k g}, k = 1, 2, …, are evenly spread and equal in
+/// every run. Here {·} is the fractional part and 1/g the real root of x³ = x + 1. Where c equals
+/// a frequency of the series, K_c is 1 even without chaos; the median ignores these few c.
 ///
-/// The test yields 0 for any motion sampled much faster than it varies. It is unreliable for fewer
-/// than about 500 samples of a motion with several frequencies. A constant series has K = 0.
+/// K is near 0 for any motion, also a chaotic one, that is sampled much faster than it varies. The
+/// test is unreliable for fewer than about 500 samples of a motion with several frequencies. A
+/// constant series has K = 0.
 ///
-/// Work: at most 500 lags from 5000 evenly spaced j for each c, and one cosine and sine per sample.
+/// Work for each c: at most 500 lags n from 5000 evenly spaced j, and a cosine and sine per sample.
 /// Source: G. A. Gottwald, I. Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009), 129–145.
 /// @return K, near 0 for a regular motion, near 1 for a chaotic one
 /// @param series       200 … 100 000 finite values
 /// @param frequencies  number of c, 1 … 1000
-/// @throws InvalidParameter for a number of samples or frequencies, or a value, out of range
+/// @throws InvalidParameter for a number of samples or frequencies out of range, or a value that is
+/// not finite
 /// @tparam Series  std::vector<double>
 template <class Series = std::vector<double>>
 double zero_one_test(const Series& series, int frequencies = 100) {

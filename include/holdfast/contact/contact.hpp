@@ -16,43 +16,42 @@ namespace holdfast {
 /// The instants at which the drive may enter and leave its backlash.
 enum class Switching : std::uint8_t {
   sampled,  ///< at samples only, by the law's rule for sampled values
-  exact,    ///< in continuous time; `kollar`, `immediate` and `play` are then one law
+  exact,    ///< in continuous time; `kollar`, `immediate` and `play` then agree
 };
 
 /// The contact of a drive with its load as an automaton of three modes. In each mode the plant is
-/// affine (`dynamics`), and guards determine when the mode ends. The transitions are `sample`,
-/// `jumped` and `reached`.
+/// affine (`dynamics`), until a guard ends the mode. `sample`, `jumped` and `reached` change it.
 ///
 ///     DriveContact<> contact(plant, {ContactLaw::play, 0.0005}, Switching::exact, state);
 ///
-/// **At samples** the law decides on the contact up to the next sample. Where the law does not
-/// transmit, the command has no effect: u_j = 0 from t_j + δ on, and the force of a drive with
-/// a lag decays. The stops of a dead zone act from the sample on. The mode is always 1, except on
-/// the stops of a dead zone: 0 on the lower stop, 2 on the upper one.
+/// **Switching::sampled**: at each sample the law decides whether the command is transmitted until
+/// the next one. If not, u_j = 0 acts from t_j + δ on, and the force of a drive with a lag decays.
+/// The stops of a dead zone act from the sample on. The mode is 0 on the lower stop of a dead zone,
+/// 2 on its upper stop, and 1 otherwise.
 ///
-/// **Exact play** is the play operator of Δz as a Filippov system. v = Δż = rᵀx is the relative
-/// velocity, a(s) = rᵀ(A x + b s + b_u u + c F) the relative acceleration under a transmitted force
-/// s. The modes, numbered as in ContactMode, are
+/// **Exact play** (Switching::exact) is the play operator of Δz as a Filippov system. A, b, b_u, c,
+/// f and g are those of LinearPlant. v = Δż = rᵀx is the relative velocity, a(s) = rᵀ(A x + b s +
+/// b_u u + c F) the relative acceleration under a transmitted force s. The modes, numbered as in
+/// ContactMode, are
 ///
-/// - engaged: the drive's force s_e is transmitted (u for an ideal drive, f x + g u for one with
-///   a lag), until v reaches zero from a sign σ. Then the gap is [Δz − r₀, Δz] for σ > 0, [Δz, Δz
-///   + r₀] for σ < 0. The next mode is stick if σ a(0) > 0 and σ a(s_e) < 0, else gap;
-/// - gap: no force is transmitted, until Δz leaves the gap; then engaged;
-/// - stick: without force the relative motion would continue in the old direction, with s_e it
-/// would reverse. Both sides stay together, v = 0, under the transmitted force s = −rᵀ(A x + b_u u
-/// + c F) / (rᵀb), which is between 0 and s_e. The mode ends in gap when σ a(0) ≤ 0, in engaged
-/// when σ a(s_e) ≥ 0.
+/// - engaged: the drive's force s_e = f x + g u (u for an ideal drive) is transmitted until v, of
+///   sign σ, reaches zero. Then the gap is [Δz − r₀, Δz] for σ > 0, [Δz, Δz + r₀] for σ < 0. The
+///   next mode is stick if σ a(0) > 0 and σ a(s_e) < 0, else gap;
+/// - gap: no force is transmitted until Δz leaves the gap. The next mode is engaged;
+/// - stick: under no force the relative motion would continue in the old direction, under s_e it
+///   would reverse. So v stays 0 under the transmitted force s = −rᵀ(A x + b_u u + c F) / (rᵀb),
+///   between 0 and s_e. The next mode is gap when σ a(0) ≤ 0, engaged when σ a(s_e) ≥ 0.
 ///
-/// r₀ = 0 is a drive without backlash: always engaged. The rule of Kollár 2022, Eqs. (7)–(8), is
-/// this law evaluated at the samples only. Source of the sliding force: A. F. Filippov,
-/// Differential equations with discontinuous righthand sides, 1988.
+/// With r₀ = 0 the drive is always engaged. The rule of Kollár 2022, Eqs. (7)–(8), is exact play
+/// evaluated at the samples only. Source of the force in stick: A. F. Filippov, Differential
+/// equations with discontinuous righthand sides, 1988.
 ///
-/// **An exact dead zone** |Δz| ≤ r₀/2 transmits nothing inside (mode 1); outside (modes 0 and 2)
-/// it transmits the command, and the stop adds k_c (Δz ∓ r₀/2) + c_c Δż between the masses. No mode
-/// slides. If the plant pushes outwards and the command inwards at the edge, the absorber bounces
-/// there: v reverses with the period 2 |v| (1/|a(0)| + 1/|a(u)|), and damping reduces |v| without
-/// end. Every bounce is computed until SwitchCounts::accumulates is set. Source: S. W. Shaw, P. J.
-/// Holmes, A periodically forced piecewise linear oscillator, J. Sound Vib. 90 (1983).
+/// **An exact dead zone** transmits nothing while |Δz| ≤ r₀/2 (mode 1). Outside (modes 0 and 2) it
+/// transmits the command, and the stop adds k_c (Δz ∓ r₀/2) + c_c Δż between the masses. There is
+/// no stick. Where the plant pushes outwards and the command inwards, the absorber bounces at the
+/// edge: v reverses with the period 2 |v| (1/|a(0)| + 1/|a(u)|), and |v| decays by damping. Every
+/// bounce is computed until SwitchCounts::accumulates is set. Source: S. W. Shaw, P. J. Holmes, A
+/// periodically forced piecewise linear oscillator, J. Sound Vib. 90 (1983).
 /// @tparam DrivenPlant  TwoMass<double> or a LinearPlant<double, N>
 template <class DrivenPlant = TwoMass<double>>
 class DriveContact {
@@ -64,13 +63,12 @@ class DriveContact {
 
   static constexpr int modes = 3;  ///< number of modes: 0, 1 and 2
 
-  /// @param plant          plant without control and stops
+  /// @param plant          plant with its drive, without the stops of a dead zone
   /// @param backlash       law of backlash with its parameters
-  /// @param switching      whether the contact may change between the samples or at them only
+  /// @param switching      whether the contact may change at any time or at samples only
   /// @param initial_state  initial state, N × 1: its Δz decides which stop of an exact dead zone is
-  ///                       touched; play begins engaged, with σ unknown
-  /// @throws InvalidParameter where plant or backlash are not admissible, or the state is of
-  /// another size
+  ///                       touched. Exact play begins engaged; σ is known once Δż ≠ 0
+  /// @throws InvalidParameter for an inadmissible plant or backlash, or a state of another size
   DriveContact(const Plant& plant, const BacklashParameters& backlash, Switching switching,
                const State& initial_state)
       : plant_((validate(plant), plant)),
@@ -93,8 +91,8 @@ class DriveContact {
     if (here > upper_ || here < lower_) change_to(here > upper_ ? 2 : 0, 0);
   }
 
-  /// The equations of motion in one mode. With a law at samples the command acts in all modes;
-  /// `commanded` removes a command that is not transmitted.
+  /// The equations of motion in one mode. With Switching::sampled the command acts in all modes;
+  /// therefore insert commanded(u), which is 0 while the law does not transmit.
   DynamicsOf<Plant> dynamics(int mode) const {
     if (has_stop(mode))
       return dynamics_on_stop(plant_, backlash_.contact_stiffness, backlash_.contact_damping,
@@ -104,7 +102,7 @@ class DriveContact {
   }
   /// The plant with the drive.
   const Plant& plant() const { return plant_; }
-  /// The plant in one mode, with the spring and the damper of a stop that the mode touches.
+  /// The plant in one mode, with the spring and the damper of the stop touched in that mode.
   Plant plant(int mode) const {
     return has_stop(mode)
                ? plant_on_stop(plant_, backlash_.contact_stiffness, backlash_.contact_damping)
@@ -115,10 +113,10 @@ class DriveContact {
 
   /// The number of the present mode, 0 … `modes` − 1.
   int mode() const { return mode_; }
-  /// The present contact mode of the drive. A law at samples begins with `engaged`.
+  /// The present contact mode of the drive; with Switching::sampled `engaged` at the start.
   ContactMode word() const { return word_; }
-  /// Whether the command of the present sample has an effect: always, except where a law at samples
-  /// decided not to transmit it.
+  /// Whether the command of the present sample has an effect. It is false only with
+  /// Switching::sampled, from a sample at which the law decides not to transmit to the next sample.
   bool transmits_command() const {
     return kind_ != Kind::at_samples || word_ == ContactMode::engaged;
   }
@@ -131,11 +129,11 @@ class DriveContact {
     return word_ == ContactMode::gap ? 0.0 : -free_(now) / mobility_;
   }
 
-  /// Whether the contact may change between samples: true for exact laws except play with r₀ = 0.
+  /// Whether the contact may change between samples: for Switching::exact, unless r₀ = 0 in play.
   bool changes_between_samples() const { return changes_between_samples_; }
-  /// The guards that end the present mode between the samples. Engaged play: the velocity σ Δż
-  /// (m/s). Gap: the distances (m) of Δz from both ends. Stop: the distance (m) of Δz beyond the
-  /// end of the gap. Stick: the accelerations (m/s²) σ a(0) and −σ a(s_e).
+  /// The guards that end the present mode between samples; none if changes_between_samples() is
+  /// false. Engaged play: σ Δż (m/s). Gap: distances (m) of Δz from both ends. Stop: distance (m)
+  /// of Δz beyond the end of the gap. Stick: σ a(0) and −σ a(s_e) (m/s²).
   ModeGuards guards() const {
     if (!changes_between_samples_) return {};
     if (mode_ == gap) return gap_guards();
@@ -143,7 +141,7 @@ class DriveContact {
     return mode_ == 0 ? engaged_guards() : stick_guards();
   }
 
-  /// Applies a sampled state: a law at samples decides from its Δz and Δż; exact laws ignore it.
+  /// Updates the contact at a sample from Δz and Δż of the state; no effect with Switching::exact.
   void sample(const State& state) {
     if (kind_ != Kind::at_samples) return;
     const bool engaged =
@@ -151,32 +149,33 @@ class DriveContact {
     word_ = engaged ? ContactMode::engaged : ContactMode::gap;
     mode_ = gap + law_.side();
   }
-  /// Updates the contact after a jump, or possible jump, of the force or the command.
+  /// Updates the contact after a possible jump of force or command; `now` has the new values.
   void jumped(const Instant& now) {
     if (kind_ != Kind::play) return;
     if (word_ == ContactMode::stick) return leave_stick(now, 1);
     // Further zeros at a change of contact are those of the force and the command before the jump.
     zeros_ = std::min(zeros_, mode_ == gap ? 2 : 1);
   }
-  /// Updates the contact after a jump of the absorber's displacement against the conductor: stick
-  /// ends, and a stop that was passed is detected at once, since its guard is negative.
+  /// Updates the contact after a jump of Δz: stick ends in the gap, and an end of the gap that was
+  /// passed is detected at once, since its guard is negative.
   void displaced() {
     if (word_ == ContactMode::stick) change_to(gap, 0);
     zeros_ = 0;
     displaced_ = true;
   }
-  /// Restores the constraints of stick, Δż = 0 and the former Δz, exactly; other modes: no effect.
+  /// In stick, sets Δż of `after` to 0 and its Δz to that of `before`, against round-off.
   void keep(const State& before, State& after) const {
     if (word_ == ContactMode::stick) readings_.hold_relative_position(before, after);
   }
-  /// Records that time has passed since the last change of contact.
+  /// Records that time has passed since the last change: guards of value zero may now be nonzero.
   void flowed() {
     zeros_ = 0;
     displaced_ = false;
   }
-  /// Sets the unknown sign σ = ±1 of the relative velocity.
+  /// Sets the sign σ = ±1 of the relative velocity Δż when it first differs from zero.
   void learn_sign(int /*guard*/, double sign) { sign_ = sign; }
-  /// Changes the contact after a guard has reached zero; at a reversal Δż becomes exactly zero.
+  /// Changes the contact after guard number `guard` has reached zero. At a reversal of exact play
+  /// Δż of `now` is set to exactly zero.
   void reached(int guard, Instant& now) {
     if (kind_ == Kind::stops) {
       sign_ = mode_ - gap;
@@ -189,23 +188,23 @@ class DriveContact {
     if (mode_ == stick) change_to(guard == 0 ? gap : 0, guard == 0 ? 3 : 2);
   }
 
-  /// Number of the mode stick, in which Δż = 0; −1 for a law without this mode.
+  /// The number of the mode stick, in which Δż = 0; −1 for a law without this mode.
   int sticking_mode() const { return kind_ == Kind::play ? stick : -1; }
-  /// Whether a mode's switching surface is Δz = g or Δz = g ∓ r₀, g being the Δz (m) at play's last
-  /// reversal. Other surfaces are Δż = 0 (engaged play) and a fixed Δz (stops).
+  /// Whether a mode depends on g, the Δz at the last reversal: the gap of exact play with the ends
+  /// g and g − σ r₀, and stick with Δz = g. Engaged play and dead zones do not depend on g.
   bool is_anchored(int mode) const { return kind_ == Kind::play && mode != 0; }
-  /// Whether the drive is in a gap that begins at play's last reversal.
+  /// Whether the drive is in the gap of exact play, whose ends depend on the last reversal.
   bool remembers_gap() const { return kind_ == Kind::play && mode_ == gap; }
   /// Sign σ = ±1 of Δż in exact play; 0 until Δż is nonzero for the first time.
   double sign() const { return sign_; }
-  /// The lower end of an exact law's gap, Δz (m); undefined for play while engaged.
+  /// The lower end Δz (m) of the gap with Switching::exact; undefined for play while engaged.
   double lower() const { return lower_; }
-  /// The upper end of an exact law's gap, Δz (m); undefined for play while engaged.
+  /// The upper end Δz (m) of the gap with Switching::exact; undefined for play while engaged.
   double upper() const { return upper_; }
-  /// Relative displacement g = Δz (m) at play's last reversal, where the gap begins; while engaged,
-  /// at the previous reversal.
+  /// The relative displacement g (m) at which exact play last reversed, one end of its gap;
+  /// undefined while engaged and for other laws.
   double reversal() const { return sign_ > 0.0 ? upper_ : lower_; }
-  /// Puts a drive with exact play into the gap that begins at a given reversal.
+  /// Puts a drive with exact play into the gap after a given reversal.
   /// @param at    relative displacement g (m) at the reversal
   /// @param sign  σ = ±1: the gap is below g for +1
   void cross_gap(double at, double sign) {
@@ -213,7 +212,7 @@ class DriveContact {
     open_gap(at);
     change_to(gap, 0);
   }
-  /// Shifts both ends of the gap of play by a displacement (m); no effect on other laws.
+  /// Shifts both ends of the gap of exact play by a displacement (m); no effect on other laws.
   void shift_gap(double by) {
     if (kind_ != Kind::play) return;
     lower_ += by;
@@ -289,8 +288,7 @@ class DriveContact {
   void reverse(Instant& now) {
     readings_.stop_relative_motion(now.state);
     open_gap(readings_.relative_displacement(now.state));
-    // Where one of them is zero its derivative decides: a guard of stick that begins at zero ends
-    // it at once or not at all.
+    // Where one is zero its derivative decides: a guard of stick at zero ends it at once or never.
     const bool pushed_on = !(sign_ * free_(now) < 0.0);
     const bool turned_back = !(sign_ * driven_(now) > 0.0);
     const bool sticks = pushed_on && turned_back && engaged_force(plant_, now) != 0.0;

@@ -11,24 +11,22 @@
 
 namespace holdfast {
 
-/// The laws by which the drive decides at samples whether it transmits the control force.
+/// Laws of backlash, which decide whether the drive transmits the control force.
 ///
-/// In continuous time `kollar`, `immediate` and `play` are the same law, the play operator: the
-/// drive transmits until Δż reaches zero, at Δz = d. Then it enters the gap [d − r₀, d] (from Δż >
-/// 0) or [d, d + r₀] (from Δż < 0), and it transmits again once Δz leaves the gap. The laws differ
-/// under sampling:
-/// - `kollar` detects a reversal by the sign of the sampled Δż and places the end of the gap at the
-/// sample of detection; a sample that leaves the gap transmits;
-/// - `immediate` does the same, but a sample that leaves the gap with a reversal enters the next
-/// gap;
-/// - `play` detects a reversal where the sampled Δz advances no farther and places the end of the
-/// gap at the extreme sample; a sample outside it transmits, even where Δz has crossed the whole
-/// gap since the previous sample.
+/// In continuous time `kollar`, `immediate` and `play` are the play operator: the drive transmits
+/// until Δż reaches zero, at Δz = d. Then it enters the gap [d − r₀, d] (from Δż > 0) or [d, d +
+/// r₀] (from Δż < 0), and transmits again once Δz leaves the gap. Under sampling the laws differ:
+/// - `kollar` detects a reversal at the first sample with another sign of Δż; d is Δz of this
+///   sample. The first sample outside the gap transmits;
+/// - `immediate` is `kollar`, but the first sample outside the gap may already enter the next gap;
+/// - `play` detects a reversal at the first sample at which Δz has advanced no farther; d is the
+///   extreme sampled Δz. Every sample outside the gap transmits, even where Δz has crossed the
+///   whole gap since the previous sample.
 ///
 /// `dead_zone` is another law: its gap is fixed about Δz = 0.
 enum class ContactLaw : std::uint8_t {
   kollar,     ///< `Backlash`: Kollár 2022, Eqs. (7)–(8)
-  immediate,  ///< `ImmediateBacklash`: entry tested at the sample of exit too
+  immediate,  ///< `ImmediateBacklash`: an exit from the gap may enter the next
   play,       ///< `PlayBacklash`: the play operator on sampled Δz
   dead_zone,  ///< `DeadZone`: a gap about Δz = 0 between two stops
   none,       ///< `NoBacklash`: always transmits
@@ -54,8 +52,7 @@ struct BacklashParameters {
   double contact_damping = 0.0;         ///< stop's damping c_c (N s/m), ≥ 0; `dead_zone` only
 };
 
-/// Rejects parameters outside the ranges stated at their members, even where the law does not use
-/// the parameter.
+/// Rejects parameters outside the ranges stated at their members, even those the law does not use.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const BacklashParameters& backlash) {
   validate_backlash_width(backlash.width);
@@ -71,7 +68,7 @@ inline void validate(const BacklashParameters& backlash) {
 /// The decisions equal those of the class named at the law's entry in `ContactLaw`.
 class SampledContact {
  public:
-  /// Contact before its first sample. @throws InvalidParameter in the cases of `validate`
+  /// Contact before its first sample. @throws InvalidParameter for inadmissible parameters
   explicit SampledContact(const BacklashParameters& backlash) : law_(chosen_law(backlash)) {}
 
   /// Processes one sample, Δz (m) and Δż (m/s).

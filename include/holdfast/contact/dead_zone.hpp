@@ -5,16 +5,15 @@
 namespace holdfast {
 
 /// The backlash of the drive as a dead zone in Δz = z₂ − z₁: a gap of width r₀ fixed about Δz = 0,
-/// with a stop at each end. Its decision at a sample depends on that sample only.
+/// with a stop at each end. Whether a sample transmits depends on this sample only.
 ///
 ///     side σ = +1 for Δz > r₀/2, −1 for Δz < −r₀/2, 0 for −r₀/2 ≤ Δz ≤ r₀/2
 ///     the control force is transmitted where σ ≠ 0
 ///     the stop adds f = k_c (Δz − σ r₀/2) + c_c Δż where σ ≠ 0 (`dynamics_on_stop`)
 ///
-/// f acts like the plant's spring k₂ and damper c₂: +f on the conductor, −f on the absorber.
-/// Its elastic part is continuous in Δz. The damper's part jumps by c_c Δż at the ends, and
-/// during separation it may make the stop pull (c_c |Δż| > k_c (|Δz| − r₀/2)), unlike a real
-/// stop.
+/// f acts like the plant's spring k₂ and damper c₂: +f on the conductor, −f on the absorber. Its
+/// elastic part is continuous in Δz. The damper's part jumps by c_c Δż at the ends of the gap.
+/// Unlike a real stop, f pulls during separation where c_c |Δż| > k_c (|Δz| − r₀/2).
 ///
 /// r₀ = 0 means no gap: σ is never 0 (it is +1 at Δz = 0), the force is always transmitted and the
 /// stops are a spring and a damper between the masses.
@@ -40,7 +39,7 @@ class DeadZone {
     return !inside_;
   }
 
-  /// The stop σ that is touched at Δz (m): −1, 0 or +1.
+  /// The side σ of the stop touched at Δz (m): −1 lower, +1 upper, 0 none.
   Scalar side(const Scalar& relative_displacement) const {
     const Scalar zero(0), one(1);
     const Mask<Scalar> closed = !(width_ > zero);
@@ -52,7 +51,7 @@ class DeadZone {
 
   /// Whether no stop was touched at the last step.
   Mask<Scalar> inside() const { return inside_; }
-  /// Stop σ touched at the last step: −1, 0 or +1; 0 before the first step.
+  /// Side σ of the stop touched at the last step: −1, +1 or 0 for none; 0 before the first step.
   const Scalar& touched_side() const { return touched_side_; }
 
  private:

@@ -27,11 +27,11 @@ enum class EntryTest {
 ///  1. the drive was in the gap and lower ≤ Δz ≤ upper: it stays there, no force is transmitted;
 ///  2. it was in the gap and Δz is outside [lower, upper]: it leaves; the force acts again from
 ///     now on, and rule 3 is not applied at this sample;
-///  3. it was outside, and Δż changed its sign or became zero since Δż_{j−1} ≠ 0: the drive now
-///     reverses and enters the gap [Δz − r₀, Δz] if Δż_{j−1} > 0, [Δz, Δz + r₀] if Δż_{j−1} < 0.
+///  3. it was outside, Δż_{j−1} ≠ 0, and Δż_j is zero or has the other sign: the drive reverses
+///     and enters the gap [Δz − r₀, Δz] if Δż_{j−1} > 0, [Δz, Δz + r₀] if Δż_{j−1} < 0.
 ///
-/// r₀ = 0 means a drive without backlash: it never enters a gap. (By rule 3 it would drop the force
-/// for one sample at each reversal, however small r₀ is.)
+/// r₀ = 0 means a drive without backlash. It never enters a gap: rule 3, which would interrupt the
+/// force for one sample at each reversal, is not applied.
 ///
 /// Source: Kollár 2022, Eqs. (7)–(8), in the reading that reproduces the switching instants of Fig.
 /// 8 (docs/reading-the-paper.md). The same code serves scalars and SIMD packs: about 12 comparisons
@@ -44,7 +44,7 @@ class Backlash {
   explicit Backlash(const Scalar& width)
       : Backlash(width, {Scalar(0) > Scalar(0), Scalar(0), Scalar(0), Scalar(0)}) {}
 
-  /// Backlash that continues from the memory of an earlier one of the same width.
+  /// Backlash of width r₀ (m) that continues from the memory of an earlier backlash of this width.
   Backlash(const Scalar& width, const BacklashMemory<Scalar>& memory)
       : width_(width), memory_(memory) {}
 
@@ -76,7 +76,7 @@ class Backlash {
   const Scalar& upper() const { return memory_.upper; }
   /// Gap width r₀ (m).
   const Scalar& width() const { return width_; }
-  /// State of the backlash, on which its decisions at later samples depend.
+  /// Memory of the backlash, on which its decisions at later samples depend.
   const BacklashMemory<Scalar>& memory() const { return memory_; }
 
  private:
@@ -84,12 +84,12 @@ class Backlash {
   BacklashMemory<Scalar> memory_;
 };
 
-/// The backlash with entry tested at the exit sample too.
+/// The law of `Backlash`, except that a sample that leaves the gap may enter the next one.
 ///
-/// Rule 2 is changed: a sample j that leaves the gap is tested by rule 3 at once, so that with
-/// Δż_{j−1} ≠ 0 and Δż_{j−1} Δż_j ≤ 0 the drive passes from its gap directly into the next one
-/// without transmitting. From the same memory the two laws differ at such samples only. The text of
-/// Kollár 2022 permits both readings; the switching instants of its Fig. 8 exclude this law.
+/// Rule 2 of `Backlash` is changed: rule 3 is applied also to a sample j that leaves the gap. With
+/// Δż_{j−1} ≠ 0 and Δż_{j−1} Δż_j ≤ 0 the drive passes into the next gap without transmitting. From
+/// the same memory the two laws differ at such samples only. The text of Kollár 2022 permits both
+/// laws, but the switching instants of its Fig. 8 exclude `ImmediateBacklash`.
 template <class Scalar>
 using ImmediateBacklash = Backlash<Scalar, EntryTest::at_exit>;
 

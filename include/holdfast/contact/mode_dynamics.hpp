@@ -14,7 +14,8 @@ namespace holdfast {
 template <class Plant>
 using DynamicsOf = AffineDynamicsOf<states_of<Plant>>;
 
-/// The dynamics ẋ = (A + b f) x + (b_u + g b) u + c F of an engaged drive with the force f x + g u.
+/// Equations of motion with an engaged drive, whose force is f x + g u for the state x and command
+/// u: ẋ = (A + b f) x + (b_u + g b) u + c F, with the matrices of LinearPlant.
 template <class Plant>
 DynamicsOf<Plant> engaged_dynamics(const Plant& plant) {
   const auto matrix = plant.state_matrix();
@@ -22,7 +23,7 @@ DynamicsOf<Plant> engaged_dynamics(const Plant& plant) {
           StateOf<Plant>::Zero(matrix.rows())};
 }
 
-/// Equations of motion with the drive in its gap: ẋ = A x + b_u u + c F.
+/// Equations of motion with the drive in its gap: ẋ = A x + b_u u + c F (see LinearPlant).
 template <class Plant>
 DynamicsOf<Plant> released_dynamics(const Plant& plant) {
   const auto& linear = linear_plant(plant);
@@ -30,12 +31,11 @@ DynamicsOf<Plant> released_dynamics(const Plant& plant) {
           StateOf<Plant>::Zero(linear.order())};
 }
 
-/// The equations of motion in stick, Δż = 0, under the force s that keeps both sides of the drive
-/// together:
+/// The equations of motion in stick, Δż = 0, under the force s that holds both sides together:
 ///
 ///     s = −rᵀ(A x + b_u u + c F) / (rᵀb),   ẋ = (I − b rᵀ/(rᵀb)) (A x + b_u u + c F)
 ///
-/// @param plant  plant with rᵀb ≠ 0, r being the row of its relative velocity Δż
+/// @param plant  plant with rᵀb ≠ 0; r: row of the relative velocity Δż, b: input of the force s
 template <int States>
 AffineDynamicsOf<States> locked_dynamics(const LinearPlant<double, States>& plant) {
   const RowVector<double, States>& r = plant.ports().relative_velocity;
@@ -45,7 +45,7 @@ AffineDynamicsOf<States> locked_dynamics(const LinearPlant<double, States>& plan
           plant.excitation - pushed * r.dot(plant.excitation),
           Vector<double, States>::Zero(plant.order())};
 }
-/// Equations of motion of the two masses in stick, as one body m₁ + m₂; internal forces cancel.
+/// Equations of motion of the two masses in stick, moving as one body of mass m₁ + m₂.
 template <class Scalar>
 AffineDynamicsOf<4> locked_dynamics(const TwoMass<Scalar>& plant) {
   const Scalar mass = plant.conductor_mass + plant.absorber_mass;
@@ -69,8 +69,8 @@ TwoMass<Scalar> plant_on_stop(TwoMass<Scalar> plant, double stiffness, double da
   return plant;
 }
 
-/// The equations of motion on a stop at Δz = `at` (m): the stop pushes with k_c (Δz − at) + c_c Δż
-/// through b, like the drive.
+/// The equations of motion on a stop at Δz = `at` (m): the stop's force k_c (Δz − at) + c_c Δż acts
+/// through the input b of the drive's force.
 template <int States>
 AffineDynamicsOf<States> dynamics_on_stop(const LinearPlant<double, States>& plant,
                                           double stiffness, double damping, double at) {
@@ -90,7 +90,7 @@ AffineDynamicsOf<4> dynamics_on_stop(const TwoMass<Scalar>& plant, double stiffn
           -plant.control_input() * (stiffness * at)};
 }
 
-/// The force s = f x + g u (N) that an engaged drive transmits.
+/// The force s = f x + g u (N) of an engaged drive, for the plant's state x and the command u.
 template <int States>
 double engaged_force(const LinearPlant<double, States>& plant,
                      const ContactInstantOf<States>& now) {
@@ -115,7 +115,7 @@ struct GapAcceleration {
   }
 };
 
-/// The relative acceleration rᵀ ẋ in a mode without constant drift, r being the row of Δż.
+/// The relative acceleration Δz̈ = rᵀ ẋ in a mode without constant force; r is the row of Δż.
 template <class Plant>
 GapAcceleration<states_of<Plant>> gap_acceleration(const Plant& plant,
                                                    const DynamicsOf<Plant>& dynamics) {
@@ -123,7 +123,8 @@ GapAcceleration<states_of<Plant>> gap_acceleration(const Plant& plant,
   return {(r * dynamics.state).transpose(), r.dot(dynamics.command), r.dot(dynamics.force)};
 }
 
-/// The mobility rᵀb (1/kg) of the gap under the drive's force; for two masses −1/m₂ − 1/m₁.
+/// The relative acceleration rᵀb (1/kg) per newton of the drive's force: the row r of Δż times the
+/// input b of this force; for two masses −1/m₂ − 1/m₁.
 template <class Plant>
 double gap_mobility(const Plant& plant) {
   return ports_of(plant).relative_velocity.dot(linear_plant(plant).force_input);

@@ -4,26 +4,23 @@
 
 namespace holdfast {
 
-/// The backlash of the drive as a play of half-width r₀/2 on the sampled Δz = z₂ − z₁. Δz is the
-/// position of the play's near side, y the position of its far side, which the near side drags.
+/// The backlash of the drive as a play of half-width r₀/2 on the sampled Δz = z₂ − z₁. The near
+/// side of the play is at Δz. Its far side is at y and moves only while the near side pushes it.
 ///
 ///     y_j = max(Δz_j − r₀/2, min(Δz_j + r₀/2, y_{j−1}))
 ///     the force is transmitted from sample j on where y_j ≠ y_{j−1}
 ///
-/// The far side moves only where Δz_j − r₀/2 > y_{j−1} or Δz_j + r₀/2 < y_{j−1}; both ends of [y −
-/// r₀/2, y + r₀/2] belong to the gap.
+/// The gap y − r₀/2 ≤ Δz ≤ y + r₀/2 includes its ends: y_j ≠ y_{j−1} only where Δz_j lies outside
+/// the gap of y_{j−1}.
 ///
-/// Before the first sample y is unknown. The force is transmitted until a sample has Δż ≠ 0. That
-/// sample transmits too and puts the far side behind the motion: y = Δz − r₀/2 for Δż > 0, y = Δz +
-/// r₀/2 for Δż < 0. Further motion in that direction transmits; motion back crosses the whole gap,
-/// as after any other reversal. Δż is not used otherwise. From rest the first sample transmits, as
-/// with `Backlash`.
+/// Before the first sample y is unknown. The force is transmitted up to and including the first
+/// sample with Δż ≠ 0, which sets y = Δz − r₀/2 for Δż > 0, y = Δz + r₀/2 for Δż < 0. Further
+/// motion this way transmits; motion back first crosses the whole gap. Δż has no other use.
 ///
-/// The gap after a reversal is [Δz_max − r₀, Δz_max] or [Δz_min, Δz_min + r₀], Δz_max or Δz_min
-/// being the extreme sample. `Backlash` uses the first sample after the change of sign of Δż
-/// instead, whether or not its Δz is extreme. A near side that crosses the whole gap within one
-/// sampling period transmits without a pause. r₀ = 0 means a drive without backlash: it always
-/// transmits, at rest too.
+/// The gap after a reversal is [Δz_max − r₀, Δz_max] or [Δz_min, Δz_min + r₀], where Δz_max or
+/// Δz_min is the extreme sample. `Backlash` instead uses Δz of the first sample after the change of
+/// sign of Δż, whether or not it is extreme. Where Δz crosses the whole gap within one sampling
+/// period, the force is transmitted without a pause. With r₀ = 0 the drive always transmits.
 ///
 /// Source: Krasnosel'skii and Pokrovskii, Systems with Hysteresis, Springer 1989; Visintin,
 /// Differential Models of Hysteresis, Springer 1994; Macki, Nistri and Zecca, Mathematical models

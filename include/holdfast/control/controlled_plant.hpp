@@ -13,8 +13,8 @@
 
 namespace holdfast {
 
-/// The Jacobian of a controller of M states at one sample, (M + 1) × (M + 2): derivatives of [u_j;
-/// x_c,j+1] with respect to [z₁; ż₁; x_c,j].
+/// The Jacobian of a controller of M states at one sample, (M + 1) × (M + 2): derivatives of
+/// command and next state [u_j; x_c,j+1] by the readings and the state [z₁; ż₁; x_c,j].
 template <int States>
 using ControllerDerivative = Matrix<double, larger_size(States, 1), larger_size(States, 2)>;
 
@@ -35,7 +35,7 @@ struct HasCommand<
                                std::declval<const ControlSample&>(),
                                std::declval<Vector<double, Law::states>&>()))> {};
 
-/// Whether a type is a controller; a static assertion names what is missing.
+/// Whether a type is a controller; if not, a static assertion names the missing member.
 template <class Law>
 constexpr bool is_controller() {
   static_assert(HasStates<Law>::value,
@@ -71,16 +71,16 @@ Eigen::Index memory_size([[maybe_unused]] const Law& law) {
 ///
 ///     struct MyController {
 ///       static constexpr int states = 1;  // M ≥ 0
-///       /// The command u_j (N) of sample j; replaces x_c,j by x_c,j+1. No other memory: const.
+///       /// The command u_j (N) of sample j; replaces the state x_c,j by x_c,j+1.
 ///       double command(const ControlSample& sample, Vector<double, 1>& x_c) const;
-///       /// Optional; without it: central differences. At a jump of the law: one-sided slope.
+///       /// Optional Jacobian, one-sided at a jump of the law. Default: central differences.
 ///       ControllerDerivative<1> derivative(const ControlSample& sample,
 ///                                          const Vector<double, 1>& x_c) const;
 ///     };
 ///
 /// Where M is known at run time only, `states` is Eigen::Dynamic and `order()` returns M. PdGains
 /// is a controller with M = 0, LinearController one with any M, LateController one with dynamic M.
-/// This class erases the type, so that loops under all controllers have one type, compiled once.
+/// OwnController erases the type of the controller, so that all such loops have one type.
 class OwnController {
  public:
   using Column = Vector<double, Eigen::Dynamic>;      ///< column [z₁; ż₁; x_c] or [u; x_c]
@@ -95,7 +95,7 @@ class OwnController {
     if constexpr (detail::is_controller<Law>()) take(law);
   }
 
-  /// Whether the object holds a controller.
+  /// Whether the object contains a controller.
   bool exists() const { return value_ != nullptr; }
   /// The number M of states of the controller.
   Eigen::Index states() const { return at_.size() - 2; }
@@ -103,7 +103,7 @@ class OwnController {
   /// Computes the command u_j (N) of sample j and the next state. @return [u_j; x_c,j+1]
   /// @param sample  measured values
   /// @param state   state x_c,j
-  /// @throws InvalidParameter for a NaN or infinite result, unless a reading or state reached 10¹⁰⁰
+  /// @throws InvalidParameter for a NaN or infinite result, if all inputs so far are below 10¹⁰⁰
   template <class State>
   Column command(const ControlSample& sample, const State& state) {
     elapsed_ = sample.elapsed;
@@ -115,8 +115,9 @@ class OwnController {
     return result;
   }
 
-  /// Jacobian at the last sample, (M + 1) × (M + 2). A law without derivative() gets central
-  /// differences over 2⁻¹⁶ of each variable's largest size so far: ten digits for a smooth law.
+  /// Jacobian of [u_j; x_c,j+1] by [z₁; ż₁; x_c,j] at the last sample, (M + 1) × (M + 2), with M =
+  /// states(). A law without derivative() is differentiated by central differences. Their width is
+  /// 2⁻¹⁶ of each variable's largest magnitude so far; ten digits are correct for a smooth law.
   template <class Result = Derivative>
   Result derivative() const {
     if (derivative_) return derivative_(at_, elapsed_);
@@ -163,12 +164,12 @@ class OwnController {
 ///     loop.plant = with_controller(kollar2022_plant(), MyController{});
 ///
 /// The states of the controller follow those of the plant, [x; x_c], N + M in all. x_c is constant
-/// between samples; a reported sample has x_c as it was before its command. event_motion(),
-/// find_event_orbit(), run_event_lyapunov() and classify_motion() accept such a loop like any
-/// other. The gains of its DigitalLoop must be 0 and its limits ideal (`validate`); `command` may
-/// use `quantised` and std::clamp instead. Charts and margins need P and D and reject such a loop.
+/// between samples; a recorded sample j contains x_c,j, not yet x_c,j+1. event_motion(),
+/// find_event_orbit(), run_event_lyapunov() and classify_motion() accept such a loop. Its
+/// DigitalLoop must have gains of 0 and ideal limits; `command` may apply `quantised` and
+/// std::clamp itself. Stability charts and margins reject such a loop.
 struct ControlledPlant : LinearPlant<double> {
-  OwnController controller;  ///< controller that decides the force
+  OwnController controller;  ///< controller that computes the force
 };
 
 /// Validates a plant. @throws InvalidParameter for a plant not admissible or without a controller
@@ -179,10 +180,9 @@ std::enable_if_t<std::is_same_v<Plant, ControlledPlant>> validate(const Plant& p
   validate<Eigen::Dynamic>(plant);
 }
 
-/// Combines a plant with a controller. The plant is the two masses, or a linear plant that already
-/// includes its filters and lags.
-/// @throws InvalidParameter where the masses are not admissible, or the parts of the plant have
-/// different orders
+/// Combines a plant with a controller. The plant consists of the two masses, or is a linear plant
+/// that already includes its filters and lags.
+/// @throws InvalidParameter for inadmissible masses, or plant matrices of different orders
 template <class Plant, class Law>
 ControlledPlant with_controller(const Plant& plant, const Law& law) {
   if constexpr (detail::is_controller<Law>()) {
@@ -204,7 +204,7 @@ struct LinearController {
   RowVector<double, States> output;        ///< output row C_c, 1 × M (N)
   RowVector<double, 2> feedthrough{0, 0};  ///< feedthrough row D_c, 1 × 2 (N/m, N s/m)
 
-  /// Command u_j (N) of a sample; replaces the state by the next one.
+  /// Command u_j (N) of a sample; replaces the state by the next state.
   double command(const ControlSample& sample, Vector<double, States>& state) const {
     const Vector<double, 2> read(sample.displacement, sample.velocity);
     const double force = output.dot(state) + feedthrough.dot(read);

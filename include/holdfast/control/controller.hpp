@@ -16,17 +16,17 @@ enum class VelocitySensing {
   difference,  ///< the backward difference of the displacement readings
 };
 
-/// The quantisation, velocity sensing and saturation of a real controller; by default ideal.
+/// The quantisation, velocity sensing and saturation of a real controller; none by default.
 struct ControllerLimits {
   double displacement_quantum = 0;  ///< resolution q_z (m) of the displacement, ≥ 0; 0: exact
   double velocity_quantum = 0;  ///< resolution q_v (m/s) of a measured velocity, ≥ 0; 0: exact;
                                 ///< not used with VelocitySensing::difference
   /// Source of the velocity v̂_j in the command.
   VelocitySensing velocity = VelocitySensing::measured;
-  double largest_force = std::numeric_limits<double>::infinity();  ///< limit u_max (N), > 0
+  double largest_force = std::numeric_limits<double>::infinity();  ///< bound u_max (N) of |u|, > 0
 };
 
-/// Whether the limits leave the law u = P z₁ + D ż₁ unchanged.
+/// Whether the limits are ideal: they leave the control law u = P z₁ + D ż₁ unchanged.
 inline bool is_ideal(const ControllerLimits& limits) {
   return limits.displacement_quantum == 0 && limits.velocity_quantum == 0 &&
          limits.velocity == VelocitySensing::measured &&
@@ -45,7 +45,7 @@ inline void validate(const ControllerLimits& limits) {
 
 /// The memory of a controller: its previous reading.
 struct ControllerMemory {
-  double previous_displacement = 0;  ///< previous reading ẑ_{j−1} (m); valid if has_sampled
+  double previous_displacement = 0;  ///< displacement reading ẑ_{j−1} (m); valid if has_sampled
   bool has_sampled = false;          ///< whether there was a previous sample
 };
 
@@ -56,7 +56,7 @@ struct ControllerSlope {
   double previous_displacement = 0;  ///< derivative ∂u_j/∂z₁ by z₁ at t_{j−1} (N/m)
 };
 
-/// The proportional–differential law with the limits of a real digital loop:
+/// The proportional–differential law with gains P and D and with ControllerLimits:
 ///
 ///     ẑ_j = q_z round(z₁ / q_z)
 ///     v̂_j = q_v round(ż₁ / q_v)        measured
@@ -64,9 +64,8 @@ struct ControllerSlope {
 ///     u_j = min(max(P ẑ_j + D v̂_j, −u_max), u_max)
 ///
 /// h_j is the time since the previous sample. With ideal limits u_j is P z₁ + D ż₁ to the last bit,
-/// unless the compiler fuses products with sums. A difference of quantised displacements changes in
-/// steps of q_z / h_j, however small q_v is. A sample costs a few operations and allocates no
-/// memory.
+/// unless the compiler fuses products with sums. Where the velocity is a difference, v̂_j changes in
+/// steps of q_z / h_j, and q_v has no effect. No memory is allocated.
 ///
 /// Sources: Kollár 2022, Eq. (5), for the law; for the rounding see `quantised`.
 class Controller {
@@ -81,10 +80,9 @@ class Controller {
   /// Computes the command of sample j. @return u_j (N), within ±u_max
   /// @param displacement  displacement z₁ (m)
   /// @param velocity      velocity ż₁ (m/s); not used where the velocity is a difference
-  /// @param elapsed       h_j (s), > 0; used only where the velocity is a difference, from the
-  ///                 second sample on
-  /// @throws InvalidParameter where h_j is used and is not finite and > 0; the controller is then
-  /// unchanged
+  /// @param elapsed       time h_j (s) since the previous sample, > 0; used only where the velocity
+  ///                      is a difference, from the second sample on
+  /// @throws InvalidParameter where h_j is used and not finite and > 0; the controller is unchanged
   double command(double displacement, double velocity, double elapsed) {
     const bool differs = limits_.velocity == VelocitySensing::difference;
     if (differs && memory_.has_sampled)
@@ -99,19 +97,18 @@ class Controller {
     return std::clamp(demand, -limits_.largest_force, limits_.largest_force);
   }
 
-  /// The derivatives of the last command: zero under saturation, and zero with respect to quantised
-  /// readings. A command of exactly ±u_max has the slopes without saturation. All slopes are
-  /// zero before the first command and after `restore`.
+  /// The derivatives of the last command. All are zero under saturation, |P ẑ_j + D v̂_j| > u_max,
+  /// before the first command and after `restore`. A derivative by a quantised reading is zero.
   const ControllerSlope& slope() const { return slope_; }
 
   /// Memory of the controller, on which its next commands depend.
   const ControllerMemory& memory() const { return memory_; }
-  /// Sets the memory to that of another controller with the same gains and limits.
+  /// Copies the memory of a controller with the same gains and limits; the slopes become zero.
   void restore(const ControllerMemory& memory) {
     memory_ = memory;
     slope_ = {};
   }
-  /// The limits q_z, q_v and u_max, and the source of the velocity.
+  /// The resolutions of the readings, the largest force and the source of the velocity.
   const ControllerLimits& limits() const { return limits_; }
 
  private:

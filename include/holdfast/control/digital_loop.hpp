@@ -15,15 +15,15 @@
 
 namespace holdfast {
 
-/// The digital side of a loop and its excitation: everything that a motion depends on except its
-/// plant, its contact and its initial state.
+/// Sampling, gains, limits and excitation of a loop. With the plant, its contact and the initial
+/// state they determine a motion.
 struct DigitalLoop {
   Sampling<double> sampling;            ///< sampling period τ and processing delay δ
   PdGains<double> gains;                ///< gains P and D
   MultiHarmonicForce force;             ///< excitation F(t) of the conductor
   ForceHold hold = ForceHold::sampled;  ///< whether F(t), with any record, is held between samples
   ControllerLimits limits = {};         ///< limits of the sensors and the drive
-  Jitter jitter = {};                   ///< jitter of the clock, of half width J: 2 J + δ ≤ τ
+  Jitter jitter = {};  ///< jitter of the clock; half width J with 2 J + δ ≤ τ and J < τ/2
 };
 
 /// Validates a loop. @throws InvalidParameter where any part is not admissible
@@ -34,11 +34,10 @@ inline void validate(const DigitalLoop& loop) {
   validate(loop.limits);
 }
 
-/// The ratio f τ = p/q of the first harmonic, not always in lowest terms: after q samples, which
-/// are p periods of the first harmonic, sampling and all harmonics are in phase again. Without
-/// excitation the ratio is 0/1.
-/// @return nothing for a recorded force, for jittering samples, and where q would exceed 10⁶: such
-///         frequencies are treated as incommensurate, although every decimal number is a fraction
+/// The ratio f τ = p/q, where f is the frequency of the first harmonic and τ the sampling period. q
+/// is the smallest number of samples after which all harmonics have the same phases again. With
+/// several harmonics p/q is therefore not always in lowest terms. Without excitation it is 0/1.
+/// @return nullopt (incommensurate) for a recorded force, for jittering samples, and for q > 10⁶
 inline std::optional<Rational> forcing_ratio(const DigitalLoop& loop) {
   constexpr std::int64_t most_samples = 1'000'000;
   if (loop.force.record != nullptr || loop.jitter.half_width > 0.0) return std::nullopt;

@@ -9,8 +9,8 @@ namespace holdfast {
 
 /// The readings that a controller receives at sample j.
 struct ControlSample {
-  double displacement;  ///< displacement z₁ (m), or the one measured by the plant's ports
-  double velocity;      ///< velocity ż₁ (m/s), or the one measured by the plant's ports
+  double displacement;  ///< displacement z₁ (m); for a LinearPlant the reading of its ports
+  double velocity;      ///< velocity ż₁ (m/s); for a LinearPlant the reading of its ports
   double elapsed;       ///< time h_j (s) since the previous sample; τ at the first sample
 };
 
@@ -24,7 +24,7 @@ struct PdGains {
   Scalar proportional = Scalar(0);  ///< proportional gain P (N/m), finite
   Scalar differential = Scalar(0);  ///< differential gain D (N s/m), finite
 
-  /// The feedback row K = [P, D, 0, 0], 1 × 4, so that u = K z.
+  /// The feedback row K = [P, D, 0, 0], 1 × 4: u = K z for the state z of the two masses.
   RowVector<Scalar, 4> feedback_row() const {
     return {proportional, differential, Scalar(0), Scalar(0)};
   }

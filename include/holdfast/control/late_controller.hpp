@@ -31,7 +31,7 @@ struct LateController {
   /// The number M of states.
   Eigen::Index order() const { return samples + (differs() ? 2 : 0); }
 
-  /// Command u_j (N) of a sample; replaces the state by the next one.
+  /// Command u_j (N) of a sample; replaces the state by the next state.
   double command(const ControlSample& sample, State& state) const {
     const auto [now, controller] = sensed(sample, state);
     if (differs()) state.tail(2) << controller.memory().previous_displacement, 1.0;
@@ -67,7 +67,8 @@ struct LateController {
   }
 };
 
-/// The sampling with period τ and the remaining delay δ − (k − 1) τ, where k = held_commands().
+/// The sampling with the period τ and the delay δ − (k − 1) τ that remains after k − 1 whole
+/// samples, k = held_commands(sampling) = max(1, ⌈δ/τ⌉).
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @throws InvalidParameter where the sampling is not admissible
 inline Sampling<double> within_sample(const Sampling<double>& sampling) {
@@ -76,8 +77,8 @@ inline Sampling<double> within_sample(const Sampling<double>& sampling) {
   return {sampling.period, std::clamp(late, 0.0, sampling.period)};
 }
 
-/// The controller of a loop whose delay may exceed a sample. Commands are delayed by k − 1 whole
-/// samples, k = held_commands(); within_sample() gives the remaining delay.
+/// The controller of a loop whose delay δ may exceed τ. It delays commands by k − 1 whole samples,
+/// k = max(1, ⌈δ/τ⌉). Use it in a loop with the sampling of within_sample().
 /// @param gains     gains P and D
 /// @param limits    limits of readings and force
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0

@@ -8,14 +8,16 @@
 
 namespace holdfast {
 
-/// Harmonic input of a force F_j = F_m cos(ω t_j) held over each period: cosine = c_d, sine = 0.
-/// Source: Kollár 2022, Eq. (13).
+/// The harmonic input of a force that is held over each sampling period at F_j = F_m cos(ω t_j).
+/// The input's cosine column is the loop's `held_excitation` c_d; its sine column is zero. Source:
+/// Kollár 2022, Eq. (13).
 template <class Scalar, int States>
 HarmonicInput<Scalar, States> held_harmonic(const SampledLoop<Scalar, States>& loop) {
   return {loop.held_excitation, Vector<Scalar, States>::Zero(loop.held_excitation.size())};
 }
 
-/// Harmonic input of a force that is not held, over a sampling period (s); ω in rad/s.
+/// The harmonic input of a continuous force F_m cos(ω t), not held, over one sampling period (s).
+/// The argument `angular_frequency` is ω (rad/s).
 template <class Plant, class Scalar = ScalarOf<Plant>>
 HarmonicInput<Scalar, states_of<Plant>> exact_harmonic(
     const Plant& plant, const detail::Undeduced<Scalar>& sampling_period,
@@ -24,7 +26,8 @@ HarmonicInput<Scalar, states_of<Plant>> exact_harmonic(
                                                   sampling_period, angular_frequency);
 }
 
-/// Input of a harmonic force, held over each sampling period or not (`hold`).
+/// The harmonic input of a force of angular frequency ω (rad/s) in a plant's sampled loop. The
+/// argument `hold` determines whether the force is held between samples.
 template <class Plant, class Scalar = ScalarOf<Plant>>
 HarmonicInput<Scalar, states_of<Plant>> harmonic_input(
     const Plant& plant, const SampledLoop<Scalar, states_of<Plant>>& loop, ForceHold hold,
@@ -34,7 +37,8 @@ HarmonicInput<Scalar, states_of<Plant>> harmonic_input(
              : exact_harmonic(plant, loop.sampling.period, angular_frequency);
 }
 
-/// Harmonic input of a loop of any order N and delay, (N + k) × 1, zero for the k delayed commands.
+/// The harmonic input of a loop with a plant of order N and k delayed commands. Its columns have
+/// N + k rows; the last k rows, of the commands, are 0.
 template <class Plant, class Scalar = ScalarOf<Plant>>
 HarmonicInput<Scalar, Eigen::Dynamic> harmonic_input(
     const Plant& plant, const LoopMap<Scalar>& map, ForceHold hold,

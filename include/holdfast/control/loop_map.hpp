@@ -15,24 +15,26 @@ namespace holdfast {
 
 /// The sampled loop of a plant of order N as one linear map over a sampling period, for any delay.
 ///
-/// With a delay δ = (k − 1) τ + δ′, 0 < δ′ ≤ τ, there are k = max(1, ⌈δ/τ⌉) delayed commands. With
-/// the state y_j = [x_j; u_{j−k}; …; u_{j−1}], N + k numbers,
+/// A delay δ needs k = max(1, ⌈δ/τ⌉) delayed commands, the control forces u_{j−k} … u_{j−1}. They
+/// and the plant's state x_j are the loop's state y_j = [x_j; u_{j−k}; …; u_{j−1}]:
 ///
 ///     y_{j+1} = (S₀ + s K) y_j + c_y F_j,   K = P h_z + D h_v
 ///
-/// where S₀ contains A_d, Γ₁ and Γ₀ for δ′ and the shift of the commands, s is the input column of
-/// u_j, and h_z, h_v are the measurement rows. For k = 1, S₀ + s K is S of `SampledLoop`. The loop
-/// is asymptotically stable if and only if all |λ(S₀ + s K)| < 1.
+/// S₀ contains A_d and Γ₁ of `SampledLoop` for the delay δ − (k − 1) τ, and the shift of the
+/// commands. The columns s and c_y are the inputs of u_j and of the excitation F_j. Γ₀ is in s for
+/// k = 1 and in S₀ for k > 1. The rows h_z and h_v give the measured displacement and velocity. The
+/// loop is asymptotically stable if and only if all eigenvalues λ of S₀ + s K have |λ| < 1. For two
+/// masses and k = 1, S₀ + s K is the map S of `SampledLoop`.
 template <class Scalar>
 struct LoopMap {
   Sampling<Scalar> sampling;                  ///< period τ and delay δ; δ may exceed τ
   Eigen::Index held_commands;                 ///< number k of delayed commands, ≥ 1
   Matrix<Scalar, Eigen::Dynamic> open_map;    ///< map S₀ without feedback, (N + k) × (N + k)
-  Matrix<Scalar, Eigen::Dynamic> increment;   ///< S₀ − I to full relative accuracy for any τ
+  Matrix<Scalar, Eigen::Dynamic> increment;   ///< S₀ − I, accurate even for small τ
   Vector<Scalar, Eigen::Dynamic> command;     ///< input column s per newton of u_j, (N + k) × 1
   Vector<Scalar, Eigen::Dynamic> excitation;  ///< column c_y per newton of held F_j, (N + k) × 1
-  RowVector<Scalar, Eigen::Dynamic> displacement;  ///< row h_z that P multiplies, 1 × (N + k)
-  RowVector<Scalar, Eigen::Dynamic> velocity;      ///< row h_v that D multiplies, 1 × (N + k)
+  RowVector<Scalar, Eigen::Dynamic> displacement;  ///< row h_z, measured displacement (m)
+  RowVector<Scalar, Eigen::Dynamic> velocity;      ///< row h_v, measured velocity (m/s)
   RowVector<Scalar, Eigen::Dynamic> conductor;     ///< row of the conductor's displacement (m)
 
   /// The number of states N + k.
@@ -43,15 +45,15 @@ struct LoopMap {
     return open_map + command * (gains.proportional * displacement + gains.differential * velocity);
   }
 
-  /// The matrix S₀ − I + s (P h_z + D h_v), (N + k) × (N + k), with the eigenvalues λ − 1.
+  /// The matrix closed_map − I, (N + k) × (N + k), accurate even for small τ.
   Matrix<Scalar, Eigen::Dynamic> closed_increment(const PdGains<Scalar>& gains) const {
     return increment +
            command * (gains.proportional * displacement + gains.differential * velocity);
   }
 };
 
-/// The number k = max(1, ⌈δ/τ⌉) of delayed commands; a delay of a whole number of samples, up to
-/// the round-off of decimal numbers, gives exactly that number.
+/// The number k = max(1, ⌈δ/τ⌉) of delayed commands for the delay δ and the sampling period τ. A
+/// ratio δ/τ within a relative 10⁻¹² of a whole number counts as that number.
 /// @throws InvalidParameter unless τ > 0 and 0 ≤ δ ≤ 10⁹ τ
 inline int held_commands(const Sampling<double>& sampling) {
   require_positive("sampling period tau", sampling.period, "s");
@@ -64,8 +66,7 @@ inline int held_commands(const Sampling<double>& sampling) {
 
 namespace detail {
 
-/// The map with k delayed commands, (k − 1) τ ≤ δ ≤ k τ. If δ is a whole number of samples, two
-/// values of k are possible.
+/// The map with k delayed commands, (k − 1) τ ≤ δ ≤ k τ. For whole δ/τ there are two such k.
 template <class Plant, class Scalar>
 LoopMap<Scalar> loop_map_keeping(const Plant& plant, const Sampling<Scalar>& sampling, int k) {
   const Scalar past = std::min(
@@ -105,10 +106,10 @@ LoopMap<Scalar> loop_map_keeping(const Plant& plant, const Sampling<Scalar>& sam
 
 }  // namespace detail
 
-/// The map of a plant's loop over one sampling period.
-/// @param plant     plant of any order; its ports define the measurement
-/// @param sampling  τ > 0 and δ ≥ 0, which may exceed τ by up to 1000 samples
-/// @throws InvalidParameter where the sampling is not admissible or the state matrix not finite
+/// The map of a plant's sampled loop over one sampling period, for any delay.
+/// @param plant     plant of any order; `ports_of(plant)` gives its measured quantities
+/// @param sampling  period τ (s), > 0, and delay δ (s), 0 ≤ δ ≤ 1000 τ
+/// @throws InvalidParameter where τ or δ is out of range, or the plant is not admissible
 template <class Plant, class Scalar = ScalarOf<Plant>>
 LoopMap<Scalar> loop_map(const Plant& plant, const Sampling<detail::Undeduced<Scalar>>& sampling) {
   require_positive("sampling period tau", static_cast<double>(sampling.period), "s");

@@ -7,19 +7,17 @@
 
 namespace holdfast {
 
-/// The reading of a sensor of finite resolution: the multiple of its quantum nearest to the value
-/// (a mid-tread quantiser).
+/// A sensor's reading: the multiple of its quantum nearest to the value (a mid-tread quantiser).
 ///
 ///     ẑ = q · round(z / q),   |ẑ − z| ≤ q / 2 up to round-off;   q = 0: ẑ = z
 ///
-/// A value halfway between two multiples is rounded to the even one, the default rounding mode. The
-/// function is odd and idempotent. Where q is not large against the spacing of floating-point
-/// numbers at z (|z / q| ≥ 2⁵¹ in double precision), ẑ = z.
+/// A value halfway between two multiples is rounded to the even multiple (in the processor's
+/// default rounding mode). The function is odd and idempotent. For |z / q| ≥ 2⁵¹ in double
+/// precision, q is close to the spacing of the floating-point numbers at z, and ẑ = z.
 ///
 /// Where z spreads over more than a quantum, ẑ − z acts like noise uniform over ±q / 2: mean 0,
 /// variance q² / 12. In a loop that is unstable without control the rounding causes small
-/// chaotic oscillations, micro-chaos; the papers on it truncate the fraction instead of
-/// rounding.
+/// chaotic oscillations, called micro-chaos. Both papers below study truncation, not rounding.
 ///
 /// @param value    value z, any unit
 /// @param quantum  q ≥ 0 and finite, in the unit of z

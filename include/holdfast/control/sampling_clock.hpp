@@ -10,15 +10,15 @@
 
 namespace holdfast {
 
-/// The deviation of the sampling instants from their grid; by default zero.
+/// The random deviation of the sampling instants from the grid j τ; by default zero.
 struct Jitter {
   double half_width = 0;   ///< largest deviation J (s), ≥ 0
   std::uint64_t seed = 1;  ///< seed of the random sequence
 };
 
-/// Rejects a jitter with which a sample could precede the force of the previous sample.
-/// @throws InvalidParameter unless the sampling is admissible, J is finite and ≥ 0, J < τ / 2 and
-/// 2 J + δ ≤ τ, the last up to the round-off of decimal numbers
+/// Rejects a jitter with which a sample could precede the force computed from the previous sample.
+/// @throws InvalidParameter unless the sampling (period τ, delay δ) is admissible and the half
+/// width J satisfies 0 ≤ J < τ / 2 and, apart from round-off, 2 J + δ ≤ τ
 inline void validate(const Sampling<double>& sampling, const Jitter& jitter) {
   validate(sampling);
   const double half_width = jitter.half_width;
@@ -53,19 +53,19 @@ constexpr std::uint64_t split_mix_64(std::uint64_t seed, std::uint64_t index) {
 
 }  // namespace detail
 
-/// The instants of the samples of a clock that jitters:
+/// The sampling instants t_j of a clock with period τ and jitter of half width J:
 ///
 ///     t_j = j τ + e_j,   e_0 = 0,   e_j uniform over (−J, J) and independent, j = 1, 2, …
 ///
-/// The deviations do not accumulate: the clock follows its grid. e_j depends on the seed and on j
-/// only, so that samples may be computed in any order. Only integer arithmetic and correctly
-/// rounded multiply-adds are used: a run is the same on every machine. J = 0 gives t_j = j τ and
-/// the period τ, both to the last bit.
+/// The deviations do not accumulate: |t_j − j τ| ≤ J for all j. e_j depends on the seed and on j
+/// only, so that the instants may be computed in any order. Only integer arithmetic and correctly
+/// rounded multiply-adds are used, so that the instants are the same on every machine. J = 0 gives
+/// the grid j τ and the period τ without further rounding.
 class SamplingClock {
  public:
   /// @param period  sampling period τ (s), > 0
-  /// @param jitter  half width J < τ / 2, so that the samples ascend; with a processing delay,
-  ///                `validate(sampling, jitter)` requires more
+  /// @param jitter  half width J < τ / 2, so that t_j increases with j; a processing delay δ also
+  ///                needs 2 J + δ ≤ τ, which `validate(sampling, jitter)` checks
   /// @throws InvalidParameter where an argument is not admissible
   explicit SamplingClock(double period, const Jitter& jitter = {})
       : period_(period), jitter_(jitter) {
@@ -79,8 +79,8 @@ class SamplingClock {
     return std::fma(jitter_.half_width, share(index), on_grid);
   }
 
-  /// The period t_{j+1} − t_j = τ + e_{j+1} − e_j (s), j ≥ 0, rounded once; the difference of two
-  /// large instants would lose digits.
+  /// The period t_{j+1} − t_j (s) after sample j = `index`, j ≥ 0. It is computed as τ + e_{j+1} −
+  /// e_j, since a difference of two large instants would lose digits.
   double period_of(std::int64_t index) const {
     if (jitter_.half_width == 0) return period_;
     return std::fma(jitter_.half_width, share(index + 1) - share(index), period_);

@@ -6,7 +6,7 @@
 
 namespace holdfast {
 
-/// The exact step of ẋ = A x + B w over a time h with constant inputs w:
+/// The exact step of a linear system ẋ = A x + B w over a time h with constant inputs w:
 ///
 ///     x(t + h) = transition · x(t) + input · w,
 ///     transition = e^{Ah},   input = ∫₀ʰ e^{As} ds B
@@ -23,7 +23,7 @@ struct HeldStep {
 /// @param a      matrix A, States × States (1/s); either size may be Eigen::Dynamic
 /// @param b      matrix B, States × Inputs
 /// @param period time h (s), finite, ≥ 0; h = 0 gives the identity and a zero input
-/// @throws InvalidParameter where A is not square, or B has another number of rows
+/// @throws InvalidParameter where A is not square, or A and B have unequal numbers of rows
 /// Source: C. F. Van Loan, Computing integrals involving the matrix exponential, IEEE TAC 23
 /// (1978).
 template <class Scalar, int States, int Inputs>

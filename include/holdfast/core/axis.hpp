@@ -16,12 +16,12 @@ struct Axis {
   double max = 0.0;        ///< the last value, ≥ min
   std::int64_t count = 1;  ///< number of values, ≥ 1; if it is 1, the only value is `min`
 
-  /// Value at an index, 0 ≤ index < count.
+  /// The value at an index, 0 ≤ index < count: equal steps from `min` to `max`.
   double at(std::int64_t index) const {
     const std::int64_t last = count - 1;
     if (index <= 0 || last <= 0) return min;
     if (index >= last) return max;
-    // Weighing both ends keeps whole and short decimal steps as exact as they can be.
+    // The weighted mean of both ends keeps whole and short decimal steps accurate.
     const double weighed =
         min * static_cast<double>(last - index) + max * static_cast<double>(index);
     return std::clamp(weighed / static_cast<double>(last), min, max);

@@ -13,6 +13,6 @@ of NaN and reorder its sums: add -fno-fast-math (/fp:precise) for the files that
 // A value that is not admissible is refused by throwing InvalidParameter.
 #if !defined(__cpp_exceptions) && !defined(__EXCEPTIONS) && !defined(_CPPUNWIND)
 #error \
-    "holdfast refuses what is not admissible by exceptions: compile the files that include it \
-without -fno-exceptions (with /EHsc)"
+    "holdfast reports inadmissible values by exceptions: compile the files that include it \
+without -fno-exceptions (MSVC: with /EHsc)"
 #endif

@@ -15,12 +15,11 @@ namespace holdfast {
 
 /// The exception for a caller's parameter outside its admissible range.
 ///
-/// Numerical outcomes (not converged, unstable, no solution) are never reported by this exception;
-/// they are fields of the result.
+/// Numerical outcomes (not converged, unstable, no solution) are fields of the result, not thrown.
 class InvalidParameter : public std::invalid_argument {
  public:
   /// @param name        the parameter's technical name ("sampling period")
-  /// @param value       the refused value
+  /// @param value       the rejected value
   /// @param unit        SI unit of the value, empty for pure numbers
   /// @param admissible  admissible values, to be read after "must be" ("> 0")
   InvalidParameter(std::string name, double value, std::string unit, std::string admissible)
@@ -30,9 +29,9 @@ class InvalidParameter : public std::invalid_argument {
         unit_(std::move(unit)),
         admissible_(std::move(admissible)) {}
 
-  /// The technical name of the refused parameter.
+  /// The technical name of the rejected parameter.
   const std::string& name() const noexcept { return name_; }
-  /// The refused value, in `unit()`; may be NaN or infinite.
+  /// The rejected value, in `unit()`; may be NaN or infinite.
   double value() const noexcept { return value_; }
   /// SI unit of the value; empty for a pure number.
   const std::string& unit() const noexcept { return unit_; }
@@ -54,28 +53,28 @@ class InvalidParameter : public std::invalid_argument {
   std::string admissible_;
 };
 
-/// Refuses NaN and infinity.
+/// Rejects NaN and infinity.
 /// @throws InvalidParameter when `value` is not finite.
 inline void require_finite(std::string_view name, double value, std::string_view unit) {
   if (!std::isfinite(value))
     throw InvalidParameter(std::string(name), value, std::string(unit), "finite");
 }
 
-/// Refuses NaN, infinity and values ≤ 0. @throws InvalidParameter unless 0 < value < ∞.
+/// Rejects NaN, infinity and values ≤ 0. @throws InvalidParameter unless 0 < value < ∞.
 inline void require_positive(std::string_view name, double value, std::string_view unit) {
   if (!(std::isfinite(value) && value > 0))
     throw InvalidParameter(std::string(name), value, std::string(unit), "finite and > 0");
 }
 
-/// Refuses NaN, infinity and values < 0. @throws InvalidParameter unless 0 ≤ value < ∞.
+/// Rejects NaN, infinity and values < 0. @throws InvalidParameter unless 0 ≤ value < ∞.
 inline void require_non_negative(std::string_view name, double value, std::string_view unit) {
   if (!(std::isfinite(value) && value >= 0)) {
     throw InvalidParameter(std::string(name), value, std::string(unit), "finite and >= 0");
   }
 }
 
-/// Refuses values outside a range. @throws InvalidParameter unless lower ≤ value ≤ upper; the
-/// message says "finite and >= lower" where upper is the largest double.
+/// Rejects values outside a range. @throws InvalidParameter unless lower ≤ value ≤ upper. If
+/// `upper` is the largest double, the message requires the value to be "finite and >= lower".
 inline void require_within(std::string_view name, double value, std::string_view unit, double lower,
                            double upper) {
   if (value >= lower && value <= upper) return;
@@ -90,7 +89,7 @@ inline void require_within(std::string_view name, double value, std::string_view
   throw InvalidParameter(std::string(name), value, std::string(unit), range.str());
 }
 
-/// Refuses a size of a vector, or of a side of a matrix, that differs from the wanted size.
+/// Rejects a size of a vector, or of one side of a matrix, that differs from the required size.
 /// @throws InvalidParameter unless size = wanted.
 inline void require_size(std::string_view name, std::ptrdiff_t size, std::ptrdiff_t wanted) {
   const auto entries = static_cast<double>(wanted);

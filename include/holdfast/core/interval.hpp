@@ -17,7 +17,8 @@ struct Interval {
   /// Whether lower < value < upper; false for NaN.
   bool contains(const Scalar& value) const { return lower < value && value < upper; }
 
-  /// A point of the interval: its middle; a ± (1 + |a|) for one finite end a; 0 for the whole line.
+  /// A point inside the interval: its middle; lower + 1 + |lower| if only the upper end is
+  /// infinite; upper − 1 − |upper| if only the lower end is infinite; 0 if both ends are.
   Scalar representative() const {
     constexpr Scalar unbounded = std::numeric_limits<Scalar>::infinity();
     if (lower == -unbounded && upper == unbounded) return Scalar(0);

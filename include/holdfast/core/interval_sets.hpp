@@ -17,8 +17,8 @@ bool contains_any(const std::vector<Interval<Scalar>>& intervals, const Scalar& 
                      [&](const Interval<Scalar>& interval) { return interval.contains(value); });
 }
 
-/// The intersection of two unions of open intervals. The intervals of each union, and those of the
-/// result, are ascending and disjoint.
+/// The intersection of two unions of open intervals. In each argument and in the result the
+/// intervals are ascending and disjoint.
 template <class Scalar>
 std::vector<Interval<Scalar>> intersection(const std::vector<Interval<Scalar>>& first,
                                            const std::vector<Interval<Scalar>>& second) {
@@ -32,11 +32,11 @@ std::vector<Interval<Scalar>> intersection(const std::vector<Interval<Scalar>>& 
   return result;
 }
 
-/// The set of all x with c₀ + c₁ x + c₂ x² < 0, as up to two open intervals, ascending.
+/// The open intervals of x in which c₀ + c₁ x + c₂ x² < 0: none, one or two, ascending.
 ///
-/// The roots are q/c₂ and c₀/q with q = −(c₁ ± √(c₁² − 4 c₀ c₂))/2, the sign being the one without
-/// cancellation, so that c₂ may be small or zero. A double root does not divide an interval.
-/// @param quadratic  c₀, c₁, c₂, finite
+/// The roots are q/c₂ and c₀/q with q = −(c₁ ± √(c₁² − 4 c₀ c₂))/2. The sign ± is that of c₁, so
+/// that no digits cancel; c₂ may be 0. For c₂ < 0 a double root is not excluded from the result.
+/// @param quadratic  coefficients [c₀, c₁, c₂], finite
 template <class Scalar>
 std::vector<Interval<Scalar>> where_negative(const Vector<Scalar, 3>& quadratic) {
   constexpr Scalar unbounded = std::numeric_limits<Scalar>::infinity();

@@ -8,9 +8,8 @@
 
 namespace holdfast {
 
-/// The lanes of a number type: a scalar has one, a SIMD pack several. A pack type specialises this
-/// class and `MaskOf`. A kernel can then read and write `count` consecutive numbers at a time and
-/// pass a single lane to scalar code.
+/// The lanes of a number type: one for a scalar, several for a SIMD pack. A pack type specialises
+/// this class and `MaskOf`; generic code then reads or writes `count` consecutive numbers at once.
 template <class Scalar>
 struct Lanes {
   using Value = Scalar;                    ///< type of the number in one lane

@@ -15,16 +15,16 @@ struct Rational {
   std::int64_t denominator = 1;  ///< denominator q, ≥ 1
 };
 
-/// Fraction p/q in lowest terms that a rounded number represents, by continued fractions.
+/// Recovers the fraction p/q, in lowest terms, whose rounded value is given.
 ///
-/// A product such as f τ = 10 Hz · 0.011 s is rounded. The result is the first convergent with a
-/// relative difference of at most 10⁻¹³, here 11/100.
+/// A product such as f τ = 10 Hz · 0.011 s is rounded. The result is the first convergent of the
+/// value's continued fraction with a relative error of at most 10⁻¹³, here 11/100.
 ///
 /// @param value                number to be written as a fraction, |value| ≤ 9·10¹⁵
 /// @param largest_denominator  largest admissible q, ≥ 1
-/// @return nothing where no such convergent has q ≤ largest_denominator: two frequencies with this
-///         ratio are then treated as incommensurate
-/// @throws InvalidParameter when `value` is not finite or too large
+/// @return fraction; nullopt where that convergent has q > `largest_denominator`, so that the value
+///         may be treated as irrational
+/// @throws InvalidParameter when `value` is not finite or out of range
 inline std::optional<Rational> reconstruct_rational(double value,
                                                     std::int64_t largest_denominator) {
   require_within("value to be written as a fraction", value, "", -9.0e15, 9.0e15);

@@ -4,11 +4,11 @@
 
 namespace holdfast {
 
-/// The mask of a number type, by which kernels branch on data, for scalars and SIMD packs alike.
+/// The mask type of a number type: the type of the result of a comparison, for instance a < b.
 ///
-/// A kernel does not write `if (a < b)` for its number type; it computes a mask and selects. For a
-/// plain scalar the mask is `bool`. A pack type has its own overloads of `select`, `any` and `all`,
-/// found by argument-dependent lookup, and its own specialisation of `MaskOf`.
+/// Instead of branching by `if (a < b)`, numerical code computes a mask and calls select(). It is
+/// then valid for scalars and SIMD packs. A plain scalar's mask is `bool`. A pack type overloads
+/// `select`, `any` and `all`, found by argument-dependent lookup, and specialises `MaskOf`.
 template <class Scalar>
 struct MaskOf {
   using type = bool;  ///< type of the result of a comparison of two `Scalar`s

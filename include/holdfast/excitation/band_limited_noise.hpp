@@ -12,7 +12,7 @@
 
 namespace holdfast {
 
-/// A force of flat spectrum between two frequencies.
+/// Parameters of a random force with a flat spectrum between two frequencies.
 struct NoiseBand {
   double rms;              ///< root mean square σ (N) of the force, ≥ 0
   double lowest;           ///< lower end f_a (Hz) of the band, ≥ 0
@@ -32,24 +32,23 @@ inline void validate(const NoiseBand& band) {
   if (band.lines < 1) throw InvalidParameter("noise lines", band.lines, "", ">= 1");
 }
 
-/// Band-limited noise as a sum of n harmonics of equal amplitude and random phase. Their
-/// frequencies are the midpoints of n equal parts of the band:
+/// Band-limited noise F(t) as a sum of n harmonics of equal amplitude and random phase. The
+/// harmonics' frequencies are the midpoints of n equal parts of the band:
 ///
 ///     F(t) = Σ_{i=0}^{n−1} σ √(2/n) cos(2π f_i t + φ_i),
 ///     f_i = f_a + (i + ½) Δ,   Δ = (f_b − f_a)/n,   φ_i independent, uniform in [0, 2π)
 ///
-/// The one-sided power density of F, in the mean over each of the n parts, is σ²/(f_b − f_a);
-/// outside the band it is zero. Over all phases F(t) has mean 0 and variance σ² at every t, and
-/// F(t) tends to a Gaussian as n grows. Each F has mean square σ² over a long time; |F| ≤ √(2n) σ.
+/// The one-sided power spectral density of F, averaged over each of the n parts, is σ²/(f_b − f_a).
+/// Outside the band it is zero. At every t, F(t) has mean 0 and variance σ² over all random phases,
+/// and its distribution tends to a Gaussian one as n grows. With fixed phases, the mean square of F
+/// over a long time is σ², and |F| ≤ √(2n) σ.
 ///
-/// Repetition: in T = n/(f_b − f_a) seconds all harmonics turn by the same angle 2π (f_a T + ½)
-/// beyond whole cycles, so that the envelope of F repeats every T. F(t + T) = F(t) where f_a T + ½
-/// is an integer, F(t + T) = −F(t) where f_a T is an integer. For n ≥ 2 the least period of F is
-/// q T where f_a T + ½ = p/q in lowest terms; where f_a T is irrational F has no period. F does not
-/// repeat within a motion no longer than T: take n ≥ (f_b − f_a) times the motion's duration.
+/// Repetition: the harmonics are Δ apart, so that the envelope of F repeats after T = 1/Δ. For
+/// n ≥ 2, F itself repeats after q T, where f_a T + ½ = p/q in lowest terms, and never if f_a T is
+/// irrational. To avoid repetition within a motion, take n ≥ (f_b − f_a) times its duration.
 ///
-/// φ_i is 2π times the upper 53 bits of output i of `std::mt19937_64`, read as a binary fraction.
-/// Equal seeds give equal phases with every standard library.
+/// φ_i is 2π times the upper 53 bits of output i of `std::mt19937_64`, divided by 2⁵³. Equal seeds
+/// give equal phases with every C++ standard library.
 ///
 /// Source: Shinozuka and Deodatis 1991, Applied Mechanics Reviews 44, simulation of stochastic
 /// processes by spectral representation.

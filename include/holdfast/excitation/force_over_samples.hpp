@@ -16,25 +16,26 @@
 
 namespace holdfast {
 
-/// Bounds of a force F and its derivatives, |F|, |Ḟ|, |F̈| (N, N/s, N/s²), over all times.
+/// Upper bounds, over all times, of a force and its first and second time derivatives.
 struct ForceBounds {
   double value,     ///< bound of |F| (N)
       rate,         ///< bound of |Ḟ| (N/s)
       second_rate;  ///< bound of |F̈| (N/s²)
 };
 
-/// An instant at a fixed time after every sample.
+/// A fixed time after every sample, with the precomputed cosines and sines of the harmonics there.
 struct PeriodInstant {
   double after;  ///< time after the sample (s)
   /// Cosine and sine of the angle ω_l · `after` + φ_l of each harmonic l.
   std::vector<ExcitationSample<double>> turned;
 };
 
-/// The excitation over the sampling periods, held at its value at each sample or followed exactly.
+/// The excitation force F in each sampling period, as a function of the time since the sample. It
+/// is held at its value at the sample or follows F(t) (`ForceHold`).
 class ForceOverSamples {
  public:
   /// @param force            excitation F(t), admissible
-  /// @param hold             whether all of F, record included, is held from sample to sample
+  /// @param hold             whether all of F, its record included, is held between samples
   /// @param sampling_period  sampling period τ (s), > 0
   ForceOverSamples(const MultiHarmonicForce& force, ForceHold hold, double sampling_period)
       : force_(force), hold_(hold) {
@@ -45,7 +46,7 @@ class ForceOverSamples {
     phases_.resize(turning_.size());
   }
 
-  /// Starts sample j = `index` at `time` (s); to be called at every sample.
+  /// Begins the period of sample j = `index` at t_j = `time` (s); to be called at every sample.
   void begin_sample(std::int64_t index, double time) {
     time_ = time;
     if (hold_ == ForceHold::sampled) {
@@ -60,12 +61,12 @@ class ForceOverSamples {
     last_ = index;
   }
 
-  /// The force F (N) at the time `after` (s) since the sample, before the next sample.
+  /// The force F (N) at t_j + `after` (s), which must precede the next sample.
   double at(double after) const {
     return hold_ == ForceHold::sampled ? held_ : force_.at(time_ + after);
   }
 
-  /// Instant at the time `after` (s) after every sample, prepared for at(const PeriodInstant&).
+  /// Prepares the instant `after` (s) after every sample for at(const PeriodInstant&).
   PeriodInstant instant(double after) const {
     PeriodInstant instant{after, {}};
     for (const Harmonic& line : force_.harmonics) {
@@ -75,7 +76,8 @@ class ForceOverSamples {
     return instant;
   }
 
-  /// Force F (N) at a prepared instant, by two multiply-adds per harmonic; not with jitter.
+  /// The force F (N) at a prepared instant, by two multiply-adds per harmonic. It is valid only
+  /// without jitter; otherwise call at(double).
   double at(const PeriodInstant& instant) const {
     if (hold_ == ForceHold::sampled) return held_;
     if (force_.record) return force_.at(time_ + instant.after);
@@ -86,23 +88,26 @@ class ForceOverSamples {
     return sum;
   }
 
-  /// Force (N) that is held over the period; 0 for a force that is not held.
+  /// The force (N) that is held over the sampling period; 0 if the force is not held.
   double held() const { return hold_ == ForceHold::sampled ? held_ : 0.0; }
 
-  /// The phasors F_l cos ω_l t_j, F_l sin ω_l t_j of all harmonics l; empty if the force is held.
+  /// The phasors F_l cos(ω_l j τ), F_l sin(ω_l j τ) of all harmonics l, without their phases φ_l,
+  /// at sample j; empty if the force is held.
   const std::vector<ExcitationSample<double>>& phases() const { return phases_; }
 
-  /// Whether `held()` and `phases()` describe the whole force; false for a record not held.
+  /// Whether `held()` and `phases()` give the whole force; false only if a record is not held.
   bool is_regular() const { return hold_ == ForceHold::sampled || !force_.record; }
 
-  /// Computes the coefficients F_k (N) of F(t_j + after + x length) = Σ F_k x^k; times in s.
+  /// Computes the Taylor coefficients F_k (N) of F(t_j + after + x length) = Σ_k F_k xᵏ. The times
+  /// `after` and `length` are in s.
   void expand(double after, double length, Series& coefficients) const {
     if (hold_ == ForceHold::exact) return force_.expand(time_ + after, length, coefficients);
     coefficients.setZero();
     coefficients[0] = held_;
   }
 
-  /// First instant (s after the sample) later than `after` at which the force may jump or kink.
+  /// The first time after the sample (s), later than `after`, at which the force may jump or kink
+  /// because of its record; +∞ if there is none or the force is held.
   double next_break(double after) const {
     if (hold_ == ForceHold::sampled || !force_.record)
       return std::numeric_limits<double>::infinity();
@@ -115,7 +120,7 @@ class ForceOverSamples {
     return hold_ == ForceHold::exact ? force_.highest_angular_frequency() : 0.0;
   }
 
-  /// The bounds of the force; the bounds of its derivatives are valid only if is_regular().
+  /// The bounds of F and its derivatives; those of the derivatives are valid only if is_regular().
   ForceBounds bounds() const {
     ForceBounds bounds{0.0, 0.0, 0.0};
     const double rate = hold_ == ForceHold::exact ? 1.0 : 0.0;

@@ -16,12 +16,11 @@
 
 namespace holdfast {
 
-/// The contributions of a harmonic excitation to the state, one sampling period after the other:
+/// The contributions of a harmonic excitation to the plant's state, one for each sampling period j:
 ///
 ///     F_m (g_c cos ω t_j + g_s sin ω t_j),   j = 0, 1, 2, …
 ///
-/// Work: 4 + 2 N multiply-adds per period; a cosine and a sine once in `PhasorTable::block`
-/// periods.
+/// Work: 4 + 2 N multiply-adds per period; a cosine and a sine per `PhasorTable::block` periods.
 /// @tparam States  N, the order of the plant
 template <class Scalar, int States = 4>
 class HarmonicForcing {
@@ -46,8 +45,8 @@ class HarmonicForcing {
   std::int64_t index_ = 0;
 };
 
-/// The harmonic forcing read from a PhasorTable, which must outlive this object. Motions may share
-/// a table. The caller prepares it, so that `next` need not check whether the table is ready.
+/// The harmonic forcing of a plant of order 4, read from a PhasorTable. The table must outlive this
+/// object and may be shared by several motions. The caller prepares it; `next` does not check this.
 template <class Scalar>
 class PhasorForcing {
  public:
@@ -62,15 +61,15 @@ class PhasorForcing {
   std::size_t index_ = 0;
 };
 
-/// Harmonic forcing with f τ = p/q (frequency f, sampling period τ), which repeats every q samples:
-/// a table of q contributions, shared by copies.
+/// A harmonic forcing that repeats every q samples, since f τ = p/q (frequency f, sampling period
+/// τ). Its table of q contributions is shared by all copies of the object.
 /// @tparam States  N, the order of the plant
 template <class Value, int States = 4>
 class PeriodicForcing {
  public:
   /// @param input      responses g_c and g_s of the state per newton, N × 1
   /// @param amplitude  amplitude F_m (N)
-  /// @param ratio      f τ = p/q in lowest terms, q ≥ 1; exact, so that the phase does not drift
+  /// @param ratio      f τ = p/q in lowest terms, q ≥ 1; as a fraction, so that no rounding adds up
   /// @throws InvalidParameter unless 1 ≤ q ≤ 10⁹
   PeriodicForcing(const HarmonicInput<Value, States>& input, const Value& amplitude,
                   const Rational& ratio)
@@ -90,9 +89,9 @@ class PeriodicForcing {
 
   /// The number q of sampling periods after which the forcing repeats.
   std::size_t samples() const { return additions_->size(); }
-  /// The number of sampling periods since sampling and forcing were in phase, 0 … q − 1.
+  /// The index, 0 … q − 1, of the contribution that next() returns next.
   std::size_t phase() const { return phase_; }
-  /// The q contributions (N × 1), in the order of the phases 0 … q − 1.
+  /// The q contributions (N × 1), by their index 0 … q − 1.
   const std::vector<Vector<Value, States>>& additions() const { return *additions_; }
 
  private:

@@ -16,8 +16,8 @@ struct Harmonic {
   /// The angular frequency ω = 2π f (rad/s).
   double angular_frequency() const { return 2.0 * pi<double> * frequency; }
 
-  /// Angle 2π f t + φ (rad) without the whole cycles of f t. The error is a few round-offs of
-  /// 2π + |φ| for any time t (s).
+  /// The angle 2π f t + φ (rad) at a time t (s), reduced by the whole cycles in f t. Its error is a
+  /// few round-offs of 2π + |φ|, however large t is.
   double angle(double time) const {
     const double cycles = frequency * time;
     const double rounded_off = std::fma(frequency, time, -cycles);

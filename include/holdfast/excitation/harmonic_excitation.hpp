@@ -15,11 +15,11 @@ struct HarmonicExcitation {
   Scalar angular_frequency() const { return Scalar(2) * pi<Scalar> * frequency; }
 };
 
-/// The excitation's cosine and sine at one sample, times its amplitude (N).
+/// The phasor of a harmonic excitation at a sample j. A unit phasor has F_m = 1 without unit.
 template <class Scalar>
 struct ExcitationSample {
-  Scalar cosine;  ///< F_m cos ω t_j (N); the cosine alone in a unit phasor
-  Scalar sine;    ///< F_m sin ω t_j (N); the sine alone in a unit phasor
+  Scalar cosine;  ///< F_m cos ω t_j (N)
+  Scalar sine;    ///< F_m sin ω t_j (N)
 };
 
 /// Validates an excitation. @throws InvalidParameter unless F_m ≥ 0 and f > 0, both finite

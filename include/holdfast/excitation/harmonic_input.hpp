@@ -9,30 +9,30 @@
 
 namespace holdfast {
 
-/// The course of a force over a sampling period.
+/// The excitation force within a sampling period: held or varying.
 enum class ForceHold {
-  sampled,  ///< held at its value at the sample, as in Kollár 2022
-  exact,    ///< F(t) itself, integrated exactly
+  sampled,  ///< held at its value F(t_j) at the sample, as in Kollár 2022
+  exact,    ///< F(t), whose response is integrated exactly
 };
 
-/// The response of a plant of order N to a force F(t) = F_m cos(ω t) over one sampling period,
+/// The response of a plant of order N to a force F(t) = F_m cos(ω t) over one sampling period, as
+/// it is added to the state z_{j+1}:
 ///
-///     z_{j+1} = … + F_m (cosine · cos(ω t_j) + sine · sin(ω t_j))
-///
-/// The response has this form for both kinds of ForceHold.
+///     F_m (cosine · cos(ω t_j) + sine · sin(ω t_j))      for both kinds of ForceHold
 template <class Scalar, int States = 4>
 struct HarmonicInput {
   Vector<Scalar, States> cosine;  ///< response g_c per newton of F_m cos(ω t_j), N × 1
   Vector<Scalar, States> sine;    ///< response g_s per newton of F_m sin(ω t_j), N × 1
 };
 
-/// The response to the exact force in one sampling period, ∫₀^τ e^{A(τ−s)} c cos(ω(t_j + s)) ds.
+/// The response of a plant over a sampling period to the force cos(ω t), not held:
+/// ∫₀^τ e^{A(τ−s)} c cos(ω(t_j + s)) ds = g_c cos(ω t_j) + g_s sin(ω t_j).
 ///
-/// The force is the output of an oscillator, so that one matrix exponential contains the integral:
+/// The force is the output of an oscillator, so that one matrix exponential contains g_c and g_s:
 ///
 ///     d/dt [z; cos ωt; sin ωt] = [A c 0; 0 0 −ω; 0 ω 0] [z; cos ωt; sin ωt]
 ///
-/// The result differs from that of the held force by O(τ) in phase and O(τ²) in amplitude as τ → 0.
+/// As τ → 0, the response to the held force differs by O(τ) in phase and O(τ²) in amplitude.
 /// @param a                  state matrix A, N × N (1/s)
 /// @param c                  input column c, N × 1 per newton of F
 /// @param period             sampling period τ (s), ≥ 0
@@ -59,8 +59,8 @@ HarmonicInput<Scalar, States> exact_harmonic(const Matrix<Scalar, States>& a,
           whole.template block<States, 1>(0, n + 1, n, 1)};
 }
 
-/// The input of a harmonic force whose phase is ahead by `angle` (rad):
-/// g_c cos(θ + angle) + g_s sin(θ + angle) = cosine' cos θ + sine' sin θ.
+/// The harmonic input (g_c′, g_s′) of a force whose phase is advanced by `angle` = α (rad):
+/// g_c cos(θ + α) + g_s sin(θ + α) = g_c′ cos θ + g_s′ sin θ for all θ.
 template <class Scalar, int States>
 HarmonicInput<Scalar, States> ahead_by(const Scalar& angle,
                                        const HarmonicInput<Scalar, States>& input) {

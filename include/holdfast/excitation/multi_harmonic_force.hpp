@@ -60,7 +60,7 @@ struct MultiHarmonicForce {
     return force;
   }
 
-  /// The first instant after `time` (s) at which F may jump or kink; +∞ where there is none.
+  /// The first instant (s) after `time` (s) at which F may jump or kink; +∞ if there is none.
   double next_break(double time) const {
     return record ? record->next_break(time) : std::numeric_limits<double>::infinity();
   }
@@ -77,14 +77,14 @@ struct MultiHarmonicForce {
   /// Computes the Taylor coefficients f_k, k = 0 … size − 1, of the force just after an instant:
   ///
   ///     F(time + x length) = Σ_k f_k xᵏ      for 0 ≤ x length < next_break(time) − time
-  ///     f_k = lengthᵏ/k! Σ_i ω_iᵏ F_i cos(ω_i time + φ_i + k π/2), + the record's line for k ≤ 1
+  ///     f_k = lengthᵏ/k! Σ_i ω_iᵏ F_i cos(ω_i time + φ_i + k π/2),   ω_i = 2π f_i
   ///
-  /// For 0 ≤ x ≤ 1 the sum of the omitted terms is at most Σ_i F_i (ω_i length)ˢⁱᶻᵉ/size!.
-  /// Work: a cosine, a sine and 3·size multiply-adds for each harmonic, 3·size more in all, and a
-  /// binary search in the record.
+  /// The recorded force is piecewise linear and adds to f_0 and f_1. For 0 ≤ x ≤ 1 the omitted
+  /// terms k ≥ n = size sum up to at most Σ_i F_i (ω_i length)ⁿ/n!. Work: a cosine, a sine and 3 n
+  /// multiply-adds per harmonic, and a binary search in the record.
   /// @param time          instant (s)
-  /// @param length        unit (s) of x; the series converges fast for lengths up to about 1/ω_i
-  /// @param coefficients  f (N), a vector of fixed or dynamic size; all entries are written
+  /// @param length        time (s) for x = 1; up to about 1/ω_i the series converges fast
+  /// @param coefficients  output: f_k (N), a vector of fixed or dynamic size
   template <class Coefficients>
   void expand(double time, double length, Eigen::MatrixBase<Coefficients>& coefficients) const {
     static_assert(Coefficients::IsVectorAtCompileTime, "the coefficients must be a vector");

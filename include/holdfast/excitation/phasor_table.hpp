@@ -42,11 +42,12 @@ ExcitationSample<Scalar> unit_phasor_series(const Scalar& x) {
 
 }  // namespace detail
 
-/// Computes cos 2πx and sin 2πx for scalars and packs, to about 2·10⁻¹⁶. For types wider than
-/// `double` their own cos and sin are called, with full precision.
+/// Computes cos 2πx and sin 2πx for scalars and SIMD packs, with an error of about 2·10⁻¹⁶. A type
+/// of more digits than `double` uses its own cos and sin.
 ///
-/// Subtracting quarter turns, without rounding, leaves |x| ≤ 1/8. There Taylor's series to the
-/// sixteenth power errs by less than 5·10⁻¹⁷. Work: 22 multiply-adds, 10 comparisons and selects.
+/// Whole quarter turns are subtracted from x without rounding. For the remaining |x| ≤ 1/8 Taylor's
+/// series up to the sixteenth power has an error below 5·10⁻¹⁷. Work: 22 multiply-adds, 10
+/// comparisons and selects.
 /// @param x  number of cycles, 0 … 1
 template <class Scalar>
 ExcitationSample<Scalar> unit_phasor(const Scalar& x) {
@@ -61,11 +62,11 @@ ExcitationSample<Scalar> unit_phasor(const Scalar& x) {
   }
 }
 
-/// The phasor F_m cos ω t_j, F_m sin ω t_j of a harmonic at the samples j = 0, 1, 2, …; in a pack,
-/// one harmonic in each lane.
+/// The phasor F_m cos ω t_j, F_m sin ω t_j of a harmonic at the samples j = 0, 1, 2, …. A SIMD pack
+/// has one harmonic in each lane.
 ///
-/// A cosine and a sine are computed at samples J, multiples of `block`. For samples J + k the pair
-/// is turned by fixed angles, e^{iω(J+k)τ} = e^{iωJτ} e^{iωkτ}: rounding does not grow with j.
+/// The phasor is computed directly at the samples J that are multiples of `block`, and by rotation
+/// at the samples J + k, e^{iω(J+k)τ} = e^{iωJτ} e^{iωkτ}. Thus rounding errors do not grow with j.
 template <class Scalar>
 class RotatingPhasor {
  public:
@@ -79,13 +80,13 @@ class RotatingPhasor {
     for (std::size_t k = 0; k < block; ++k) turns_[k] = turn_at(static_cast<std::int64_t>(k));
   }
 
-  /// Prepares `block` periods, the first being `index`; to be called if `block` divides `index`.
+  /// Prepares the `block` sampling periods from j = `index` on; `index` is a multiple of `block`.
   void turn_to(std::int64_t index) {
     const ExcitationSample<Scalar> turn = turn_at(index);
     base_ = {amplitude_ * turn.cosine, amplitude_ * turn.sine};
   }
 
-  /// Phasor `k` (< block) periods after the `index` of the last turn_to(). Work: 4 multiply-adds.
+  /// The phasor at sample `index` + k, 0 ≤ k < `block`, after turn_to(index): 4 multiply-adds.
   ExcitationSample<Scalar> at(std::size_t k) const {
     const ExcitationSample<Scalar>& turn = turns_[k];
     return {turn.cosine * base_.cosine - turn.sine * base_.sine,
@@ -106,8 +107,8 @@ class RotatingPhasor {
   ExcitationSample<Scalar> base_{Scalar(0), Scalar(0)};
 };
 
-/// The harmonic forcing of a motion. In a pack every lane is another motion, with its own input,
-/// amplitude, frequency and sampling period:
+/// The contributions of a harmonic force to the plant's state, one for each sampling period j. In a
+/// SIMD pack every lane has its own plant input, amplitude, frequency and sampling period:
 ///
 ///     F_m (g_c cos ω t_j + g_s sin ω t_j),   j = 0, 1, 2, …
 /// @tparam States  N, the order of the plant
@@ -125,11 +126,11 @@ class PhasorTable {
               const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
       : input_(input), phase_(excitation, sampling_period) {}
 
-  /// Prepares `block` periods, the first being `index`; to be called if `block` divides `index`.
+  /// Prepares the `block` sampling periods from j = `index` on; `index` is a multiple of `block`.
   void turn_to(std::int64_t index) { phase_.turn_to(index); }
 
-  /// The contribution (N × 1) to the state over the period that is `k` (< block) after the
-  /// `index` of the last turn_to(): 4 + 2 N multiply-adds.
+  /// The contribution (N × 1) of sampling period `index` + k, 0 ≤ k < `block`, with the `index` of
+  /// the last turn_to(). Work: 4 + 2 N multiply-adds.
   Vector<Scalar, States> addition(std::size_t k) const {
     const ExcitationSample<Scalar> now = phase_.at(k);
     return input_.cosine * now.cosine + input_.sine * now.sine;

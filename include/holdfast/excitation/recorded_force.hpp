@@ -17,10 +17,10 @@ enum class RecordInterpolation : std::uint8_t {
   held     ///< the force of the earlier row
 };
 
-/// The line value + slope (t − time) that a force follows from the instant `time`.
+/// The straight line value + slope (t − t₀) that a force F(t) follows from an instant t₀ on.
 struct LinearPiece {
-  double value;  ///< force at `time` (N)
-  double slope;  ///< slope (N/s)
+  double value;  ///< force at t₀ (N)
+  double slope;  ///< slope dF/dt (N/s)
 };
 
 /// A force given by rows (t_k, F_k), k = 0 … n − 1, and zero before and after these times:
@@ -39,8 +39,8 @@ class RecordedForce {
   /// @param forces         forces F_k (N), one for each time
   /// @param interpolation  interpolation between the rows
   /// @throws InvalidParameter for fewer than two rows, unequal numbers of times and forces, values
-  ///         that are not finite, times that do not increase, rows too far apart for their
-  ///         difference to be finite
+  ///         that are not finite, times that do not increase, and where a duration or a
+  ///         slope between rows is not finite
   RecordedForce(std::vector<double> times, std::vector<double> forces,
                 RecordInterpolation interpolation)
       : times_(std::move(times)), forces_(std::move(forces)), interpolation_(interpolation) {
@@ -67,8 +67,7 @@ class RecordedForce {
   /// The force F (N) at a time (s).
   double at(double time) const { return piece(time).value; }
 
-  /// The line that the force follows from `time` (s), in powers of t − `time`; it is valid up to
-  /// `next_break(time)`.
+  /// The line that the force follows from t₀ = `time` (s) up to `next_break(time)`.
   LinearPiece piece(double time) const {
     const std::size_t after = first_row_after(time);
     if (after == 0 || after == times_.size()) return {0.0, 0.0};
@@ -78,8 +77,8 @@ class RecordedForce {
     return {forces_[row] + slope * (time - times_[row]), slope};
   }
 
-  /// The first instant (s) after `time` at which another line begins: the time of the next row,
-  /// even if this row lies on the previous line; +∞ at and after the last row.
+  /// The first instant (s) after `time` at which F may jump or kink: the time of the next row, even
+  /// if F is smooth there; +∞ at and after the last row.
   double next_break(double time) const {
     const std::size_t after = first_row_after(time);
     return after == times_.size() ? std::numeric_limits<double>::infinity() : times_[after];
@@ -111,7 +110,7 @@ class RecordedForce {
     require_finite("recorded force", forces_[row], "N");
     if (row > 0 && !(times_[row] > times_[row - 1])) {
       throw InvalidParameter("time of the recorded force", times_[row], "s",
-                             "later than that of the row before");
+                             "later than the time of the row before");
     }
   }
 

@@ -11,7 +11,7 @@
 
 namespace holdfast {
 
-/// The dense output of an EventMotion: its state between two samples, at any instant.
+/// The dense output of an EventMotion: the state at any instant between two samples.
 ///
 ///     DenseOutput<Contact> trace(motion);
 ///     motion.sense();
@@ -19,12 +19,11 @@ namespace holdfast {
 ///     motion.advance(trace);
 ///     trace.state(0.5 * tau);
 ///
-/// The motion must outlive the trace and not be moved. Work: one Taylor series
-/// (motion/taylor_step.hpp) for each Part.
+/// The motion must outlive this object unmoved. Work: a Taylor series (taylor_step.hpp) per Part.
 template <class Contact>
 class DenseOutput {
  public:
-  /// The state type of the motion, x: N × 1.
+  /// The type of the motion's state x, N × 1.
   using State = typename EventMotion<Contact>::State;
 
   /// A part of a sampling period under one contact mode and command, with one Taylor series.
@@ -39,28 +38,28 @@ class DenseOutput {
   explicit DenseOutput(const EventMotion<Contact>& motion)
       : motion_(&motion), state_(motion.state()) {}
 
-  /// Starts a sampling period; to be called after `sense()` and before `advance(trace)`.
+  /// Begins a sampling period; to be called after `sense()` and before `advance(trace)`.
   void begin() {
     parts_.clear();
     state_ = motion_->state();
     command_ = motion_->previous_command();
   }
 
-  /// The state (N × 1) at the time `after` (s) since the sample, up to the next sample.
+  /// The state (N × 1) at the time `after` (s) since the sample, ≥ 0 and at most the period.
   State state(double after) const {
     const Part& part = part_at(after);
     return part.state.state(
         part.length > 0.0 ? std::clamp((after - part.begin) / part.length, 0.0, 1.0) : 0.0);
   }
 
-  /// The contact mode `after` (s) the sample; at the instant of a change, the new mode.
+  /// The contact mode at the time `after` (s) since the sample; at a change, the new mode.
   ContactMode mode(double after) const { return part_at(after).mode; }
 
   /// The parts of the sampling period, in order and without gaps.
   const std::vector<Part>& parts() const { return parts_; }
 
-  /// Adds a part of the period; called by EventMotion::advance when it has passed that part. The
-  /// part begins `begin` (s) after the sample and is `length` (s) long, in one mode.
+  /// Adds a time interval in one mode, which begins `begin` (s) after the sample and is `length`
+  /// (s) long; called by EventMotion::advance at its end.
   void flowed(int mode, double begin, double length) {
     const double rate = motion_->rate(mode);
     double reached = begin;
@@ -78,9 +77,9 @@ class DenseOutput {
       reached = part == end - reached ? end : reached + part;
     } while (reached < end);
   }
-  /// Puts the command u_j in force; called by EventMotion::advance at t_j + δ.
+  /// Replaces the command u_{j−1} by u_j; called by EventMotion::advance after the delay δ.
   void commanded() { command_ = motion_->command(); }
-  /// Does nothing; called at a change of contact, after which the next part shows the new mode.
+  /// Does nothing; called by EventMotion::advance at a change of contact.
   template <class Instant>
   void switched(int, int, int, const Instant&) {}
 

@@ -29,9 +29,9 @@ double static_deflection(const Plant& plant, double force) {
 
 }  // namespace detail
 
-/// The size (m, m/s) beyond which a motion of a loop counts as diverging: 10¹² times the sum of
-/// y, ω y, r₀ and the largest |entry| of the initial state. Here y (m) is the static deflection
-/// under the largest force and ω (rad/s) the highest angular frequency of the force.
+/// The largest |entry| of the state (m, m/s) beyond which a motion counts as diverging: 10¹² times
+/// y + ω y + r₀ + (largest |entry| of the initial state). y (m): static deflection under the
+/// largest force; ω (rad/s): highest frequency of the force; r₀ (m): backlash width.
 /// @param loop   an admissible loop
 /// @param state  the initial state, N × 1, finite
 template <class Plant>
@@ -47,9 +47,10 @@ double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plan
   return 1e12 * std::max(scale, 1e-100);
 }
 
-/// The divergence bound of a conductor given by its modes; y (m) is the deflection at the absorber.
+/// The divergence bound of a conductor given by its modes, in the same form: y is the static
+/// deflection at the absorber under the force amplitude.
 /// @param loop   an admissible loop
-/// @param state  the initial state of `modal_plant`
+/// @param state  the initial state of the plant of `loop`
 inline double divergence_bound(const ModalLoop& loop, const NaturalMotions::Full& state) {
   const double bend = receptance(loop.modes, std::complex<double>(0.0)).real();
   const double deflection = loop.excitation.amplitude * bend;

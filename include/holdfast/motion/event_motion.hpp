@@ -28,11 +28,11 @@
 
 namespace holdfast {
 
-/// A sample of an EventMotion, with the contact mode that begins there.
+/// A sample of an EventMotion: state, transmitted force and contact mode at t_j.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct EventSampleOf : MotionSample<double, States> {
-  ContactMode mode;  ///< contact mode from t_j on; `engaged` is true only for ContactMode::engaged
+  ContactMode mode;  ///< contact mode just after t_j; MotionSample::engaged is (mode == engaged)
 };
 
 /// A sample of the motion of two masses.
@@ -40,34 +40,32 @@ using EventSample = EventSampleOf<4>;
 
 /// The counts of contact changes in a motion.
 struct SwitchCounts {
-  std::array<std::int64_t, 3> entered{};  ///< number of times that each mode began
-  std::int64_t grazing = 0;  ///< number of changes at which a guard touches zero, within rounding
-  bool accumulates = false;  ///< whether a sampling period had more than `most_switches` changes:
-                             ///< later changes in that period were not followed, and the motion is
-                             ///< invalid afterwards
+  std::array<std::int64_t, 3> entered{};  ///< number of changes into each mode, by ContactMode
+  std::int64_t grazing = 0;  ///< number of changes at which a guard only touches zero (tangential)
+  bool accumulates = false;  ///< whether a sampling period had more than `most_switches` changes;
+                             ///< the later ones were ignored and the motion is then invalid
 };
 
-/// The observer of EventMotion::advance that ignores what happens between the samples.
+/// An observer for EventMotion::advance that does nothing.
 struct IgnoreFlow {
-  /// Called for each part of the sampling period: number of the mode, begin (s after the sample)
-  /// and length (s).
+  /// Called after each time interval in one contact mode, with the number of the mode, the
+  /// beginning (s after the sample) and the length (s).
   void flowed(int, double, double) const {}
-  /// Called at t_j + δ, where the command u_j replaces u_{j−1}.
+  /// Called at t_j + δ, after the processing delay δ: the command u_j replaces u_{j−1}.
   void commanded() const {}
-  /// Called at a change of contact: mode before, mode after, number of the guard that reached zero
-  /// (−1: a jump of the command or the force), instant.
+  /// Called at a change of contact, with the mode before, the mode after, the number of the guard
+  /// that reached zero (−1: a jump of command or force) and the ContactInstantOf before the change.
   template <class Instant>
   void switched(int, int, int, const Instant&) const {}
 };
 
-/// The motion of the sampled loop whose contact may change between the samples.
+/// The motion of a sampled loop whose contact may change between the samples.
 ///
-/// As in SampledMotion, `sense()` takes a sample and decides the command u_j. `advance()` moves to
-/// the next sample, under u_{j−1} until t_j + δ and then under u_j. If a bound proves that no guard
-/// reaches zero in one of these two parts of the period, constant exact matrices move the state
-/// over the whole part. Otherwise the state follows its Taylor series, in which the first
-/// root of every guard is found (math/roots/first_root.hpp). So no change of contact is passed
-/// over.
+/// `sense()` takes a sample and computes the command u_j. `advance()` moves to the next sample, in
+/// two parts: under u_{j−1} until t_j + δ, then under u_j. The contact changes where a guard
+/// (GuardOf) reaches zero. In a part for which a bound excludes this, the exact transition matrix
+/// advances the state to the end of the part. Otherwise the state is expanded in Taylor series and
+/// the first root of every guard is found (first_root.hpp), so that no change is missed.
 ///
 /// Work per sample without a change of contact: about 80 multiply-adds and a square root; per
 /// change some 2000 multiply-adds more. No memory is allocated.
@@ -85,11 +83,11 @@ class EventMotion {
   using Dynamics = AffineDynamicsOf<states>;  ///< equations of motion in one mode
   using Expansion = TaylorStep<states>;       ///< Taylor series of the motion
 
-  /// The largest number of contact changes that are followed in one sampling period.
+  /// The largest number of contact changes that are computed in one sampling period.
   static constexpr int most_switches = 1000;
 
-  /// @throws InvalidParameter where the loop is not admissible, ‖A‖ τ or ω τ exceeds
-  /// `ModeMotion::most_turns_per_sample`, or the state is not finite or of another size
+  /// Constructs the motion before its first sample. @throws InvalidParameter where the loop or
+  /// state is not admissible, or motion or force is too fast (`ModeMotion::most_turns_per_sample`)
   EventMotion(const DigitalLoop& loop, const Contact& contact, const State& initial_state)
       : loop_(loop),
         readings_(contact.readings()),
@@ -108,7 +106,7 @@ class EventMotion {
       instants_.push_back(force_.instant(after));
   }
 
-  /// Takes sample j: computes u_j and, with switching at samples, the contact; once per sample.
+  /// Takes sample j, computes the command u_j and updates the contact; called once per sample.
   Sample sense() {
     const double elapsed = index_ > 0 ? clock_.period_of(index_ - 1) : loop_.sampling.period;
     force_.begin_sample(index_, time());
@@ -128,14 +126,14 @@ class EventMotion {
     return sample;
   }
 
-  /// Advances from t_j to t_{j+1} under the command that the last `sense()` decided.
+  /// Advances from t_j to t_{j+1} under u_{j−1} and, from t_j + δ on, under u_j of `sense()`.
   void advance() { advance(IgnoreFlow()); }
 
-  /// Advances to the next sample and calls an observer, as in motion/variational_flow.hpp:
+  /// Advances to the next sample and calls these members of an observer, as in IgnoreFlow:
   ///
-  ///     flowed(mode, begin, length)             a part of the period in one mode, s after t_j
-  ///     commanded()                             at t_j + δ: u_j takes the place of u_{j−1}
-  ///     switched(from, to, guard, instant)      a change of contact, with the state before it
+  ///     flowed(mode, begin, length)             after a time interval in one mode; s after t_j, s
+  ///     commanded()                             at t_j + δ: u_j replaces u_{j−1}
+  ///     switched(from, to, guard, instant)      at a contact change; instant: state before it
   template <class Observer>
   void advance(Observer&& observer) {
     const double period = clock_.period_of(index_), delay = loop_.sampling.processing_delay;
@@ -149,7 +147,7 @@ class EventMotion {
     ++index_;
   }
 
-  /// Adds a displacement (m) to the conductor now; to be called before `sense()`.
+  /// Adds a displacement (m) to the conductor at the present sample, before `sense()` takes it.
   void displace_conductor(double displacement) {
     readings_.displace_conductor(state_, displacement);
     contact_.displaced();
@@ -161,15 +159,15 @@ class EventMotion {
   double time() const { return clock_.time(index_); }
   /// The state x_j, N × 1; for two masses z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
   const State& state() const { return state_; }
-  /// The command u_{j−1} (N), which is in force until t_j + δ.
+  /// The command u_{j−1} (N), in force until t_j + δ, the end of the processing delay.
   double previous_command() const { return previous_command_; }
   /// The command u_j (N), available after `sense()` took sample j.
   double command() const { return command_; }
-  /// The contact, in its present mode.
+  /// The contact of the drive, in its present mode.
   const Contact& contact() const { return contact_; }
   /// The functions that read displacements and velocities from the plant's state.
   const PortReadings<Plant>& readings() const { return readings_; }
-  /// The controller with its memory of past samples.
+  /// The controller, which stores the reading of the last sample.
   const auto& controller() const { return controller_; }
   /// The digital side and the excitation, as passed to the constructor.
   const DigitalLoop& loop() const { return loop_; }
@@ -179,7 +177,7 @@ class EventMotion {
   const ForceOverSamples& force() const { return force_; }
   /// The length h_j = t_{j+1} − t_j (s) of the present sampling period.
   double period() const { return clock_.period_of(index_); }
-  /// The rate (1/s) of a mode: Taylor series are exact to rounding over lengths up to 1/rate.
+  /// The rate (1/s) of a mode, given by its number: a Taylor series may cover a time up to 1/rate.
   double rate(int mode) const { return modes_[at(mode)].rate(); }
   /// The equations of motion in a mode of the contact, given by its number.
   const Dynamics& dynamics(int mode) const { return modes_[at(mode)].dynamics(); }
@@ -187,12 +185,12 @@ class EventMotion {
   /// Resets the counts of contact changes to zero.
   void restart_counts() { counts_ = {}; }
 
-  /// Sets the displacement (m) that the controller remembers as its reading at the previous sample.
+  /// Sets the displacement (m) that the controller stores as its reading at the previous sample.
   void remember_reading(double displacement) { controller_.restore({displacement, true}); }
 
-  /// Sets the motion to sample `index` with a state, a command in force until t_j + δ, and a
-  /// contact. The controller's last reading is not changed.
-  /// @throws InvalidParameter where the state has another size
+  /// Sets the motion to sample j = `index`, with the state (N × 1), the command u_{j−1} (N) and the
+  /// contact. The reading that the controller stores is not changed: see remember_reading().
+  /// @throws InvalidParameter where the state has the wrong size
   void restore(std::int64_t index, const State& state, double previous_command,
                const Contact& contact) {
     require_size("size of the state", state.size(), state_.size());
@@ -262,7 +260,8 @@ class EventMotion {
     while (reached < part.end) reached = flow_to_event(part, reached, observer);
   }
 
-  /// Advances over a whole part of the period if surely no contact changes. @return whether it did
+  /// Advances over a whole part of the period if a bound proves that the contact does not change.
+  /// @return whether the motion was advanced
   bool flow_without_event(double command, double length, std::size_t part) {
     if (!force_.is_regular() || loop_.jitter.half_width > 0.0) return false;
     const int mode = contact_.mode();
@@ -295,8 +294,8 @@ class EventMotion {
     return guard.zeros == 0 && !guard.unsigned_yet;
   }
 
-  /// Advances to the next change of contact, but no farther than 1/rate, the force's next break or
-  /// the end of the part. @return the instant reached (s after the sample)
+  /// Advances to the next change of contact, by at most 1/rate, and at most to the next break of
+  /// the force or the end of the part. @return the instant reached (s after the sample)
   template <class Observer>
   double flow_to_event(const Part& part, double begin, Observer& observer) {
     const int mode = contact_.mode();

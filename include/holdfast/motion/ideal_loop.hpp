@@ -20,21 +20,20 @@
 
 namespace holdfast {
 
-/// The loop of Kollár 2022 with its excitation and its backlash: all data of a motion except its
-/// initial state.
+/// The sampled loop of Kollár 2022, with excitation and backlash, without an initial state.
 /// @tparam Plant  TwoMass<Scalar> or a LinearPlant<Scalar, N>
 template <class Scalar, class Plant = TwoMass<Scalar>>
 struct IdealLoop {
   static_assert(detail::IsDriven<Plant>::value,
-                "a motion has to know what the drive moves and its gap sees: its plant is a "
-                "TwoMass, a LinearPlant or made by with_controller()");
+                "the plant of a motion must define its drive and gap: use a "
+                "TwoMass, a LinearPlant or with_controller()");
 
   Plant plant;                            ///< conductor, absorber and further states
   Sampling<Scalar> sampling;              ///< sampling period τ, processing delay δ (s)
   PdGains<Scalar> gains;                  ///< gains P (N/m) and D (N s/m)
   HarmonicExcitation<Scalar> excitation;  ///< amplitude F_m (N), frequency f (Hz)
   Scalar backlash_width = Scalar(0);      ///< width r₀ of the backlash (m), ≥ 0
-  ForceHold hold = ForceHold::sampled;    ///< whether the force is held over a sampling period
+  ForceHold hold = ForceHold::sampled;    ///< force held over each sampling period, or exact
 };
 
 /// Validates a loop. @throws InvalidParameter where any part is not admissible
@@ -60,25 +59,25 @@ auto converted(const IdealLoop<From, Plant>& loop) {
       loop.hold};
 }
 
-/// The digital side of an IdealLoop, with its excitation: an ideal computer, one harmonic force.
+/// The DigitalLoop with the sampling, gains and harmonic force of an IdealLoop; an ideal computer.
 template <class Plant>
 DigitalLoop digital_loop(const IdealLoop<double, Plant>& loop) {
   return {loop.sampling, loop.gains, multi_harmonic_force(loop.excitation), loop.hold};
 }
 
-/// The ratio f τ = p/q in lowest terms: q samples take as long as p periods of the excitation. The
-/// overload for DigitalLoop (control/digital_loop.hpp) states when no ratio exists.
+/// The ratio f τ = p/q in lowest terms: q sampling periods last p periods of the excitation; 0/1
+/// without excitation. @return nullopt where q would exceed 10⁶ (f and 1/τ incommensurate)
 template <class Plant>
 std::optional<Rational> forcing_ratio(const IdealLoop<double, Plant>& loop) {
   return forcing_ratio(digital_loop(loop));
 }
 
-/// The motion of a sampled loop whose forcing repeats every q samples.
+/// The motion of a sampled loop under a harmonic force that repeats every q samples, f τ = p/q.
 template <class Scalar, class Plant = TwoMass<Scalar>>
 using PeriodicallyForcedMotion =
     SampledMotion<Scalar, Backlash<Scalar>, PeriodicForcing<Scalar, states_of<Plant>>, Plant>;
 
-/// The motion of a sampled loop under a harmonic force.
+/// The motion of a sampled loop under a harmonic force, for any value of f τ.
 template <class Scalar, class Plant = TwoMass<Scalar>>
 using HarmonicallyForcedMotion =
     SampledMotion<Scalar, Backlash<Scalar>, HarmonicForcing<Scalar, states_of<Plant>>, Plant>;
@@ -105,10 +104,10 @@ SampledMotion<Scalar, Backlash<Scalar>, Forcing, Plant> forced_motion(
 
 }  // namespace detail
 
-/// The motion from an initial state under an exactly periodic forcing.
-/// @param loop           loop; the phases of the forcing come from `ratio`, not from f and τ
-/// @param ratio          value of forcing_ratio()
-/// @param initial_state  x₀, N × 1; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
+/// The motion from an initial state under a harmonic force that repeats exactly every q samples.
+/// @param loop           the loop with its excitation and backlash
+/// @param ratio          f τ = p/q from forcing_ratio(), used for the phases of the force
+/// @param initial_state  x₀, N × 1; for two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 /// @throws InvalidParameter where the loop or the state is not admissible
 template <class Scalar, class Plant>
 PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
@@ -117,7 +116,7 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
   return detail::forced_motion<PeriodicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation.amplitude, ratio);
 }
-/// The motion under an exactly periodic forcing; the initial state is any Eigen column.
+/// The function above for an initial state given as any Eigen column.
 template <class Scalar, class Plant, class Column>
 PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Rational& ratio,
@@ -125,7 +124,7 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
   return periodically_forced_motion(loop, ratio, detail::state_of(loop.plant, initial_state));
 }
 
-/// The motion from an initial state under a harmonic forcing, for any value of f τ.
+/// The motion from an initial state under a harmonic force, for any value of f τ.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  state x₀, N × 1
 /// @throws InvalidParameter where the loop or the state is not admissible
@@ -135,7 +134,7 @@ HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
   return detail::forced_motion<HarmonicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation, loop.sampling.period);
 }
-/// The motion under a harmonic forcing; the initial state is any Eigen column.
+/// The function above for an initial state given as any Eigen column.
 template <class Scalar, class Plant, class Column>
 HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Eigen::MatrixBase<Column>& initial_state) {

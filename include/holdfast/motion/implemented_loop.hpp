@@ -16,26 +16,27 @@
 
 namespace holdfast {
 
-/// A loop with the effects of its implementation: any law of backlash, contact changes at samples
-/// or at exact instants, any excitation, and the limits of sensors, drive and clock.
+/// A sampled loop with the limits of its real sensors, computer, drive and clock. Backlash law and
+/// excitation are arbitrary; the contact changes at samples only, or at exact instants.
 /// @tparam Plant  TwoMass<double>, a LinearPlant<double, N> or a ControlledPlant
 template <class Plant>
 struct ImplementedLoopOf {
   static_assert(detail::IsDriven<Plant>::value,
-                "a motion has to know what the drive moves and its gap sees: its plant is a "
-                "TwoMass, a LinearPlant or made by with_controller()");
+                "the plant of a motion must define its drive and gap: use a "
+                "TwoMass, a LinearPlant or with_controller()");
 
-  Plant plant;                               ///< conductor, absorber and further states
-  DigitalLoop digital;                       ///< sampling, gains, limits, clock and excitation
-  BacklashParameters backlash = {};          ///< law of backlash; by default `kollar` with r₀ = 0
+  Plant plant;                       ///< conductor, absorber and any further states
+  DigitalLoop digital;               ///< sampling, gains, limits, clock and excitation
+  BacklashParameters backlash = {};  ///< law and width; default: ContactLaw::kollar, r₀ = 0
   Switching switching = Switching::sampled;  ///< contact changes at samples, or at exact instants
 };
 
 /// The implemented loop of the two masses.
 using ImplementedLoop = ImplementedLoopOf<TwoMass<double>>;
 
-/// Validates a loop. @throws InvalidParameter where any part is not admissible, or where a
-/// plant that contains its controller comes with gains or limits too
+/// Validates a loop. @throws InvalidParameter where any part is not admissible, or where gains or
+/// controller limits are set although the plant contains a user-defined controller
+/// (with_controller())
 template <class Plant>
 void validate(const ImplementedLoopOf<Plant>& loop) {
   validate(loop.plant);
@@ -43,16 +44,17 @@ void validate(const ImplementedLoopOf<Plant>& loop) {
   validate(loop.backlash);
   if constexpr (detail::HasController<Plant>::value) {
     const PdGains<double>& gains = loop.digital.gains;
-    require_within("gain P beside a controller of one's own", gains.proportional, "N/m", 0.0, 0.0);
-    require_within("gain D beside a controller of one's own", gains.differential, "N s/m", 0.0,
-                   0.0);
+    require_within("gain P in addition to a user-defined controller", gains.proportional, "N/m",
+                   0.0, 0.0);
+    require_within("gain D in addition to a user-defined controller", gains.differential, "N s/m",
+                   0.0, 0.0);
     if (!is_ideal(loop.digital.limits))
-      throw InvalidParameter("limits beside a controller of one's own", 1.0, "",
-                             "left out: no quanta, no largest force");
+      throw InvalidParameter("limits (1: set) in addition to a user-defined controller", 1.0, "",
+                             "0: set no quantisation, no differenced velocity, no largest force");
   }
 }
 
-/// The implemented loop equal to an IdealLoop, that is, to the model of Kollár 2022.
+/// Converts an IdealLoop (the model of Kollár 2022) to an ImplementedLoop with the same motions.
 template <class Plant>
 ImplementedLoopOf<Plant> implemented_loop(const IdealLoop<double, Plant>& loop) {
   return {loop.plant,
@@ -61,10 +63,10 @@ ImplementedLoopOf<Plant> implemented_loop(const IdealLoop<double, Plant>& loop) 
           Switching::sampled};
 }
 
-/// The IdealLoop (model of Kollár 2022) that equals a loop. Its conditions: switching at samples,
-/// the paper's backlash or none, one harmonic that begins at phase 0, an ideal computer and clock.
-/// The motion of such a loop is a SampledMotion, a piecewise affine map from sample to sample.
-/// @return no loop where any of these conditions fails
+/// Converts a loop to an IdealLoop (the model of Kollár 2022) with the same motions, for use with
+/// SampledMotion. Conditions: contact changes at samples, ContactLaw::kollar or none, at most one
+/// harmonic (at phase 0), no recorded force, no user-defined controller, ideal limits, no jitter.
+/// @return nullopt where a condition fails
 template <class Plant>
 std::optional<IdealLoop<double, Plant>> ideal_loop(const ImplementedLoopOf<Plant>& loop) {
   if (detail::HasController<Plant>::value) return std::nullopt;
@@ -86,9 +88,8 @@ std::optional<IdealLoop<double, Plant>> ideal_loop(const ImplementedLoopOf<Plant
                                   digital.hold};
 }
 
-/// The motion of the loop from the initial state x₀, N × 1; for two masses [z₁, ż₁, z₂, ż₂].
-/// @throws InvalidParameter where the loop is not admissible, or the state not finite or of another
-/// size
+/// The motion of a loop from the initial state x₀, N × 1; for two masses [z₁, ż₁, z₂, ż₂].
+/// @throws InvalidParameter where the loop is not admissible, or the state not finite or not N × 1
 template <class Plant>
 EventMotion<DriveContact<Plant>> event_motion(const ImplementedLoopOf<Plant>& loop,
                                               const StateOf<Plant>& initial_state) {
@@ -97,7 +98,7 @@ EventMotion<DriveContact<Plant>> event_motion(const ImplementedLoopOf<Plant>& lo
           DriveContact<Plant>(loop.plant, loop.backlash, loop.switching, initial_state),
           initial_state};
 }
-/// The motion of an implemented loop; the initial state is any Eigen column.
+/// The motion of an implemented loop from an initial state given as any Eigen column vector.
 template <class Plant, class Column>
 EventMotion<DriveContact<Plant>> event_motion(const ImplementedLoopOf<Plant>& loop,
                                               const Eigen::MatrixBase<Column>& initial_state) {

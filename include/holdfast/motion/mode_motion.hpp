@@ -50,22 +50,22 @@ using NormOf = std::conditional_t<
 
 }  // namespace detail
 
-/// The motion of a plant in one mode of its contact over the two parts of every sampling period:
-/// part 0 before t_j + δ, part 1 after it.
+/// The motion of a plant in one contact mode, with exact steps over the two parts of a sampling
+/// period: part 0 before t_j + δ, part 1 after it (δ: processing delay).
 template <class Plant>
 class ModeMotion {
  public:
   static constexpr int states = states_of<Plant>;  ///< N, the order of the plant
-  /// The norm that bounds the motion: EnergyNorm for the two masses, else from a Lyapunov equation.
+  /// The norm that bounds the motion: EnergyNorm for the two masses, else based on DecayingNorm.
   using Norm = detail::NormOf<Plant>;
   using Bound = NoEventBoundOf<Norm, states>;  ///< bound that may prove that a guard has no zero
 
-  /// The largest admissible ‖A‖ τ and ω τ. A sampling period in which the contact may change takes
-  /// about that many Taylor series.
+  /// The largest admissible value of ‖A‖ τ and of ω τ. A is the state matrix, ω the highest forcing
+  /// frequency (rad/s). A period τ with contact changes takes about max(‖A‖, ω) τ Taylor series.
   static constexpr double most_turns_per_sample = 1e6;
 
-  /// @throws InvalidParameter where ‖A‖ τ of the mode or ω τ of the force exceeds
-  /// `most_turns_per_sample`
+  /// Constructs the motion in one mode. @throws InvalidParameter where ‖A‖ τ of the mode or ω τ of
+  /// the excitation exceeds `most_turns_per_sample`
   ModeMotion(const AffineDynamicsOf<states>& dynamics, const DigitalLoop& loop,
              const ForceOverSamples& force)
       : dynamics_(dynamics),
@@ -80,11 +80,12 @@ class ModeMotion {
   const AffineDynamicsOf<states>& dynamics() const { return dynamics_; }
   /// The mode's rate (1/s), max(‖A‖, ω): a Taylor series over a time 1/rate is exact to rounding.
   double rate() const { return rate_; }
-  /// The exact step over part 0 or part 1 of the period.
+  /// The exact step over part 0 (t_j to t_j + δ) or part 1 (t_j + δ to t_{j+1}) of the period.
   const SubintervalStep<states>& step(std::size_t part) const { return steps_[part]; }
 
-  /// The bound that may prove that no guard of the mode has a zero; constructed at the first call.
-  /// @param law    contact; the energy of its plant(mode) bounds the motion
+  /// The bound that may prove that no guard of the mode has a zero. It is constructed at the first
+  /// call; later calls ignore the arguments.
+  /// @param law    contact of the drive; for two masses the energy of its plant(mode) is the norm
   /// @param mode   number of the mode
   /// @param guard  one of the mode's guards
   /// @param force  the excitation
@@ -105,7 +106,7 @@ class ModeMotion {
   static double admissible_rate(double rate, double period) {
     if (rate * period <= most_turns_per_sample) return rate;
     throw InvalidParameter("fastest rate of the motion times the sampling period", rate * period,
-                           "", "at most 1e6");
+                           "", "at most 1e6: reduce the sampling period");
   }
 
   AffineDynamicsOf<states> dynamics_;

@@ -16,31 +16,30 @@
 
 namespace holdfast {
 
-/// A stretch of a motion in one contact mode, short enough for one Taylor series.
+/// A time interval of a motion in one contact mode, short enough for one Taylor series.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct ModeStretch {
   Vector<double, States> state;  ///< state x at the beginning, N × 1
   double command;                ///< command u in force (N)
-  Series force;                  ///< coefficients F_k (N) of F(t + y h) = Σ F_k y^k, in any number
-  double length;                 ///< length h (s), ≥ 0
+  Series force;  ///< coefficients F_k (N), F(t + y h) = Σ F_k y^k, 0 ≤ y ≤ 1, t at the beginning
+  double length;  ///< length h (s), ≥ 0
 };
 
-/// The first guard of a mode that reaches zero over a stretch.
+/// The first zero of a contact mode's guards within a ModeStretch.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct NextEvent {
   int guard = -1;                             ///< number of the guard; −1: no guard reaches zero
-  FirstRoot root{RootOutcome::none, 1.0, 0};  ///< first zero, as a share 0 … 1 of the stretch
-  std::array<double, 2> signs{};  ///< first sign (±1) of each guard if it was unknown, else 0
+  FirstRoot root{RootOutcome::none, 1.0, 0};  ///< first zero; `at`: 0 … 1 along the stretch
+  std::array<double, 2> signs{};  ///< sign (±1) found for a guard of unknown sign; else 0
   Vector<double, States> state =
       {};  ///< state x at the zero, N × 1; without a zero, at the end of the stretch
 };
 
 namespace detail {
 
-/// Sets leading coefficients of a guard's series to zero where they are only rounding errors, as
-/// happens just after a change of contact.
+/// Zeroes leading coefficients of a guard's series that are rounding errors after a contact change.
 template <int States>
 void clear_rounding(const GuardOf<States>& guard, const ModeStretch<States>& stretch,
                     const TaylorStep<States>& motion, Series& series) {
@@ -54,7 +53,7 @@ void clear_rounding(const GuardOf<States>& guard, const ModeStretch<States>& str
   }
 }
 
-/// The power series of a guard g along a stretch.
+/// The power series of a guard g over a ModeStretch.
 template <int States>
 Series guard_series(const GuardOf<States>& guard, const ModeStretch<States>& stretch,
                     const TaylorStep<States>& motion) {
@@ -82,13 +81,13 @@ inline double first_sign(Series& series) {
 
 }  // namespace detail
 
-/// The first root of any guard of a mode over a stretch of motion, by Taylor series, or the end of
-/// the stretch if there is no root. No root is missed (math/roots/first_root.hpp).
-/// Work: N² + 2 N multiply-adds for each term of the series, 2 N for each guard and term, and the
-/// search for the root.
+/// Finds the earliest root of a contact mode's guards within a stretch of motion, by Taylor series.
+/// No root is missed (math/roots/first_root.hpp). Without a root, `guard` of the result is −1 and
+/// `state` is at the end of the stretch. Work for a plant of order N: N² + 2 N multiply-adds for
+/// each term of the series, 2 N for each guard and term, and the search for the root.
 /// @param dynamics  equations of motion in the mode
-/// @param guards    guards of the mode; with no guard the whole stretch is passed
-/// @param stretch   part of the motion, at most 1/‖A‖ long
+/// @param guards    guards of the mode, functions that are positive while the contact persists
+/// @param stretch   time interval with its initial state, at most 1/‖A‖ (s) long; A: state matrix
 template <int States>
 NextEvent<States> next_event(const AffineDynamicsOf<States>& dynamics,
                              const GuardsOf<States>& guards, const ModeStretch<States>& stretch) {

@@ -12,24 +12,23 @@ namespace holdfast {
 
 /// A bound that can prove that a guard g has no zero within a time h, from its values at both ends.
 ///
-/// Between the ends g ≥ chord − M h²/8, the chord being the line between these values and M ≥ |g̈|.
-/// From ż = A z + w, w = drift + b u + c F,
+/// The chord is the straight line between these two values. Between the ends g ≥ chord − G h²/8,
+/// G being a bound of |g̈|. For g = ℓᵀz + m F + const, ż = A z + w and w = drift + b u + c F,
 ///
-///     g̈ = ℓᵀA² z + ℓᵀA w + ℓᵀ ẇ + m F̈     for g = ℓᵀz + m F + const,
+///     g̈ = ℓᵀA² z + ℓᵀA w + ℓᵀ ẇ + m F̈ .
 ///
-/// and ‖z‖ grows by at most ‖w‖ h in the norm of the energy (plant/energy.hpp), or in another norm
-/// that no free motion ż = A z increases (plant/decaying_norm.hpp). The bound is valid for every
-/// guard of a mode with the same |ℓ| and |m|. An infinite norm makes it infinite or NaN: it proves
-/// nothing.
-/// @tparam Norm    EnergyNorm of the two masses, DecayingNorm of a plant of any order
+/// The norm ‖z‖ must be one that no free motion ż = A z increases; within h it then grows by at
+/// most h max ‖w‖. The bound holds for every guard of the mode with the same ℓ and m up to sign. If
+/// the norm is infinite, the bound is infinite or NaN and proves nothing.
+/// @tparam Norm    EnergyNorm (plant/energy.hpp) for two masses, else DecayingNorm
 /// @tparam States  N, the order of the plant
 template <class Norm, int States>
 class NoEventBoundOf {
  public:
   /// @param dynamics  matrices A, b, c and the drift of a mode
-  /// @param bounded   data of the norm: A, or the two masses whose energy bounds the motion
-  /// @param guard     one guard of the mode, which gives ℓ and m
-  /// @param force     bounds of the excitation
+  /// @param bounded   constructor argument of Norm: the two masses for EnergyNorm, else A
+  /// @param guard     one guard of the mode, which defines ℓ and m
+  /// @param force     bounds of |F|, |Ḟ| and |F̈|
   template <class Bounded>
   NoEventBoundOf(const AffineDynamicsOf<States>& dynamics, const Bounded& bounded,
                  const GuardOf<States>& guard, const ForceBounds& force)
@@ -45,20 +44,21 @@ class NoEventBoundOf {
                 std::abs(guard.force) * force.second_rate;
   }
 
-  /// The terms of drop_below_chord() for one length: by_norm ‖z‖ + by_command |u| + constant.
+  /// The coefficients of drop_below_chord() = by_norm ‖z‖ + by_command |u| + constant for a length.
   struct Drop {
     double by_norm;     ///< factor of the norm ‖z‖ of the initial state
     double by_command;  ///< factor of |u|, per newton
     double constant;    ///< constant term, in the unit of the guard
   };
-  /// The terms of drop_below_chord() over a length h (s), ≥ 0.
+  /// The coefficients of drop_below_chord() over a time h (s), ≥ 0.
   Drop drop_over(double length) const {
     const double share = length * length / 8.0, by_size = share * by_state_;
     return {by_size, by_size * length * command_growth_ + share * by_command_,
             by_size * length * other_growth_ + share * by_force_};
   }
 
-  /// The largest depth of g below its chord over a length (s), from a state under a command (N).
+  /// An upper bound of the depth of g below its chord over a time `length` (s), from the state
+  /// `begin` (N × 1) under a constant command (N). If g exceeds it at both ends, g has no zero.
   double drop_below_chord(const Vector<double, States>& begin, double command,
                           double length) const {
     const Drop drop = drop_over(length);

@@ -12,10 +12,10 @@
 
 namespace holdfast {
 
-/// An observer that records every sample of a trajectory, in memory reserved before the run.
+/// An observer that records every sample of a trajectory. Memory is reserved before the run.
 class Recorder {
  public:
-  /// @param expected_samples  ≥ 0; memory is reserved for that many, more are possible
+  /// @param expected_samples  number of samples for which memory is reserved, ≥ 0; not a limit
   /// @throws InvalidParameter where the number is negative or too large
   explicit Recorder(std::int64_t expected_samples) {
     require_non_negative("number of samples", static_cast<double>(expected_samples), "");
@@ -31,21 +31,21 @@ class Recorder {
   std::vector<MotionSample<double>> samples_;
 };
 
-/// The extent of a steady motion: the largest |z₁| (m) and |ż₁| (m/s) since a given instant.
+/// An observer of the largest |z₁| (m) and |ż₁| (m/s) of the conductor since a given instant.
 class PhaseExtent {
  public:
   /// @param from  instant (s); earlier samples are ignored
   explicit PhaseExtent(double from) : from_(from) {}
 
-  /// Includes a sample in the extent.
+  /// Updates both maxima with a sample.
   void operator()(const MotionSample<double>& sample) {
     if (!not_before(sample.time, from_)) return;
     displacement_ = std::fmax(displacement_, std::abs(sample.state[0]));
     velocity_ = std::fmax(velocity_, std::abs(sample.state[1]));
   }
-  /// The largest |z₁| (m) since the instant `from`; 0 before it.
+  /// The largest |z₁| (m) since the instant `from`; 0 without a sample since then.
   double displacement() const { return displacement_; }
-  /// The largest |ż₁| (m/s) since the instant `from`; 0 before it.
+  /// The largest |ż₁| (m/s) since the instant `from`; 0 without a sample since then.
   double velocity() const { return velocity_; }
 
  private:
@@ -54,12 +54,12 @@ class PhaseExtent {
   double velocity_ = 0.0;
 };
 
-/// The first local maximum and the first local minimum of z₁ (m), the "first peaks" of a vibration
-/// from rest. z is positive downward: the minimum is the peak above the equilibrium.
+/// An observer that finds the first local maximum and minimum of z₁ (m), the first peaks of a
+/// vibration. z₁ is positive downward, so that the minimum is the peak above the equilibrium.
 class FirstPeaks {
  public:
-  /// Adds the next sample. A peak is found with the sample after it; the first sample and two equal
-  /// samples in succession are no peak.
+  /// Adds the next sample. A peak is recognised one sample later. The first sample is never a peak;
+  /// an extremum with two equal successive samples is not recognised.
   void operator()(const MotionSample<double>& sample) {
     const double value = sample.state[0];
     if (count_ >= 2) {
@@ -72,9 +72,9 @@ class FirstPeaks {
     ++count_;
   }
 
-  /// The first local maximum of z₁ (m, downward), so below the equilibrium; NaN before it is met.
+  /// The first local maximum of z₁ (m, positive downward), below the equilibrium; NaN until found.
   double below_equilibrium() const { return below_; }
-  /// The first local minimum of z₁ (m, downward), so above the equilibrium; NaN before it is met.
+  /// The first local minimum of z₁ (m, positive downward), above the equilibrium; NaN until found.
   double above_equilibrium() const { return above_; }
 
  private:
@@ -88,7 +88,7 @@ class FirstPeaks {
 /// An observer that records the samples at which the drive enters or leaves its backlash.
 class SwitchLog {
  public:
-  /// A change of contact: the first sample with the drive in the backlash, or engaged again.
+  /// A change of contact, given by the first sample with the new contact.
   struct Switch {
     std::int64_t index;  ///< number j of the sample
     double time;         ///< instant t_j (s)
@@ -98,7 +98,7 @@ class SwitchLog {
   /// @param from  instant (s); earlier changes are ignored
   explicit SwitchLog(double from = 0.0) : from_(from) {}
 
-  /// Adds the next sample. Before the first one the drive counts as engaged.
+  /// Adds the next sample. The drive counts as engaged before the first sample.
   void operator()(const MotionSample<double>& sample) {
     const bool inside = !sample.engaged;
     if (inside != inside_ && not_before(sample.time, from_))

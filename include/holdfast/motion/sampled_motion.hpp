@@ -25,7 +25,8 @@ struct MotionSample {
   std::int64_t index;            ///< number j of the sample
   Scalar time;                   ///< instant t_j = j τ (s)
   Vector<Scalar, States> state;  ///< state x_j, N × 1; of two masses z_j = [z₁, ż₁, z₂, ż₂]
-  Scalar control_force;  ///< u_j (N), applied from t_j + δ to t_{j+1} + δ; 0 in the backlash
+  Scalar control_force;  ///< u_j (N), applied from t_j + δ to t_{j+1} + δ, δ being the processing
+                         ///< delay; 0 in the backlash
   Mask<Scalar> engaged;  ///< true where the drive transmits, false in the backlash
 };
 
@@ -35,25 +36,24 @@ struct MotionSample {
 template <class Scalar, class LawMemory, int States = 4>
 struct MotionMemory {
   Vector<Scalar, States> state;  ///< state x_j, N × 1; for two masses z_j = [z₁, ż₁, z₂, ż₂]
-  Scalar previous_force;         ///< u_{j−1} (N), which acts until t_j + δ
+  Scalar previous_force;         ///< u_{j−1} (N), which acts until t_j + processing delay δ
   LawMemory backlash;            ///< memory of the backlash before sample j
 };
 
 /// The motion of the sampled loop with backlash, one sample at a time.
 ///
 /// `sense()` decides the drive's contact and the force u_j from the present state; `advance()`
-/// moves the state over one sampling period:
+/// moves the state over one sampling period, with the matrices of SampledLoop and HarmonicInput:
 ///
 ///     z_{j+1} = A_d z_j + Γ₁ u_{j−1} + Γ₀ u_j + F_m (g_c cos ω t_j + g_s sin ω t_j)
 ///
-/// Work per sample: 24 multiply-adds for four states (N² + 2 N for N), the hysteresis, and the
-/// forcing (2 N more if harmonic). No memory is allocated. Source: Kollár 2022, Eqs.
-/// (11)–(14).
-/// @tparam Law      the backlash: `step(Δz, Δż)` returns a mask that is true where the force is
-///                  transmitted
-/// @tparam Forcing  the excitation: `next()` returns its contribution to the state over the present
-///                  sampling period, as scalars where it is the same in every lane of a pack
-/// @tparam Plant    plant whose ports are read; the readings of two masses are entries of the state
+/// Work per sample for N states: N² + 2 N multiply-adds, 2 N more for a harmonic forcing, and the
+/// contact decision. No memory is allocated. Source: Kollár 2022, Eqs. (11)–(14).
+/// @tparam Scalar   number type: double, or a pack with one motion in each of its lanes
+/// @tparam Law      backlash; `step(Δz, Δż)` returns a mask, true where the force is transmitted
+/// @tparam Forcing  the excitation; `next()` returns its contribution to the state over the present
+///                  sampling period, in plain numbers if all lanes of a pack have the same forcing
+/// @tparam Plant    plant, from whose state PortReadings reads displacements and velocities
 template <class Scalar, class Law = Backlash<Scalar>, class Forcing = HarmonicForcing<Scalar>,
           class Plant = TwoMass<Scalar>>
 class SampledMotion {
@@ -62,7 +62,7 @@ class SampledMotion {
   static constexpr int states = states_of<Plant>;
   using State = Vector<Scalar, states>;      ///< state x, N × 1
   using Loop = SampledLoop<Scalar, states>;  ///< matrices of one sampling period
-  using Readings = PortReadings<Plant>;      ///< readings of the states
+  using Readings = PortReadings<Plant>;      ///< functions that read the state
 
   /// Constructs the motion under a harmonic excitation that begins at phase 0. No force is
   /// transmitted before the first sample: u_{−1} = 0.
@@ -73,8 +73,8 @@ class SampledMotion {
       : SampledMotion(loop, gains, Forcing(input, excitation, loop.sampling.period), law,
                       initial_state, readings) {}
 
-  /// Constructs the motion under any forcing, which starts at its present phase, with u_{−1} = 0.
-  /// @throws InvalidParameter where the state has another size than the loop
+  /// Constructs the motion under any forcing, which continues from its present phase. u_{−1} = 0.
+  /// @throws InvalidParameter where the size of the state is not N
   SampledMotion(const Loop& loop, const PdGains<Scalar>& gains, const Forcing& forcing,
                 const Law& law, const State& initial_state, const Readings& readings = Readings())
       : loop_(loop),
@@ -87,8 +87,7 @@ class SampledMotion {
     require_size("size of the initial state", state_.size(), loop_.transition.rows());
   }
 
-  /// Takes sample j: decides whether the drive transmits, and computes u_j; to be called once for
-  /// each sample.
+  /// Takes sample j: decides whether the drive transmits, and computes u_j; once per sample.
   MotionSample<Scalar, states> sense() {
     const Mask<Scalar> engaged =
         law_.step(readings_.relative_displacement(state_), readings_.relative_velocity(state_));
@@ -131,8 +130,8 @@ class SampledMotion {
     return MotionMemory<Scalar, std::decay_t<decltype(law_.memory())>, states>{
         state_, previous_force_, law_.memory()};
   }
-  /// Continues from the memory of a motion of an equal loop, at the forcing's present phase.
-  /// @throws InvalidParameter where the state has another size
+  /// Takes over the memory of another motion of the loop; keeps sample number and forcing phase.
+  /// @throws InvalidParameter where the size of the state is not N
   template <class LawMemory>
   void restore(const MotionMemory<Scalar, LawMemory, states>& memory) {
     require_size("size of the state", memory.state.size(), state_.size());
@@ -181,9 +180,9 @@ class SampledMotion {
   std::int64_t index_ = 0;
 };
 
-/// A pack of motions of the two masses, one in each lane, under a common forcing, which continues
-/// at its present phase.
-/// @param motion          motion that is copied to every lane, except for its state
+/// Constructs a pack of motions of two masses, one per lane, each from sample 0 with u_{−1} = 0.
+/// All have the same forcing, which continues from its present phase.
+/// @param motion          motion that provides loop, gains, forcing and backlash width of all lanes
 /// @param initial_states  z₀ of every lane, [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 template <class Pack, class Forcing>
 SampledMotion<Pack, Backlash<Pack>, Forcing> in_every_lane(

@@ -12,17 +12,20 @@
 
 namespace holdfast {
 
-/// The exact step from t_j + begin to t_j + begin + length in every sampling period, in one mode:
+/// The map of the state z over a part of a sampling period, from t_j + begin to t_j + begin +
+/// length, in one contact mode. It is exact for an excitation held at F_j (first line), and for
+/// harmonics of amplitudes F_l and frequencies ω_l in continuous time (second line):
 ///
-///     z ← transition z + command u + drift + held F_j             (the force held over the sample)
-///     z ← transition z + command u + drift + Σ_l (g_c cos ω_l t_j + g_s sin ω_l t_j)   (exactly)
+///     z ← transition z + command u + drift + held F_j
+///     z ← transition z + command u + drift + Σ_l F_l (g_c cos ω_l t_j + g_s sin ω_l t_j)
+///
 /// @tparam States  N, the order of the plant
 template <int States>
 struct SubintervalStep {
   Matrix<double, States> transition;  ///< transition matrix e^{A length}, N × N
   Vector<double, States> command;     ///< response per newton of u, N × 1
-  Vector<double, States> drift;       ///< contribution of the drift, N × 1
-  Vector<double, States> held;        ///< response per newton of a held force, N × 1
+  Vector<double, States> drift;       ///< contribution of the mode's constant drift, N × 1
+  Vector<double, States> held;        ///< response per newton of a held excitation, N × 1
   std::vector<HarmonicInput<double, States>> lines;  ///< responses g_c and g_s to each harmonic
 
   /// @param dynamics   equations of motion in the mode
@@ -35,9 +38,8 @@ struct SubintervalStep {
   /// The state (N × 1) at the end of the part, from the state at its beginning.
   /// @param before      state at the beginning, N × 1
   /// @param commanded   command u in force (N)
-  /// @param held_force  held force F_j (N); used only where there are no phases
-  /// @param phases      F_l cos and F_l sin (N) of the harmonics' phases at the sample; empty: the
-  ///                    force is held
+  /// @param held_force  held excitation F_j (N); used only if `phases` is empty
+  /// @param phases      F_l cos ω_l t_j and F_l sin ω_l t_j (N) of all harmonics, or empty
   Vector<double, States> state(const Vector<double, States>& before, double commanded,
                                double held_force,
                                const std::vector<ExcitationSample<double>>& phases) const {

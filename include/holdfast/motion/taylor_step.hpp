@@ -8,8 +8,8 @@
 
 namespace holdfast {
 
-/// The smallest number of terms of the series of e^x, 0 ≤ x ≤ 1, with the first omitted term below
-/// 2⁻⁶⁰; the whole remainder is below 2⁻⁵⁹.
+/// The smallest number of terms of the series of e^x, 0 ≤ x ≤ 1, whose first omitted term is below
+/// 2⁻⁶⁰. The remainder of the series is then below 2⁻⁵⁹.
 inline int terms_for(double x) {
   constexpr double negligible = 8.7e-19;
   double term = 1.0;
@@ -18,9 +18,9 @@ inline int terms_for(double x) {
   return terms;
 }
 
-/// The Taylor series of the state over a length h (s): z(t + x h) = Σ z_k x^k, 0 ≤ x ≤ 1, with
+/// The Taylor series of ż = A z + b u + c F + drift over a time h (s): z(t + x h) = Σ z_k x^k, with
 ///
-///     z_{k+1} = h (A z_k + w_k) / (k + 1),   w_0 = drift + b u + c F_0,  w_k = c F_k
+///     z_{k+1} = h (A z_k + w_k) / (k + 1),   w_0 = drift + b u + c F_0,  w_k = c F_k (k > 0)
 ///
 /// where F(t + x h) = Σ F_k x^k. With ‖A‖ h ≤ 1 and terms_for(‖A‖ h) terms the truncation error is
 /// below round-off. Work per term: N² + 2 N multiply-adds.
@@ -28,14 +28,14 @@ inline int terms_for(double x) {
 template <int States>
 class TaylorStep {
  public:
-  /// The coefficients z_k as columns, at most `most_terms`; not on the heap for a fixed order.
+  /// The type of the coefficients z_k: N × at most `most_terms`, without heap memory for a fixed N.
   using Coefficients =
       Eigen::Matrix<double, States, Eigen::Dynamic, Eigen::ColMajor, States, most_terms>;
 
-  /// @param dynamics  matrices A, b, c and the drift, constant over the length
+  /// @param dynamics  matrices A, b, c and the drift, constant during the time h
   /// @param state     state z(t) at the beginning, N × 1
   /// @param command   command u (N)
-  /// @param force     coefficients F_k (N), one or more; they set the number of terms
+  /// @param force     coefficients F_k (N), at least one; z gets as many terms as there are F_k
   /// @param length    length h (s), ≥ 0
   TaylorStep(const AffineDynamicsOf<States>& dynamics, const Vector<double, States>& state,
              double command, const Series& force, double length)
@@ -50,7 +50,7 @@ class TaylorStep {
     }
   }
 
-  /// The state z(t + x h), N × 1, at the share x of the length, 0 ≤ x ≤ 1.
+  /// The state z(t + x h), N × 1, 0 ≤ x ≤ 1.
   Vector<double, States> state(double x) const {
     Vector<double, States> value = coefficients_.col(coefficients_.cols() - 1);
     for (Eigen::Index k = coefficients_.cols() - 2; k >= 0; --k)

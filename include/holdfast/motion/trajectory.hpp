@@ -30,10 +30,10 @@ struct IsMotion<Motion, std::void_t<decltype(std::declval<Motion&>().sense().sta
 
 }  // namespace detail
 
-/// Whether a type is a motion of a sampled loop, which advances from one sample to the next. There
-/// are two kinds: SampledMotion, the map of one sampling period with contact changes at samples,
-/// and EventMotion, which follows the contact between samples. For a loop of the paper's model
-/// (`ideal_loop`) both give the same samples up to rounding. The interface of a motion:
+/// Whether a type is a motion of a sampled loop, which advances from one sample to the next. The
+/// contact of a SampledMotion or ModalMotion changes at samples; an EventMotion also computes
+/// contact changes between samples. Where ideal_loop() converts a loop, SampledMotion and
+/// EventMotion have equal samples up to rounding. The interface of a motion:
 ///
 ///     sense()                  takes sample j: a MotionSample with t_j, x_j (N × 1), the force u_j
 ///                              (N) and whether the drive transmits; once before each `advance()`
@@ -41,21 +41,21 @@ struct IsMotion<Motion, std::void_t<decltype(std::declval<Motion&>().sense().sta
 ///     displace_conductor(d)    adds d (m) to the conductor's z, before `sense()`
 ///     index(), time()          j and t_j (s) of the sample that `sense()` will take or has taken
 ///     state()                  x_j, N × 1
-///     readings()               the readings of the states of its plant (plant/port_readings.hpp)
+///     readings()               functions that read displacements and velocities from a state
+///                              (PortReadings)
 template <class Motion>
 inline constexpr bool is_motion_v = detail::IsMotion<Motion>::value;
 
 /// A sudden displacement of the conductor (Kollár 2022, Fig. 7).
 struct Kick {
-  double time;          ///< instant (s); the kick acts at the first sample that is not before it
+  double time;          ///< instant (s); the kick acts at the first sample at or after this instant
   double displacement;  ///< displacement (m), added to the conductor's z₁
 };
 
 /// The outcome of a run of a motion over some samples.
 enum class TrajectoryOutcome {
   completed,  ///< all samples were taken
-  diverged,   ///< the state left the range of the number type; observers received all earlier
-              ///< samples
+  diverged,   ///< the state is not finite; observers received all earlier samples
 };
 
 /// The number of samples at t = 0, τ, 2τ, … up to `duration` (s). If the duration is a whole number
@@ -69,11 +69,12 @@ inline std::int64_t samples_within(double duration, double sampling_period) {
   return static_cast<std::int64_t>(std::floor(periods * (1.0 + instant_round_off))) + 1;
 }
 
-/// Runs `samples` (≥ 0) samples of a motion, with the kick if one is given, and passes each sample
-/// to every observer, `observer(const MotionSample&)`.
+/// Runs a motion over `samples` (≥ 0) samples, with a kick unless it is nullopt, and passes each
+/// sample to every observer, `observer(const MotionSample&)`.
 ///
-/// The observers decide which data are stored; this function allocates nothing. Afterwards the
-/// motion is at the sample after the last one passed, from which a further call continues.
+/// The observers decide which data are stored; this function allocates nothing. A further call
+/// continues at the sample after the last one. If the instant of its kick has already passed, the
+/// kick acts at the first sample of the call.
 /// @tparam Motion  type for which is_motion_v is true, or any type with `sense`, `advance`,
 ///                 `displace_conductor` and `time` as described at is_motion_v
 template <class Motion, class... Observers>

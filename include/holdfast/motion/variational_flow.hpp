@@ -16,25 +16,28 @@
 
 namespace holdfast {
 
-/// The derivative (tangent) of an EventMotion from one sample to the next, with changes of contact,
+/// The tangent map of an EventMotion from one sample to the next, including contact changes,
 ///
-///     X_j = [x; u_{j−1}; g; z₁ as read at sample j − 1],   δX_{j+1} = map · δX_j
+///     δX_{j+1} = map · δX_j,   X_j = [x; u_{j−1}; g; y_{j−1}]
 ///
-/// X_j has N + 3 numbers. x is the state of the plant, for two masses [z₁, ż₁, z₂, ż₂]; z₁ is the
-/// displacement read by the computer. g is the Δz at the last reversal of the drive: the ends of
-/// its gap are g and g ∓ r₀. Without change of contact δx follows e^{A t} and the held commands;
-/// commands jump at fixed times and need no saltation. At a change of contact on a surface h the
-/// deviation of [x; g] is multiplied by the saltation matrix (saltation.hpp). The surfaces are
+/// X_j has N + 3 entries. x is the state of the plant, for two masses [z₁, ż₁, z₂, ż₂]. y_{j−1} is
+/// the displacement that the computer measured at sample j − 1. g is the relative displacement Δz =
+/// z₂ − z₁ at the last reversal of the drive; the ends of the drive's gap are g and g ∓ r₀.
 ///
-///     engaged → gap, stick:   h = Δż,        g ← Δz,   f⁺ − f⁻ = −b u, b (s − u)
-///     gap → engaged:          h = Δz − g,    g ← 0,    f⁺ − f⁻ = b u
-///     a stop is met or left:  h = Δz ∓ r₀/2,           f⁺ − f⁻ from the stop's damper and u
+/// Within a contact mode δx advances by e^{A t} and by the deviation of the held command. At a
+/// contact change on a surface h = 0 the deviation of [x; g] is multiplied by the saltation matrix
+/// (saltation.hpp), with these surfaces, resets of g and jumps f⁺ − f⁻ of ẋ:
 ///
-/// In the table s is the force transmitted in stick. The end of stick needs no saltation: on a
-/// surface the transmitted force is continuous, and a command jumps at a fixed time. In stick δΔż =
-/// 0 and δg = δΔz hold exactly; if the drive sticks at sample j, the columns are valid for such
-/// deviations only. Unused rows are zero: the row of g while engaged, and the row of the z₁ read
-/// unless the velocity is the difference of unrounded displacements.
+///     engaged → gap:          h = Δż,                  g ← Δz,   f⁺ − f⁻ = −b u
+///     engaged → stick:        h = Δż,                  g ← Δz,   f⁺ − f⁻ = b (s − u)
+///     gap → engaged:          h = Δz − g (or ± r₀),    g ← 0,    f⁺ − f⁻ = b u
+///     stop reached or left:   h = Δz ∓ r₀/2,                     f⁺ − f⁻ of u and stop damper
+///
+/// Here s is the force transmitted in stick. Jumps of the command occur at fixed times and need no
+/// saltation. Stick ends at such a jump or with a continuous force, and needs none either. In stick
+/// δΔż = 0 and δg = δΔz; if the drive sticks at sample j, the map is valid only for such δX_j. The
+/// row of g is zero while engaged. The row of y is zero unless the controller forms the velocity
+/// from differences of unrounded displacements.
 ///
 ///     VariationalFlow<DriveContact<>> tangent(motion);
 ///     motion.sense();
@@ -42,10 +45,9 @@ namespace holdfast {
 ///     motion.advance(tangent);
 ///     tangent.map();
 ///
-/// A tangential crossing has no derivative; then the entries are not finite.
-/// Work per sample of the two masses: 140 multiply-adds for each part of the period; per change of
-/// contact 1500 more, most of them for a matrix exponential. Nothing is allocated for a fixed
-/// order.
+/// At a tangential crossing no derivative exists and the entries are not finite. Work per sample of
+/// two masses: 140 multiply-adds for each part of the period before and after t_j + δ, and 1500
+/// more per change of contact. No memory is allocated if N is fixed at compile time.
 /// @tparam Contact  contact of the motion
 template <class Contact>
 class VariationalFlow {
@@ -57,7 +59,7 @@ class VariationalFlow {
   /// The type of the matrix that maps deviations of X_j, (N + 3) × (N + 3).
   using Map = Matrix<double, size>;
 
-  /// Constructs the derivative of a motion at its present sample: the identity.
+  /// Constructs the tangent map of a motion at its present sample, initially the identity.
   explicit VariationalFlow(const EventMotion<Contact>& motion)
       : readings_(motion.readings()),
         map_(Map::Identity(motion.state().size() + 3, motion.state().size() + 3)),
@@ -92,7 +94,7 @@ class VariationalFlow {
   // The observer of EventMotion::advance.
 
   /// Records that the motion stayed in one mode for `length` (s), beginning `begin` (s) after the
-  /// sample. The map includes this time at the next change, or at the end of the period.
+  /// sample. The map is updated at the next change, or at the end of the period.
   void flowed(int mode, double begin, double length) {
     if (!(length > 0.0)) return;
     if (open_length_ == 0.0) open_begin_ = begin;
@@ -101,7 +103,7 @@ class VariationalFlow {
     if (begin + length >= period_ * (1.0 - same_length)) close_flow();
   }
 
-  /// Replaces the deviation δu_{j−1} of the command in force by δu_j.
+  /// Replaces the deviation δu_{j−1} of the command in force by δu_j, at the end of the delay.
   void commanded() {
     close_flow();
     map_.row(command_row()) = pending_;
@@ -109,8 +111,8 @@ class VariationalFlow {
     rank_.become(Carried::pending, Carried::in_force);
   }
 
-  /// Multiplies the map by the saltation matrix where a guard was reached outside stick. A jump of
-  /// force or command (guard −1) has no saltation matrix.
+  /// Multiplies the map by the saltation matrix if a guard reached zero in a mode other than stick.
+  /// A contact change after a jump of force or command (guard −1) has no saltation matrix.
   void switched(int from, int to, int guard,
                 const typename EventMotion<Contact>::Instant& instant) {
     close_flow();
@@ -120,11 +122,10 @@ class VariationalFlow {
     rank_.pass(directions(to));
   }
 
-  /// The derivative over the sampling period just passed, (N + 3) × (N + 3).
+  /// The tangent map of the sampling period just passed, (N + 3) × (N + 3).
   const Map& map() const { return map_; }
 
-  /// The structural rank of the product of all maps since construction: the rank of almost every
-  /// product of maps with the same zeros.
+  /// Structural rank of the product of all maps so far: that of generic maps with the same zeros.
   int rank_of_product() const { return rank_.rank(); }
 
  private:
@@ -173,7 +174,7 @@ class VariationalFlow {
     bool state, previous, remembered;
   };
 
-  /// The deviation δu_j, and the controller's memory of the sample.
+  /// Computes the deviation δu_j and updates the deviations that the controller stores.
   Reading read(const Motion& motion) {
     const Row displacement = readings_.measured_displacements(states_of_map());
     const Row velocity = readings_.measured_velocities(states_of_map());
@@ -200,7 +201,7 @@ class VariationalFlow {
     }
   }
 
-  /// Updates the rank at a sample: the command takes up the old reading; the new one is stored.
+  /// Updates the rank at a sample, where the command uses the old reading before the new is stored.
   void note_sample(const Reading& reading) {
     if (reading.state) rank_.begin(Carried::pending);
     if (reading.previous) rank_.become(Carried::reading, Carried::pending);
@@ -230,7 +231,7 @@ class VariationalFlow {
     rank_.pass(directions(open_mode_));
   }
 
-  /// Imposes the constraints of a mode: Δż = 0 and Δz = g in stick, no g while engaged.
+  /// Imposes the constraints of a mode: δΔż = 0 and δg = δΔz in stick, δg = 0 if g is unused.
   void enter(int mode) {
     if (mode == sticking_) {
       readings_.stop_relative_motions(states_of_map());
@@ -269,7 +270,7 @@ class VariationalFlow {
     return longer;
   }
 
-  /// Moves g to the present Δz at a change from one gap to another; both gaps have the same ẋ.
+  /// Sets g to the present Δz at a change from one gap to another. ẋ does not jump.
   void anchor_anew() {
     map_.row(anchor_row()) = readings_.relative_displacements(states_of_map());
     rank_.end(Carried::anchor);

@@ -10,12 +10,13 @@
 
 namespace holdfast {
 
-/// Products of successive sample maps, in blocks short enough that no product loses digits.
+/// Products of the maps of successive samples, formed in blocks short enough to keep all digits.
 /// @tparam Map  type of a map, N × N
 template <class Map>
 class BlockProducts {
  public:
-  /// @param most  largest number of samples in a block, ≥ 1, which a product entry ≥ 1000 also ends
+  /// @param most  largest number of samples in a block, ≥ 1. A block also ends when an entry of its
+  ///              product reaches 1000.
   explicit BlockProducts(std::size_t most) : most_(most), length_(most) {}
 
   /// Adds the map of the next sample.
@@ -33,21 +34,21 @@ class BlockProducts {
   const std::vector<Map>& blocks() const { return blocks_; }
 
  private:
-  std::size_t most_, length_;  // samples: of a block at most, of the last one
+  std::size_t most_, length_;  // samples of a block: largest number, number in the last one
   std::vector<Map> blocks_;
 };
 
-/// A step of Newton's method towards a periodic motion: applies (I − M)⁻¹, where M = M_{K−1} … M₀
-/// is the product of the maps that linearise the motion block by block. For an affine motion the
-/// first step is already exact up to rounding.
+/// The linear solver for a Newton step towards a periodic motion: it applies (I − M)⁻¹. M = M_{K−1}
+/// … M₀ is the product of the maps M_k of deviations x over the K blocks of one period. For an
+/// affine motion the first Newton step is exact up to rounding.
 ///
-/// The equations x_{k+1} = M_k x_k are one block-bidiagonal system. The inner unknowns x_k are
-/// eliminated in turn by orthogonal factorisations of their coefficients B and −M_k,
+/// The equations x_{k+1} = M_k x_k form a block-bidiagonal system. The inner unknowns x₁ … x_{K−1}
+/// are eliminated in turn. If B is the present coefficient of x_k, an orthogonal factorisation
 ///
-///     Qᵀ [B; −M_k] = [R; 0],
+///     Qᵀ [B; −M_k] = [R; 0]
 ///
-/// after which the lower rows do not contain x_k. The equation first · x₀ + last · x_K = 0 remains.
-/// M, whose entries may span hundreds of decades, is never formed. Source: S. J. Wright, Stable
+/// gives lower rows without x_k. At the end one equation between x₀ and x_K remains. M itself,
+/// whose entries may span hundreds of decades, is never formed. Source: S. J. Wright, Stable
 /// parallel algorithms for two-point boundary value problems, SIAM J. Sci. Stat. Comput. 13 (1992).
 ///
 ///     const CyclicSystem<double> system(maps);
@@ -59,15 +60,16 @@ class CyclicSystem {
   /// @param maps  M_0 … M_{K−1}, N × N, K ≥ 1. Work per map: about 16 N³ multiply-adds.
   explicit CyclicSystem(const std::vector<Matrix<Scalar, Size>>& maps);
 
-  /// Whether 1 is a multiplier to working precision: no periodic motion exists, or infinitely many.
+  /// Whether 1 is a multiplier (eigenvalue of M) to working precision. Then no periodic motion
+  /// exists, or infinitely many do.
   bool is_singular() const {
     const Scalar smallest_pivot = closed_.matrixLU().diagonal().cwiseAbs().minCoeff();
     const Scalar rounding = Scalar(64) * std::numeric_limits<Scalar>::epsilon();
     return !(smallest_pivot > rounding * closed_.maxPivot());
   }
 
-  /// The correction (I − M)⁻¹ (x_K − x₀) of the first state x₀, which closes the motion.
-  /// @param open  closure error x_K − x₀ of the motion
+  /// The correction (I − M)⁻¹ · `open`. Added to the first state, it closes the linearised motion.
+  /// @param open  closure error: last state minus first state of the period
   Vector<Scalar, Size> correction(const Vector<Scalar, Size>& open) const {
     return closed_.solve(last_ * open);
   }

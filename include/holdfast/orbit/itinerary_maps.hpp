@@ -19,7 +19,7 @@ namespace holdfast {
 /// The contacts of successive samples: 1 where the drive transmits, 0 in its backlash.
 using Itinerary = std::vector<std::uint8_t>;
 
-/// The affine maps that move z̃ = [z; u_{j−1}] over one sampling period,
+/// The affine maps of the state z̃ = [z; u_{j−1}] of two masses over one sampling period,
 ///
 ///     z̃_{j+1} = S z̃_j + [a_j; 0] while the drive transmits, S* z̃_j + [a_j; 0] in the backlash,
 ///
@@ -29,27 +29,27 @@ class ItineraryMaps {
  public:
   using State = Vector<Scalar, 5>;      ///< state z̃ = [z; u_{j−1}]
   using Map = Matrix<Scalar, 5>;        ///< map of deviations of z̃
-  using System = CyclicSystem<Scalar>;  ///< solver for a periodic motion
+  using System = CyclicSystem<Scalar>;  ///< linear solver for a periodic motion
 
   /// @param loop   the loop; its backlash width is not used
-  /// @param ratio  f τ = p/q, of forcing_ratio()
+  /// @param ratio  f τ = p/q, forcing frequency × sampling period, from forcing_ratio()
   ItineraryMaps(const IdealLoop<Scalar>& loop, const Rational& ratio)
       : ItineraryMaps(sampled_loop(loop.plant, loop.sampling), loop, ratio) {}
 
-  /// The map S while the drive is engaged, S* while it is in the backlash; 5 × 5.
+  /// The map of z̃, 5 × 5: S while the drive is engaged, S* in the backlash.
   const Matrix<Scalar, 5>& map(bool engaged) const { return maps_[engaged ? 1 : 0]; }
 
-  /// The units of the state z̃, given by plant_scaling() of the loop.
+  /// The units in which the state z̃ is scaled (plant_scaling()).
   const Vector<Scalar, 5>& units() const { return units_; }
 
-  /// The map S or S* for z̃ in units().
+  /// The map S (engaged) or S* (in the backlash) for the scaled state z̃_i / units()_i.
   Matrix<Scalar, 5> map_in_units(bool engaged) const {
     return units_.cwiseInverse().asDiagonal() * map(engaged) * units_.asDiagonal();
   }
 
-  /// The largest number of samples whose maps may be multiplied without loss of digits in the most
-  /// contracted directions. The estimate uses the ratio of the largest to the smallest nonzero
-  /// pivot in the plant's 4 × 4 part of S or S*, a measure of a map's anisotropy.
+  /// The largest number of samples (1 … 8) whose maps may be multiplied without losing the digits
+  /// of strongly contracted directions. It is estimated from the ratio of the largest pivot to the
+  /// smallest nonzero one of the plant's 4 × 4 part of S and of S*.
   std::size_t samples_of_block() const;
 
   /// The number of samples q after which the forcing repeats.
@@ -58,7 +58,7 @@ class ItineraryMaps {
   /// The excitation's contribution to the plant state z in each of the q samples, 4 × 1.
   const std::vector<Vector<Scalar, 4>>& additions() const { return forcing_.additions(); }
 
-  /// The next state z̃_{j+1} from z̃_j at phase j of the forcing, 0 ≤ phase < q.
+  /// The next state z̃_{j+1} from z̃_j, with `phase` = j modulo q.
   Vector<Scalar, 5> step(const Vector<Scalar, 5>& state, bool engaged, std::size_t phase) const {
     Vector<Scalar, 5> next = map(engaged) * state;
     next.template head<4>() += forcing_.additions()[phase];
@@ -68,7 +68,7 @@ class ItineraryMaps {
   /// Computes all states of an itinerary from the first one; returns the state after the last.
   /// @param first      first state z̃₀
   /// @param itinerary  contacts, the first sample at phase 0 of the forcing
-  /// @param states     filled with the states z̃_j, one for each sample
+  /// @param states     filled with the states z̃_j; must have one entry for each sample
   State follow(const State& first, const Itinerary& itinerary, std::vector<State>& states) const {
     states.front() = first;
     std::size_t phase = 0;
@@ -79,7 +79,7 @@ class ItineraryMaps {
     return step(states.back(), itinerary.back() != 0, phase);
   }
 
-  /// The state of rest.
+  /// The state of rest, z̃ = 0.
   State rest() const { return State::Zero(); }
   /// The observed part [z; u_{j−1}] of a state; here the whole state.
   const State& seen(const State& state) const { return state; }
@@ -116,7 +116,7 @@ std::size_t ItineraryMaps<Scalar>::samples_of_block() const {
       std::clamp(std::log(largest_spread) / std::log(spread), 1.0, most));
 }
 
-/// The maps of blocks of samples of an itinerary (BlockProducts), in the units of `maps`.
+/// Products of an itinerary's maps, one per block of samples (BlockProducts), in maps.units().
 /// @param maps       maps of the loop
 /// @param itinerary  contacts of all samples
 template <class Scalar>

@@ -15,8 +15,8 @@
 
 namespace holdfast {
 
-/// The limit of border_share() (PeriodicOrbit, EventOrbit) below which an orbit is near a switching
-/// surface: changing a parameter in its fourth digit may end the orbit.
+/// The value of border_share() (PeriodicOrbit, EventOrbit) below which an orbit is near a switching
+/// surface: a relative change of a parameter by about 10⁻⁴ may end the orbit.
 inline constexpr double near_border = 1e-4;
 
 /// The common data of orbits that switch at samples (PeriodicOrbit) or between them (EventOrbitOf).
@@ -26,16 +26,16 @@ struct LoopOrbit {
   Rational ratio;                            ///< forcing frequency × sampling period, f τ = p/q
   double sampling_period;                    ///< sampling period τ (s)
   std::vector<Vector<double, Size>> states;  ///< state at each sample, the first at phase 0
-  /// Multipliers of one period, largest first; log_modulus is −∞ for a null direction. For a
+  /// Multipliers of one period, largest first; log_modulus is −∞ for a multiplier 0. For a
   /// conductor given by its modes only the ten largest are listed.
   std::vector<Multiplier> multipliers;
-  double closure_error;  ///< norm of the closure error z_N − z₀, z in m and m/s
+  double closure_error;  ///< norm of x_N − x₀, x being the (observed) plant state in SI units
 
   /// The number N of samples in a period.
   std::int64_t period_samples() const { return static_cast<std::int64_t>(states.size()); }
   /// The period N τ (s).
   double period() const { return static_cast<double>(period_samples()) * sampling_period; }
-  /// The number N p/q of periods of the excitation, a whole number; 0 without excitation.
+  /// The number N p/q of excitation periods in one period, a whole number; 0 without excitation.
   std::int64_t forcing_periods() const {
     return period_samples() / ratio.denominator * ratio.numerator;
   }
@@ -55,35 +55,35 @@ struct LoopOrbit {
   }
 };
 
-/// The outcome of a search for a motion's periodic orbit, or of a single solution for an orbit.
+/// The outcome of a search for the periodic orbit of a motion, or of a single solution: solving
+/// once for an orbit with assumed contacts, without following a motion.
 enum class OrbitOutcome {
-  certified,       ///< the motion was seen to tend to the orbit; after a single solution: the
-                   ///< orbit has the assumed contacts
-  approaching,     ///< an attracting orbit was found, but the motion was not seen to settle on it
+  certified,       ///< the motion tends to the orbit; single solution: the orbit has the assumed
+                   ///< contacts
+  approaching,     ///< an attracting orbit was found, but the motion did not settle on it in time
   on_surface,      ///< the contacts repeat, but the orbit touches a switching surface: the result
                    ///< depends on rounding, and no certificate can be given
-  incommensurate,  ///< f τ is no fraction p/q with q ≤ 10⁶: the phase of the forcing
-                   ///< never repeats
+  incommensurate,  ///< f τ is no fraction p/q with q ≤ 10⁶: the forcing's phase never repeats
   diverges,        ///< the motion grows without bound
-  none_found,  ///< no orbit in the given number of samples, or q exceeds the largest period; after
-               ///< a single solution: 1 is a multiplier, so that no solution or a continuum exists
+  none_found,      ///< no orbit in the given number of samples, or q exceeds the largest period;
+                   ///< single solution: 1 is a multiplier; no solution exists, or infinitely many
   not_reproduced,  ///< the contacts repeat, but the periodic solution has other contacts
-  neutral,         ///< 1 is a multiplier: the motion is on one orbit of a whole family, or drifts
-                   ///< along the family like an integrator without restoring term. Give the named
-                   ///< state a leak, leave it out, or prescribe its initial value
+  neutral,         ///< 1 is a multiplier: the orbit belongs to a continuous family, along which the
+                   ///< motion may drift. Give the state variable with index `neutral_state` a
+                   ///< restoring term, remove it, or prescribe its initial value
 };
 
-/// The result of a search for a periodic orbit, or of a single solution for an orbit.
+/// The result of a search for a periodic orbit, or of a single solution (OrbitOutcome).
 /// @tparam Orbit  PeriodicOrbit or EventOrbitOf<N>
 template <class Orbit>
 struct OrbitResultOf {
-  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< outcome of the search
-  std::optional<Orbit> orbit;  ///< the orbit, unless there was no solution; `outcome` states how
-                               ///< far it is confirmed
-  std::int64_t samples = 0;    ///< number of samples of the motion that were followed
-  int candidates = 0;          ///< number of proposed periods that were solved for
-  /// Index, from 0, of the state variable in which the orbits of a family differ most, where the
-  /// outcome is `neutral`. The plant's variables come first, then the controller's.
+  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< outcome of search or solution
+  std::optional<Orbit> orbit;  ///< the orbit; nullopt without a solution. `outcome` states
+                               ///< whether the orbit is confirmed
+  std::int64_t samples = 0;    ///< number of samples of the motion that were simulated
+  int candidates = 0;          ///< number of periods for which an orbit was solved for
+  /// Index, from 0, of the state variable in which the orbits of a family differ most; the plant's
+  /// variables come first, then the controller's. nullopt unless the outcome is `neutral`.
   std::optional<std::int64_t> neutral_state = {};
 };
 
@@ -107,8 +107,8 @@ std::size_t shortest_period(const std::vector<State>& states, const std::vector<
   return samples;
 }
 
-/// Whether a cyclic sequence equals another one rotated by 0, `step`, 2 `step`, … members.
-/// @param same  comparison of two members
+/// Whether a cyclic sequence equals another one rotated by 0, `step`, 2 `step`, … entries.
+/// @param same  comparison of two entries
 template <class Member, class Same>
 bool is_rotated(const std::vector<Member>& one, const std::vector<Member>& other, std::size_t step,
                 const Same& same) {
@@ -135,7 +135,7 @@ inline bool touches_surface(const StateScale& extent, double error, double displ
   return displacement <= rounding(extent.displacement) || velocity <= rounding(extent.velocity);
 }
 
-/// The outcome of a single solution for an orbit.
+/// The outcome of a single solution, by whether it touches a surface and switches as assumed.
 inline OrbitOutcome outcome_of(bool touches, bool switches_alike) {
   if (touches) return OrbitOutcome::on_surface;
   return switches_alike ? OrbitOutcome::certified : OrbitOutcome::not_reproduced;

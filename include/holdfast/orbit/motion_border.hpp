@@ -13,35 +13,35 @@
 
 namespace holdfast {
 
-/// The causes that end a periodic motion at the border of its region of parameters.
+/// The causes that end a periodic motion at the border of its parameter region.
 enum class BorderKind {
   fold,              ///< a multiplier reaches 1
-  flip,              ///< a multiplier reaches −1
-  neimark_sacker,    ///< a pair of multipliers reaches the unit circle
-  border_collision,  ///< switching at samples: a sample reaches a switching surface
-  grazing,  ///< switching exactly: Δz or Δż touches a switching surface without crossing it
-  sliding,  ///< switching exactly: reversals begin or cease to lead to stick
-  switch_at_sample,  ///< switching exactly: a switch reaches a sample, where the force or the
-                     ///< command jumps
-  jump,              ///< the motion ceases to exist although no margin falls to zero
-  window,            ///< the edge of the given window
+  flip,              ///< a multiplier reaches −1 (period doubling)
+  neimark_sacker,    ///< a complex pair of multipliers reaches the unit circle
+  border_collision,  ///< switching at samples: Δz or Δż of a sample reaches a surface
+  grazing,  ///< exact switching: Δz or Δż touches a switching surface without crossing it
+  sliding,  ///< exact switching: after a reversal, stick replaces the gap or vice versa
+  switch_at_sample,  ///< exact switching: a contact change reaches a sample, where F or u may jump
+  jump,              ///< the motion ceases to exist before any margin falls to zero
+  window,            ///< edge of the searched window; the motion may continue beyond
 };
 
 /// A piece of the border of a motion's parameter region, with the multiplier at one of its points.
 struct MotionBorder {
-  BorderKind kind = BorderKind::window;  ///< cause that ends the motion there
-  /// Surface of a collision or grazing: `reversal` or an end of the gap; with exact switching
-  /// `gap_upper` stands for either end of the gap.
+  BorderKind kind = BorderKind::window;  ///< cause that ends the motion at this piece
+  /// Surface of a border collision, a grazing or a sliding border; no meaning for other kinds. With
+  /// exact switching `gap_upper` means either end of the gap.
   SwitchingSurface surface = SwitchingSurface::reversal;
-  std::int64_t sample = -1;  ///< sample of a collision, in the first half of the period if the
-                             ///< motion is symmetric; −1 for other kinds of border
-  /// Sector of the pair's angle θ for `neimark_sacker`: 0 below π/2, 1 up to 2π/3, 2 above. Side
-  /// for `window`: 0 least x, 1 largest x, 2 least y, 3 largest y.
+  /// Number of the sample at which a border collision occurs. For a symmetric motion it is reduced
+  /// to the first half period. −1 for other kinds of border and for a motion that stays in its gap.
+  std::int64_t sample = -1;
+  /// For `neimark_sacker` the range of the multipliers' angle |θ|: 0 below π/2, 1 up to 2π/3, else
+  /// 2. For `window` its side: 0 least x, 1 largest x, 2 least y, 3 largest y. Otherwise 0.
   int part = 0;
-  Multiplier multiplier{};  ///< largest multiplier; ignored by ==
+  Multiplier multiplier{};  ///< largest multiplier at the point; ignored by ==
 };
 
-/// Whether two descriptions belong to the same piece of a border.
+/// Whether two borders are the same piece: equal kind, surface, sample and part.
 inline bool operator==(const MotionBorder& a, const MotionBorder& b) {
   return a.kind == b.kind && a.surface == b.surface && a.sample == b.sample && a.part == b.part;
 }
@@ -50,16 +50,15 @@ inline bool operator==(const MotionBorder& a, const MotionBorder& b) {
 struct MotionBorderPoint {
   double x;             ///< the first parameter
   double y;             ///< the second parameter
-  MotionBorder border;  ///< cause that ends the motion there
+  MotionBorder border;  ///< piece of the border, with the cause that ends the motion
 };
 
-/// The region in the plane of two parameters in which a periodic motion exists and attracts, around
-/// the point of the given motion. The region is described by its border.
+/// The region of two parameters, given by its border, where a given motion exists and attracts.
 struct MotionRegion {
   /// Points of the border, counter-clockwise. Where the kind of border changes, two points lie
-  /// close together, at a point of codimension two.
+  /// close together, at a codimension-two point.
   std::vector<MotionBorderPoint> border;
-  bool closed = false;  ///< whether the border is complete; else the search lost it
+  bool closed = false;  ///< whether the border is complete; else it could not be followed further
   int solutions = 0;    ///< number of times that the motion was solved for
 };
 
@@ -70,19 +69,19 @@ struct ParameterWindow {
   double y_from;  ///< least y
   double y_to;    ///< largest y, above y_from
 
-  /// The point at given shares, 0 … 1, of the window's sides.
+  /// The point (x, y) at a position given by shares, 0 … 1, of the window's sides.
   PlanePoint at(const PlanePoint& shares) const {
     return {x_from + shares.x * (x_to - x_from), y_from + shares.y * (y_to - y_from)};
   }
-  /// The position of a point as shares of the window's sides.
+  /// The position of a point (x, y) as shares of the window's sides, 0 … 1 inside.
   PlanePoint shares_of(const PlanePoint& point) const {
     return {(point.x - x_from) / (x_to - x_from), (point.y - y_from) / (y_to - y_from)};
   }
 };
 
-/// The number k of the strong resonance 1:k where two pieces of the border meet: a pair of
-/// multipliers reaches 1, −1, e^{±2πi/3} or ±i.
-/// @return nothing where the pieces meet in another kind of point
+/// The number k of the strong resonance 1:k at the common point of two border pieces. A pair of
+/// multipliers is there at 1 (k = 1), −1 (2), e^{±2πi/3} (3) or ±i (4).
+/// @return nullopt where the common point is of another kind
 inline std::optional<int> strong_resonance(const MotionBorder& a, const MotionBorder& b) {
   const auto pair = BorderKind::neimark_sacker;
   if (a.kind != pair && b.kind != pair) return std::nullopt;
@@ -94,7 +93,7 @@ inline std::optional<int> strong_resonance(const MotionBorder& a, const MotionBo
 
 namespace detail {
 
-/// The border at which the largest multiplier reaches the unit circle.
+/// The border, by the angle of the largest multiplier: fold, flip or Neimark–Sacker.
 inline MotionBorder circle_border(const Multiplier& multiplier) {
   constexpr double pi = 3.14159265358979323846, real = 1e-7;
   const double angle = std::abs(multiplier.angle);
@@ -120,7 +119,7 @@ inline void validate(const ParameterWindow& window, const PlanePoint& at) {
   require_within("second parameter", at.y, "", window.y_from, window.y_to);
 }
 
-/// The region of a motion within a window, found by following its border.
+/// The region of a motion within a window, found by following its border from `start`.
 /// @param look  (x, y) ↦ RegionLook<MotionBorder>: the nearest border and the margin from it
 template <class Look>
 MotionRegion motion_region_by(const Look& look, const ParameterWindow& window,

@@ -11,8 +11,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// Whether a motion is its own mirror image half a period later. Such a motion reaches a surface
-/// and the mirrored surface at the same parameters.
+/// Whether an orbit is symmetric: half a period later the state has the opposite sign. Such an
+/// orbit reaches a switching surface and the opposite one at the same parameters.
 inline bool mirrors_itself(const PeriodicOrbit& orbit) {
   const std::size_t samples = orbit.states.size(), half = samples / 2;
   if (samples % 2 != 0) return false;
@@ -26,8 +26,8 @@ inline bool mirrors_itself(const PeriodicOrbit& orbit) {
   return true;
 }
 
-/// The nearest border of a solved itinerary, and the margin of the solution from that border.
-/// @param half  half the period (samples) if the motion mirrors itself, else 0
+/// The nearest border of an orbit's solution, and the margin of the solution from that border.
+/// @param half  half the period (samples) of a symmetric orbit, else 0
 inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t half) {
   if (point.by_multiplier == point.margin())
     return {point.margin(), circle_border(point.multiplier)};
@@ -50,9 +50,9 @@ inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t h
 /// samples exists and attracts. Inside, the motion's itinerary has a solution, every sample stays
 /// on its side of the switching surfaces and every multiplier lies inside the unit circle.
 ///
-/// The maps are affine between switches. Therefore, as a multiplier tends to 1, the solution grows
-/// beyond bounds and meets a switching surface first. A border has the kind `fold` only where a
-/// symmetry breaks.
+/// The map of a given itinerary is affine. As a multiplier tends to 1, the periodic solution grows
+/// without bound, and reaches a switching surface before. The exception is a symmetric motion that
+/// loses its symmetry; only there a `fold` occurs.
 ///
 ///     const auto family = [&](double width, double gain) { … return other; };
 ///     const MotionRegion region = motion_region(family, orbit, window, {0.002, -13.0});
@@ -62,8 +62,8 @@ inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t h
 /// @param window  range of the parameters that is searched, around `at`
 /// @param at      parameters (x, y) of the orbit
 /// @param steps   steps along the border, as shares of the window
-/// @throws InvalidParameter where f τ changes, the backlash vanishes or appears, or the window is
-/// not finite, is empty or does not contain the point
+/// @throws InvalidParameter where f τ changes, the backlash width becomes zero or nonzero, or the
+/// window is not finite, is empty or does not contain the point
 template <class Family>
 MotionRegion motion_region(const Family& family, const PeriodicOrbit& orbit,
                            const ParameterWindow& window, const PlanePoint& at,
@@ -74,7 +74,7 @@ MotionRegion motion_region(const Family& family, const PeriodicOrbit& orbit,
   const bool stays = orbit.engaged_fraction() == 0.0;
   const auto look = [&](double x, double y) {
     auto seen = detail::look_of(continuation.at(x, y), half);
-    // The sample at which a motion inside its gap reaches farthest does not matter.
+    // For a motion that stays in its gap the sample does not distinguish borders.
     if (stays && seen.label.kind == BorderKind::border_collision) seen.label.sample = -1;
     return seen;
   };

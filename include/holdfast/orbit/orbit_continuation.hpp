@@ -15,28 +15,29 @@
 
 namespace holdfast {
 
-/// The causes that end the continuation of an orbit along a parameter.
+/// The cause that ends the continuation of an orbit along a parameter.
 enum class BranchEndOutcome {
-  border_collision,  ///< a sample reaches a switching surface: its decision would change
+  border_collision,  ///< Δz or Δż at a sample reaches a switching surface: the contact changes
   unit_circle,       ///< a multiplier reaches modulus 1
-  range_end,         ///< no such cause: the orbit exists and attracts up to the end of the range
+  range_end,         ///< no end: the orbit exists and attracts up to the end of the range
 };
 
 /// The value of a parameter at which an orbit ends, and the cause of the end.
 struct BranchEnd {
   BranchEndOutcome outcome = BranchEndOutcome::range_end;  ///< cause of the end
   double parameter = 0.0;                                  ///< value of the parameter at the end
-  Border border;            ///< surface and sample of a border collision
-  Multiplier multiplier{};  ///< largest multiplier at the end; for `unit_circle`, its angle is 0 at
-                            ///< a fold, π at a flip and any other for a pair
-  int solutions = 0;        ///< number of times that the itinerary was solved
+  Border border;  ///< surface and sample of a border collision; else the default
+  /// Largest multiplier at the end; for `unit_circle` with angle 0 at a fold, π at a flip (period
+  /// doubling) and another angle for a complex pair.
+  Multiplier multiplier{};
+  int solutions = 0;  ///< number of solutions for the orbit that were computed
 };
 
 namespace detail {
 
-/// The solution of an orbit's itinerary at one value of a parameter, with the orbit's margins:
-/// distances from switching surfaces, as shares of the orbit's size, and −ln |λ| of the largest
-/// multiplier λ. A margin is positive while the orbit lasts, and −1 without a solution.
+/// The solution for an orbit at one parameter value, with its margins: least distances from the
+/// switching surfaces, as shares of the orbit's size, and −ln |λ| of the largest multiplier λ. All
+/// margins are positive while the orbit exists and attracts, and −1 without a solution.
 struct BranchPoint {
   Borders borders;
   Multiplier multiplier{};
@@ -53,7 +54,7 @@ struct BranchPoint {
   }
 };
 
-/// The continuation of an orbit, with its itinerary kept, over loops of one or more parameters.
+/// The continuation of an orbit with a fixed itinerary over loops that depend on parameters.
 template <class Family>
 class OrbitContinuation {
  public:
@@ -87,7 +88,7 @@ class OrbitContinuation {
   int solutions() const { return solutions_; }
 
  private:
-  /// The borders of an orbit that stays in its gap, measured in the gap with the most clearance:
+  /// The borders of an orbit that stays in its gap, for the gap position with the most clearance:
   /// such an orbit exists in every gap that contains it.
   static Borders borders_in_best_gap(const std::vector<Vector<double, 5>>& states, double width) {
     const auto less = [](const auto& a, const auto& b) {
@@ -104,9 +105,10 @@ class OrbitContinuation {
     const double kept =
         static_cast<double>(orbit_.ratio.numerator) / static_cast<double>(orbit_.ratio.denominator);
     if (loop.excitation.amplitude > 0.0 && !(std::abs(given - kept) <= 1e-9 * kept))
-      throw InvalidParameter("f tau along the path", given, "", "equal to f tau of the orbit");
+      throw InvalidParameter("frequency times sampling period (f tau)", given, "",
+                             "equal to f tau of the orbit");
     if (has_backlash_ != (loop.backlash_width > 0.0))
-      throw InvalidParameter("backlash width along the path", loop.backlash_width, "m",
+      throw InvalidParameter("backlash width", loop.backlash_width, "m",
                              has_backlash_ ? "> 0, like the orbit's backlash width"
                                            : "0, like the orbit's backlash width");
   }
@@ -121,23 +123,22 @@ class OrbitContinuation {
 
 }  // namespace detail
 
-/// Continues an orbit along one parameter, with its itinerary fixed, up to the orbit's end.
+/// Continues an orbit with a fixed itinerary along one parameter until the orbit ends.
 ///
-/// At each value the itinerary is solved again. The orbit lasts while every sample stays on its
-/// side of the switching surface and every multiplier inside the unit circle. The first step with
-/// an end is narrowed down to rounding. An end with a return within one step is missed.
+/// The orbit is solved for at each value. It lasts while every sample stays on its side of the
+/// switching surfaces and every multiplier inside the unit circle. Bracketing in the first step
+/// with an end locates it to rounding. An end and reappearance within a step pass unnoticed.
 ///
 ///     const auto family = [&](double gain) { auto other = loop; other.gains.differential = gain;
 ///                                          return other; };
 ///     const BranchEnd end = continue_orbit(family, orbit, loop.gains.differential, -30.0);
 ///
-/// @param family  parameter ↦ IdealLoop<double>, with the same f τ everywhere; family(from) is the
-///                loop of the orbit
+/// @param family  parameter ↦ IdealLoop<double> of constant f τ; family(from) is the orbit's loop
 /// @param orbit   certified orbit
 /// @param from,to  first and last value of the parameter, finite; `to` may be below `from`
 /// @param steps   number of steps, 1 … 10⁶
-/// @throws InvalidParameter where the range is not finite, f τ changes, or the backlash vanishes or
-/// appears along the path, which changes the law of contact
+/// @throws InvalidParameter where the range is not finite, f τ changes, or the backlash width
+/// becomes zero or nonzero along the path
 template <class Family>
 BranchEnd continue_orbit(const Family& family, const PeriodicOrbit& orbit, double from, double to,
                          int steps = 64) {

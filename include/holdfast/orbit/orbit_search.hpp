@@ -18,13 +18,12 @@ namespace holdfast {
 
 namespace detail {
 
-/// The model of a motion that switches at samples, for ReturnSearch. After a near return with
-/// repeated contacts the exact orbit is solved for. The motion has settled on an orbit once it lies
-/// within the orbit's region of attraction.
+/// The Model of ReturnSearch for contact changes at samples only. When state and contacts repeat,
+/// the orbit is solved for exactly. A motion in an orbit's region of attraction has settled on it.
 /// @tparam Loop        IdealLoop or ModalLoop
 /// @tparam MotionOf    motion of that loop
 /// @tparam Attraction  type with maps() of the loop; samples_per_solved(); surround(orbit), which
-///                     computes the region; holds(motion): the motion lies in that region
+///                     computes the region; holds(motion): whether the motion lies in that region
 template <class Loop, class MotionOf, class Attraction>
 class SampledSearchModel {
  public:
@@ -57,14 +56,16 @@ class SampledSearchModel {
     return memory().backlash.inside == other.backlash.inside;
   }
 
-  /// Whether the contacts since the reference sample equal those of as many samples before that.
+  /// Whether the last `period` contacts equal the `period` contacts before. If too few are known:
+  /// whether the reference is the first sample or the period is q.
   bool may_repeat(const Seen& seen, std::int64_t period) const {
     if (seen.reference < period) return seen.reference == 0 || period == ratio_.denominator;
     const auto end = seen.itinerary.end();
     return std::equal(end - period, end, end - 2 * period);
   }
 
-  /// The orbit with the repeated contacts, unless it touches a surface and follows() is false.
+  /// Solves for the orbit with the last `period` contacts. An orbit that touches a switching
+  /// surface is returned only if the motion follows() it.
   Result solve(Seen& seen, std::int64_t period, const Memory& reference) {
     Result found =
         solved({seen.itinerary.end() - period, seen.itinerary.end()}, reference.backlash);
@@ -86,7 +87,7 @@ class SampledSearchModel {
     return found.outcome == OrbitOutcome::on_surface || attraction_.holds(motion_);
   }
 
-  /// The given orbit with its shortest period.
+  /// The orbit with its shortest period; the given orbit where that one is not confirmed.
   PeriodicOrbit shortened(const PeriodicOrbit& orbit) const {
     const auto step = static_cast<std::size_t>(ratio_.denominator);
     const auto period = static_cast<std::ptrdiff_t>(
@@ -101,7 +102,7 @@ class SampledSearchModel {
 
  private:
   /// Whether the motion is within 10⁻⁶ of its extent from the orbit, has the orbit's contacts for
-  /// one period and did not move away meanwhile. The samples taken are added to `seen`.
+  /// one period and is no farther from the orbit afterwards. Appends the samples taken to `seen`.
   bool follows(const PeriodicOrbit& orbit, Seen& seen) {
     const State first = orbit.states.front().template head<4>();
     const double before = seen.extent.share_of(state() - first);
@@ -124,11 +125,11 @@ class SampledSearchModel {
   Attraction attraction_;
 };
 
-/// The region of attraction of an IdealLoop's orbit, from attraction_balls().
+/// The region of attraction of an IdealLoop's orbit, computed by attraction_balls().
 template <class Scalar>
 class SampledAttraction {
  public:
-  /// The estimated cost of solving, in simulated samples per orbit sample; measured: 10 … 50.
+  /// The cost of solving per orbit sample, as a number of simulated samples (measured 10 … 50).
   static std::int64_t samples_per_solved() { return 16; }
 
   SampledAttraction(const IdealLoop<Scalar>& loop, const Rational& ratio)
@@ -177,13 +178,14 @@ OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio
 ///
 /// `certified` means that the motion is in the orbit's region of attraction and tends to the orbit.
 ///
-/// Bounded work: at most `limits.most_samples` samples of the motion (one period more where the
-/// orbit touches a switching surface) and about as much again for solving. Memory: one byte per
-/// sample of the motion, and 90 bytes per sample of the orbit.
+/// Work is bounded: at most `limits.most_samples` samples are simulated, and one period more where
+/// the orbit touches a switching surface. Solving for orbits costs at most about as much again.
+/// Memory: one byte per sample of the motion, and 90 bytes per sample of the orbit.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
-/// @param limits         limits of the search: largest period and length of the motion
-/// @throws InvalidParameter where an argument is not admissible
+/// @param limits         limits of the search: longest period and number of samples
+/// @return the outcome, with an orbit where a periodic solution was found
+/// @throws InvalidParameter where the loop, the initial state or a limit is out of its range
 template <class Scalar>
 OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
                                 const Vector<double, 4>& initial_state,
@@ -197,7 +199,7 @@ OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
   return detail::orbit_of_motion(loop, *ratio, limits,
                                  periodically_forced_motion(loop, *ratio, initial_state));
 }
-/// Finds the periodic orbit on which a motion settles; the initial state is any Eigen column.
+/// Finds the periodic orbit on which a motion settles; the state is any Eigen column vector.
 template <class Scalar, class Column>
 OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
                                 const Eigen::MatrixBase<Column>& initial_state,

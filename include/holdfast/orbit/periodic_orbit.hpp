@@ -20,10 +20,11 @@
 
 namespace holdfast {
 
-/// A certified periodic motion of the sampled loop with backlash: the exact solution for its
-/// itinerary (sequence of contacts), which the backlash rule reproduces along the solution.
+/// A periodic motion of the sampled loop with backlash. It is the periodic solution for a given
+/// itinerary, the sequence of contacts at the samples. The outcome of the search states whether the
+/// backlash rule, applied along this solution, gives the same itinerary.
 struct PeriodicOrbit : LoopOrbit<5> {
-  Itinerary itinerary;            ///< contacts of one period, N samples
+  Itinerary itinerary;            ///< contact at each sample of a period: 1 engaged, 0 not
   BacklashMemory<double> memory;  ///< memory of the drive before the first sample
   Borders borders;                ///< the nearest switching surface of each kind
 
@@ -33,8 +34,8 @@ struct PeriodicOrbit : LoopOrbit<5> {
     return static_cast<double>(engaged) / static_cast<double>(itinerary.size());
   }
 
-  /// The distance from the nearest switching surface as a share of the orbit's size; infinite where
-  /// the loop has no such surface.
+  /// The relative distance from the nearest switching surface: the smaller of the distance of Δz
+  /// over the largest displacement and of Δż over the largest velocity. +∞ without such a surface.
   double border_share() const {
     const StateScale extent(states);
     return std::min(extent.share_of_displacement(borders.displacement.distance),
@@ -45,7 +46,7 @@ struct PeriodicOrbit : LoopOrbit<5> {
 /// The result of a search for a periodic orbit of a loop that switches at its samples.
 using OrbitResult = OrbitResultOf<PeriodicOrbit>;
 
-/// The states of a motion that repeats a given itinerary for ever.
+/// The periodic solution of a loop whose contacts follow a given itinerary in every period.
 /// @tparam Maps  ItineraryMaps or ModalItineraryMaps
 template <class Maps>
 struct PeriodicSolution {
@@ -56,17 +57,17 @@ struct PeriodicSolution {
   std::vector<Seen> states;    ///< observed states z̃_j = [z_j; u_{j−1}], one for each sample
   /// Closure error ‖z_N − z₀‖ after one period from z₀ (z in m and m/s).
   typename Seen::Scalar closure_error;
-  /// Error of z̃₀ that follows from the closure error, as a share of the extent of the states.
+  /// Estimated error of z̃₀ due to the closure error, as a share of the extent of the states.
   double state_error;
 };
 
-/// Solves z̃_N = z̃₀ for an itinerary: (I − M) z̃₀ = g with the product M of the period's maps and the
-/// closure error g of the motion from rest. Two more such steps reduce the remaining error.
+/// Solves z̃_N = z̃₀ for an itinerary: (I − M) z̃₀ = g. Here M is the product of the period's maps and
+/// g the state after one period from z̃₀ = 0. Two steps of iterative refinement follow.
 /// @param maps       maps of the loop
-/// @param itinerary  N samples, N a multiple of the forcing's q, the first one at phase 0
+/// @param itinerary  contacts of N samples, N a multiple of q (f τ = p/q), the first at phase 0
 /// @param blocks     maps_of_blocks() of the itinerary
-/// @return nothing where 1 is a multiplier of the itinerary to working precision, so that there is
-///         no periodic solution or a continuum of them; nothing without blocks
+/// @return nullopt where 1 is a multiplier to working precision: there is then no periodic solution
+///         or a continuum of them. Also nullopt where `blocks` is empty
 template <class Maps>
 std::optional<PeriodicSolution<Maps>> periodic_solution(
     const Maps& maps, const Itinerary& itinerary, const std::vector<typename Maps::Map>& blocks) {
@@ -94,16 +95,17 @@ std::vector<Multiplier> multipliers_of(const ItineraryMaps<Scalar>&, const Itine
   return multipliers_of_product(blocks);
 }
 
-/// Solves for the orbit of an itinerary and verifies it.
-///
+/// Solves for the orbit of an itinerary. Then applies the backlash law along the solution and
+/// compares the resulting contacts with the itinerary.
 /// @param loop       the loop with its excitation
 /// @param ratio      value of forcing_ratio(loop)
 /// @param maps       maps of the same loop and ratio
-/// @param itinerary  N samples, N ≥ 1 a multiple of q, the first one at phase 0 of the forcing
+/// @param itinerary  contacts of N ≥ 1 samples, N a multiple of q, the first one at phase 0
 /// @param law        backlash law with its memory before the first sample
-/// @return `certified` where the solution has this itinerary, attracting or not
-/// Work: about 500 multiply-adds a sample of the two masses; memory about 70 bytes a sample.
-/// @tparam Loop  IdealLoop or ModalLoop, with its Maps
+/// @return `certified` where both are equal, whether the orbit attracts or not; otherwise
+///         `on_surface`, `not_reproduced`, or `none_found` without an orbit
+/// Work for two masses: about 500 multiply-adds per sample. Memory: about 70 bytes per sample.
+/// @tparam Loop  IdealLoop, with ItineraryMaps, or ModalLoop, with ModalItineraryMaps
 template <class Loop, class Maps, class Scalar>
 OrbitResult orbit_of_itinerary(const Loop& loop, const Rational& ratio, const Maps& maps,
                                const Itinerary& itinerary, const Backlash<Scalar>& law) {
@@ -125,20 +127,21 @@ OrbitResult orbit_of_itinerary(const Loop& loop, const Rational& ratio, const Ma
 
 /// The comparison of a periodic orbit with its solution in another number type.
 struct OrbitVerification {
-  bool same_itinerary = false;  ///< whether the solution in that type has the itinerary
-  double displacement_difference = std::numeric_limits<double>::infinity();  ///< max. error (m)
-  double velocity_difference = std::numeric_limits<double>::infinity();      ///< max. error (m/s)
+  bool same_itinerary = false;  ///< whether the solution in that type has the orbit's itinerary
+  double displacement_difference =
+      std::numeric_limits<double>::infinity();  ///< largest difference of z₁ or z₂ at a sample (m)
+  double velocity_difference =
+      std::numeric_limits<double>::infinity();  ///< largest difference of ż₁ or ż₂ (m/s)
   double closure_error = std::numeric_limits<double>::infinity();  ///< ‖z_N − z₀‖ in that type (SI)
 };
 
-/// Recomputes an orbit from its itinerary entirely in the number type `Precise`: matrix
-/// exponentials, forcing, solution and backlash.
+/// Recomputes an orbit from its itinerary in `Precise`: exponentials, forcing, solution, backlash.
 ///
 ///     verify_orbit<long double>(loop, orbit).same_itinerary
 ///
 /// @param loop   the loop that the orbit was found for
 /// @param orbit  certified orbit of that loop
-/// @return infinite differences where the itinerary's equations are singular in that type
+/// @return the comparison; its differences are infinite where 1 is a multiplier in that type
 template <class Precise>
 OrbitVerification verify_orbit(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
   const ItineraryMaps<Precise> maps(converted<Precise>(loop), orbit.ratio);

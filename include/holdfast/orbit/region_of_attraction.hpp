@@ -16,17 +16,17 @@
 
 namespace holdfast {
 
-/// A neighbourhood of one state of an orbit: every motion that is in it at the same phase of the
-/// forcing follows the orbit's itinerary for ever and tends to the orbit.
+/// A neighbourhood of one state of an orbit. Every motion inside, at the same phase of the forcing,
+/// follows the orbit's itinerary for ever and tends to the orbit.
 ///
 /// The norm of deviations is
 ///
 ///     ‖e‖² = e_z₁² + (e_ż₁/ω)² + e_z₂² + (e_ż₂/ω)² + (e_u/k₁)² + e_gap²   (m²),
 ///
 /// with the excitation's angular frequency ω (without excitation √(k₁/m₁)) and the deviation e_gap
-/// of the gap's position. Contact and the last sample's sign of Δż must agree with the orbit. An
-/// orbit that stays in the gap for ever does so in every gap that contains it: then the radius is
-/// per metre of clearance between the orbit and the gap's ends.
+/// of the gap's position, in a gap. The motion must have the orbit's contact and, if engaged, its
+/// sign of Δż at the last sample. An orbit that never leaves its gap exists in every gap that
+/// contains its Δz. The ball's radius is then `radius` times its clearance from the gap's ends.
 struct AttractionBall {
   std::int64_t sample;            ///< index of the orbit's sample: a multiple of q, f τ = p/q
   Vector<double, 5> state;        ///< state z̃ = [z; u_{j−1}] at that sample
@@ -34,11 +34,11 @@ struct AttractionBall {
   bool stays_inside;              ///< the drive never leaves its gap
   double lowest,                  ///< least Δz of the orbit (m)
       highest;                    ///< largest Δz of the orbit (m)
-  double radius;                  ///< radius (m), or m per metre of clearance; > 0
+  double radius;                  ///< radius (m), > 0; if stays_inside, m per metre of clearance
 };
 
-/// The weights of the norm of deviations, [1, 1/ω, 1, 1/ω, 1/k₁, 1], which convert to metres; ω is
-/// √(k₁/m₁) where the excitation has no amplitude.
+/// The weights [1, 1/ω, 1, 1/ω, 1/k₁, 1] that convert a deviation of [z₁, ż₁, z₂, ż₂, u, gap] to
+/// metres; ω is √(k₁/m₁) where the excitation has no amplitude.
 template <class Scalar>
 Vector<Scalar, 6> deviation_weights(const IdealLoop<Scalar>& loop) {
   const Scalar stiffness = loop.plant.conductor_stiffness;
@@ -48,16 +48,15 @@ Vector<Scalar, 6> deviation_weights(const IdealLoop<Scalar>& loop) {
   return {1.0, 1.0 / angular_frequency, 1.0, 1.0 / angular_frequency, 1.0 / stiffness, 1.0};
 }
 
-/// The radius of a neighbourhood (m) for a given memory of the drive. It is not positive where an
-/// orbit that stays inside its gap does not fit into the drive's gap.
+/// The radius (m) of a neighbourhood of an orbit for a given memory of the drive. The radius is ≤ 0
+/// where an orbit that stays in its gap does not fit into the gap of `drive`.
 template <class Neighbourhood>
 double attraction_radius(const Neighbourhood& point, const BacklashMemory<double>& drive) {
   if (!point.stays_inside) return point.radius;
   return point.radius * std::min(point.lowest - drive.lower, drive.upper - point.highest);
 }
 
-/// Whether a motion at a stroboscopic instant (sampling and forcing in phase) lies in a point's
-/// neighbourhood.
+/// Whether a motion, with sampling and forcing in phase, lies in a neighbourhood of attraction.
 /// @param point    the neighbourhood, at the same phase of the forcing
 /// @param motion   memory() of the motion, before the sample
 /// @param weights  deviation_weights()
@@ -75,8 +74,8 @@ bool attracts(const AttractionBall& point, const Memory& motion, const Vector<do
 
 namespace detail {
 
-/// Bounds of a deviation over some samples: the largest initial deviation that changes no decision,
-/// and the largest growth of a deviation up to the end of the samples.
+/// Bounds for a deviation over a segment of samples: the largest initial deviation that changes no
+/// contact decision, and the largest growth of a deviation up to the end of the segment.
 struct DeviationSegment {
   double radius = std::numeric_limits<double>::infinity();  // m
   double growth = 1.0;                                      // Frobenius norm
@@ -89,7 +88,7 @@ class SampledDeviations {
   using Columns = Matrix<Scalar, 6>;               ///< six deviations e
   using Deviations = Eigen::Matrix<Scalar, 5, 6>;  ///< deviations of z̃, without the gap
   using Readings = Eigen::Matrix<Scalar, 2, 6>;    ///< readings of Δz and Δż, one per row
-  static constexpr int block = 1;                  ///< most samples between take_readings() calls
+  static constexpr int block = 1;                  ///< samples between take_readings(), at most
 
   SampledDeviations(const IdealLoop<Scalar>& loop, const ItineraryMaps<Scalar>& maps) {
     const Vector<Scalar, 5> weights = deviation_weights(loop).template head<5>();
@@ -121,7 +120,7 @@ class SampledDeviations {
   int read_ = 0;
 };
 
-/// The flow of deviations e = [e_x; e_gap], in metres, along an orbit.
+/// The propagation of deviations e = [e_x; e_gap] from an orbit, in metres, along that orbit.
 /// @tparam Deviations  SampledDeviations or ModalDeviations: order(), begin(columns), columns(),
 ///                     read_displacement(), read_velocity(), take_readings(), advance(engaged)
 template <class Deviations>
@@ -158,8 +157,7 @@ class DeviationFlow {
   Columns over(std::int64_t samples) { return follow(unit(), samples, nullptr); }
 
   /// Propagates given deviations over the next `samples` samples.
-  /// @param segment  if given, its radius is lowered to the least norm at which a decision may
-  ///                 change
+  /// @param segment  if given, its radius is lowered to the least norm that may change a contact
   Columns follow(const Columns& deviations, std::int64_t samples, DeviationSegment* segment) {
     deviations_.begin(deviations.topRows(deviations.rows() - 1));
     gap_ = deviations.row(deviations.rows() - 1);
@@ -238,7 +236,7 @@ inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>&
   if (smallest == everywhere) return radii;
   if (!(logarithm < 0.0)) return {};
   double following = everywhere;
-  // The second turn knows what the first segment allows the last one to leave.
+  // The second turn takes the radius of the first segment into account at the end of the last one.
   for (int turn = 0; turn < 2; ++turn) {
     for (std::size_t k = segments.size(); k-- > 0;) {
       following = std::min(segments[k].radius, following / segments[k].growth);
@@ -248,8 +246,8 @@ inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>&
   return radii;
 }
 
-/// The segments of one period, each of `length` times q samples (the last may be shorter), or, if
-/// that is longer than the period, one segment of several whole periods.
+/// The segments of one period, each of `length` times q samples (the last may be shorter). If that
+/// is longer than the period, there is one segment of several whole periods.
 /// @param flow  flow of deviations from the first sample on
 template <class Deviations>
 std::vector<DeviationSegment> deviation_segments(DeviationFlow<Deviations> flow,
@@ -300,15 +298,15 @@ std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
 /// every q samples) from which every motion tends to the orbit.
 ///
 /// The period is cut into segments of q samples, then of 2 q, 4 q, … samples, until the segments
-/// together contract. In a segment a deviation e changes no decision while |h Φ e| is below the
-/// orbit's distance from the switching surface, h being the surface's normal and Φ the flow of
-/// deviations; e grows at most by the factor ‖Φ‖. By induction both bounds hold for all time.
+/// together contract. Φ is the flow of deviations from a segment's start. A deviation e there
+/// changes no contact while |h Φ e| is below the orbit's distance from the surface with normal h.
+/// Over the segment, e grows at most ‖Φ‖-fold. By induction both bounds hold for all time.
 /// @param loop   the loop that has the orbit
 /// @param orbit  attracting and certified
-/// @return neighbourhoods in the order of the orbit; empty where no segments of up to 64 periods,
-///         or 10⁶ samples, contract
-/// Work: about 300 multiply-adds per sample for every length of segment tried below a period, and
-/// for the first longer segment that contracts.
+/// @return neighbourhoods in the order of the samples; empty where no segments contract, up to a
+///         length of 64 periods or 10⁶ samples, whichever is longer
+/// Work: about 300 multiply-adds per sample for each length of segments up to a period; no more
+/// than one of the longer lengths is computed in full.
 template <class Scalar>
 std::vector<AttractionBall> attraction_balls(const IdealLoop<Scalar>& loop,
                                              const PeriodicOrbit& orbit) {
@@ -317,8 +315,7 @@ std::vector<AttractionBall> attraction_balls(const IdealLoop<Scalar>& loop,
       Deviations(loop, ItineraryMaps<Scalar>(loop, orbit.ratio)), loop.backlash_width, orbit);
   const std::int64_t step = orbit.ratio.denominator;
   const std::int64_t common_periods = orbit.period_samples() / step;
-  // Segments of more than one period hold whole ones, to begin where they are used again; Φ over
-  // them says without another walk whether they contract.
+  // Segments longer than a period are whole periods; the norm of Φ shows whether they contract.
   Matrix<Scalar, 6> whole = Matrix<Scalar, 6>::Zero();
   std::int64_t length = 1;
   const std::int64_t longest = std::max(64 * common_periods, 1'000'000 / step);

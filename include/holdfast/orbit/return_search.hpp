@@ -13,16 +13,16 @@
 
 namespace holdfast {
 
-/// The limits of a search for an orbit: largest period and length of the motion.
+/// The limits of a search for a periodic orbit: longest period and number of samples simulated.
 struct OrbitLimits {
   std::int64_t largest_period = 1'000'000;  ///< longest period sought (samples), 1 … 10⁸
-  /// Largest number of samples of the motion; 0 means eight times the largest period.
+  /// Largest number of samples simulated, 0 … 10⁹; 0 means eight times the largest period.
   std::int64_t most_samples = 0;
-  /// Function called whenever sampling and forcing are in phase; may throw to end the search.
+  /// Function called every q samples (f τ = p/q), if set; may throw to end the search.
   std::function<void()> watch = {};
 };
 
-/// Validates the limits. @throws InvalidParameter where a limit is out of its range
+/// Validates the limits of a search. @throws InvalidParameter where a limit is out of its range
 inline void validate(const OrbitLimits& limits) {
   require_within("largest period", static_cast<double>(limits.largest_period), "samples", 1.0, 1e8);
   require_within("number of samples", static_cast<double>(limits.most_samples), "", 0.0, 1e9);
@@ -30,7 +30,7 @@ inline void validate(const OrbitLimits& limits) {
 
 namespace detail {
 
-/// The part of a motion that a search has followed so far.
+/// The samples of a motion that a search has simulated so far: itinerary and extent of the states.
 /// @tparam Symbol  symbol of the itinerary, one for each sample
 template <class Symbol, class Plant>
 struct SeenMotion {
@@ -38,11 +38,10 @@ struct SeenMotion {
   StateScaleOf<Plant> extent;
   std::int64_t reference = 0;  ///< sample whose state later states are compared with
 
-  /// The number of samples followed so far.
+  /// The number of samples simulated so far.
   std::int64_t taken() const { return static_cast<std::int64_t>(itinerary.size()); }
 
-  /// Whether a motion began near a state, within a millionth of the motion's extent, and ended no
-  /// farther from that state, up to rounding.
+  /// Whether a motion began within 10⁻⁶ extents of a state and ended no farther, up to rounding.
   /// @param before,after  distance from the state at beginning and end, as share of the extent
   bool came_nearer(const StateOf<Plant>& state, double before, double after) const {
     return before <= 1e-6 && after <= std::max(before, 1e-12 * extent.share_of(state));
@@ -53,16 +52,17 @@ struct SeenMotion {
 ///
 /// At every stroboscopic instant (sampling and forcing in phase) the state is compared with a
 /// reference state, which is replaced whenever the number of samples has doubled (R. P. Brent, An
-/// improved Monte Carlo factorization algorithm, BIT 20, 1980). A return near to the reference
-/// proposes a period, and its orbit is solved for. The search ends when the motion settles on that
-/// orbit. Solving for all further proposals costs at most about as much as the motion.
+/// improved Monte Carlo factorization algorithm, BIT 20, 1980). A state near the reference proposes
+/// a period: the number of samples since the reference. The orbit with this period is solved for.
+/// The search ends when the motion settles on that orbit. All solutions after the first one
+/// together cost at most about as much as simulating the motion.
 /// @tparam Model  a motion (Plant, readings(), state(), memory(), is_followed(), has_contact_of(),
 ///                take_sample()) with the members that differ between kinds of motion:
 ///
 ///     Result, samples_per_solved()      an OrbitResultOf; cost of solving, in samples of motion
-///     may_repeat(seen, period)          whether a near return is worth solving for
-///     solve(seen, period, reference)    the orbit that the motion may have come to; samples taken
-///                                       meanwhile are added to `seen`
+///     may_repeat(seen, period)          whether to solve for an orbit of this period
+///     solve(seen, period, reference)    the orbit of this period near the state; appends the
+///                                       samples that it simulates to `seen`
 ///     is_same(known, other, seen)       whether two orbits are the same
 ///     approach(found, seen)             called when an orbit is proposed
 ///     has_come(found, seen)             whether the motion has settled on the proposed orbit
@@ -72,7 +72,7 @@ class ReturnSearch {
   using Result = typename Model::Result;
 
   /// @param model  model with its motion at a stroboscopic instant
-  /// @param ratio  ratio f τ = p/q
+  /// @param ratio  forcing frequency × sampling period, f τ = p/q
   ReturnSearch(const Model& model, const Rational& ratio, const OrbitLimits& limits)
       : model_(model),
         ratio_(ratio),
@@ -166,11 +166,11 @@ class ReturnSearch {
   OrbitLimits limits_;
   SeenMotion<typename Model::Symbol, typename Model::Plant> seen_;
   typename Model::Memory reference_;
-  State largest_, largest_ever_;  // |x_i| since the reference, and of all
+  State largest_, largest_ever_;  // largest |x_i| since the reference, and ever
   std::int64_t solved_samples_ = 0;
   int candidates_ = 0;
-  Result proposed_;  // an orbit to which the motion has not been seen to come yet
-  Result failed_;    // not reproduced, or one of a family that the motion drifts along
+  Result proposed_;  // an orbit on which the motion has not settled yet
+  Result failed_;    // the last solution that was not reproduced or is neutral
 };
 
 }  // namespace detail

@@ -12,8 +12,7 @@
 
 namespace holdfast {
 
-/// The extent of a motion: its largest displacement and its largest velocity, kept separate so that
-/// neither is weighted against the other by a unit of time.
+/// A motion's extent: its largest displacement and velocity, units of relative state differences.
 struct StateScale {
   double displacement = 0.0;  ///< largest |z₁|, |z₂| (m)
   double velocity = 0.0;      ///< largest |ż₁|, |ż₂| (m/s)
@@ -21,13 +20,13 @@ struct StateScale {
   /// Constructs an empty extent, with both values zero.
   StateScale() = default;
 
-  /// The extent of states that begin with [z₁, ż₁, z₂, ż₂].
+  /// Constructs the extent of states whose first four entries are [z₁, ż₁, z₂, ż₂].
   template <class Scalar, int Size>
   explicit StateScale(const std::vector<Vector<Scalar, Size>>& states) {
     for (const auto& state : states) include(state);
   }
 
-  /// Extends the extent by one more state, which begins with [z₁, ż₁, z₂, ż₂].
+  /// Extends the extent by one more state, whose first four entries are [z₁, ż₁, z₂, ż₂].
   template <class Scalar, int Size>
   void include(const Vector<Scalar, Size>& state) {
     using std::abs;
@@ -40,8 +39,8 @@ struct StateScale {
   /// The ratio of a speed (m/s) to the largest velocity; 0/0 counts as 0, speed/0 as infinite.
   double share_of_velocity(double speed) const { return share(speed, velocity); }
 
-  /// The size of a state, or of a difference of two states, as a share of the extent: the larger of
-  /// the share of its displacements and the share of its velocities.
+  /// The size of a state, or of a difference of two states, relative to the extent: the larger of
+  /// its displacement ratio and its velocity ratio.
   template <class Scalar, int Size>
   double share_of(const Vector<Scalar, Size>& state) const {
     StateScale size;
@@ -53,8 +52,8 @@ struct StateScale {
   static double share(double part, double whole) { return part == 0.0 ? 0.0 : part / whole; }
 };
 
-/// The extent of a motion of a plant of order N: max |x_i| of each coordinate, as their units may
-/// differ. For two masses both displacements share one maximum, and both velocities another.
+/// The extent of a motion of a plant of order N: the largest |x_i| of each coordinate i. For two
+/// masses both displacements share one maximum, and both velocities another.
 template <class Plant>
 class StateScaleOf {
  public:
@@ -77,7 +76,7 @@ class StateScaleOf {
     }
   }
 
-  /// The extent of both sides of the gap: largest |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s).
+  /// The extent at both sides of the gap: largest |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s).
   const StateScale& sides() const { return sides_; }
 
   /// The size max_i |x_i| / largest()_i of a state, or of a difference of two states. The size is
@@ -92,8 +91,8 @@ class StateScaleOf {
   /// The largest |x_i| of each coordinate, N × 1.
   const State& largest() const { return largest_; }
 
-  /// Raises the extent of each coordinate to at least `share` times its extent in another motion:
-  /// so one that has decayed to rounding keeps a finite unit. For two masses nothing changes.
+  /// Raises the extent of each coordinate to at least `share` times its extent in `other`. Rounding
+  /// errors of a decayed coordinate then count as small. For two masses nothing changes.
   void widen(double share, const StateScaleOf& other) {
     if constexpr (!of_two_masses) largest_ = largest_.cwiseMax(share * other.largest_);
   }
@@ -119,12 +118,12 @@ Scalar power_of_two_below(const Scalar& size) {
 
 }  // namespace detail
 
-/// The natural units of z̃ = [z; u_{j−1}] for a plant: 1 m, ω · 1 m and k · 1 m, rounded down to
-/// powers of two, which cause no rounding. ω² and k are the restoring acceleration and force per
-/// displacement z₁. Solutions in these units do not depend on the units of mass and time.
-/// @param state_matrix      A, 4 × 4
+/// Units for scaling the state z̃ = [z₁, ż₁, z₂, ż₂; u_{j−1}]: 1 m for displacements, ω · 1 m for
+/// velocities, k · 1 m for the force. Here ω² and k are the restoring acceleration and force per
+/// displacement z₁. The units are rounded down to powers of two: scaling causes no rounding errors.
+/// @param state_matrix      A of ż = A z + b u + c F, 4 × 4
 /// @param excitation_input  c, 4 × 1
-/// @return units of [z₁, ż₁, z₂, ż₂, u]; 1 where the plant does not determine them
+/// @return units of [z₁, ż₁, z₂, ż₂, u]; 1 where ω or k is zero or not finite
 template <class Scalar>
 Vector<Scalar, 5> plant_scaling(const Matrix<Scalar, 4>& state_matrix,
                                 const Vector<Scalar, 4>& excitation_input) {

@@ -13,18 +13,18 @@
 
 namespace holdfast {
 
-/// The surfaces on which the drive changes its contact.
+/// The surfaces on which the drive changes its contact; Δz = z₂ − z₁ is the relative displacement.
 enum class SwitchingSurface {
   reversal,   ///< Δż = 0 while the drive transmits: the drive enters its backlash
   gap_lower,  ///< Δz at the lower end of the gap: the drive leaves the gap
   gap_upper,  ///< Δz at the upper end of the gap: the drive leaves the gap
 };
 
-/// The least distance of a motion from a switching surface.
+/// The switching surface nearest to a motion, and the sample at which the motion is nearest to it.
 struct Border {
   double distance = std::numeric_limits<double>::infinity();  ///< least distance (m; reversal: m/s)
-  SwitchingSurface surface = SwitchingSurface::reversal;  ///< meaningless where `sample` is −1
-  std::int64_t sample = -1;  ///< sample, counted from the orbit's first one; −1: no surface
+  SwitchingSurface surface = SwitchingSurface::reversal;      ///< no meaning if `sample` is −1
+  std::int64_t sample = -1;  ///< nearest sample, from 0 at the orbit's first; −1: no surface
 };
 
 /// The contact decision at one sample, with the quantities that it depends on.
@@ -34,7 +34,7 @@ struct ContactDecision {
   /// The sign of Δż (1 for Δż = 0) if the contact at this or the next sample depends on that sign;
   /// 0 if the drive stays inside its gap, and without backlash.
   std::int8_t velocity_sign;
-  /// Exit from the gap: −1 by its lower end, 1 by its upper end, 0 none.
+  /// Exit from the gap at this sample: −1 by its lower end, 1 by its upper end, 0 none.
   std::int8_t exit_side;
 };
 
@@ -42,7 +42,7 @@ struct ContactDecision {
 struct SwitchingPattern {
   std::vector<ContactDecision> decisions;               ///< decisions, one for each sample
   BacklashMemory<double> memory{false, 0.0, 0.0, 0.0};  ///< memory before the first sample
-  bool repeats = false;  ///< whether the period ends in the contact and gap of its start
+  bool repeats = false;  ///< whether contact and gap are the same after the period as before
 
   /// Whether the drive never leaves its gap.
   bool stays_inside() const {
@@ -68,14 +68,14 @@ ContactDecision decide(Backlash<Scalar>& law, const Vector<Scalar, 5>& state) {
   return decision;
 }
 
-/// Calls visit(sample, surface, distance) for every surface that a sample's decision depends on;
-/// borders_of() defines the distance.
+/// Calls visit(sample, surface, distance) for every surface that a sample's contact decision
+/// depends on; borders_of() defines the distance.
 template <class Scalar, class Visit>
 void for_each_border(const SwitchingPattern& pattern, const std::vector<Vector<Scalar, 5>>& states,
                      double width, const Visit& visit) {
   double lower = pattern.memory.lower, upper = pattern.memory.upper;
   const std::size_t samples = states.size();
-  // The first turn finds the gap that the motion itself is in at the start.
+  // The first turn finds the gap in which the motion begins.
   for (std::size_t k = 0; k < 2 * samples; ++k) {
     const std::size_t j = k % samples;
     const ContactDecision& decision = pattern.decisions[j];
@@ -99,8 +99,8 @@ void for_each_border(const SwitchingPattern& pattern, const std::vector<Vector<S
 
 }  // namespace detail
 
-/// Applies the backlash law along an orbit, for two to four periods, until a period ends with its
-/// initial contact and gap. Records the decisions of the last period.
+/// Applies the backlash law along an orbit, for two to four periods, until contact and gap are the
+/// same after a period as before. Records the decisions of the last period.
 /// @param states  states z̃_j of one period
 /// @param law     backlash law with its memory before the first sample
 template <class Scalar>
@@ -137,13 +137,13 @@ struct Borders {
   Border velocity;      ///< nearest reversal, Δż = 0 (m/s)
 };
 
-/// The least distances of an orbit's states from the switching surfaces beyond which a sample would
-/// decide differently from a pattern; negative where a sample does decide differently.
+/// The least distances of a motion's states from the switching surfaces on which a contact decision
+/// of a pattern would change; negative where a state already contradicts the pattern.
 ///
-/// At a sample inside the gap, the distance is that of Δz from the nearer end. At a sample that
-/// leaves the gap: the excess of Δz beyond the end passed, and |Δż|. At any other sample: |Δż|.
-/// @param pattern  pattern of the orbit, or of another orbit for comparison
-/// @param states   z̃_j, one for each decision, of a motion that repeats them for ever
+/// Inside the gap, the distance of Δz from the nearer end counts. At a sample at which the drive
+/// leaves the gap, the excess of Δz beyond that end and |Δż| count. At all others |Δż| counts.
+/// @param pattern  pattern of this motion, or of another one for comparison
+/// @param states   z̃_j of one period of the motion, one for each decision
 /// @param width    width r₀ of the backlash (m)
 template <class Scalar>
 Borders borders_of(const SwitchingPattern& pattern, const std::vector<Vector<Scalar, 5>>& states,

@@ -14,8 +14,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// Whether `orbit` is a copy of `other`: states multiplied by `sign`, and started later by `shift`
-/// samples plus any whole number of common periods (q samples each).
+/// Whether `orbit` is a copy of `other` with states multiplied by `sign`, started later by `shift`
+/// samples plus any number of common periods (q samples each).
 template <class Orbit>
 bool is_same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, double sign) {
   const std::size_t samples = orbit.states.size();
@@ -36,17 +36,16 @@ bool is_same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, d
 
 }  // namespace detail
 
-/// Whether two orbits of one loop are the same motion started at different stroboscopic instants.
-/// Only states are compared: where the drive never leaves its gap, the gaps may differ.
+/// Whether two orbits of one loop are the same motion started at different stroboscopic instants
+/// (sampling and forcing in phase). Only states are compared, not the positions of the gap.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 bool is_phase_shifted_copy(const Orbit& orbit, const Orbit& other) {
   return detail::is_same_course(orbit, other, 0, 1.0);
 }
 
-/// Whether one orbit is the mirror image of another: all signs changed, and shifted by half a
-/// forcing period. The loop has this symmetry; sampling preserves it where the number q of samples
-/// in a common period is even. Without excitation any shift is allowed.
+/// Whether one orbit is the mirror image of another: all signs changed, and shifted by q/2 samples,
+/// half a common period; false where q is odd. Without excitation any shift is allowed.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 bool is_mirror_image(const Orbit& orbit, const Orbit& other) {
@@ -86,9 +85,9 @@ struct Neighbourhoods<IdealLoop<Scalar>> {
 
 }  // namespace detail
 
-/// The set of different orbits of one loop with neighbourhoods of their points at the stroboscopic
-/// instants. A motion of an IdealLoop in a neighbourhood surely tends to the orbit
-/// (AttractionBall); one of an ImplementedLoop is only within a millionth of the orbit's extent.
+/// The different orbits of one loop, with neighbourhoods of their stroboscopic points. For an
+/// IdealLoop (AttractionBall) or a ModalLoop, every motion in a neighbourhood tends to the orbit.
+/// For an ImplementedLoop this is not certain: its neighbourhoods reach 10⁻⁶ of the orbit's extent.
 /// @tparam Loop  IdealLoop<double>, ModalLoop or ImplementedLoopOf<Plant>
 template <class Loop>
 class AttractorSet {
@@ -100,14 +99,14 @@ class AttractorSet {
 
   /// A point of an orbit with its neighbourhood.
   struct Entry {
-    int orbit;                             ///< number of the orbit
+    int orbit;                             ///< number of the orbit: index in orbits()
     typename Neighbourhoods::Point point;  ///< point of the orbit with its neighbourhood
   };
 
-  /// @param loop  loop of all orbits that will be added
+  /// @param loop  loop to which all added orbits belong
   explicit AttractorSet(const Loop& loop) : neighbourhoods_{loop} {}
 
-  /// Adds an orbit. @return its number, or the number of an earlier orbit that it is a copy of
+  /// Adds an orbit. @return its number, or the number of an earlier orbit of which it is a copy
   int add(Orbit orbit) {
     for (std::size_t k = 0; k < orbits_.size(); ++k)
       if (is_phase_shifted_copy(orbits_[k], orbit)) return static_cast<int>(k);
@@ -122,8 +121,8 @@ class AttractorSet {
     return number;
   }
 
-  /// The point whose neighbourhood contains a motion; null without one. To be called at a
-  /// stroboscopic instant (sampling and forcing in phase), before the sample.
+  /// The orbit point whose neighbourhood contains the state of a motion; null if there is none. To
+  /// be called at a stroboscopic instant (sampling and forcing in phase), before the sample.
   /// @param motion  a motion's memory(), or the point() of a RepeatingMotion
   template <class Memory>
   const Entry* near(const Memory& motion) const {
@@ -136,7 +135,7 @@ class AttractorSet {
     return nullptr;
   }
 
-  /// The number of the orbit with a neighbourhood that contains a motion; −1 without one.
+  /// The number of the orbit with a neighbourhood that contains a motion; −1 if there is none.
   template <class Memory>
   int attracted_by(const Memory& motion) const {
     const Entry* const entry = near(motion);

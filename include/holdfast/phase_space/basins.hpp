@@ -18,28 +18,28 @@
 
 namespace holdfast {
 
-/// The attractor in whose basin one initial state lies, if there is one.
+/// The attractor of one initial state, if one was found.
 struct BasinLabel {
-  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< `certified`, or the reason for no attractor
-  int attractor = -1;  ///< index into the attractors of its BasinsOf; −1 unless certified
+  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< `certified`, or why no attractor was found
+  int attractor = -1;  ///< index in BasinsOf::attractors; −1 unless certified
 };
 
 /// One attractor of a set of initial states.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 struct AttractorOf {
-  Orbit orbit;            ///< certified orbit; among its shifted copies the first one found
+  Orbit orbit;            ///< certified orbit; among phase-shifted copies the first one found
   std::size_t states;     ///< number of initial states in its basin
   double fraction;        ///< share of the initial states in its basin
-  double standard_error;  ///< share_error() of the fraction, if the states are a random sample
-  std::optional<int> mirror_image;  ///< number of an earlier attractor that this one mirrors
+  double standard_error;  ///< standard error of `fraction` for random states (share_error())
+  std::optional<int> mirror_image;  ///< index of an earlier mirror image; nullopt: none
 };
 
 /// The basins of attraction: the attractor of each of many initial states.
 template <class Orbit>
 struct BasinsOf {
   std::vector<BasinLabel> labels;              ///< one label for each initial state, in their order
-  std::vector<AttractorOf<Orbit>> attractors;  ///< attractors, ordered by first initial state
+  std::vector<AttractorOf<Orbit>> attractors;  ///< attractors, in the order of first initial states
 };
 
 /// The basins of attraction of an IdealLoop.
@@ -94,7 +94,7 @@ auto own_orbit(Result found) {
 
 /// The search for the labels of many initial states of one loop, in rounds. In a round some of the
 /// remaining states are searched for their own orbits, one by one. Then all remaining motions may
-/// be followed together towards the known orbits. Each round searches twice as many states as the
+/// be advanced together towards the known orbits. Each round searches twice as many states as the
 /// previous one, up to 2¹⁶. The result is independent of the order of execution within a round.
 /// @tparam Model  has search(motion, set), a FoundOrbit, and advance(motions, set, for_tiles),
 ///                which marks attracted and diverging motions
@@ -175,12 +175,12 @@ auto basins_by(const typename Model::Loop& loop,
       std::vector<BasinLabel>(initial_states.size(), {outcome, -1}), {}};
 }
 
-/// The motions of a loop that are followed in parallel; each may be searched for its own orbit.
+/// The motions of a loop that advance in parallel; each may be searched for its own orbit.
 /// @tparam LoopModel  IdealLoop<double>; ImplementedLoop in event_basins.hpp
 template <class LoopModel, class Propagator>
 struct BatchedMotions;
 
-/// Motions of an IdealLoop followed in a batch; a search for an orbit starts at the present state.
+/// Motions of an IdealLoop in a batch; a search for an orbit starts at the present state.
 template <class Scalar, class Propagator>
 struct BatchedMotions<IdealLoop<Scalar>, Propagator> {
   using Loop = IdealLoop<Scalar>;
@@ -217,11 +217,11 @@ struct BatchedMotions<IdealLoop<Scalar>, Propagator> {
 
 }  // namespace detail
 
-/// Computes the basins of find_basins() with a given propagator that follows the motions.
-/// @param propagate       propagate(motion) gives an object like MotionBatch, which is copied; for
-///                   an ImplementedLoop propagate(loop, scheduler) follows the motions
-/// @param loop            loop; if an ImplementedLoop, one that has_event_pack()
-/// @param initial_states  each (m, m/s, m, m/s), finite; may be none
+/// Computes basins as find_basins() does, with a given function that advances many motions.
+/// @param propagate       IdealLoop: propagate(motion) returns an object with MotionBatch::run().
+///                        ImplementedLoop: propagate(loop, scheduler) acts as run_on_lanes()
+/// @param loop            loop; for an ImplementedLoop has_event_pack() must be true
+/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none
 /// @param limits          limits of each search for the orbit of a single motion
 /// @param for_tiles       see find_basins()
 /// @throws InvalidParameter where loop, states or limits are not admissible
@@ -237,15 +237,15 @@ auto find_basins_by(const Propagator& propagate, const Loop& loop,
 ///
 /// Attractors are distinguished by their orbits; copies of an orbit shifted by common periods of
 /// sampling and forcing are the same attractor. An initial state is assigned to an attractor only
-/// once its motion is in a neighbourhood from which it surely tends to the orbit.
+/// once its motion is certain to tend to the orbit. Orbits are searched for from some states; then
+/// all remaining motions are advanced together until known orbits attract them.
 /// @param loop            the loop with its excitation and backlash
 /// @param initial_states  each (m, m/s, m, m/s), finite; may be none
-/// @param limits          limits of each search for the orbit of a single motion; the motions are
-///                        followed between the searches too, so that more are assigned
+/// @param limits          limits of each search for the orbit of a single motion
 /// @tparam Scalar         number type of the parallel motions: `double`, or a SIMD pack
-/// @param for_tiles       for_tiles(count, tile, job) calls job(first, number) for tiles that cover
-///                   0 … count − 1, on any number of threads; the result does not depend on their
-///                   order
+/// @param for_tiles       for_tiles(count, tile, job) divides 0 … count − 1 into tiles of at most
+///                        `tile` indices and calls job(first index, number of indices) for each, on
+///                        any number of threads, in any order
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Scalar, class Tiles>
 BasinMap find_basins(const IdealLoop<double>& loop,

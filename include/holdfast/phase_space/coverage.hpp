@@ -12,9 +12,9 @@ namespace holdfast {
 
 /// A rectangle of the phase plane (z, ż) of the conductor at the absorber; for two masses (z₁, ż₁).
 struct PhaseWindow {
-  double displacement_min,  ///< lower end of z (m), belongs to the window
+  double displacement_min,  ///< lower end of z (m), included
       displacement_max;     ///< upper end of z (m), excluded, > displacement_min
-  double velocity_min,      ///< lower end of ż (m/s), belongs to the window
+  double velocity_min,      ///< lower end of ż (m/s), included
       velocity_max;         ///< upper end of ż (m/s), excluded, > velocity_min
 };
 
@@ -28,7 +28,7 @@ inline void validate(const PhaseWindow& window) {
 /// The set of cells of a phase-plane window that the samples of a motion have visited.
 ///
 /// A topologically transitive motion would fill the window as time grows; a periodic one visits
-/// only the cells of its orbit. Source of the question: Kollár 2022, Fig. 12.
+/// only the cells of its orbit. Source: Kollár 2022, Fig. 12.
 /// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>
 template <class Plant>
 class CoverageOf {
@@ -45,7 +45,7 @@ class CoverageOf {
     visited_cells_.assign(cells_per_side * cells_per_side, false);
   }
 
-  /// Marks the cell of a sample's (z, ż); a sample outside the window has no effect.
+  /// Marks the cell that contains a sample's (z, ż); a sample outside the window has no effect.
   /// @tparam Sample  MotionSample<double, N> or EventSampleOf<N>
   template <class Sample>
   void operator()(const Sample& sample) {

@@ -12,22 +12,23 @@ namespace holdfast {
 struct Deviation {
   double time;          ///< instant (s)
   double displacement;  ///< z of the second motion minus z of the first (m)
-  double state;         ///< Euclidean norm of the difference of the states, N × 1, SI numbers
-  double rounding;      ///< bound of rounding in `state`: 2⁻⁵² times the larger state's norm
+  double state;         ///< Euclidean norm of the difference of the states in SI units
+  double rounding;      ///< rounding bound of `state`: 2⁻⁵² times the larger state norm
 
-  /// Whether the difference `state` exceeds its bound of rounding.
+  /// Whether the difference `state` exceeds its rounding bound.
   bool is_above_rounding() const { return state > rounding; }
 };
 
 /// Runs two motions of the same loop side by side and reports their difference at each sample.
 ///
-/// Exponential separation of neighbouring motions is a mark of chaos. The two motions of Kollár
-/// 2022, Fig. 11, start 10⁻⁵ m apart in z₁.
+/// Exponential separation of neighbouring motions indicates chaos. The two motions of Kollár 2022,
+/// Fig. 11, start 10⁻⁵ m apart in z₁.
 /// @tparam Motion   SampledMotion or EventMotion, of a plant of any order
-/// @param first     reference motion, at the same sample as `second`, before `sense()`
+/// @param first     reference motion, before sense() of the same sample as `second`
 /// @param second    the motion whose difference from the first is reported
-/// @param samples   number of samples; fewer where a state leaves the range of numbers
+/// @param samples   number of samples
 /// @param observer  called with a `Deviation` at each sample
+/// @return `diverged` where the run ended early because a state is not finite
 template <class Motion, class Observer>
 TrajectoryOutcome run_deviation(Motion& first, Motion& second, std::int64_t samples,
                                 Observer&& observer) {

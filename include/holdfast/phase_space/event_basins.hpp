@@ -66,8 +66,7 @@ struct Neighbourhoods<ImplementedLoopOf<Plant>> {
   static constexpr double nearness = 1e-6;
 };
 
-/// The test whether a motion settles on an orbit of a set, by its states at the stroboscopic
-/// instants and its contact modes in between.
+/// Tests by stroboscopic states and contact modes whether a motion settles on an orbit of a set.
 /// @tparam Plant  plant of an ImplementedLoopOf
 template <class Plant>
 class ApproachOf {
@@ -76,14 +75,14 @@ class ApproachOf {
 
  public:
   /// @param known    orbits of the set; they must outlive this object
-  /// @param samples  number of samples after which the test gives up
+  /// @param samples  largest number of samples before the test fails
   /// @param period   q, samples from one stroboscopic instant to the next
   ApproachOf(const Attractors& known, std::int64_t samples, std::int64_t period)
       : known_(&known), samples_(samples), period_(period) {}
 
-  /// Examines the state at a stroboscopic instant, before the sample.
+  /// Examines the state at a stroboscopic instant (sampling and forcing in phase) before sense().
   /// @param is_followed  false where changes of contact accumulate
-  /// @return whether the motion is to be followed to the next instant
+  /// @return whether the motion must be advanced to the next instant
   bool goes_on(const StateOf<Plant>& state, bool is_followed) {
     const bool followed = is_followed && state.cwiseAbs().maxCoeff() < 1e100;
     if (entry_ != nullptr) {
@@ -112,7 +111,7 @@ class ApproachOf {
     ++compared_;
   }
 
-  /// The number of the orbit on which the motion settles; −1 without one.
+  /// The number of the orbit on which the motion settles; −1 if there is none.
   int found() const { return orbit_; }
   /// The number of samples between two stroboscopic instants.
   std::int64_t period() const { return period_; }
@@ -186,8 +185,8 @@ std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limit
   return static_cast<std::int64_t>(std::min(samples, static_cast<double>(most)));
 }
 
-/// The scheduler of motions of two masses that are followed towards the orbits of a set. It gives
-/// each lane its next motion and records the orbit on which a motion settles.
+/// The scheduler of motions of two masses that are run towards the orbits of a set. It gives each
+/// lane its next motion and records the orbit on which a motion settles.
 /// @tparam Plant  TwoMass<double>
 template <class Plant = TwoMass<double>>
 class EventScheduler final : public LaneScheduler {
@@ -252,7 +251,7 @@ struct SingleMotions {
     return own_orbit(find_event_orbit(motion, limits));
   }
 
-  /// Does nothing: motions of this kind are followed by `search` alone.
+  /// Does nothing: only `search` advances motions of this kind.
   template <class Tiles>
   void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
 };
@@ -293,13 +292,14 @@ struct BatchedMotions<ImplementedLoopOf<Plant>, Propagator> {
 
 }  // namespace detail
 
-/// Computes the basins of attraction of an implemented loop, like find_basins() of an IdealLoop.
+/// Computes the basins of attraction of an implemented loop: one attractor per initial state.
 ///
-/// A motion is assigned to an attractor where its own search certifies that orbit. It is also
-/// assigned where it comes within a millionth of the extent of an already certified orbit, has the
-/// contact modes of that orbit for two periods, and comes nearer in both. The second period must
-/// multiply the distance by at most μ^0.9, μ being the modulus of the largest multiplier.
-/// @param loop            the loop with its implemented hardware
+/// A motion is assigned to an attractor if a search that starts from the motion certifies the
+/// attractor's orbit. It is also assigned if it comes within a millionth of the extent of a
+/// certified orbit and then has the contact modes of this orbit for two periods. The distance must
+/// not increase in the first period, and must fall to at most μ^0.9 of its value in the second.
+/// Here μ is the largest modulus of the orbit's multipliers.
+/// @param loop            the loop with its hardware
 /// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none
 /// @param limits          limits of each search for the orbit of a single motion
 /// @param for_tiles       see find_basins() of an IdealLoop
@@ -312,7 +312,7 @@ BasinsOf<EventOrbitOf<states_of<Plant>>> find_basins(
   return detail::basins_by<detail::SingleMotions<ImplementedLoopOf<Plant>, Begin>>(
       loop, initial_states, limits, for_tiles, begin);
 }
-/// Computes the basins of two masses, whose initial states need no conversion.
+/// Computes the basins of two masses, for which the initial state is the plant's state.
 template <class Tiles>
 BasinsOf<EventOrbit> find_basins(const ImplementedLoop& loop,
                                  const std::vector<Vector<double, 4>>& initial_states,

@@ -23,8 +23,8 @@ class LaneScheduler {
   /// Assigns a lane its next motion and sets its `start` [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s).
   /// @return false where no motion is left
   virtual bool next(std::size_t lane, Vector<double, 4>& start) = 0;
-  /// Examines a lane's state at a stroboscopic instant. `is_followed` is false where the changes of
-  /// contact accumulate. @return whether the motion continues
+  /// Examines a lane's stroboscopic state. `is_followed` is false after too many contact changes
+  /// (SwitchCounts::accumulates): the motion is invalid. @return whether the motion continues
   virtual bool goes_on(std::size_t lane, const Vector<double, 4>& state, bool is_followed) = 0;
   /// Records the contact mode of a lane's motion at a sample.
   virtual void took(std::size_t lane, ContactMode mode) = 0;
@@ -32,12 +32,11 @@ class LaneScheduler {
   virtual std::int64_t period() const = 0;
 };
 
-/// Follows motions of one loop with exact switching side by side. A lane starts its next motion at
-/// the stroboscopic instant at which the previous one ended. Samples are counted from each such
-/// instant: rounding of large times cannot shift sampling against forcing.
-/// @param loop       loop that has_event_pack(), with sampling and forcing in phase every
-///                   scheduler.period() samples
-/// @param scheduler  assigns the motions to the lanes
+/// Runs motions of one loop with exact switching in parallel, one per SIMD lane. A lane starts its
+/// next motion at the stroboscopic instant at which the previous one ended. Samples are counted
+/// from this instant, so that rounding of large times cannot shift the phase.
+/// @param loop       loop for which has_event_pack() is true, with q = scheduler.period()
+/// @param scheduler  assigns the motions to the lanes and receives their results
 /// @throws InvalidParameter where the loop is not admissible
 template <class Scalar>
 void run_on_lanes(const ImplementedLoop& loop, LaneScheduler& scheduler) {

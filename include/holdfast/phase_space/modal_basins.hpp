@@ -21,8 +21,7 @@
 namespace holdfast {
 namespace detail {
 
-/// The regions of attraction of the orbits of a conductor given by its modes, each around the first
-/// state of its orbit.
+/// Regions of attraction of a modal conductor's orbits, each around the first state of its orbit.
 template <class Loop>
 struct ModalNeighbourhoods {
   using Orbit = PeriodicOrbit;
@@ -87,7 +86,7 @@ struct ModalMotions {
     return own_orbit(orbit_by_returns(loop, ratio, limits, start, ModalRegion<Loop>(loop, maps)));
   }
 
-  /// Does nothing: motions of this kind are followed by `search` alone.
+  /// Does nothing: only `search` advances motions of this kind.
   template <class Tiles>
   void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
 
@@ -112,12 +111,12 @@ struct ModalMotions {
 
 }  // namespace detail
 
-/// Computes the basins of a conductor given by its modes, like find_basins() of an IdealLoop. A
-/// motion is assigned to an attractor where its own search certifies that orbit, or once it is in
-/// the region of attraction of an already certified orbit.
+/// Computes the basins of attraction of a conductor given by its modes. A motion is assigned to an
+/// attractor if a search from the motion certifies that orbit, or once the motion is in the region
+/// of attraction of a certified orbit.
 /// @param loop            loop with its excitation and backlash
-/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite: the conductor bent by a
-///                        force at the absorber, with the velocities that a blow there causes
+/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite. A static force at the
+///                        absorber deflects the conductor to z₁, an impulse there gives it ż₁
 /// @param limits          limits of each search for the orbit of a single motion
 /// @param for_tiles       see find_basins() of an IdealLoop
 /// @throws InvalidParameter where loop, states or limits are not admissible

@@ -16,7 +16,7 @@
 
 namespace holdfast {
 
-/// The memory of a motion of the sampled loop with backlash: state, last force and gap.
+/// The memory of a motion of the sampled loop with backlash: state, previous force and gap.
 template <class Scalar>
 using ForcedMotionMemory = MotionMemory<Scalar, BacklashMemory<Scalar>>;
 
@@ -25,11 +25,11 @@ inline ForcedMotionMemory<double> memory_of_start(const Vector<double, 4>& initi
   return {initial_state, 0.0, {false, 0.0, 0.0, 0.0}};
 }
 
-/// One of many motions that are followed towards the orbits of a set.
+/// One of many motions that are run until an orbit of a set attracts them.
 struct ActiveTrajectory {
   std::size_t number;                 ///< number of the motion, given by the caller
   ForcedMotionMemory<double> memory;  ///< memory at a stroboscopic instant (phase 0 of the force)
-  int orbit = -1;         ///< number of the orbit of a set that attracts the motion; −1: none yet
+  int orbit = -1;         ///< number of the orbit that attracts the motion; −1: none yet
   bool diverged = false;  ///< whether the state has reached 10¹⁰⁰ or is not a number
 };
 
@@ -66,23 +66,22 @@ ForcedMotionMemory<double> memory_of_lane(const ForcedMotionMemory<Scalar>& memo
 
 }  // namespace detail
 
-/// A batch of motions of one loop. Each motion is followed until an orbit of a set attracts it, it
-/// diverges, or it has passed a given number of samples. As many motions are followed at a time as
-/// `Scalar` has lanes; a lane starts the next motion as soon as its last one has ended.
+/// A batch of motions of one loop. Each motion is run until an orbit of a set attracts the motion,
+/// the motion diverges, or a given number of samples is reached. The motions run in parallel in the
+/// lanes of `Scalar`; a lane starts the next motion when its previous one ends.
 template <class Scalar>
 class MotionBatch {
  public:
-  /// @param motion  any motion of the loop at a stroboscopic instant; its state is not used
+  /// @param motion  any motion of the loop at a stroboscopic instant; the state is not used
   explicit MotionBatch(const PeriodicallyForcedMotion<double>& motion)
       : motion_(in_every_lane(motion, Vector<Scalar, 4>::Constant(Scalar(0)).eval())) {}
 
-  /// Follows motions, as many at a time as there are lanes.
-  /// @param motions        motions to be followed; attracted and diverged ones are marked, all
-  ///                       others advance by at least `samples`, in whole common periods
+  /// Runs motions, one per lane at a time.
+  /// @param motions        motions to be run; attracted and diverged motions are marked, all others
+  ///                       advance by at least `samples`, in multiples of q samples
   /// @param count          number of motions, ≥ 0
   /// @param samples        number of samples, ≥ 1
-  /// @param attractor_set  orbits of the same loop: an AttractorSet, or any type with
-  ///                       attracted_by(memory)
+  /// @param attractor_set  orbits of the loop: an AttractorSet or a type with attracted_by(memory)
   /// @throws InvalidParameter where `samples` is less than 1
   template <class Attractors>
   void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
@@ -111,7 +110,7 @@ class MotionBatch {
     std::int64_t looks_left = 0;
   };
 
-  /// Advances all lanes; a lane without a motion is at rest.
+  /// Advances all lanes; a lane without a motion starts from the zero state.
   void advance(std::int64_t samples) {
     motion_.restore(
         detail::packed_memory<Scalar>([&](std::size_t lane) -> const ForcedMotionMemory<double>& {
@@ -127,7 +126,7 @@ class MotionBatch {
         places_[lane].motion->memory = detail::memory_of_lane(memory, lane);
   }
 
-  /// Whether a lane's motion has ended or used up its samples.
+  /// Whether a lane's motion has diverged, is attracted, or has reached its number of samples.
   template <class Attractors>
   static bool has_ended(Place& place, const Attractors& attractor_set) {
     ActiveTrajectory& motion = *place.motion;

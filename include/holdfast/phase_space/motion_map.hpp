@@ -22,30 +22,30 @@
 
 namespace holdfast {
 
-/// The starting point of the search that found a periodic motion of a cell of the map.
+/// The start of the search that found a periodic motion in a cell of a map.
 enum class MotionOrigin {
-  start,      ///< the initial state
-  state,      ///< another given state
-  continued,  ///< a neighbouring cell's motion, continued by its order of switchings
-  neighbour,  ///< a state of a neighbouring cell's motion that cannot be continued
+  start,      ///< the initial state given for the map
+  state,      ///< one of MotionMapOptions::more_starts
+  continued,  ///< a neighbouring cell's motion, continued with its order of contact changes
+  neighbour,  ///< a state of a neighbouring cell's motion, from which the search started
 };
 
-/// A periodic motion of a cell, certified and attracting.
+/// A certified, attracting periodic motion found in a cell.
 struct MappedMotion {
   std::int64_t period_samples;   ///< number N of samples in a period
   double period;                 ///< period N τ (s)
-  std::int64_t forcing_periods;  ///< number of forcing periods in that period
+  std::int64_t forcing_periods;  ///< number of forcing periods in one period of the motion
   double amplitude;              ///< largest |z₁| (m) at a sample
   double largest_multiplier;     ///< largest modulus of the multipliers
   double border_share;           ///< border_share() of the PeriodicOrbit or EventOrbit
   MotionOrigin origin;           ///< start of the search that found the motion
 };
 
-/// One cell of a map, with the periodic motions found there.
+/// A cell of a map, with the periodic motions found in that cell.
 struct MapCell {
-  /// The outcome of the motion from the initial state: `certified`, or the reason for no orbit.
+  /// The outcome of the motion from the initial state: `certified`, or why no orbit was found.
   OrbitOutcome outcome = OrbitOutcome::none_found;
-  std::vector<MappedMotion> motions;  ///< distinct motions, first the one from the initial state
+  std::vector<MappedMotion> motions;  ///< distinct motions; the first is from_start(), if any
 
   /// The motion from the initial state; null where that motion settles on no periodic orbit.
   const MappedMotion* from_start() const {
@@ -55,10 +55,10 @@ struct MapCell {
 
 /// The division of a plane of two parameters into cells.
 struct MapShape {
-  std::size_t rows;     ///< number of values of the first parameter, the slower one; ≥ 1
-  std::size_t columns;  ///< number of values of the second parameter; ≥ 1
+  std::size_t rows;     ///< number of values of the first parameter, ≥ 1
+  std::size_t columns;  ///< number of values of the second parameter, ≥ 1
 
-  /// The number of cells, rows × columns, stored row by row.
+  /// The number of cells, rows × columns; the cell index is row × columns + column, from 0.
   std::size_t cells() const { return rows * columns; }
 };
 
@@ -278,24 +278,26 @@ class MotionMapSearch {
 
 }  // namespace detail
 
-/// The options of the search of a map.
+/// The options of motion_map().
 struct MotionMapOptions {
   /// The limits of each search; motions with periods beyond `largest_period` are not found.
   OrbitLimits limits{10000, 0, {}};
-  int most_rounds = 1000;  ///< largest number of rounds after the first; 0: only initial states
+  /// Largest number of rounds, each with one search from each neighbour's new motions; 0: none.
+  int most_rounds = 1000;
   std::vector<Vector<double, 4>> more_starts =
       {};  ///< further initial states for each cell (m, m/s, m, m/s), finite
 };
 
 /// The map of periodic motions of many loops on a grid in a plane of two parameters.
 ///
-/// Each cell is searched from the initial state and the other given states, then from the motions
-/// of its neighbours. A neighbour's motion is continued by its itinerary; where that gives no
-/// attracting motion, the search starts from the neighbour's state. The search ends when no cell
-/// finds another motion. A cell may still lack a motion that no neighbour has and that no given
-/// state leads to. The result does not depend on the order in which the cells are computed.
-/// @param loop_at    (cell) ↦ std::optional<IdealLoop<double>>, or of an ImplementedLoop; empty
-///                 where the parameters are not admissible; called from many threads
+/// Each cell is searched from the initial state and the other given states. In rounds it is then
+/// searched from the motions of its neighbouring cells. A neighbour's motion is continued with its
+/// order of contact changes. If no attracting motion results, the search starts from a state of the
+/// neighbour's motion. The search ends when a round finds no new motion, or after `most_rounds`. A
+/// motion is missed where neither a given state nor a neighbour leads to it. The result does not
+/// depend on the order in which the cells are computed.
+/// @param loop_at    index of a cell ↦ std::optional of an IdealLoop<double> or ImplementedLoop;
+///                   nullopt where the parameters are not admissible; called from many threads
 /// @param shape      number of rows and columns
 /// @param start      [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite
 /// @param for_tiles  see find_basins()

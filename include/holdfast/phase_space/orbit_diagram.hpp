@@ -30,9 +30,9 @@ namespace holdfast {
 
 /// The options of an orbit diagram for each value of its parameter.
 struct DiagramOptions {
-  double transient = 30.0;  ///< time left out at each value (s), ≥ 0
-  int strobes = 50;         ///< number of forcing periods plotted at each value, 1 … 10⁶
-  std::function<void()> watch = {};  ///< called from time to time; may throw to end the diagram
+  double transient = 30.0;  ///< time before the first plotted state at each value (s), ≥ 0
+  int strobes = 50;  ///< number of states plotted at each value, one per force period, 1 … 10⁶
+  std::function<void()> watch = {};  ///< called every 2¹⁴ samples; may throw to end the diagram
 };
 
 /// Validates the options. @throws InvalidParameter where they are not admissible
@@ -44,9 +44,8 @@ inline void validate(const DiagramOptions& options) {
 /// One point of an orbit diagram.
 struct StrobePoint {
   std::size_t index;  ///< index of the parameter's value in the list of values
-  bool upward;        ///< true on the way up through the values, false on the way back
-  /// The state [z, ż, z₂, ż₂] (m, m/s, m, m/s) of conductor and absorber, on both sides of the gap,
-  /// after a whole number of forcing periods.
+  bool upward;        ///< true while the values are passed in order, false in reverse order
+  /// The state [z, ż, z₂, ż₂] of conductor and absorber (m, m/s, m, m/s) at a stroboscopic time.
   Vector<double, 4> state;
 };
 
@@ -83,7 +82,7 @@ bool show_strobes(const ImplementedLoopOf<Plant>& loop, const DiagramOptions& op
   const std::vector<Harmonic>& harmonics = loop.digital.force.harmonics;
   if (harmonics.empty())
     throw InvalidParameter("number of harmonics", 0.0, "",
-                           ">= 1: the strobes are at whole periods of the first one");
+                           ">= 1: the diagram has one point per period of the first harmonic");
   const double forcing_period = 1.0 / harmonics.front().frequency;
   const double bound = divergence_bound(loop, state);
   constexpr std::int64_t samples_between_looks = 1 << 14;
@@ -145,7 +144,8 @@ bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMot
   begin << state.head(kept), ModalMotion::Full::Zero(modes - kept), state.tail(2);
   std::optional<ModalMotion> motion = modal_motion(loop, begin);
   if (!motion)
-    throw InvalidParameter("distance between natural motions", 0.0, "", "> 0: change the plant");
+    throw InvalidParameter("distance between the plant's poles", 0.0, "",
+                           "> 0: change a mode or the absorber");
   const NaturalMotions motions(loop, plant_poles(loop.modes, loop.absorber));
   const double period = loop.sampling.period, forcing_period = 1.0 / loop.excitation.frequency;
   const double bound = divergence_bound(loop, begin);
@@ -174,26 +174,25 @@ bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMot
 }  // namespace detail
 
 /// Computes an orbit diagram (bifurcation diagram): stroboscopic states at the excitation's peak,
-/// plotted against a parameter that goes up through its values and back. Each motion begins where
-/// the previous one ended. Where the two ways differ, attractors may coexist, provided that the
+/// plotted against a parameter that runs through its values and back. Each motion begins where the
+/// previous one ended. Where the two directions differ, attractors may coexist, provided that the
 /// transient is over and the plotted states cover the period.
 ///
 /// The stroboscopic instants are whole periods of the force's first harmonic, counted from t = 0.
-/// Every motion starts the force anew at t = 0. Further harmonics and a recorded force therefore
-/// keep their phases only if the duration of a motion is a period of the whole force.
+/// Every motion begins at t = 0 of its force. From one motion to the next, further harmonics and a
+/// recorded force therefore jump in phase unless the whole force repeats after a motion's duration.
 ///
 /// At each value the drive begins outside its backlash (with a dead zone: where the state places
-/// it), and the computer begins without memory. A diverging motion is not plotted further. A motion
-/// begins from the initial state after a diverged motion, and in a loop of another order than the
-/// previous loop, for instance with more delayed commands.
-/// @param family         parameter ↦ ImplementedLoopOf<Plant>, or ModalLoop
+/// it), and no force from an earlier sample acts. A diverging motion is plotted only up to its
+/// divergence. Three kinds of motions begin from the initial state: the first, one after a diverged
+/// motion, and one in a loop of another order than the previous loop (more delayed commands).
+/// @param family         function from the parameter to an ImplementedLoopOf<Plant> or ModalLoop
 /// @param values         values of the parameter, in their order
-/// @param initial_state  a state, or a map parameter ↦ state
+/// @param initial_state  a state, or a function from the parameter to a state
 /// @param options        transient and number of plotted states at each value
 /// @param observer       called with each `StrobePoint`
 /// @return number of diverged motions; there are two motions for each value
-/// @throws InvalidParameter where an option or a loop is not admissible, or its force has no
-/// harmonic component
+/// @throws InvalidParameter where an option or a loop is not admissible, or a force has no harmonic
 template <class Family, class Initial, class Observer>
 std::size_t run_orbit_diagram(const Family& family, const std::vector<double>& values,
                               const Initial& initial_state, const DiagramOptions& options,

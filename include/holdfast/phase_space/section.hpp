@@ -20,14 +20,13 @@
 
 namespace holdfast {
 
-/// A point of the Poincaré section Δż = 0, where absorber and conductor have the same velocity and
-/// the drive reverses.
+/// A point of the Poincaré section Δż = 0, equal velocities of absorber and conductor.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct SectionPointOf {
   double time;                   ///< instant (s)
   Vector<double, States> state;  ///< state x, N × 1, with Δż = 0; of two masses (m, m/s, m, m/s)
-  bool rising;                   ///< whether Δż changes from negative to positive
+  bool rising;                   ///< whether Δż was negative before
   bool engaged;                  ///< whether the drive transmits from this instant on
 };
 
@@ -182,23 +181,23 @@ class TurnFinder {
 
 }  // namespace detail
 
-/// Runs a motion and reports every turning point of Δz, that is, every change of sign of Δż. The
-/// turning point is found between the samples as a first root of a Taylor series
-/// (math/roots/first_root.hpp), so that none is missed.
+/// Runs a motion and reports every turning point of Δz, the relative displacement z₂ − z₁, that is,
+/// every change of sign of Δż. Turning points between the samples are found as first roots of a
+/// Taylor series (math/roots/first_root.hpp), so that none is missed.
 ///
 ///     auto motion = event_motion(implemented_loop(loop), Vector<double, 4>::Zero().eval());
 ///     run_section(motion, samples, [](const SectionPoint& at) { … });
 ///
-/// Stick (Δż = 0 for some time) gives one point, at its beginning, whether Δz reverses or continues
-/// afterwards; if it continues, the next point has the same `rising`. `rising` means that Δż came
-/// to zero from below. A point is `engaged` where the drive transmits the whole command afterwards;
-/// with exact switching and r₀ > 0 no point is `engaged`. Where Δż only touches zero, up to
-/// rounding, there is no point. A motion that begins with Δż = 0 does not begin with a point.
-/// @param motion    motion before the first sample; a further call continues from there
+/// Stick (Δż = 0 for a time) is one point, at its beginning, whether Δz then reverses or continues.
+/// If Δz continues, the next point has the same `rising`. A point is `engaged` where the drive
+/// transmits the whole command afterwards. With exact switching and a backlash r₀ > 0 no point is
+/// `engaged`: each reversal of an engaged drive begins a gap or stick. Where Δż only touches zero,
+/// up to rounding, there is no point. A motion from Δż = 0 does not begin with a point.
+/// @param motion    motion before its next sample; a further call continues the motion
 /// @param samples   number of sampling periods
 /// @param observer  called with each point, a SectionPointOf<N>, in order of time
-/// Work beyond that of the motion: a Taylor series (motion/taylor_step.hpp) and a root for every
-/// part of constant contact.
+/// @return `diverged` where the run ended early because the state is not finite
+/// Extra work per mode in a sampling period: a Taylor series (taylor_step.hpp) and its root.
 template <class Contact, class Observer>
 TrajectoryOutcome run_section(EventMotion<Contact>& motion, std::int64_t samples,
                               Observer&& observer) {

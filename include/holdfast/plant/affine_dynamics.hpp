@@ -20,8 +20,8 @@ struct AffineDynamicsOf {
 /// The affine dynamics of the plant of two masses (order 4).
 using AffineDynamics = AffineDynamicsOf<4>;
 
-/// The largest row sum ‖A‖ of a matrix (1/s) in balanced coordinates. It describes the growth of
-/// the powers of A h over a time h, whatever the units of the state.
+/// The largest absolute row sum ‖A‖ (1/s) of a state matrix A in balanced coordinates. For a time
+/// h, ‖(A h)ⁿ‖ ≤ (‖A‖ h)ⁿ in these coordinates, with little influence of the units of the state.
 template <class Scalar, int States>
 Scalar balanced_norm(const Matrix<Scalar, States>& a) {
   return BalancedMatrix<Scalar, States>(a).balanced.cwiseAbs().rowwise().sum().maxCoeff();

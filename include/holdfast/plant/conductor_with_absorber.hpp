@@ -10,21 +10,20 @@
 
 namespace holdfast {
 
-/// A conductor, given by its modes, with an absorber. The structure also holds their joint poles
-/// and the lags of the loop's hardware.
+/// A conductor given by its modes, an absorber, the poles of both together and the hardware lags.
 struct ConductorWithAbsorber {
   std::vector<PlaceMode<double>> modes;  ///< modes at the absorber's place
   Absorber<double> absorber;             ///< absorber with its clamp
-  std::vector<PlantPole> poles;  ///< all `plant_poles` of conductor and absorber together, or none
+  std::vector<PlantPole> poles;  ///< `plant_poles` of both together; empty if not all were found
   LoopHardware hardware = {};    ///< measurement filter and drive
   bool has_devices = false;      ///< whether the poles include devices on the span
 };
 
-/// A conductor with absorber has no closed forms of its loop, which is given by its poles.
+/// False: the loop of a conductor given by modes is analysed by its poles, not in closed form.
 template <>
 inline constexpr bool has_closed_forms<ConductorWithAbsorber> = false;
 
-/// The receptance z/F (m/N) at the absorber's place without control, s in 1/s (unchecked).
+/// The receptance z/F (m/N) at the absorber's place, without control; s (1/s) is not checked.
 inline std::complex<double> place_receptance(const ConductorWithAbsorber& conductor,
                                              const std::complex<double>& s) {
   if (!conductor.has_devices)
@@ -40,7 +39,8 @@ inline std::complex<double> place_receptance(const ConductorWithAbsorber& conduc
 template <class Scalar = double>
 LinearPlant<Scalar> linear_plant(const ConductorWithAbsorber& conductor) {
   if (conductor.has_devices)
-    throw InvalidParameter("has_devices", 1.0, "", "0: matrices cannot include devices");
+    throw InvalidParameter("has_devices", 1.0, "",
+                           "0: the plant's matrices cannot include devices on the span");
   return with_hardware(modal_plant<Scalar>(conductor.modes, conductor.absorber),
                        conductor.hardware);
 }

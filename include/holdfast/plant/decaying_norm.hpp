@@ -14,17 +14,18 @@ namespace holdfast {
 ///     AᵀW + W A = −I     in balanced coordinates
 ///
 /// For a stable plant of any order this gives ‖x(t)‖ ≤ ‖x(0)‖ + ∫ ‖b u + c F‖ ds, as for
-/// EnergyNorm. If A is not stable, no such norm exists and every value is infinite.
+/// EnergyNorm. If A is not stable, no such norm exists and every value is infinite. The same
+/// applies where a check against rounding fails.
 ///
 /// W is the sum Σ MᵏᵀQ Mᵏ, computed by doubling, for the Cayley transform M = (p + A)(p − A)⁻¹ and
-/// Q = 2 p (p − A)⁻ᵀ (p − A)⁻¹ with a p > 0. Checks: W has a Cholesky factor, and the residual of
-/// the equation is below half of I, so that rounding does not invalidate the bound. Work: some 15
+/// Q = 2 p (p − A)⁻ᵀ (p − A)⁻¹ with a number p > 0. Two checks guard the bound against rounding: W
+/// has a Cholesky factor, and the norm of the equation's residual is below 1/2. Work: about 15
 /// products N × N. Source: R. A. Smith, Matrix equation XA + BX = C, SIAM J. Appl. Math. 16 (1968).
 /// @tparam States  N; Eigen::Dynamic where it is known at run time only
 template <int States>
 class DecayingNorm {
  public:
-  /// @param a  matrix A, N × N (1/s), finite
+  /// @param a  matrix A of ẋ = A x, N × N (1/s), finite; stable, otherwise exists() is false
   explicit DecayingNorm(const Matrix<double, States>& a) {
     const BalancedMatrix<double, States> similar(a);
     const Matrix<double, States> identity = Matrix<double, States>::Identity(a.rows(), a.cols());
@@ -39,16 +40,16 @@ class DecayingNorm {
     exists_ = true;
   }
 
-  /// Whether A is stable, so that the norm exists.
+  /// Whether the norm was found; A is then stable.
   bool exists() const { return exists_; }
 
-  /// The norm ‖x‖ of a state x (N × 1); infinite where A is not stable.
+  /// The norm ‖x‖ of a state x (N × 1); infinite unless exists().
   double operator()(const Vector<double, States>& state) const {
     if (!exists_) return std::numeric_limits<double>::infinity();
     return (factor_.transpose() * state).norm();
   }
 
-  /// The dual norm, the largest ℓᵀx over ‖x‖ = 1 (ℓ: N × 1); infinite where A is not stable.
+  /// The dual norm, the largest ℓᵀx over ‖x‖ = 1 (ℓ: N × 1); infinite unless exists().
   double dual(const Vector<double, States>& functional) const {
     if (!exists_) return std::numeric_limits<double>::infinity();
     return factor_.template triangularView<Eigen::Lower>().solve(functional).norm();

@@ -16,8 +16,8 @@
 
 namespace holdfast {
 
-/// A pole of a plant whose location is proved, with its residue in the transfer function from the
-/// command to the reading. The members enclose those of a `PlantPole`.
+/// A proved enclosure of a plant's pole, and of its residue in the transfer function from the
+/// command to the measured displacement.
 struct EnclosedPole {
   ComplexEnclosure s;        ///< pole s (1/s): real, or the pole with Im s > 0 of a pair
   ComplexEnclosure residue;  ///< residue r (m/(N s)); real for a single pole
@@ -149,7 +149,7 @@ class EnclosedTransfer {
   std::size_t lag_states_ = 0;
 };
 
-/// The approximate poles in conjugate pairs, upper ones first, followed by the real ones.
+/// Approximate poles, sorted: a pole with Im s > 0 for each conjugate pair, and the real poles.
 struct PairedPoles {
   std::vector<std::complex<double>> upper, real;
 
@@ -180,8 +180,7 @@ inline std::vector<ComplexEnclosure> others_of(const std::vector<ComplexEnclosur
   return others;
 }
 
-/// The radii of discs about the approximate poles. All discs together contain all poles; disjoint
-/// discs contain one pole each.
+/// The radii of discs about the approximate poles that contain all poles, one each where disjoint.
 inline std::vector<double> disc_radii(const EnclosedTransfer& transfer,
                                       const std::vector<ComplexEnclosure>& centres) {
   std::vector<double> radii;
@@ -233,20 +232,21 @@ inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer
 
 }  // namespace detail
 
-/// Proved enclosures of all poles and residues of the transfer function n(s)/p(s) from the command
-/// to the reading of a conductor with its absorber and hardware. Discs about approximate poles z_k,
+/// Proved enclosures of all poles s_k and residues of a conductor with its absorber and hardware.
+/// The transfer function from the command to the measured displacement is n(s)/p(s). Let p have the
+/// degree m and the leading coefficient p_m. Discs about approximate poles z_k with the radii
 ///
-///     of radius m |p(z_k) / (p_m Π_{j≠k} (z_k − z_j))|,
+///     m |p(z_k) / (p_m Π_{j≠k} (z_k − z_j))|
 ///
-/// m the degree of p and p_m its leading coefficient, together contain all roots of p. Where no two
-/// discs touch, each contains one root, and for a real z_k this root is real. The residue is
-/// n(s)/p′(s), p′ = p_m Π_{j≠k} (s_k − s_j). Work: 10 m² complex operations.
+/// together contain all roots of p. Where no two discs touch, each contains one root, and for a
+/// real z_k this root is real. The residue is n(s_k)/p′(s_k), with p′(s_k) = p_m Π_{j≠k} (s_k −
+/// s_j). Work: 10 m² complex operations.
 ///
 /// The modes' parameters are exactly the given doubles; absorber and hardware have any decimal
 /// parameters that round to the given doubles. Source: B. T. Smith, Error bounds for zeros of a
 /// polynomial based upon Gerschgorin's theorems, J. ACM 17 (1970), pp. 661–674.
 /// @param conductor  conductor with its approximate poles
-/// @return no poles where not all approximate poles are known, or two are too close to separate
+/// @return no poles where `conductor.poles` is incomplete, or two poles are too close to separate
 /// @throws InvalidParameter where conductor, absorber or hardware are not admissible
 inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& conductor) {
   validate(conductor.modes, conductor.absorber);
@@ -254,7 +254,8 @@ inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& con
                                 with_hardware(conductor.poles, conductor.hardware));
 }
 
-/// The enclosed poles of two masses with hardware, for all decimals that round to given doubles.
+/// Proved enclosures of the poles of two masses with hardware, valid for all decimal parameters
+/// that round to the given doubles. @return no poles where two are too close to separate
 /// @throws InvalidParameter where masses or hardware are not admissible
 inline std::vector<EnclosedPole> enclosed_poles(const TwoMass<double>& masses,
                                                 const LoopHardware& hardware = {}) {

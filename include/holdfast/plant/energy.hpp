@@ -7,10 +7,10 @@
 
 namespace holdfast {
 
-/// The norm ‖z‖² = k₁ z₁² + k₂ (z₂ − z₁)² + m₁ ż₁² + m₂ ż₂², twice the energy of the two masses.
+/// The energy norm ‖z‖; ‖z‖² = k₁ z₁² + k₂ (z₂ − z₁)² + m₁ ż₁² + m₂ ż₂² is twice the energy.
 ///
-/// Springs and masses exchange energy and dampers dissipate it. So without input the norm does not
-/// grow, whatever the units: ‖e^{At}‖ ≤ 1, and ‖z(t)‖ ≤ ‖z(0)‖ + ∫ ‖b u + c F‖ ds.
+/// Springs and masses exchange energy and dampers dissipate it. Without input the norm does not
+/// grow: ‖e^{At}‖ ≤ 1, and with input ‖z(t)‖ ≤ ‖z(0)‖ + ∫ ‖b u + c F‖ ds.
 class EnergyNorm {
  public:
   /// Constructs the norm of a plant.

@@ -27,10 +27,10 @@ Vector<Scalar, 4> free_decay_at(const TwoMass<Scalar>& plant, const Scalar& disp
          Vector<Scalar, 4>(displacement, Scalar(0), displacement, Scalar(0));
 }
 
-/// The displacements z₁ (m) of a free decay at ascending instants (s), released at the first one.
-/// The transition matrix e^{Ah} is computed again only where the interval h changes.
-/// @throws InvalidParameter where the plant is not admissible or the times are not finite and
-/// ascending
+/// The displacements z₁ (m) of a free decay at ascending instants `times` (s). Both masses are
+/// released from `displacement` (m) at the first instant. The transition matrix e^{Ah} is computed
+/// again only where the interval h changes.
+/// @throws InvalidParameter unless the plant is admissible and the times are finite and ascending
 template <class Scalar>
 std::vector<Scalar> free_decay(const TwoMass<Scalar>& plant, const Scalar& displacement,
                                const std::vector<double>& times) {
@@ -57,17 +57,17 @@ std::vector<Scalar> free_decay(const TwoMass<Scalar>& plant, const Scalar& displ
   return displacements;
 }
 
-/// The measures of a free decay with displacements relative to the initial one.
+/// Measures of a free decay, with displacements relative to the initial displacement.
 template <class Scalar>
 struct RelativeDecay {
   Scalar first_peak;             ///< first opposite peak over the initial displacement, < 0
   Scalar first_peak_time;        ///< time of the first opposite peak (s)
-  Scalar period;                 ///< period (s), a mean of two cycles
+  Scalar period;                 ///< mean period of the first two cycles (s)
   Scalar logarithmic_decrement;  ///< logarithmic decrement per cycle, from the first four peaks
 };
 
-/// The crossings and peaks of the plant's free decay from 1 m over four periods, with 400 samples
-/// per period. A period here is that of both masses rigidly joined on the conductor's spring.
+/// Zero crossings and peaks of the plant's free decay from 1 m over four periods, 400 samples each.
+/// The period here is that of both masses, rigidly joined, on the conductor's spring.
 /// @throws InvalidParameter where the plant is not admissible
 template <class Scalar>
 DecayEvents free_decay_events(const TwoMass<Scalar>& plant) {
@@ -83,11 +83,11 @@ DecayEvents free_decay_events(const TwoMass<Scalar>& plant) {
   return decay_events(record);
 }
 
-/// The measures of `decay_measures` to round-off, for any number type. Each zero crossing or peak
-/// found in samples is refined by Newton's method on the closed-form motion.
+/// The measures of a free decay, accurate to round-off, for any number type. Each zero crossing or
+/// peak found in samples is refined by Newton's method on the closed-form motion.
 /// @param plant   the two masses, without control
 /// @param events  crossings and peaks: `free_decay_events` of the same plant
-/// @return nothing where the decay has fewer than five crossings in four periods (overdamped)
+/// @return nullopt for fewer than five zero crossings or four peaks in four periods (overdamped)
 template <class Scalar>
 std::optional<RelativeDecay<Scalar>> relative_decay(const TwoMass<Scalar>& plant,
                                                     const DecayEvents& events) {

@@ -17,7 +17,7 @@ namespace holdfast {
 ///
 /// Here u is the computer's command (N), s the force on conductor and absorber (N). An ideal drive
 /// has s = u (f = 0, g = 1, b_u = 0). A drive with a lag adds states: u acts on them by b_u, and f
-/// gives s from them. Rows, the plant's ports, read the measured quantities and the relative motion
+/// gives s from them. The ports are rows that read the measured quantities and the relative motion
 /// at the gap, so that x may be in any coordinates.
 /// @tparam States  N; Eigen::Dynamic where it is known at run time only
 template <class Number, int States = Eigen::Dynamic>
@@ -25,15 +25,15 @@ struct LinearPlant {
   static_assert(is_real<Number>, "the numbers of a plant are real: LinearPlant<double>");
 
   Matrix<Number, States> released_matrix;  ///< matrix A, N × N (1/s), without transmitted force
-  Vector<Number, States> force_input;      ///< input b of the force, N × 1 per newton of s
-  Vector<Number, States> command_input;  ///< input b_u, N × 1 per newton of u; 0 for an ideal drive
-  Vector<Number, States> excitation;     ///< input c of the excitation, N × 1 per newton of F
-  RowVector<Number, States> drive_force;  ///< row f, 1 × N; 0 for an ideal drive
-  Number direct_transmission{1};          ///< factor g: 1 for an ideal drive, 0 for one with a lag
-  Ports<Number, States> connections;      ///< measured quantities and relative motion at the gap
+  Vector<Number, States> force_input;      ///< column b (N × 1): rate of the state per newton of s
+  Vector<Number, States> command_input;    ///< column b_u (N × 1), per newton of u; 0: ideal drive
+  Vector<Number, States> excitation;       ///< column c (N × 1), per newton of the excitation F
+  RowVector<Number, States> drive_force;   ///< row f (1 × N): s = f x + g u; 0 for an ideal drive
+  Number direct_transmission{1};           ///< factor g: 1 for an ideal drive, 0 for one with a lag
+  Ports<Number, States> connections;       ///< measured quantities and relative motion at the gap
 
   /// The state matrix A + b f of an engaged drive, N × N.
-  /// @throws InvalidParameter in the cases of `require_one_order`; so do all functions below
+  /// @throws InvalidParameter where the sizes of the parts differ; so do the next three functions
   Matrix<Number, States> state_matrix() const {
     require_one_order();
     return released_matrix + force_input * drive_force;
@@ -56,7 +56,7 @@ struct LinearPlant {
   /// The order N: the number of states.
   Eigen::Index order() const { return released_matrix.rows(); }
 
-  /// Rejects a plant whose parts have different orders.
+  /// Rejects a plant whose parts have different orders; does nothing where N is a fixed size.
   /// @throws InvalidParameter unless A is N × N, N ≥ 1, and all other parts have length N
   void require_one_order() const {
     if constexpr (States == Eigen::Dynamic) {
@@ -151,8 +151,7 @@ LinearPlant<Scalar, larger_size(States, 1)> with_measurement_filter(
   return filtered;
 }
 
-/// The plant with a motor that follows its command with a lag of first order, ṡ = ω_d (u − s). This
-/// adds one state, s (N).
+/// The plant with a motor that has a first-order lag, ṡ = ω_d (u − s); this adds one state, s (N).
 /// @param plant      plant with an ideal drive
 /// @param bandwidth  bandwidth ω_d/2π (Hz) of the motor, > 0
 /// @throws InvalidParameter where the bandwidth is not admissible
@@ -194,10 +193,10 @@ LinearPlant<Scalar, larger_size(States, 2)> with_drive_lag(const LinearPlant<Sca
   return driven;
 }
 
-/// Rejects a plant for which no loop can be closed.
-/// @throws InvalidParameter unless all is finite, the sizes agree, the drive's force depends on
-/// either the command or the state, and this force directly accelerates the relative motion at the
-/// gap (r b ≠ 0 for the row r of the relative velocity)
+/// Rejects a plant with which no control loop can be formed.
+/// @throws InvalidParameter unless all entries are finite, the sizes agree, the drive's force
+/// depends on the command or the state, and this force directly accelerates the relative motion at
+/// the gap (r b ≠ 0 for the row r of the relative velocity)
 template <int States>
 void validate(const LinearPlant<double, States>& plant) {
   const Ports<double, States>& ports = plant.ports();
@@ -211,7 +210,7 @@ void validate(const LinearPlant<double, States>& plant) {
   require_finite("sum of the entries of the plant", sum, "");
   if (plant.control_input().isZero(0.0) && plant.drive_force.isZero(0.0))
     throw InvalidParameter("direct transmission g", plant.direct_transmission, "",
-                           "nonzero if both the control input and the drive's force are zero");
+                           "nonzero where command input b_u and drive force row f are zero");
   const double answer = plant.ports().relative_velocity.dot(plant.force_input);
   if (!(std::abs(answer) > 0.0))
     throw InvalidParameter("relative acceleration per newton of the drive", answer, "1/kg",

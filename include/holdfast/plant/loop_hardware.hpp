@@ -22,7 +22,7 @@ namespace holdfast {
 /// The computer reads ẑ = F z and its rate. Without a velocity sensor, (ẑ_j − ẑ_{j−1})/τ replaces
 /// the rate. The force on conductor and absorber is D u.
 struct LoopHardware {
-  static constexpr double ideal = std::numeric_limits<double>::infinity();  ///< value for no lag
+  static constexpr double ideal = std::numeric_limits<double>::infinity();  ///< bandwidth: no lag
 
   double measurement_filter = ideal;  ///< cutoff ω_f/2π of the filter (Hz), > 0
   double drive_bandwidth = ideal;     ///< bandwidth ω_d/2π of the drive (Hz), > 0
@@ -41,8 +41,7 @@ inline void validate(const LoopHardware& hardware) {
   require("drive damping", hardware.drive_damping, "");
 }
 
-/// The plant extended by a filter (`with_measurement_filter`) and a drive with a lag
-/// (`with_drive_lag`).
+/// The plant with a filter (`with_measurement_filter`) and a drive with a lag (`with_drive_lag`).
 /// @param plant     plant with an ideal drive
 /// @param hardware  hardware, which adds up to three states
 /// @throws InvalidParameter where the hardware is not admissible
@@ -74,7 +73,7 @@ struct HardwarePoles {
         drive = {-rate};
       } else {
         const std::complex<double> half = std::sqrt(std::complex<double>(zeta * zeta - 1.0));
-        // The product of the two is rate²: the larger one first loses no digit of the smaller.
+        // Their product is rate²; computing the larger pole first loses no digit of the smaller.
         const std::complex<double> larger = -rate * (zeta + half);
         drive = {larger, rate * rate / larger};
       }
@@ -135,12 +134,12 @@ inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles,
 
 }  // namespace detail
 
-/// The poles of a plant with hardware, with residues from the command to the reading. The plant's
-/// poles come first, then those of drive and filter.
+/// The poles of a plant with hardware, with residues from the command to the measured displacement.
+/// The plant's poles come first, then those of drive and filter.
 /// @param poles     all `plant_poles` of the plant without hardware
-/// @param hardware  hardware; equal poles in it are moved apart by 10⁻⁵ relative (three by 10⁻³),
-///                  which changes the response by a relative 10⁻¹⁰ (10⁻⁶)
-/// @return no poles where the plant has none, or shares one with the hardware
+/// @param hardware  hardware. Two equal poles in it are moved apart by a relative 10⁻⁵, three by
+///                  10⁻³; the response then changes by a relative 10⁻¹⁰ or 10⁻⁶
+/// @return no poles where `poles` is empty, or plant and hardware share a pole
 /// @throws InvalidParameter where the hardware is not admissible
 inline std::vector<PlantPole> with_hardware(const std::vector<PlantPole>& poles,
                                             const LoopHardware& hardware) {

@@ -19,7 +19,7 @@ template <class Scalar>
 struct PlaceMode {
   Scalar angular_frequency;  ///< angular frequency ω_n (rad/s), > 0
   Scalar damping_ratio;      ///< damping ratio ζ_n, ≥ 0
-  Scalar shape;  ///< shape φ_n at the absorber, in any unit: M_n scales with its square
+  Scalar shape;  ///< shape φ_n at the absorber, in any scaling; M_n is proportional to its square
   Scalar mass;   ///< modal mass M_n (kg), > 0
 
   /// The response (s²) of q_n to φ_n f/M_n, 1/(s² + 2 ζ_n ω_n s + ω_n²) at s (1/s).
@@ -94,16 +94,16 @@ std::complex<Scalar> passive_stiffness(const Absorber<Scalar>& absorber,
 template <class Scalar>
 struct PlaceResponse {
   std::complex<Scalar> to_force;  ///< receptance z/F (m/N)
-  std::complex<Scalar> to_drive;  ///< response G_z = z/s (m/N) to the drive's force s
+  std::complex<Scalar> to_drive;  ///< response G_z (m/N) of z to the drive's force
 };
 
 /// The responses of a conductor with absorber, from the bare conductor's receptance H (unchecked):
 ///
-///     1/H′ = 1/H + M_c s²,  K_p = m₂ s² (k₂ + c₂ s)/(m₂ s² + c₂ s + k₂),  T_a = m₂ s²/(…)
+///     1/H′ = 1/H + M_c s²,   T_a = m₂ s²/(m₂ s² + c₂ s + k₂),   K_p = T_a (k₂ + c₂ s)
 ///     z/F = H′/(1 + H′ K_p),   G_z = T_a z/F
 ///
-/// These are the plant's transfer functions, without sampling. No matrix is needed, so that H may
-/// include any number of modes.
+/// H′ includes the clamp, K_p is the absorber's dynamic stiffness without its drive, and T_a the
+/// share of the drive's force that acts on the conductor. H may include any number of modes.
 /// @param bare      receptance H (m/N) at s
 /// @param absorber  absorber with its clamp
 /// @param s         complex frequency (1/s)
@@ -135,7 +135,8 @@ Vector<Scalar, Eigen::Dynamic> scaled_at_place(const std::vector<PlaceMode<Scala
 
 }  // namespace detail
 
-/// The modal coordinates q (N × 1) of a conductor bent to 1 m by a force at the absorber's place.
+/// The modal coordinates q (N × 1) of a conductor deflected statically by a force at the absorber's
+/// place, with a displacement of 1 m there.
 /// @param modes  modes at the absorber's place, at least one without a node there (unchecked)
 template <class Scalar>
 Vector<Scalar, Eigen::Dynamic> bent_conductor(const std::vector<PlaceMode<Scalar>>& modes) {
@@ -144,8 +145,8 @@ Vector<Scalar, Eigen::Dynamic> bent_conductor(const std::vector<PlaceMode<Scalar
   });
 }
 
-/// The modal velocities q̇ (N × 1) of a conductor after a blow at the absorber's place that gives
-/// this place 1 m/s (unchecked).
+/// The modal velocities q̇ (N × 1) of a conductor after an impulse at the absorber's place that
+/// gives this place a velocity of 1 m/s (unchecked).
 /// @param modes  modes at the absorber's place
 template <class Scalar>
 Vector<Scalar, Eigen::Dynamic> struck_conductor(const std::vector<PlaceMode<Scalar>>& modes) {
@@ -154,8 +155,8 @@ Vector<Scalar, Eigen::Dynamic> struck_conductor(const std::vector<PlaceMode<Scal
 }
 
 /// The state [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂] of `modal_plant` with given [z, ż, z₂, ż₂]
-/// (unchecked). The conductor is bent to z by a force at the absorber's place, and its velocities
-/// are those after a blow there.
+/// (unchecked). The conductor is deflected to z by a static force at the absorber's place, and has
+/// the velocities after an impulse there that gives ż.
 /// @param modes  modes at the absorber's place
 /// @param seen   observed state [z, ż, z₂, ż₂] (m, m/s, m, m/s)
 template <class Scalar>

@@ -75,7 +75,7 @@ class PoleFinder {
     const Complex s = begin.s, apart = s - begin.partner;
     Weak found{n, apart, mode.shape * mode.shape / (mode.mass * apart),
                passive_stiffness(absorber_, s), 1.0};
-    // A product that is not small has no need of b, unless b is large.
+    // A product that is not small decides without b, unless b is large.
     if (!(std::abs(found.residue * found.stiffness) < 1e-6 * std::abs(s))) return std::nullopt;
     Complex others = -found.residue / apart;
     for (const PlaceMode<double>& other : modes_)
@@ -129,7 +129,7 @@ class PoleFinder {
       slope = passive_slope(absorber_, s) - receptance_slope(modes_, s) / (bare * bare);
       const Complex step = (1.0 / bare + passive_stiffness(absorber_, s)) / slope;
       s -= step;
-      // Beside a mode that is nearly weak a step is small before the slope is right.
+      // Near a nearly weak mode a step is small before the slope is accurate.
       settled = turn >= 2 && std::abs(step) <= 1e-15 * std::abs(s);
     }
     if (std::abs(s.imag()) < 1e-15 * std::abs(s)) s.imag(0.0);  // a real one, but for rounding
@@ -217,12 +217,12 @@ inline void separate(std::vector<PlantPole>& poles, const std::vector<std::compl
 
 }  // namespace detail
 
-/// All 2N + 2 poles of a conductor, given by N modes, with the absorber. Each pole is continued
-/// from its value without coupling (`root_from_pole`). For each mode the pole with Im s > 0 comes
-/// first, or the slower pole of an overdamped mode; the modes' other poles and the absorber's two
-/// follow. Where two continuations end at one pole, all are improved together, and their assignment
-/// to modes is arbitrary. Two sums over the poles test that none is missing. Work: N² operations;
-/// the eigenvalues of `modal_plant` take N³.
+/// All 2N + 2 poles of a conductor, given by N modes, with the absorber. Each pole is traced from
+/// its value without coupling of conductor and absorber (`root_from_pole`). The first N poles
+/// belong to the modes in turn: the pole with Im s > 0, or the slower pole of an overdamped mode.
+/// The modes' other poles and the absorber's two follow. Where two traces end at one pole, all
+/// poles are refined together, and their assignment to modes is arbitrary. Two sums over the poles
+/// test that none is missing. Work: order N²; the eigenvalues of `modal_plant` take order N³.
 /// @return no poles where not all were found, for example with critical damping or equal poles
 /// @throws InvalidParameter where modes or absorber are not admissible
 inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& modes,
@@ -230,8 +230,7 @@ inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& 
   using Complex = std::complex<double>;
   validate(modes, absorber);
   const detail::PoleFinder finder(modes, absorber);
-  // The second pole of what begins as a pair: the conjugate, or where the pair has met on the real
-  // axis what the conjugate has become.
+  // A pair's second pole: the conjugate or, if the first became real, that continued from `begin`.
   const auto partner = [&](const PlantPole& first, const Complex& begin) {
     const bool met = !(std::abs(first.s.imag()) > 1e-9 * std::abs(first.s));
     return met ? finder.from(begin) : PlantPole{std::conj(first.s), std::conj(first.residue)};
@@ -262,8 +261,7 @@ inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& 
   return poles;
 }
 
-/// The longest sampling period (s) that resolves all given natural motions: π over the largest
-/// modulus |s| of their poles.
+/// The longest sampling period (s) that resolves all poles: π / max |s|; infinite without poles.
 inline double nyquist_period(const std::vector<PlantPole>& poles) {
   double fastest = 0.0;
   for (const PlantPole& pole : poles) fastest = std::max(fastest, std::abs(pole.s));

@@ -6,7 +6,7 @@
 
 namespace holdfast {
 
-/// The functions that read a plant's state by its ports, and functions that change such a state.
+/// Readings of a plant's state through its ports, and changes of such a state.
 /// @tparam Plant  plant of order N with `ports()`; the two masses have a specialisation
 template <class Plant>
 class PortReadings {
@@ -40,7 +40,7 @@ class PortReadings {
   /// The coefficients of Δż in the state, N × 1.
   State velocity_row() const { return ports_.relative_velocity.transpose(); }
 
-  /// Adds a displacement (m) to the conductor's z, by the smallest possible change of the state.
+  /// Adds a displacement (m) to the conductor's z, by the change of x with the least norm.
   void displace_conductor(State& x, const Scalar& by) const {
     x += ports_.displacement.transpose() * (by / ports_.displacement.squaredNorm());
   }

@@ -36,11 +36,11 @@ struct HasController<Plant, std::void_t<decltype(std::declval<const Plant&>().co
 
 }  // namespace detail
 
-/// The number type of a plant.
+/// The number type of a plant's matrices, for instance `double`.
 template <class Plant>
 using ScalarOf = typename detail::StateMatrixOf<Plant>::Scalar;
 
-/// The order N of a plant; Eigen::Dynamic where it is known at run time only.
+/// The number N of a plant's states; Eigen::Dynamic where N is known only at run time.
 template <class Plant>
 inline constexpr int states_of = detail::StateMatrixOf<Plant>::RowsAtCompileTime;
 
@@ -49,22 +49,22 @@ inline constexpr int states_of = detail::StateMatrixOf<Plant>::RowsAtCompileTime
 template <class Plant>
 inline constexpr bool has_closed_forms = states_of<Plant> == 4 && !detail::HasPorts<Plant>::value;
 
-/// The state type of a plant: a column of N numbers.
+/// The type of a plant's state x: a column of `states_of<Plant>` numbers.
 template <class Plant>
 using StateOf = Vector<ScalarOf<Plant>, states_of<Plant>>;
 
-/// The connections of a plant of order N to its loop: sensor readings, the conductor's motion and
-/// the relative motion at the drive's gap. Each row, 1 × N, multiplies the state x.
+/// The inputs and outputs of a plant of N states that connect it to the computer and the drive.
+/// An output is a row, 1 × N: row times state x gives the quantity that the member names.
 template <class Scalar, int States>
 struct Ports {
   RowVector<Scalar, States> displacement;           ///< z (m) of the conductor at the absorber
   RowVector<Scalar, States> velocity;               ///< ż (m/s) of the conductor at the absorber
-  RowVector<Scalar, States> measured_displacement;  ///< reading (m) that P multiplies
-  RowVector<Scalar, States> measured_velocity;      ///< reading (m/s) that D multiplies
+  RowVector<Scalar, States> measured_displacement;  ///< row h_z: reading (m) for P
+  RowVector<Scalar, States> measured_velocity;      ///< row h_v: reading (m/s) for D
   RowVector<Scalar, States> relative_displacement;  ///< Δz (m), absorber against conductor
   RowVector<Scalar, States> relative_velocity;      ///< Δż (m/s), absorber against conductor
-  Vector<Scalar, States> displacement_lift;  ///< vector e_z, N × 1: changes Δz by 1 m, not Δż
-  Vector<Scalar, States> velocity_lift;      ///< vector e_v, N × 1: changes Δż by 1 m/s, not Δz
+  Vector<Scalar, States> displacement_lift;  ///< column e_z: x + e_z has Δz + 1 m, same Δż
+  Vector<Scalar, States> velocity_lift;      ///< column e_v: x + e_v has Δż + 1 m/s, same Δz
 
   /// The feedback row K = P h_z + D h_v (1 × N) from the measured rows h_z and h_v; u = K x.
   RowVector<Scalar, States> feedback_row(const Scalar& proportional,
@@ -72,7 +72,7 @@ struct Ports {
     return proportional * measured_displacement + differential * measured_velocity;
   }
 
-  /// Whether all ports belong to a plant of the given order.
+  /// Whether every row and column has `order` entries, one for each state of the plant.
   bool are_of(Eigen::Index order) const {
     const auto fits = [order](const auto&... of) { return ((of.size() == order) && ...); };
     return fits(displacement, velocity, measured_displacement, measured_velocity,
@@ -80,8 +80,7 @@ struct Ports {
   }
 };
 
-/// The ports of the two masses, for a state that begins with [z₁, ż₁, z₂, ż₂]. Plants without
-/// `ports()` use these ports.
+/// The ports of the two masses for a state [z₁, ż₁, z₂, ż₂, …], used by plants without `ports()`.
 template <class Scalar, int States = 4>
 Ports<Scalar, States> two_mass_ports(Eigen::Index states = States) {
   const auto unit = [&](Eigen::Index k) {
@@ -97,16 +96,15 @@ Ports<Scalar, States> two_mass_ports(Eigen::Index states = States) {
           unit(3).transpose()};
 }
 
-/// The ports of a plant: its own `ports()`, or the ports of the two masses if the plant has four
-/// states and no `ports()`.
-/// @throws InvalidParameter where a port has another order than the plant
+/// The ports of a plant: its own `ports()`, else those of the two masses if it has four states.
+/// @throws InvalidParameter where the length of a row or column is not the plant's number of states
 template <class Plant>
 Ports<ScalarOf<Plant>, states_of<Plant>> ports_of(const Plant& plant) {
   if constexpr (detail::HasPorts<Plant>::value) {
     const auto order = plant.excitation_input().size();
     if (!plant.ports().are_of(order))
-      throw InvalidParameter("order of a plant's ports", static_cast<double>(order), "",
-                             "the same for each port");
+      throw InvalidParameter("number of states of a plant", static_cast<double>(order), "",
+                             "the length of each row and column of its ports");
     return plant.ports();
   } else if constexpr (states_of<Plant> == 4) {
     return two_mass_ports<ScalarOf<Plant>>();

@@ -11,7 +11,7 @@
 
 namespace holdfast {
 
-/// The prescribed natural frequencies and parameters of a two-mass plant.
+/// The data from which `reduce_to_frequencies` computes m₁ and k₂ of a two-mass plant.
 template <class Scalar>
 struct FrequencyReduction {
   Scalar conductor_stiffness;  ///< stiffness k₁ (N/m), > 0
@@ -20,18 +20,18 @@ struct FrequencyReduction {
   Scalar second_frequency;     ///< second natural frequency ω₂/2π (Hz), > ω₁/2π
 };
 
-/// A two-mass plant with the prescribed natural frequencies, and its condition numbers.
+/// The k₂ and m₁ of a plant with the prescribed natural frequencies, and their condition numbers.
 struct ReducedMasses {
   double absorber_stiffness;  ///< stiffness k₂ (N/m)
   double conductor_mass;      ///< mass m₁ (kg)
-  /// The condition number of k₂, Σ |∂ ln k₂/∂ ln p| over p = k₁, m₂, ω₁, ω₂: the factor by which
-  /// relative errors of these inputs are amplified.
+  /// The condition number of k₂, Σ |∂ ln k₂/∂ ln p| over the inputs p = k₁, m₂, ω₁, ω₂. If each
+  /// input has a small relative error ε, the relative error of k₂ is at most ε times this number.
   double stiffness_condition;
-  double mass_condition;     ///< condition number of m₁, Σ |∂ ln m₁/∂ ln p|
-  double damping_condition;  ///< condition number of c₁ (Kollár 2022, Eq. 3) less the term 1 of ζ
+  double mass_condition;     ///< condition number of m₁, Σ |∂ ln m₁/∂ ln p|, same p
+  double damping_condition;  ///< condition number of c₁ = 2 ζ √(m₁ k₁), same p; ζ is exact
 
-  /// Whether 1 % error of the inputs may cause 100 % error of k₂ or m₁. Near a double solution the
-  /// condition numbers grow without bound. The result is false where no solution exists.
+  /// Whether an error of 1 % of the inputs may cause an error of 100 % of k₂ or m₁, for instance
+  /// near `ReductionOutcome::double_solution`. The result is false where no solution exists.
   bool is_ill_conditioned() const {
     constexpr double largest_condition = 100.0;
     return stiffness_condition > largest_condition || mass_condition > largest_condition;
@@ -41,7 +41,7 @@ struct ReducedMasses {
 /// The number of two-mass plants with the prescribed natural frequencies.
 enum class ReductionOutcome {
   two_solutions,    ///< two plants exist: both roots k₂ are real and distinct
-  double_solution,  ///< one plant exists, a double root k₂: condition numbers are unbounded
+  double_solution,  ///< one plant exists, a double root k₂; condition numbers are infinite
   no_solution,      ///< no real plant has these frequencies
 };
 
@@ -50,13 +50,14 @@ struct ReductionResult {
   ReductionOutcome outcome;  ///< number of plants in `solutions`
   /// The discriminant ((1/ω₁ − 1/ω₂)² k₁/m₂) − 1: 0 for a double solution, negative for none.
   double discriminant;
-  /// The plants, smaller k₂ first; NaN where none exists. Kollár 2022, Table 1, has the smaller k₂.
+  /// The plants, smaller k₂ first: twice the same for a double solution, NaN where none exists. The
+  /// plant of Kollár 2022, Table 1, is the first.
   std::array<ReducedMasses, 2> solutions;
-  double largest_absorber_mass;         ///< largest m₂ (kg) for which a plant exists
-  double smallest_conductor_stiffness;  ///< smallest k₁ (N/m) for which a plant exists
+  double largest_absorber_mass;         ///< largest m₂ (kg) for which a plant exists at this k₁
+  double smallest_conductor_stiffness;  ///< smallest k₁ (N/m) for which a plant exists at this m₂
 };
 
-/// The largest mass m₂ (kg) for which a real plant exists, k₁ (1/ω₁ − 1/ω₂)².
+/// The largest m₂ (kg), k₁ (1/ω₁ − 1/ω₂)², for which a plant has the given k₁, ω₁ and ω₂.
 template <class Scalar>
 Scalar largest_absorber_mass(const FrequencyReduction<Scalar>& asked) {
   const Scalar room = (Scalar(1) / asked.first_frequency - Scalar(1) / asked.second_frequency) /
@@ -70,14 +71,15 @@ Scalar reduction_discriminant(const FrequencyReduction<Scalar>& asked) {
   return largest_absorber_mass(asked) / asked.absorber_mass - Scalar(1);
 }
 
-/// The smaller or larger stiffness k₂ (N/m) with which the undamped plant has ω₁ and ω₂, a root of
+/// The smaller or the larger stiffness k₂ (N/m) with which the undamped plant has the natural
+/// frequencies ω₁ and ω₂. Both are roots of
 ///
-///     k₂²/m₂ + k₂ (m₂ ω₁²ω₂²/k₁ − ω₁² − ω₂²) + m₂ ω₁²ω₂² = 0,
+///     k₂²/m₂ + k₂ (m₂ Ω²/k₁ − ω₁² − ω₂²) + m₂ Ω² = 0,   Ω = ω₁ ω₂
+///     k₂ = m₂ Ω (q ∓ √(q² − 1)),   q = (ω₁² + ω₂² − m₂ Ω²/k₁)/(2 Ω)
 ///
-/// written with Ω = ω₁ ω₂ and q = (ω₁² + ω₂² − m₂ Ω²/k₁)/(2 Ω) ≥ 1 as k₂ = m₂ Ω (q ∓ √(q² − 1)).
-/// The product of both factors (q ∓ …) is 1. q² − 1 is computed as (q − 1)(q + 1) from
-/// q − 1 = ((ω₂ − ω₁)² − m₂ Ω²/k₁)/(2 Ω) = m₂ Ω/(2 k₁) times the discriminant, so that its sign is
-/// exactly that of the discriminant.
+/// q − 1 is computed as m₂ Ω/(2 k₁) times the discriminant, without cancellation near q = 1.
+/// @param asked   k₁, m₂ and the two frequencies; the discriminant must be ≥ 0
+/// @param larger  whether the larger root is returned
 template <class Scalar>
 Scalar absorber_stiffness_root(const FrequencyReduction<Scalar>& asked, bool larger) {
   using std::sqrt;
@@ -90,7 +92,7 @@ Scalar absorber_stiffness_root(const FrequencyReduction<Scalar>& asked, bool lar
   return larger ? Scalar(scale * grown) : Scalar(scale / grown);
 }
 
-/// The conductor mass m₁ = k₁ k₂/(m₂ ω₁²ω₂²) (kg), from the product of ω₁² and ω₂².
+/// The conductor mass m₁ = k₁ k₂/(m₂ ω₁²ω₂²) (kg) for a given k₂ (N/m).
 template <class Scalar>
 Scalar reduced_conductor_mass(const FrequencyReduction<Scalar>& asked,
                               const Scalar& absorber_stiffness) {
@@ -99,7 +101,8 @@ Scalar reduced_conductor_mass(const FrequencyReduction<Scalar>& asked,
   return asked.conductor_stiffness * absorber_stiffness / (asked.absorber_mass * product * product);
 }
 
-/// The conductor damping c₁ = 2 m₁ ω ζ (N s/m) with the bare ω = √(k₁/m₁) (Kollár 2022, Eq. 3).
+/// The conductor damping c₁ = 2 m₁ ω ζ (N s/m), where ω = √(k₁/m₁) is the conductor's natural
+/// frequency without the absorber (Kollár 2022, Eq. 3).
 /// @throws InvalidParameter where m₁ or k₁ is not positive or ζ is outside 0 … 1
 inline double conductor_damping(double conductor_mass, double conductor_stiffness_value,
                                 double damping_ratio) {
@@ -139,9 +142,8 @@ ReducedMasses reduced_masses(const FrequencyReduction<Scalar>& asked, bool large
 
 }  // namespace detail
 
-/// The solutions m₁ and k₂ of a plant with the prescribed natural frequencies. A real plant exists
-/// only if 1/ω₁ − 1/ω₂ ≥ √(m₂/k₁); otherwise the outcome is `no_solution`, with the largest m₂ and
-/// the smallest k₁ for which one exists.
+/// The m₁ and k₂ of all plants with the prescribed k₁, m₂ and natural frequencies. A plant exists
+/// only if 1/ω₁ − 1/ω₂ ≥ √(m₂/k₁); otherwise the outcome is `no_solution`.
 /// @throws InvalidParameter unless all inputs are finite and > 0 and the frequencies ascend
 template <class Scalar = double>
 ReductionResult reduce_to_frequencies(const FrequencyReduction<Scalar>& asked) {

@@ -7,15 +7,14 @@
 
 namespace holdfast {
 
-/// The two-degree-of-freedom plant: the conductor (mass 1), reduced to the place of the absorber,
-/// and the absorber (mass 2).
+/// The two-degree-of-freedom plant: conductor, reduced to the absorber's place, and absorber.
 ///
 ///     m₁ z̈₁ = −k₁ z₁ − c₁ ż₁ + k₂ (z₂ − z₁) + c₂ (ż₂ − ż₁) + u + F
 ///     m₂ z̈₂ =                 − k₂ (z₂ − z₁) − c₂ (ż₂ − ż₁) − u
 ///
 /// With z = [z₁, ż₁, z₂, ż₂]ᵀ (m, m/s, m, m/s; positive downward) this is ż = A z + b u + c F.
-/// Source: Kollár 2022, Eqs. (9)–(10). The fourth row of A is printed there without a sign and a
-/// column; the row [k₂/m₂, c₂/m₂, −k₂/m₂, −c₂/m₂] used here follows from the equations above.
+/// Source: Kollár 2022, Eqs. (9)–(10). The fourth row of A has a misprint there. The equations
+/// above give this row as [k₂/m₂, c₂/m₂, −k₂/m₂, −c₂/m₂].
 template <class Scalar>
 struct TwoMass {
   static_assert(is_real<Scalar>, "the numbers of a plant are real: TwoMass<double>");
@@ -27,7 +26,7 @@ struct TwoMass {
   Scalar absorber_stiffness;   ///< stiffness k₂ (N/m), > 0
   Scalar absorber_damping;     ///< damping c₂ (N s/m), ≥ 0
 
-  /// The state matrix A of Eq. (10), 4 × 4.
+  /// The state matrix A, 4 × 4.
   Matrix<Scalar, 4> state_matrix() const {
     const Scalar zero(0), one(1);
     const Scalar &m1 = conductor_mass, &k1 = conductor_stiffness, &c1 = conductor_damping;
@@ -40,12 +39,12 @@ struct TwoMass {
     return a;
   }
 
-  /// The input b of the control force u (N) in Eq. (10), 4 × 1.
+  /// The input vector b of the control force u (N), 4 × 1.
   Vector<Scalar, 4> control_input() const {
     return {Scalar(0), Scalar(1) / conductor_mass, Scalar(0), -Scalar(1) / absorber_mass};
   }
 
-  /// The input c of the excitation F (N) in Eq. (10), 4 × 1.
+  /// The input vector c of the excitation F (N), 4 × 1.
   Vector<Scalar, 4> excitation_input() const {
     return {Scalar(0), Scalar(1) / conductor_mass, Scalar(0), Scalar(0)};
   }
@@ -93,8 +92,7 @@ TwoMass<To> converted(const TwoMass<From>& plant) {
 
 namespace detail {
 
-/// Rejects two masses outside their ranges; packs, dual numbers and other plants are not checked
-/// here.
+/// Rejects two masses outside their ranges; packs, dual numbers and other plants are not checked.
 template <class Plant>
 void require_admissible(const Plant&) {}
 template <class Scalar>
@@ -104,8 +102,7 @@ void require_admissible(const TwoMass<Scalar>& plant) {
 
 }  // namespace detail
 
-/// The plant of Kollár 2022, Table 1: a small-scale span with the absorber at one tenth of its
-/// length.
+/// The plant of Kollár 2022, Table 1: a scale model, the absorber at a tenth of the span.
 inline TwoMass<double> kollar2022_plant() { return {0.0767, 50.3, 0.079, 0.16, 74.4, 4.0}; }
 
 }  // namespace holdfast

@@ -40,24 +40,25 @@ inline std::size_t cells_of(const LoopChart& chart) {
 ///     const std::vector<std::uint8_t> stable = simd::stability_chart(chart);
 ///
 /// @param chart    the loop and the two parameters that vary
-/// @param stable   array of one entry for each cell, row by row, the fast axis along a row; fastest
-///                 if not yet written, as its pages are then placed near the writing thread
+/// @param stable   array of one entry for each cell, row by row; `chart.fast` varies along a row.
+///                 Memory not yet written to is fastest: the system places each of its pages near
+///                 the processor of the thread that first writes there
 /// @param threads  number of threads ≥ 1, or 0 for all cores; no effect on the result
 /// @throws InvalidParameter where the chart is not admissible
 inline void stability_chart(const LoopChart& chart, std::uint8_t* stable, int threads = 0) {
   detail::fill_chart<StabilityChartRows<Pack<double>>>(chart, stable, threads);
 }
 
-/// Stability chart as a vector of cells, 1 (stable) or 0, row by row.
+/// The stability chart as a vector of cells, 1 (stable) or 0 (not stable), row by row.
 inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int threads = 0) {
   std::vector<std::uint8_t> stable(detail::cells_of(chart));
   stability_chart(chart, stable.data(), threads);
   return stable;
 }
 
-/// Computes the spectral radius ρ = max |λ| for every cell of a chart, with an error below 1e−10.
+/// Computes the spectral radius ρ = max |λ| of every cell of a chart, to an absolute 1e−10.
 /// @param chart    the loop and the two parameters that vary
-/// @param radius   array with one entry for each cell, row by row, the fast axis along a row
+/// @param radius   array of one entry for each cell, row by row; `chart.fast` varies along a row
 /// @param threads  number of threads ≥ 1, or 0 for all cores; no effect on the result
 /// @throws InvalidParameter where the chart is not admissible
 inline void radius_chart(const LoopChart& chart, double* radius, int threads = 0) {
@@ -68,7 +69,7 @@ inline void radius_chart(const LoopChart& chart, double* radius, int threads = 0
   }
 }
 
-/// Chart of the spectral radius as a vector of cells, row by row.
+/// The chart of the spectral radius ρ as a vector of cells, row by row.
 inline std::vector<double> radius_chart(const LoopChart& chart, int threads = 0) {
   std::vector<double> radius(detail::cells_of(chart));
   radius_chart(chart, radius.data(), threads);

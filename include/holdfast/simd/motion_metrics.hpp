@@ -7,12 +7,12 @@
 
 namespace holdfast::simd {
 
-/// Computes the metrics of a sweep's motions on SIMD packs in the calling thread. The duration of
-/// the motions is in s, ≥ 0.
+/// Computes the metrics of `count` motions of a sweep on SIMD packs in the calling thread.
+/// `results` has `count` entries; `duration` is the simulated time of each motion in s, ≥ 0.
 ///
 ///     simd::motion_metrics(motions.data(), motions.size(), 20.0, metrics.data());
 ///
-/// Threads may compute disjoint parts of the motions at once, with the same results.
+/// Several threads may each compute a part of the motions; the results are the same.
 /// @throws InvalidParameter where a motion or the duration is not admissible
 inline void motion_metrics(const SweepMotion* motions, std::size_t count, double duration,
                            MotionMetrics* results) {

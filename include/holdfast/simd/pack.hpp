@@ -9,11 +9,11 @@
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/select.hpp"
 
-/// The library's kernels on SIMD packs. `xsimd::batch` becomes a number type: a kernel written for
-/// `double` then computes as many cells at a time as a register has lanes. The instruction set is
-/// that of the translation unit: SSE2, AVX2, AVX-512, NEON, …. This set is part of the pack's type
-/// and thus of the name of every kernel. Units compiled for several instruction sets can therefore
-/// be linked into one program (bench/README.md).
+/// The library's kernels on SIMD packs. This header makes `xsimd::batch` a number type. A kernel
+/// template then computes as many cells at a time as a register has lanes. The compiler options of
+/// the translation unit choose the instruction set: SSE2, AVX2, AVX-512, NEON, …. The instruction
+/// set is part of the pack's type and thus of each kernel's symbol name. Units compiled for several
+/// instruction sets can therefore be linked into one program (bench/README.md).
 
 namespace holdfast {
 
@@ -23,19 +23,19 @@ struct MaskOf<xsimd::batch<Number, Architecture>> {
   /// The type of the result of a comparison of two packs.
   using type = xsimd::batch_bool<Number, Architecture>;
 
-  /// The complement of a mask; `!` would be slower on some instruction sets.
+  /// The complement of a mask, lane by lane, by `~`; `!` is slower on some instruction sets.
   static type complement(const type& mask) { return ~mask; }
 };
 
 namespace simd {
 
-/// A SIMD register of numbers.
+/// A pack: the numbers of one SIMD register, one in each lane.
 template <class Number, class Architecture = xsimd::default_arch>
 using Pack = xsimd::batch<Number, Architecture>;
 
 namespace detail {
 
-/// Mask as a number with one bit per lane; the lowest bit belongs to lane 0.
+/// The mask as a number with one bit per lane; the lowest bit belongs to lane 0.
 template <class Architecture>
 std::uint64_t lane_bits(const xsimd::batch_bool<double, Architecture>& mask) {
   constexpr std::size_t count = xsimd::batch_bool<double, Architecture>::size;
@@ -65,7 +65,7 @@ inline std::uint64_t spread_to_bytes(std::uint64_t bits) {
 }  // namespace detail
 }  // namespace simd
 
-/// The lanes of a pack, at most eight.
+/// Access to the lanes of a pack, of which there are at most eight.
 template <class Number, class Architecture>
 struct Lanes<xsimd::batch<Number, Architecture>> {
   using Pack = xsimd::batch<Number, Architecture>;  ///< type of the pack
@@ -73,9 +73,9 @@ struct Lanes<xsimd::batch<Number, Architecture>> {
   static constexpr std::size_t count = Pack::size;  ///< number of lanes
   static_assert(count <= 8, "a mask is spread to one 64-bit word");
 
-  /// Reads `count` consecutive numbers from any address valid for a `Value`.
+  /// Reads `count` consecutive numbers; the address needs only the alignment of a `Value`.
   static Pack load(const Value* values) { return Pack::load_unaligned(values); }
-  /// Writes `count` consecutive numbers to any address valid for a `Value`.
+  /// Writes `count` consecutive numbers; the address needs only the alignment of a `Value`.
   static void store(const Pack& pack, Value* values) { pack.store_unaligned(values); }
 
   /// Writes one byte for each lane: 1 where the mask is set, else 0.
@@ -103,21 +103,21 @@ struct Lanes<xsimd::batch<Number, Architecture>> {
 
 namespace Eigen {
 
-/// Eigen's traits of packs as entries of small vectors and matrices.
+/// Eigen's description of a pack as the number type of vectors and matrices.
 template <class Number, class Architecture>
 struct NumTraits<xsimd::batch<Number, Architecture>>
     : GenericNumTraits<xsimd::batch<Number, Architecture>> {
   using Real = xsimd::batch<Number, Architecture>;  ///< type of the real part: the pack itself
-  using NonInteger = Real;                          ///< type of quotients and roots
-  using Nested = Real;     ///< type in expressions: packs are stored by value
-  using Literal = Number;  ///< type of constants, equal in every lane
+  using NonInteger = Real;                          ///< type of results of division and square root
+  using Nested = Real;     ///< type in Eigen's expressions, which store packs by value
+  using Literal = Number;  ///< type of constants, which are equal in every lane
 };
 
 namespace internal {
 
-/// The alignment that Eigen adds to arrays of packs: none, since the pack's own type is aligned.
-/// EIGEN_MAX_ALIGN_BYTES may then be that of the narrowest instruction set, so that translation
-/// units compiled for several instruction sets agree on its value.
+/// The alignment (byte) that Eigen adds to arrays of packs: none, as the type of a pack is aligned.
+/// EIGEN_MAX_ALIGN_BYTES can then have the same small value in translation units compiled for
+/// different instruction sets.
 template <class Number, class Architecture, int Size>
 struct compute_default_alignment<xsimd::batch<Number, Architecture>, Size> {
   enum { value = 0 };

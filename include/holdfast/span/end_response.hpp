@@ -12,41 +12,42 @@
 
 namespace holdfast {
 
-/// The response of an end of a span with its devices to incident waves of one frequency. Motions
-/// are relative to a free span that vibrates with 1 m at its antinodes.
+/// The response of an end of a span with its devices to incident waves of one frequency ω. The
+/// deflections y and slopes are amplitudes for an antinode amplitude of 1 m beyond the devices.
 struct EndResponse {
-  std::complex<double> reflection;  ///< reflection r of the displacement at the outermost device
-  /// Impedance Z = Z_c (1 − r)/(1 + r) (N s/m) of the end at the outermost device's place; infinite
-  /// without a device, as at the support.
+  std::complex<double> reflection;  ///< reflection coefficient r of y at the outermost device
+  /// Impedance Z = Z_c (1 − r)/(1 + r) (N s/m) of the end, with the wave impedance Z_c, at the
+  /// outermost device. Without devices r = −1 and Z = ∞ as at the fixed support.
   std::complex<double> impedance;
-  double support_angle;         ///< slope of the conductor at the support (rad per m at antinodes)
-  std::vector<double> motions;  ///< motions of the devices, outward from the support (m/m)
-  std::vector<double> kinks;    ///< jumps |Z v|/T of the slope at devices of velocity v (rad/m)
+  double support_angle;         ///< slope of the conductor at the support (rad/m)
+  std::vector<double> motions;  ///< |y| at each device (m/m), outward from the support
+  std::vector<double> kinks;    ///< jump |Z ω y|/T of the slope at each device (rad/m)
 
-  /// The absorbed fraction 1 − |r|² of the incident power.
+  /// The fraction 1 − |r|² of the incident power that the devices absorb.
   double absorbed_fraction() const { return 1.0 - std::norm(reflection); }
 
-  /// The inverse standing-wave ratio S = (1 − |r|)/(1 + |r|), the amplitude at a node over that at
-  /// an antinode. S is negative where the devices supply power.
+  /// The inverse standing-wave ratio S = (1 − |r|)/(1 + |r|): amplitude at a node over amplitude at
+  /// an antinode, with negative sign where the devices supply power.
   double inverse_standing_wave_ratio() const {
     return (1.0 - std::abs(reflection)) / (1.0 + std::abs(reflection));
   }
 
-  /// The power ½ Z_c ω² S that the devices absorb at an antinode amplitude of 1 m (W/m²).
+  /// The power ½ Z_c ω² S (W/m²) that the devices absorb, for an antinode amplitude of 1 m.
+  /// @param wave_impedance     Z_c (N s/m)
+  /// @param angular_frequency  ω (rad/s)
   double absorbed_power(double wave_impedance, double angular_frequency) const {
     return 0.5 * wave_impedance * angular_frequency * angular_frequency *
            inverse_standing_wave_ratio();
   }
 };
 
-/// An end of a span: its devices with their distances from the support, ascending.
+/// An end of a span: the support and the devices near it, by ascending distance from the support.
 struct SpanEnd {
   std::vector<double> distances;           ///< distances (m) from the support, > 0
-  std::vector<const SpanDevice*> devices;  ///< devices at the distances
+  std::vector<const SpanDevice*> devices;  ///< devices in the order of `distances`; not owned
 };
 
-/// The two ends of a span: entry [0] has the devices nearer to the left support, entry [1] the
-/// devices nearer to the right support.
+/// The two ends of a span: entry [0] has the devices up to midspan, entry [1] those beyond it.
 /// @param devices  sorted by `in_order`; must outlive the result
 /// @param span     span L (m)
 inline std::array<SpanEnd, 2> span_ends(const std::vector<SpanDevice>& devices, double span) {
@@ -64,13 +65,13 @@ inline std::array<SpanEnd, 2> span_ends(const std::vector<SpanDevice>& devices, 
   return ends;
 }
 
-/// The response of an end of a taut string to waves e^{iωt}, integrated from the fixed support
-/// outward. Between devices y″ = −k² y with k = ω/c; at a device the slope jumps by Z iω y/T.
-/// Beyond the last device the incident and reflected waves are separated by the impedance Z_c ζ_t:
+/// The response of an end of a taut string to incident waves e^{iωt}. The deflection y is computed
+/// from the fixed support outward: y″ = −k² y with k = ω/c between devices, and the slope jumps by
+/// Z iω y/T at a device of impedance Z. For a single device at the distance a from the support,
 ///
-///     r = (1 − ζ_t)/(1 + ζ_t),  ζ_t = Z/Z_c − i cot ka   for one device at a
+///     r = (1 − ζ_t)/(1 + ζ_t),   ζ_t = Z/Z_c − i cot ka
 ///
-/// The string is taken as undamped, since the few metres of an end absorb nearly nothing.
+/// Damping of the string is neglected, as the few metres of an end absorb almost no power.
 /// @param string             tension and mass; damping and bending stiffness are not used
 /// @param end                end with its devices (unchecked)
 /// @param angular_frequency  ω (rad/s), > 0

@@ -10,35 +10,35 @@
 
 namespace holdfast {
 
-/// The impedance Z* = Z_c (1 + i cot ka) (N s/m), k = ω/c, with which a device at a distance a from
-/// a support reflects no wave of one frequency.
-/// @param string             tension and mass
+/// The impedance Z* = Z_c (1 + i cot ka) (N s/m) of a device that reflects no part of an incident
+/// wave of the frequency ω. The device is at the distance a from a support; k = ω/c.
+/// @param string             tension and mass; damping and bending stiffness are not used
 /// @param distance           a (m) from the support, > 0; sin ka ≠ 0
 /// @param angular_frequency  ω (rad/s), > 0
-/// @throws InvalidParameter where sin ka = 0: the device is at a node of this frequency
+/// @throws InvalidParameter where sin ka = 0, that is, where the device is at a node
 inline std::complex<double> matched_impedance(const TautString<double>& string, double distance,
                                               double angular_frequency) {
   const double phase = angular_frequency * distance / string.wave_speed();
   if (!(std::abs(std::sin(phase)) > 1e-9))
     throw InvalidParameter("distance from the support", distance, "m",
-                           "not a whole number of half-waves: at a node nothing moves");
+                           "no multiple of half the wavelength, where the string does not move");
   return string.wave_impedance() * std::complex<double>(1.0, 1.0 / std::tan(phase));
 }
 
-/// The gains P and D with which a controlled absorber completely absorbs a wave of one frequency:
+/// The gains P and D with which an absorber completely absorbs an incident wave of the frequency ω.
+/// The absorber with its computer then has the impedance Z* of `matched_impedance`:
 ///
-///     Z_eff = (Z* − (M_c s² + K_p)/s)/T_a,   s = iω
-///     −(D d + P/s) Λ = Z_eff,   Λ = F(s) D(s) e^{−s(δ + τ/2)} sinc(ωτ/2)
+///     (M_c s² + K_p)/s + T_a Z_eff = Z*,   s = iω
 ///
-/// where d is 1, or (1 − e^{−sτ})/(sτ) for a velocity by difference: two real equations for P, D.
-/// The lags F(s), D(s) are defined at `LoopHardware`, K_p and T_a at `place_response`. Stability of
-/// the loop with these gains must be examined separately.
-/// @param string             tension and mass
+/// `drive_impedance` defines Z_eff, which is linear in P and D; `place_response` defines K_p and
+/// T_a. Stability of the loop with these gains must be examined separately.
+/// @param string             tension and mass; damping and bending stiffness are not used
 /// @param distance           a (m) from the support, > 0; sin ka ≠ 0
 /// @param device             absorber with its computer; its gains are not used
-/// @param angular_frequency  ω (rad/s), > 0, no multiple of 2π/τ; with a velocity by difference, no
-///                           multiple of π/τ
-/// @throws InvalidParameter where the device is at a node of the wave, or ω an excluded multiple
+/// @param angular_frequency  ω (rad/s), > 0; not a multiple of 2π/τ, at which the held force has no
+///                           part of the frequency ω
+/// @throws InvalidParameter where the device is at a node of the wave, where ω is a multiple of
+/// 2π/τ, or where the velocity is a difference of readings and ω is a multiple of π/τ
 inline PdGains<double> perfect_absorption(const TautString<double>& string, double distance,
                                           const ActiveAbsorber& device, double angular_frequency) {
   const std::complex<double> s(0.0, angular_frequency);
@@ -50,9 +50,10 @@ inline PdGains<double> perfect_absorption(const TautString<double>& string, doub
   const std::complex<double> by_d =
       drive_impedance(device.sampling, {0.0, 1.0}, device.hardware, s);
   const double area = (std::conj(by_p) * by_d).imag();
-  if (!(std::abs(area) > 1e-9 * std::abs(by_p) * std::abs(by_d)))
+  if (!(std::abs(area) > 1e-9 * std::abs(by_p) * std::abs(by_d)) ||
+      !(std::abs(by_p) * angular_frequency > 1e-9))
     throw InvalidParameter("angular frequency", angular_frequency, "rad/s",
-                           "no multiple of pi/tau, where samples do not show the vibration");
+                           "no multiple of pi/tau: P and D then cannot give a force of each phase");
   return {(std::conj(wanted) * by_d).imag() / area, (std::conj(by_p) * wanted).imag() / area};
 }
 

@@ -19,21 +19,21 @@
 
 namespace holdfast {
 
-/// The natural motions of a conductor to which devices are attached one after the other, with the
-/// receptances between their places:
+/// The poles s_k of a conductor with devices, and the receptances between the places of the
+/// devices. With the complex mode shape φ_ik of pole s_k at place i, the receptance is
 ///
 ///     H_il(s) = Σ_k φ_ik φ_lk/(s − s_k)  (m/N, force at l, displacement at i)
 ///
-/// A device of dynamic stiffness K at place j changes H_il to H_il − H_ij K H_jl/(1 + K H_jj). The
-/// new poles are the roots of 1 + K H_jj, each continued from a pole of conductor or device alone
-/// (`root_from_pole`). The residues remain of rank one. Work: N² operations per device.
+/// Devices are attached one after the other. A device of dynamic stiffness K at place j changes
+/// H_il to H_il − H_ij K H_jl/(1 + K H_jj). The new poles are the roots of 1 + K H_jj. Each is
+/// continued from a pole of the conductor or of the device alone (`root_from_pole`).
 class SpanPoles {
  public:
   using Complex = std::complex<double>;  ///< type of s and of receptances
 
-  /// @param modes  modes of the bare conductor, all with the same number of places, none critically
-  ///               damped
-  /// @throws InvalidParameter where there is no mode or one is not admissible
+  /// @param modes  1 … 10⁴ modes of the conductor without devices, none critically damped, all with
+  ///               the same number of places
+  /// @throws InvalidParameter where the number of modes or a mode is not admissible
   explicit SpanPoles(const std::vector<ModeAtPlaces>& modes) {
     require_within("number of modes", static_cast<double>(modes.size()), "", 1, 10000);
     const std::size_t places = modes.front().shapes.size();
@@ -41,16 +41,17 @@ class SpanPoles {
     for (const ModeAtPlaces& mode : modes) add(mode);
   }
 
-  /// Receptance H_il (m/N) at the complex frequency s (1/s): force at place l, displacement at i.
+  /// The receptance H_il (m/N) at the complex frequency s (1/s): displacement at place i over force
+  /// at place l, both counted from 0.
   Complex receptance(std::size_t i, std::size_t l, const Complex& s) const {
     Complex sum(0.0);
     for (const Pole& pole : poles_) sum += part(pole, i, l, s);
     return sum;
   }
 
-  /// Attaches a device.
-  /// @param device  a lumped device
-  /// @param place   index of its place
+  /// Attaches a lumped device to the conductor.
+  /// @param device  device with its clamp
+  /// @param place   index of the device's place, from 0 (unchecked)
   /// @throws InvalidParameter where the device is not admissible
   void attach(const LumpedDevice& device, std::size_t place) {
     validate(device);
@@ -66,8 +67,9 @@ class SpanPoles {
     }());
   }
 
-  /// Attaches an absorber. @return all poles, both of each pair, with residues from its drive to
-  /// the displacement of its place, as from `plant_poles`; empty where a pole was not found
+  /// Attaches an absorber without control to the place with the given index.
+  /// @return all poles, both of each conjugate pair, with the residues of the response from the
+  ///         drive's force to the displacement at the place; empty where a pole was not found
   /// @throws InvalidParameter where the absorber is not admissible
   std::vector<PlantPole> attach(const Absorber<double>& absorber, std::size_t place) {
     validate({{1.0, 0.0, 1.0, 1.0}}, absorber);
@@ -85,7 +87,8 @@ class SpanPoles {
     return found;
   }
 
-  /// Poles (1/s) of the modes, then of the devices in turn; of a pair only the pole with Im s > 0.
+  /// The poles (1/s), first those continued from the modes, then those of each device in turn. A
+  /// conjugate pair is listed once, by its pole with Im s > 0.
   std::vector<Complex> roots() const {
     std::vector<Complex> found;
     for (const Pole& pole : poles_) found.push_back(pole.s);
@@ -106,7 +109,7 @@ class SpanPoles {
     return pole.is_pair ? own + std::conj(product) / (s - std::conj(pole.s)) : own;
   }
 
-  /// The derivative dH_jj/ds.
+  /// The derivative dH_jj/ds of the receptance at place j.
   Complex slope(std::size_t j, const Complex& s) const {
     Complex sum(0.0);
     for (const Pole& pole : poles_) {
@@ -136,7 +139,7 @@ class SpanPoles {
         mobility_[i][l] += mode.shapes[i] * mode.shapes[l] / mode.mass;
   }
 
-  /// Updates the mobility at very high frequency for a mass (kg) clamped to a place.
+  /// Updates `mobility_`, the limit of s² H_il (1/kg) for s → ∞, for a mass (kg) at a place.
   void load(std::size_t place, double mass) {
     const std::vector<double> row = mobility_[place];
     const double share = mass / (1.0 + mass * row[place]);
@@ -144,11 +147,11 @@ class SpanPoles {
       for (std::size_t l = 0; l < row.size(); ++l) mobility_[i][l] -= share * row[i] * row[l];
   }
 
-  /// A pole s with a new device, and the pole `begin` without it from which s is continued.
+  /// A pole s with the new device, continued from the pole `begin` of conductor or device alone.
   struct Followed {
     Complex begin, s;
     bool is_pair;
-    std::optional<Pole> weak;  // if it hardly moves
+    std::optional<Pole> weak;  // set if the device hardly changes the pole
   };
 
   template <class Stiffness>
@@ -172,7 +175,7 @@ class SpanPoles {
     poles_ = std::move(poles);
   }
 
-  /// The shift of a pole by a device, with the terms of all other poles in H taken as constant.
+  /// The shift of one pole by a device, if the other poles' terms in H are taken as constant.
   struct PoleShift {
     Complex change;                              // old s_k minus new s_k
     bool is_weak;                                // whether first order suffices
@@ -184,7 +187,7 @@ class SpanPoles {
   PoleShift shift_alone(const Pole& pole, const Stiffness& stiffness, std::size_t place) const {
     const Complex s = pole.s, shape = pole.shapes[place], stiffness_here = stiffness(s).value;
     std::vector<Complex> others(pole.shapes.size());
-    // A motion with a node there feels nothing, though another may have its very s.
+    // A pole with a node at the place is not changed, even if another pole equals it.
     if (shape == 0.0) return {0.0, true, stiffness_here, 1.0, shape, std::move(others)};
     for (const Pole& other : poles_)
       for (std::size_t i = 0; i < others.size(); ++i) {
@@ -198,7 +201,7 @@ class SpanPoles {
     return {change, is_weak, stiffness_here, denominator, shape, std::move(others)};
   }
 
-  /// First-order value of a pole that the attached device hardly moves.
+  /// A pole and its shape with the device, to first order, where the device hardly moves the pole.
   static Pole weakly(const Pole& pole, const PoleShift& shift) {
     Pole result{pole.s - shift.change, pole.is_pair, pole.shapes};
     for (std::size_t i = 0; i < result.shapes.size(); ++i)
@@ -206,8 +209,8 @@ class SpanPoles {
     return result;
   }
 
-  /// The new value (1/s) of a pole that moves little compared with its distance from all others, by
-  /// Newton's method from pole.s − shift.change; nothing where the pole may move farther.
+  /// The new value (1/s) of a pole by Newton's method from pole.s − shift.change; nullopt where the
+  /// pole moves too far for this, compared with its distance from the other poles.
   template <class Stiffness>
   std::optional<Complex> next_to(const Pole& pole, const PoleShift& shift,
                                  const Stiffness& stiffness, std::size_t place) const {
@@ -223,7 +226,8 @@ class SpanPoles {
     return s;
   }
 
-  /// Adds the pole continued from `begin`. If a pair turns real, `separate` finds the second pole.
+  /// Adds the pole continued from `begin`. If a conjugate pair becomes two real poles, the second
+  /// is added as NaN, and `separate` finds it.
   template <class Stiffness>
   void follow(std::vector<Followed>& found, const Stiffness& stiffness, const Complex& begin,
               bool is_pair, std::size_t place) const {
@@ -236,10 +240,11 @@ class SpanPoles {
     if (is_pair && !stays) found.push_back({std::conj(begin), std::nan(""), false, std::nullopt});
   }
 
-  /// The pole with Im s ≥ 0 of a conjugate pair; this pole represents the pair.
+  /// The pole with Im s ≥ 0 of the conjugate pair of s; it represents the pair.
   static Complex upper(const Complex& s) { return s.imag() < 0.0 ? std::conj(s) : s; }
 
-  /// Sum Σ 1/(s − s_k) over all known s_k except number `but`, and over the conjugates of pairs.
+  /// The sum Σ 1/(s − s_k) over the poles s_k that are not NaN, without the pole of index `but`,
+  /// and over the conjugate of each pole of a pair, that of `but` included.
   template <class Motions>
   static Complex pull(const Motions& motions, const Complex& s, std::size_t but) {
     Complex sum(0.0);
@@ -251,9 +256,9 @@ class SpanPoles {
     return sum;
   }
 
-  /// Separates poles that coincide or were not found: each pole not distinct from an earlier pole
-  /// restarts, with Newton's steps for the polynomial of all poles divided by the other roots
-  /// (Ehrlich 1967, Aberth 1973).
+  /// Finds anew each pole that is NaN or coincides with an earlier pole. Newton's method starts
+  /// near `begin` and is applied to the polynomial with all poles as roots, divided by the factors
+  /// of the poles already known (Ehrlich 1967, Aberth 1973).
   template <class Stiffness>
   void separate(std::vector<Followed>& found, const std::vector<Complex>& own,
                 const Stiffness& stiffness, std::size_t place) const {
@@ -286,11 +291,11 @@ class SpanPoles {
     }
   }
 
-  /// Whether the k-th pole is known and distinct from all earlier poles.
+  /// Whether the k-th pole is finite and distinct from all earlier poles.
   static bool is_apart(const std::vector<Followed>& found, std::size_t k) {
     constexpr double same = 1e-7;
     if (!std::isfinite(std::abs(found[k].s))) return false;
-    // A weak one beside it is a motion of another place.
+    // A weakly coupled pole close to it belongs to another place.
     for (std::size_t j = 0; j < k; ++j) {
       if (found[j].weak) continue;
       const double apart =
@@ -300,7 +305,7 @@ class SpanPoles {
     return true;
   }
 
-  /// The pole refined by Newton's method on 1/H + K, H being the receptance H_jj at j = `place`.
+  /// The approximate pole s refined by Newton's method on 1/H_jj + K at the place j.
   template <class Stiffness>
   Complex polished(Complex s, const Stiffness& stiffness, std::size_t place) const {
     for (int turn = 0; turn < 12; ++turn) {
@@ -321,7 +326,7 @@ class SpanPoles {
     Pole pole{s, is_pair, {}};
     for (std::size_t i = 0; i < mobility_.size(); ++i)
       pole.shapes.push_back(scale * receptance(i, place, s));
-    // The one with Im s > 0 stands for a pair.
+    // A pair is represented by its pole with Im s > 0.
     if (!is_pair || s.imag() > 0.0) return pole;
     pole.s = std::conj(pole.s);
     for (Complex& shape : pole.shapes) shape = std::conj(shape);
@@ -329,7 +334,7 @@ class SpanPoles {
   }
 
   std::vector<Pole> poles_;
-  std::vector<std::vector<double>> mobility_;  // Σ φ_i φ_l/M with what was clamped
+  std::vector<std::vector<double>> mobility_;  // Σ φ_i φ_l/M, clamped masses included
 };
 
 }  // namespace holdfast

@@ -13,11 +13,11 @@
 
 namespace holdfast {
 
-/// Deflection at the right support of a string that leaves the left support with slope 1, for waves
-/// e^{st}. The deflection is zero where s is an eigenvalue of the span with its devices.
+/// Waves y(x) e^{st} on a taut string with devices, with y = 0 and slope 1 at the left support.
+/// Where s is an eigenvalue of the span with its devices, y is also 0 at the right support.
 ///
-/// The string's damping is a complex stiffness, T e^{2iφ} with sin φ = ζ, so that each mode alone
-/// has s = iω e^{iφ} and exactly the damping ratio ζ; this is valid for Im s > 0.
+/// Damping of the string is modelled by the complex tension T e^{2iφ} with sin φ = ζ, for Im s > 0.
+/// Without devices each mode then has the eigenvalue s = iω e^{iφ} and exactly the damping ratio ζ.
 class SpanWaves {
  public:
   using Complex = std::complex<double>;  ///< type of s and of deflections
@@ -32,12 +32,12 @@ class SpanWaves {
     turn_ = Complex(std::sqrt(1.0 - zeta * zeta), zeta);
   }
 
-  /// The eigenvalue s of mode n without devices (1/s), with its damping ratio ζ_n.
+  /// The eigenvalue s (1/s) of mode n ≥ 1 without devices, with the string's damping ratio ζ.
   Complex bare_root(int n) const {
     return Complex(0.0, n * pi<double> * string_.wave_speed() / string_.span) * turn_;
   }
 
-  /// The ratio of the deflection at the right support for waves e^{st} to that without devices.
+  /// The deflection y at the right support at s (1/s), divided by its value without devices.
   Complex held(const Complex& s) const {
     const Complex rate = s / (string_.wave_speed() * turn_);
     const Complex tension = string_.tension * turn_ * turn_;
@@ -66,21 +66,23 @@ class SpanWaves {
   Complex turn_;  // e^{iφ}
 };
 
-/// An eigenvalue of a span with its devices.
+/// An eigenvalue of a span with its devices, for one mode n.
 struct SpanRoot {
   std::complex<double> bare;  ///< eigenvalue s (1/s) of the mode without devices
-  std::complex<double> root;  ///< eigenvalue s with devices; NaN where the continuation failed
-  /// Damping ratio of the bare mode plus that of light devices, Σ sin²(nπa/L) Re Z(iω_n)/(μ L ω_n).
+  std::complex<double> root;  ///< eigenvalue s (1/s) with devices; NaN where not found
+  /// Damping ratio to first order in the impedances Z of the devices, at distances a from a
+  /// support: damping ratio of the bare mode plus Σ sin²(nπa/L) Re Z(iω_n)/(μ L ω_n).
   double first_order;
-  /// Damping ratio of the bare mode plus that of devices near the supports by Krenk's asymptote,
-  /// Σ (a/L) Im iη/(1 + iη), with η = (Z/Z_c) nπ a/L and the distance a from the nearer support.
+  /// Damping ratio by Krenk's asymptote for devices near the supports, at distances a from the
+  /// nearer one: damping ratio of the bare mode plus Σ (a/L) Im[iη/(1 + iη)], η = (Z/Z_c) nπ a/L.
   double asymptotic;
 
-  double damping() const { return -root.real() / std::abs(root); }          ///< ζ = −Re s/|s|
+  double damping() const { return -root.real() / std::abs(root); }  ///< ζ of `root`, −Re s/|s|
   double frequency() const { return std::abs(root) / (2.0 * pi<double>); }  ///< |s|/2π (Hz)
 };
 
-/// The damping ratios `first_order` and `asymptotic` of mode n of a taut string; `root` is NaN.
+/// The damping ratios `first_order` and `asymptotic` of mode n of a taut string with devices. The
+/// eigenvalues are not computed: `bare` is 0 and `root` NaN.
 /// @param string   taut string with the damping ratio of mode n; bending stiffness is not used
 /// @param devices  inside the span (unchecked)
 /// @param n        number of half-waves, ≥ 1
@@ -102,7 +104,7 @@ inline SpanRoot span_root_laws(const TautString<double>& string,
   return found;
 }
 
-/// Eigenvalue of mode n of a taut string with devices, see `span_roots`.
+/// The eigenvalue and damping ratios of mode n of a taut string with devices, as in `span_roots`.
 /// @param string   taut string with the damping ratio of mode n; bending stiffness is not used
 /// @param devices  sorted by `in_order` (unchecked)
 /// @param n        number of half-waves, ≥ 1
@@ -117,21 +119,19 @@ inline SpanRoot span_root(const TautString<double>& string, const std::vector<Sp
   return found;
 }
 
-/// The eigenvalues of a taut string with devices for the modes 1 … count: roots of
+/// The eigenvalues s of a taut string with devices, for modes 1 … count. For an undamped string
+/// with one device of impedance Z at distance a from a support (Krenk, J. Eng. Mech. 126 (2000)),
 ///
-///     sinh γL + Σ_j (Z_j/Z_c) sinh γa_j sinh γ(L − a_j) + …,   γ = s/c
+///     sinh γL + (Z(s)/Z_c) sinh γa sinh γ(L − a) = 0,   γ = s/c
 ///
-/// for example, with one dashpot c_d to the ground, sin βL + i (c_d/Z_c) sin βa sin β(L − a) = 0,
-/// s = iβc (Krenk, J. Eng. Mech. 126 (2000)). Each root is continued from a bare mode.
-///
-/// The continuation proves nothing: if two roots meet during it, their modes may be exchanged.
-/// For an ActiveAbsorber only the part of its force at the frequency of the motion is included. A
-/// measured device acts with its impedance at ω = |s|.
+/// Each eigenvalue is continued from the mode without devices while the devices' effect grows from
+/// 0 to 1 (`root_from_pole`). If two eigenvalues meet on the way, their modes may be exchanged. The
+/// force of an ActiveAbsorber counts only with its part at the frequency of the motion.
 /// @param string   taut string; its bending stiffness is not used
 /// @param devices  in any order
 /// @param count    number of modes
-/// @throws InvalidParameter where the string is not admissible, a device is outside it or the count
-/// is outside 1 … 10⁵
+/// @throws InvalidParameter where the string is not admissible, a device is not inside the span or
+/// the count is outside 1 … 10⁵
 inline std::vector<SpanRoot> span_roots(const TautString<double>& string,
                                         const std::vector<SpanDevice>& devices, int count) {
   require_within("number of modes", count, "", 1, 100000);

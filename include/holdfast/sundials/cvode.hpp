@@ -23,7 +23,7 @@ struct HasBandedJacobian<System,
                          std::void_t<decltype(std::declval<const System&>().half_bandwidth())>>
     : std::true_type {};
 
-/// Whether a system has margin(state), which is positive where its model holds.
+/// Whether a system has margin(state), which is positive where its model is valid.
 template <class System, class = void>
 struct HasMargin : std::false_type {};
 template <class System>
@@ -40,7 +40,7 @@ struct TakesTime<System, std::void_t<decltype(std::declval<const System&>().rate
 
 }  // namespace detail
 
-/// The integration of a system ẏ = rate(y) or ẏ = rate(t, y) from a given state.
+/// The integrator of a system ẏ = rate(y) or ẏ = rate(t, y) from a given state, by CVODE.
 ///
 /// @tparam System  has `int states()` and `void rate(const double* y, double* rate)`, or
 /// `rate(t, y, rate)` with t in s. If it also has `int half_bandwidth()` and `jacobian(y, set)`,
@@ -54,8 +54,8 @@ class Integrator : public detail::Session {
  public:
   /// @param system         system, which must outlive this object
   /// @param initial_state  states() numbers, in SI units, at t = 0
-  /// @param tolerances     local error per step, and the limit of steps
-  /// @throws InvalidParameter for another number of states, or tolerances that are not positive
+  /// @param tolerances     tolerances of the local error per step, and the limit of steps
+  /// @throws InvalidParameter where the state has not states() entries or a tolerance is not > 0
   Integrator(const System& system, const Eigen::VectorXd& initial_state,
              const Tolerances& tolerances)
       : Session(tolerances), system_(system) {
@@ -71,14 +71,14 @@ class Integrator : public detail::Session {
     if constexpr (bounded) watch_margin();
   }
 
-  /// Integrates to the instant `time` (s). After a failure every call returns that failure again.
+  /// Integrates to `time` (s). Any outcome but `completed` is final: later calls return it at once.
   IntegrationOutcome advance_to(double time) {
     if (outcome_ != IntegrationOutcome::completed) return outcome_;
     check(CVode(memory_.get(), time, state_.get(), &time_, CV_NORMAL));
     return outcome_;
   }
 
-  /// Restarts at the instant last reached, where the system's rate has jumped.
+  /// Restarts at the instant last reached; required after a jump of the system's rate.
   void restart() {
     if (outcome_ == IntegrationOutcome::completed)
       check(CVodeReInit(memory_.get(), time_, state_.get()));

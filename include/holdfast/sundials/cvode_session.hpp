@@ -22,7 +22,7 @@
 /// The namespace is not called `sundials`, since SUNDIALS itself has one of that name.
 namespace holdfast::cvode {
 
-/// Outcome of an integration; each value stands for several of CVODE's return flags.
+/// Outcome of an integration; each value stands for one or several of CVODE's return flags.
 enum class IntegrationOutcome {
   completed,           ///< CV_SUCCESS and CV_TSTOP_RETURN: no failure
   model_ended,         ///< CV_ROOT_RETURN: the system's margin() reached zero
@@ -37,7 +37,7 @@ enum class IntegrationOutcome {
   refused,                 ///< any other flag, for example for an illegal input
 };
 
-/// Outcome that corresponds to a return flag of CVODE.
+/// The outcome that corresponds to a return flag of CVODE; `refused` for an unlisted flag.
 inline IntegrationOutcome outcome_of_flag(int flag) {
   using Outcome = IntegrationOutcome;
   struct Family {
@@ -68,14 +68,14 @@ inline std::string name_of_flag(int flag) {
   return name ? std::string(name.get()) : "flag " + std::to_string(flag);
 }
 
-/// Cost of an integration.
+/// Numbers of steps and evaluations of an integration.
 struct IntegrationCost {
   long steps = 0;                 ///< internal steps of the integrator
   long rate_evaluations = 0;      ///< calls of the right-hand side
   long jacobian_evaluations = 0;  ///< evaluations of a banded Jacobian; 0 without one
 };
 
-/// Local error per step and the limit of steps between two outputs.
+/// Tolerances of the local error per step, and the limit of steps between two outputs.
 struct Tolerances {
   double relative = 1e-6;  ///< relative tolerance, > 0
   double absolute = 1e-9;  ///< absolute tolerance in the units of the states (m, m/s), > 0
@@ -121,7 +121,7 @@ inline SUNContext make_context() {
   return context;
 }
 
-/// Base of every integration by CVODE: its handles, its outcome and the message on a failure.
+/// Base class of the integrators by CVODE: handles, outcome and the message on a failure.
 class Session {
  public:
   Session(const Session&) = delete;
@@ -130,7 +130,7 @@ class Session {
   Session& operator=(Session&&) = delete;
 
   IntegrationOutcome outcome() const { return outcome_; }
-  /// The message on a failure: the flag's name, and CVODE's own message where there is one.
+  /// The message on a failure: the flag's name, and CVODE's message if any; empty without failure.
   const std::string& words() const { return words_; }
 
  protected:
@@ -209,7 +209,7 @@ class Session {
 
   IntegrationOutcome outcome_ = IntegrationOutcome::completed;
   std::string words_, message_;
-  // Freed in the opposite order: everything before its context.
+  // Members are freed in reverse order, the context last.
   Context context_;
   SerialVector state_;
   BandMatrix matrix_;

@@ -18,7 +18,7 @@
 
 namespace holdfast::cvode {
 
-/// The controller, its drive and the excitation of a cable in finite elements.
+/// The controller, drive and excitation of a cable modelled by finite elements.
 struct ElementsLoop {
   Sampling<double> sampling;              ///< sampling period τ and processing delay δ ≤ τ
   PdGains<double> gains;                  ///< gains P and D
@@ -27,7 +27,7 @@ struct ElementsLoop {
   ForceHold hold = ForceHold::sampled;    ///< whether the harmonic force is held between samples
 };
 
-/// The motion of a nonlinear cable in finite elements and of the absorber on its spring.
+/// The motion of a nonlinear cable, modelled by finite elements, and of the absorber on its spring.
 /// The sampled drive with its backlash acts between cable and absorber. The model includes large
 /// sag, large motion and waves, and serves as reference for models with fewer states.
 ///
@@ -38,12 +38,12 @@ class ElementsMotion {
  public:
   static constexpr int states = 4;                 ///< number of entries of State
   using State = Vector<double, 4>;                 ///< state [z, ż, z₂, ż₂] (m, m/s, m, m/s)
-  using Readings = PortReadings<TwoMass<double>>;  ///< functions that read a State
+  using Readings = PortReadings<TwoMass<double>>;  ///< type of `readings()`
 
   /// @param cable       cable with the absorber as a spring–mass; must outlive this object
-  /// @param loop        loop; τ, δ and r₀ are checked
+  /// @param loop        controller, drive and excitation; τ, δ and r₀ are checked
   /// @param start       initial state of the cable, as from `CableElements::held_by`
-  /// @param tolerances  local error per step, and the limit of steps in a sample
+  /// @param tolerances  tolerances of the local error per step, and the limit of steps in a sample
   /// @throws InvalidParameter for an absorber that is no spring–mass, or τ, δ or r₀ out of range
   ElementsMotion(const CableElements& cable, const ElementsLoop& loop, const Eigen::VectorXd& start,
                  const Tolerances& tolerances = {})
@@ -69,8 +69,8 @@ class ElementsMotion {
     return {index_, time(), seen, present_force_, engaged};
   }
 
-  /// Moves from t_j to t_{j+1} under the force that the last `sense()` decided. Not to be called
-  /// after `outcome()` has changed from completed.
+  /// Integrates from t_j to t_{j+1}: under u_{j−1} until t_j + δ, then under u_j of the last
+  /// `sense()`. To be called only while `outcome()` is `completed`.
   void advance() {
     const double begin = time(), late = loop_.sampling.processing_delay;
     if (loop_.hold == ForceHold::sampled)
@@ -81,7 +81,7 @@ class ElementsMotion {
     previous_force_ = present_force_;
   }
 
-  /// Index j of the present sample, which `sense()` takes and `advance()` leaves.
+  /// Index j of the present sample; `advance()` increments it.
   std::int64_t index() const { return index_; }
   /// Time t_j (s) of sample j.
   double time() const { return static_cast<double>(index_) * loop_.sampling.period; }
@@ -91,9 +91,9 @@ class ElementsMotion {
   Readings readings() const { return {}; }
   /// Outcome: completed while all bars are in tension and CVODE has not failed, else the reason.
   IntegrationOutcome outcome() const { return integrator_.outcome(); }
-  /// CVODE's message on a failure.
+  /// CVODE's message on a failure; empty without failure.
   const std::string& words() const { return integrator_.words(); }
-  /// Cost of the integration since the last jump of a force.
+  /// Cost of the integration since its last restart; it restarts at every jump of a force.
   IntegrationCost cost() const { return integrator_.cost(); }
 
  private:

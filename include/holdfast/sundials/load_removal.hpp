@@ -15,7 +15,7 @@ namespace holdfast::cvode {
 enum class LoadRemovalOutcome {
   completed,           ///< the record reaches to the end of the duration
   no_equilibrium,      ///< Newton's method found no equilibrium of the cable
-  slack,               ///< a bar lost its tension, so that the model of the cable no longer holds
+  slack,               ///< a bar lost its tension, which the model of the cable excludes
   integration_failed,  ///< CVODE failed; its message is in the result
 };
 
@@ -25,17 +25,17 @@ struct LoadRemoval {
   std::string words;           ///< message of CVODE if CVODE failed
   double last_time;  ///< instant (s) of the record's end, of slackness, or of CVODE's failure
   double initial_displacement;  ///< drop (m) caused by the force, from the equilibrium without it
-  DecayRecord record;           ///< displacements at t = 0, interval, 2 interval, …
+  DecayRecord record;           ///< displacements (m) at t = 0, interval, 2 interval, …
   IntegrationCost cost;         ///< cost of the integration; zeros without an equilibrium
 };
 
-/// The free vibration of a cable at rest under a force, after this force is removed at t = 0.
+/// Simulates the free vibration of a cable, at rest under a force that is removed at t = 0.
 /// @param cable       `CableElements`, or a type with its members
 /// @param force       removed force (N), downward positive
 /// @param duration    duration (s), > 0; the record ends at the last whole multiple of the interval
 /// @param interval    time (s) between the record's instants, > 0
-/// @param tolerances  local error per step, and the limit of steps in an interval
-/// @param at_each     called before each instant; an exception thrown by `at_each` ends the run
+/// @param tolerances  tolerances of the local error per step, and the limit of steps per interval
+/// @param at_each     called before each instant of the record; may throw to stop the simulation
 /// @throws InvalidParameter outside these ranges, and for 2⁵³ instants or more
 template <class Cable>
 LoadRemoval load_removal(const Cable& cable, double force, double duration, double interval,

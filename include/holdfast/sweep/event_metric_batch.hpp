@@ -20,7 +20,7 @@
 
 namespace holdfast {
 
-/// One motion of a sweep with exact switching: its loop and its initial state.
+/// One motion of a sweep whose contact may change between samples: its loop and initial state.
 struct EventSweepMotion {
   const ImplementedLoop* loop;      ///< loop for which has_event_pack() is true
   Vector<double, 4> initial_state;  ///< initial state [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
@@ -199,17 +199,17 @@ void group_event_metrics(const PreparedEventMotion* motions, std::size_t count,
 
 }  // namespace detail
 
-/// Computes the metrics of many motions with exact switching, which may differ in every parameter,
-/// as many at a time as `Scalar` has lanes.
+/// Computes the metrics of many motions whose contact may change between samples. Each lane of
+/// `Scalar` computes one motion at a time. The motions may differ in every parameter.
 ///
 /// The metrics equal those of event_metrics() for one motion except for rounding, and do not depend
-/// on the other motions of the batch. Work: the work of EventPack, and a few matrix exponentials
-/// for each different plant, sampling and force.
-/// @param motions   motions, each with has_event_pack() true for its loop and a finite state
+/// on the other motions of the batch. Work: that of EventPack, and a few matrix exponentials for
+/// each different plant, sampling and force.
+/// @param motions   motions; has_event_pack() is true for each loop, and each state is finite
 /// @param count     number of motions, ≥ 0
 /// @param duration  length of each motion (s), ≥ 0
 /// @param results   metrics, as many as motions and in their order
-/// @param pause     called every some hundred samples; may throw to stop the computation
+/// @param pause     called every few hundred samples; may throw to stop the computation
 /// @throws InvalidParameter where a motion or the duration is not admissible
 template <class Scalar, class Pause>
 void event_metrics(const EventSweepMotion* motions, std::size_t count, double duration,

@@ -72,23 +72,21 @@ MotionMetrics metrics_of_motion(Motion& motion, const SampleSpan& span,
 
 }  // namespace detail
 
-/// The metrics of sweep/motion_metrics.hpp for one motion of an implemented loop.
+/// The metrics (MotionMetrics) of one motion of an implemented loop.
 ///
-/// The metrics are evaluated only at the samples t_j of the loop's clock, although the drive may
-/// switch in between. The drive transmits at a sample where its mode is `engaged`, not `stick`; u_j
-/// is the force transmitted at the sample. For the loop of the paper's model the metrics equal
-/// those of `motion_metrics` except for rounding.
+/// The metrics are evaluated only at the samples t_j of the loop's clock, although the contact may
+/// change in between. The drive transmits at a sample where its contact mode is `engaged`, not
+/// where it is `stick`; u_j is the force transmitted at the sample. For a loop converted from an
+/// IdealLoop the metrics equal those of `motion_metrics` except for rounding.
 ///
 ///     event_metrics(implemented_loop(loop), Vector<double, 4>::Zero(), 20.0).steady_peak;
 ///
-/// Work: the work of EventMotion, and about 30 operations a sample. The loop over samples allocates
-/// nothing.
+/// Work: that of EventMotion, and about 30 operations a sample. No allocation per sample.
 /// @param loop           loop with its excitation and backlash
 /// @param initial_state  x, N × 1; for the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 /// @param duration       length of the motion (s), ≥ 0
 /// @param pause          called every 2¹⁴ samples; may throw to stop the computation
-/// @throws InvalidParameter where the loop or the duration is not admissible, or the state not
-/// finite
+/// @throws InvalidParameter where loop or duration is not admissible, or the state not finite
 /// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>
 template <class Plant>
 MotionMetrics event_metrics(const ImplementedLoopOf<Plant>& loop,

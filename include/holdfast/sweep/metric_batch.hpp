@@ -42,13 +42,12 @@ void group_metrics(const SweepMotion* motions, const SampleSpan* spans, std::siz
 
 }  // namespace detail
 
-/// Computes the metrics of many motions, which may differ in every parameter, as many at a time as
-/// `Scalar` has lanes.
+/// Computes the metrics of many motions, which may differ in every parameter, in SIMD lanes.
 ///
 ///     std::vector<MotionMetrics> metrics(motions.size());
 ///     motion_metrics<double>(motions.data(), motions.size(), 20.0, metrics.data());
 ///
-/// A motion's metrics do not depend on the rest of the batch, to the last bit. Packs and scalars
+/// The other motions of the batch do not change a bit of a motion's metrics. SIMD packs and scalars
 /// give equal metrics except for rounding. Memory: some 50 bytes per motion plus the results. Work:
 /// see `detail::MetricTrack`, and a few matrix exponentials for each motion whose plant or sampling
 /// differs from that of the motion before it.
@@ -56,11 +55,11 @@ void group_metrics(const SweepMotion* motions, const SampleSpan* spans, std::siz
 /// @param count     number of motions, ≥ 0
 /// @param duration  length of each motion (s), ≥ 0
 /// @param results   metrics, as many as motions and in their order
-/// @param source    SweepMatrices, or a derived class that observes: `source` is called at every
-///                  sample with the numbers of the motions in the lanes, the sample's index and the
-///                  mask of the lanes that transmit. Lanes may be past their motion's last sample
-///                  or repeat a motion. Its pause() is called every some hundred samples and may
-///                  throw to stop the computation
+/// @param source    SweepMatrices, or a derived class that observes the samples. At every sample
+///                  `source` is called with the numbers of the motions in the lanes, the sample's
+///                  index and the mask of the lanes whose drive transmits. Lanes may be past their
+///                  motion's last sample or repeat a motion. source.pause() is called every few
+///                  hundred samples and may throw to stop the computation
 /// @throws InvalidParameter where a motion or the duration is not admissible
 template <class Scalar, class Source = detail::SweepMatrices>
 void motion_metrics(const SweepMotion* motions, std::size_t count, double duration,

@@ -110,11 +110,10 @@ class MetricTrack {
   Scalar finite_samples_ = Scalar(0);
 };
 
-/// Computes the metrics of several motions in SIMD lanes, each with its own loop and number of
-/// samples.
+/// Computes the metrics of motions in SIMD lanes, each with its own loop and number of samples.
 ///
-/// All lanes advance together. The loop over samples is left where a lane reaches its first steady
-/// sample or its end, so that it has no branches on lanes. Results are independent of other lanes.
+/// All lanes advance together. The inner loop over samples stops at each lane's first steady sample
+/// and end, and needs no branches on lanes. Results are independent of other lanes.
 /// @tparam Source  type with the members of SweepMatrices: matrices of a loop, calls at samples
 template <class Scalar, class Source = SweepMatrices>
 class MetricGroup {

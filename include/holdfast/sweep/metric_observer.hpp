@@ -15,23 +15,23 @@
 
 namespace holdfast {
 
-/// Whether a nonzero velocity `before` has changed its sign or become zero in `now`. At such a
-/// reversal the drive enters its gap (contact/hysteresis.hpp).
+/// Whether a velocity has changed its sign or become zero, from a nonzero `before` to `now`. At
+/// such a reversal the drive enters its gap (contact/hysteresis.hpp).
 template <class Scalar>
 Mask<Scalar> is_reversal(const Scalar& before, const Scalar& now) {
   const Scalar zero(0);
   return ((before > zero) & (now <= zero)) | ((before < zero) & (now >= zero));
 }
 
-/// The sums and peaks from which the metrics of a motion are computed; for packs, of one motion per
-/// lane. The callers, such as MetricTrack and event_metrics(), decide which samples are steady.
+/// The sums and peaks from which MotionMetrics are computed. A SIMD pack has one motion per lane.
+/// The caller decides which samples are steady: those at or after half the duration.
 template <class Scalar>
 struct MetricObserver {
-  static constexpr double infinity = std::numeric_limits<double>::infinity();  ///< infinity ∞
+  static constexpr double infinity = std::numeric_limits<double>::infinity();  ///< plus infinity
 
   Scalar before_last = Scalar(MotionMetrics::unknown);  ///< z₁ (m) two samples ago; NaN: none yet
   Scalar last = Scalar(MotionMetrics::unknown);         ///< z₁ (m) one sample ago; NaN: none yet
-  Scalar first_peak = Scalar(MotionMetrics::unknown);   ///< |z₁| (m) at its first strict extremum
+  Scalar first_peak = Scalar(MotionMetrics::unknown);   ///< |z₁| (m) at first extremum; NaN: none
   Scalar force_peak = Scalar(0);                        ///< largest control force |u| (N)
   Scalar highest = Scalar(-infinity);                   ///< largest relative displacement Δz (m)
   Scalar lowest = Scalar(infinity);                     ///< smallest relative displacement Δz (m)
@@ -41,8 +41,8 @@ struct MetricObserver {
   Scalar engaged = Scalar(0);    ///< number of steady samples at which the drive transmits
   Scalar reversals = Scalar(0);  ///< number of reversals of Δż between successive steady samples
 
-  /// Takes the displacement z₁ (m) of a sample; an extremum is detected one sample later. Work:
-  /// about 4 comparisons and 3 selects.
+  /// Updates `first_peak` with the displacement z₁ (m) of a sample; an extremum is found one sample
+  /// later. Work: about 4 comparisons and 3 selects.
   void observe_extremum(const Scalar& displacement) {
     using std::abs;
     // At the first two samples the comparisons are with NaN and therefore false.
@@ -56,7 +56,7 @@ struct MetricObserver {
   /// The lanes whose first extremum has been found.
   Mask<Scalar> extremum_found() const { return first_peak == first_peak; }
 
-  /// Takes the control force u (N) and the relative displacement Δz (m) of a sample.
+  /// Updates the extreme values with a sample's control force u (N) and displacement Δz (m).
   void observe_load(const Scalar& force, const Scalar& relative_displacement) {
     using std::abs;
     using std::max;
@@ -83,9 +83,9 @@ struct MetricObserver {
     reversals = reversals + select(reverses, one, zero);
   }
 
-  /// Begins the steady samples of the lanes in the mask, at the sample about to be taken.
-  /// @param lanes     lanes that begin
-  /// @param reverses  whether Δż reverses at that sample; this reversal is not counted
+  /// Resets the sums over steady samples; to be called before the first steady sample of a lane.
+  /// @param lanes     lanes to be reset
+  /// @param reverses  whether Δż reverses at the first steady sample; this reversal is not counted
   void begin_steady(const Mask<Scalar>& lanes, const Mask<Scalar>& reverses) {
     const Scalar zero(0);
     for (Scalar* sum : {&steady_peak, &squares, &force_squares, &engaged})
@@ -93,7 +93,7 @@ struct MetricObserver {
     reversals = select(lanes, select(reverses, Scalar(-1), zero), reversals);
   }
 
-  /// The observations of one lane.
+  /// The sums and peaks of one lane.
   MetricObserver<double> lane(std::size_t lane) const {
     MetricObserver<double> kept;
     kept.first_peak = detail::lane_of(first_peak, lane);

@@ -11,9 +11,9 @@
 
 namespace holdfast {
 
-/// The metrics of sweep/motion_metrics.hpp for one motion of a conductor given by its modes. Here
-/// z₁ is the conductor's displacement at the absorber. Work: the work of ModalMotion.
-/// @param loop      loop, which is not checked
+/// The metrics (MotionMetrics) of one motion of a conductor given by its modes. Here z₁ is the
+/// conductor's displacement at the absorber. Work: that of ModalMotion.
+/// @param loop      loop; it is not validated
 /// @param poles     all `plant_poles` of the loop's modes and absorber
 /// @param state     initial state in the order of `modal_plant`
 /// @param duration  length of the motion (s), ≥ 0

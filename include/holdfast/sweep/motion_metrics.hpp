@@ -7,33 +7,33 @@
 
 namespace holdfast {
 
-/// The outcome of a motion.
+/// The outcome of a motion in a sweep.
 enum class MotionEnd {
   completed,    ///< all samples were taken
   diverged,     ///< the state left the range of the number type
-  accumulates,  ///< too many contact changes in one period (SwitchCounts::accumulates)
+  accumulates,  ///< more contact changes in one period than are computed (SwitchCounts)
 };
 
 /// The metrics of one motion of the sampled loop with backlash in a sweep.
 ///
 /// The samples are t_j = j τ, j = 0, 1, …, up to the duration. Samples at or after half the
-/// duration, up to round-off, are steady; without any, their metrics are NaN. For a motion that
-/// diverged, `first_peak` keeps its value, `engaged_fraction` and `reversals_per_s` are NaN, and
-/// all other metrics are infinite. For MotionEnd::accumulates all metrics are NaN, and `samples`
-/// counts the samples taken before the period with those changes ended.
+/// duration, up to round-off, are steady; without steady samples their metrics are NaN. For a
+/// motion that diverged, `first_peak` keeps its value, `engaged_fraction` and `reversals_per_s` are
+/// NaN, and all other metrics are infinite. For MotionEnd::accumulates all metrics are NaN, and
+/// `samples` counts the samples up to the start of the period with too many contact changes.
 struct MotionMetrics {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no value
 
-  MotionEnd end;                 ///< outcome, which decides which numbers below are finite
+  MotionEnd end;                 ///< outcome, which determines which numbers are finite
   std::int64_t samples;          ///< number of samples; if diverged, of samples with a finite state
   double first_peak = unknown;   ///< |z₁| (m) at its first strict local extremum at j ≥ 1
   double steady_peak = unknown;  ///< max |z₁| (m) of the steady samples
   double steady_rms = unknown;   ///< √(mean z₁²) (m) of the steady samples
   double engaged_fraction = unknown;  ///< share of the steady samples at which the drive transmits
-  double force_peak = unknown;        ///< largest |u_j| (N) of all samples, required of the drive
-  double force_rms = unknown;         ///< √(mean u_j²) (N) of the steady samples
-  /// Reversals of the drive per second (1/s): number of times that Δż ≠ 0 changed sign or became 0
-  /// between steady samples, over the time from the first to the last steady sample; NaN for 0 s
+  double force_peak = unknown;        ///< largest control force |u_j| (N) of all samples
+  double force_rms = unknown;         ///< √(mean u_j²) (N) of the control force, steady samples
+  /// Reversals of the drive per second (1/s): the number of times that Δż changed sign or became 0
+  /// between steady samples, over the time from the first to the last of them; NaN if that is 0 s
   double reversals_per_s = unknown;
   double absorber_stroke = unknown;  ///< max Δz − min Δz (m) of all samples, Δz = z₂ − z₁
 };

@@ -14,9 +14,9 @@
 
 namespace holdfast::detail {
 
-/// The matrices of the loops of a sweep. A loop's matrices are computed only if they differ from
-/// those of the previous loop, since exponentials cost some microseconds. A derived class may
-/// observe the samples by its own operator() and pause(), which hide those of this class.
+/// The matrices of the loops of a sweep, computed only where they differ from those of the previous
+/// loop (matrix exponentials cost some microseconds). A derived class may observe the samples by
+/// its own operator() and pause(), which hide these members.
 class SweepMatrices {
  public:
   struct Matrices {
@@ -43,7 +43,7 @@ class SweepMatrices {
   }
 
   /// Hook called at every sample with the numbers of the motions in the lanes, the sample's index
-  /// and the lanes that transmit.
+  /// and the lanes whose drive transmits.
   template <class LaneMask>
   void operator()(const std::size_t* /*motions*/, std::int64_t /*index*/,
                   const LaneMask& /*engaged*/) const {}

@@ -21,7 +21,7 @@ inline std::array<double, 6> numbers_of(const TwoMass<double>& plant) {
           plant.absorber_mass,  plant.absorber_stiffness,  plant.absorber_damping};
 }
 
-/// Refuses a motion whose loop is not admissible or whose state is not finite.
+/// Validates a motion of a sweep: the loop must be admissible and the state finite.
 /// @throws InvalidParameter naming the first quantity that is not admissible
 inline void validate(const SweepMotion& motion) {
   validate(motion.loop);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t most_points = 1'000'000'000;
 
-/// One option's text, the form it should have, and what to say when it has not.
+/// The text of an option and its expected form, which error messages quote.
 class OptionText {
  public:
   OptionText(std::string_view option, std::string_view text, std::string_view form)
@@ -58,12 +58,12 @@ class OptionText {
     return value;
   }
 
-  /// The text's two sides: a key, which is not empty, and what it is to be.
+  /// The two sides of KEY=VALUE; the key is not empty.
   std::pair<std::string, std::string_view> assignment(std::string_view text) const {
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) refuse("has no \"=\"");
     const std::string_view key = trimmed(text.substr(0, equals));
-    if (key.empty()) refuse("names no key");
+    if (key.empty()) refuse("there is no key before \"=\"");
     return {std::string(key), text.substr(equals + 1)};
   }
 
@@ -77,9 +77,9 @@ class OptionText {
     const auto found = parts(text, ':', 3);
     const Range ends = range(found[0], found[1]);
     const std::int64_t points = count(found[2]);
-    // at() weighs the ends with whole numbers up to the count.
+    // Axis::at() multiplies the ends by whole numbers up to the count.
     const double largest = std::max(std::abs(ends.min), std::abs(ends.max));
-    if (!std::isfinite(2.0 * largest * static_cast<double>(points))) refuse("range too large");
+    if (!std::isfinite(2.0 * largest * static_cast<double>(points))) refuse("range is too large");
     return {ends.min, ends.max, points};
   }
 
@@ -117,7 +117,7 @@ KeyValues parse_key_values(std::string_view option, std::string_view text) {
   const std::string_view values = trimmed(side);
   if (values.substr(0, logarithmic.size()) == logarithmic) {
     const Axis ends = given.axis(values.substr(logarithmic.size()));
-    if (!(ends.min > 0.0)) given.refuse("a logarithmic axis must begin above 0");
+    if (!(ends.min > 0.0)) given.refuse("MIN of a logarithmic axis must be greater than 0");
     return {key, LogAxis{ends.min, ends.max, ends.count}};
   }
   if (values.find(':') != std::string_view::npos) return {key, given.axis(values)};
@@ -143,7 +143,7 @@ WindowOption parse_window(std::string_view option, std::string_view text) {
 }
 
 std::vector<double> parse_list(std::string_view option, std::string_view text) {
-  return OptionText(option, text, "numbers between commas").list(text);
+  return OptionText(option, text, "numbers separated by commas").list(text);
 }
 
 std::size_t GridAxis::count() const {

@@ -14,48 +14,48 @@ namespace holdfast::program {
 
 struct CaseKey;
 
-/// MIN:MAX, finite, min <= max.
+/// A range, given as MIN:MAX; both finite, min <= max.
 struct Range {
   double min = 0.0;
   double max = 0.0;
 };
 
-/// KEY=MIN:MAX:COUNT.
+/// An axis over a key, given as KEY=MIN:MAX:COUNT.
 struct KeyAxis {
   std::string key;
   Axis axis;
 };
 
-/// KEY=MIN:MAX:COUNT, KEY=log:MIN:MAX:COUNT or KEY=VALUE,VALUE,….
+/// Values of a key, given as KEY=MIN:MAX:COUNT, KEY=log:MIN:MAX:COUNT or KEY=VALUE,VALUE,….
 struct KeyValues {
   std::string key;
   std::variant<Axis, LogAxis, std::vector<double>> values;
 };
 
-/// TIME:DISPLACEMENT of a kick, s and m; time >= 0.
+/// Time (s, >= 0) and displacement (m) of a kick, given as TIME:DISPLACEMENT.
 struct KickOption {
   double time = 0.0;
   double displacement = 0.0;
 };
 
-/// Z1MIN:Z1MAX:V1MIN:V1MAX, m and m/s, min < max in both.
+/// Ranges of displacement (m) and velocity (m/s), given as Z1MIN:Z1MAX:V1MIN:V1MAX; min < max.
 struct WindowOption {
   Range displacement;
   Range velocity;
 };
 
-/// Each reads the text given to an option (`--force`); throws WrongInput, one line that names the
-/// option, the text and the form expected.
+/// Parses MIN:MAX. Each of these parse functions reads the text of an option (`--force`) and throws
+/// WrongInput, one line that names the option, the text and the expected form.
 Range parse_range(std::string_view option, std::string_view text);
-/// MIN:MAX:COUNT, 1 <= count <= 1e9, a count of 1 being min alone; or one number.
+/// Parses MIN:MAX:COUNT, 1 <= COUNT <= 1e9 (1: MIN alone), or one number.
 Axis parse_axis(std::string_view option, std::string_view text);
 KeyAxis parse_key_axis(std::string_view option, std::string_view text);
-/// A list has at least one number; `log:` wants 0 < MIN.
+/// Parses a form of KeyValues. A list has at least one number; `log:` requires 0 < MIN.
 KeyValues parse_key_values(std::string_view option, std::string_view text);
 KickOption parse_kick(std::string_view option, std::string_view text);
 WindowOption parse_window(std::string_view option, std::string_view text);
 
-/// Numbers between commas, `10,100,1000`; at least one, finite.
+/// Parses finite numbers separated by commas, `10,100,1000`; at least one.
 std::vector<double> parse_list(std::string_view option, std::string_view text);
 
 /// An axis of a chart or a sweep.
@@ -68,11 +68,10 @@ struct GridAxis {
   double at(std::size_t index) const;
 };
 
-/// The index along one axis of a cell of their product, cells being numbered with the first axis
-/// slowest.
+/// The index along one axis of a cell of the grid; cells are numbered with the first axis slowest.
 std::size_t index_along(const std::vector<GridAxis>& axes, std::size_t axis, std::size_t cell);
 
-/// An axis over a key of the case, as a table names and describes it; units as N.s/m.
+/// An axis over a key of the case, with its column in a table; units are written as N.s/m.
 GridAxis grid_axis(const CaseKey& key, const KeyValues& axis);
 GridAxis grid_axis(const KeyAxis& axis);
 

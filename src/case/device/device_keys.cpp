@@ -62,7 +62,7 @@ struct Kind {
   std::string_view name;
   std::vector<std::string_view> required, optional;
   std::size_t resonances = 0;
-  bool has_own_mass = false;  // hangs on the conductor whatever it is
+  bool has_own_mass = false;  // always hangs on the conductor
 
   bool uses(std::string_view key) const {
     for (const std::string_view one : {"kind", "position", "to", "clamp_mass"})
@@ -82,10 +82,10 @@ const std::vector<Kind> kinds = {
     {"stiffness", {"stiffness"}, {"damping"}},
 };
 
-/// Null where the device has no known kind.
+/// The properties of the kind of a device; null if the kind is unknown.
 const Kind* kind_of(const Device& device) { return find_named(kinds, device.kind); }
 
-/// In place of which key a list stands, of a tuned mass.
+/// The key that a list replaces in a tuned mass.
 std::string_view replaced_by(std::string_view list) {
   return list == "frequencies" ? "stiffness" : list == "damping_ratios" ? "damping" : "";
 }
@@ -131,13 +131,14 @@ CaseFault unused_key_fault(const Device& device, const Kind& kind,
                            const std::set<std::string>& given) {
   for (const std::string& key : given)
     if (!kind.uses(key))
-      return {{key}, with_article(device) + " has no such key; it has " + used_keys_text(kind)};
+      return {{key},
+              with_article(device) + " has no such key; its keys are " + used_keys_text(kind)};
   if (device.to == "ground" && kind.has_own_mass)
-    return {{"to"}, "a " + device.kind + " hangs on the conductor: to must be \"conductor\""};
+    return {{"to"}, "a " + device.kind + " hangs on the conductor: set to = \"conductor\""};
   if (device.to == "ground" && has(given, "mass"))
     return {{"mass", "to"},
             "mass is used only with to = \"conductor\"; with to = \"ground\" " +
-                with_article(device) + " has no mass"};
+                with_article(device) + " has no mass: remove mass, or set to = \"conductor\""};
   return {};
 }
 
@@ -165,7 +166,7 @@ CaseFault value_fault(const Device& device, const Kind& kind) {
   }
   const auto& frequencies = device.frequencies;
   if (frequencies.size() == 2 && !(frequencies[0] < frequencies[1]))
-    return {{"frequencies"}, "frequencies must ascend"};
+    return {{"frequencies"}, "frequencies must ascend: give the lower one first"};
   return {};
 }
 

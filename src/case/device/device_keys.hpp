@@ -10,42 +10,42 @@
 
 namespace holdfast::program {
 
-/// One key of a table [[device]], "damping".
+/// A key of a table [[device]], such as "damping".
 struct DeviceKey : KeyForm {
   ValuePlace (*place)(case_tables::Device&) = nullptr;
 };
 
-/// Every key, in the order in which a device is written.
+/// All keys of a device, in the order of a written case file.
 const std::vector<DeviceKey>& device_keys();
 
-/// The key of that name, or null.
+/// The key of a device with the given name; null if there is none.
 const DeviceKey* find_device_key(std::string_view name);
 
-/// The known key closest to a name that is not known (fewest edits).
+/// The known key of a device most similar to an unknown name (fewest edits).
 const DeviceKey& nearest_device_key(std::string_view name);
 
-/// A key of a device as it is called outside of its table: `device.2.damping`.
+/// Number of a device and name of its key, which make the full name `device.2.damping`.
 struct DeviceKeyName {
   std::size_t number;  // from 1
   std::string key;
 };
 
-/// Empty where the name is no such.
+/// The parts of a full name `device.2.damping`; none for any other name.
 std::optional<DeviceKeyName> device_key_name(std::string_view name);
 std::string device_key_text(std::size_t number, std::string_view key);
 
-/// The keys that say what a device is, in their order: those that its kind uses, but for one that
-/// another stands in place of, and its mass where nothing hangs on it.
+/// The keys that define a device, in written order: those that its kind uses, without replaced
+/// keys, empty lists and the mass of a device on the ground.
 std::vector<const DeviceKey*> standing_keys(case_tables::Device device);
 
-/// Gives a device the `to` of its kind, where nobody gives it.
+/// Sets `to` of a device to the default of its kind if `given` (keys) does not contain it.
 void settle_device(case_tables::Device& device, const std::set<std::string>& given);
 
-/// Fault of one device by itself, of which those keys were given; its keys are `damping`, none
-/// where one is missing.
+/// Fault of one device alone, whose given keys are `given`. The keys of the fault are short names
+/// (`damping`); none if the fault is a missing key.
 CaseFault device_fault(const case_tables::Device& device, const std::set<std::string>& given);
 
-/// Fault between the devices of a case and its conductor.
+/// Fault of a device whose position is not within the span of the conductor.
 CaseFault devices_fault(const Case& the_case);
 
 }  // namespace holdfast::program

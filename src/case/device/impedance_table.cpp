@@ -16,10 +16,10 @@ constexpr const char* frequency_column = "frequency_Hz";
 constexpr const char* magnitude_column = "magnitude_N_s_per_m";
 constexpr const char* phase_column = "phase_deg";
 
-/// Least Re Z/|Z|: the phases of such measurements are wrong by about a degree.
+/// Least admissible Re Z/|Z|, for measured phases with errors of about a degree.
 constexpr double smallest_real_share = -0.02;
 
-/// A phase of 90 degrees, of a mere mass, has a cosine that rounds to either side of 0.
+/// A phase of 90 degrees, as of a mass, has a cosine that rounds to either side of 0.
 constexpr double round_off = 1e-9;
 
 double real_share(double phase) { return std::cos(phase * pi<double> / 180.0); }
@@ -27,15 +27,15 @@ double real_share(double phase) { return std::cos(phase * pi<double> / 180.0); }
 void require_passive(const CsvTable& table, std::size_t row, double magnitude, double phase) {
   const double share = real_share(phase);
   if (magnitude == 0.0 || share >= smallest_real_share) return;
-  throw table.fault(row, "at " + format_number(table.number(row, frequency_column)) +
-                             " Hz the real part of the impedance is " +
-                             format_rounded(magnitude * share) +
-                             " N s/m, below 0, but a passive device gives no power; phase_deg must "
-                             "be the phase of the force on the device over its velocity, not over "
-                             "displacement or acceleration, and not of the reaction force");
+  throw table.fault(
+      row, "at " + format_number(table.number(row, frequency_column)) +
+               " Hz the real part of the impedance is " + format_rounded(magnitude * share) +
+               " N s/m, below 0, but a passive device gives no power; phase_deg must be the phase "
+               "by which the force on the device leads its velocity (not its displacement or "
+               "acceleration, and not the phase of the reaction force)");
 }
 
-/// Keeps the imaginary part alone where the real part is below 0.
+/// Sets the real part of an impedance to 0 if it is below 0.
 void project(ImpedanceTable& impedance, std::size_t row) {
   double& phase = impedance.phase_deg[row];
   const double share = real_share(phase);
@@ -86,15 +86,16 @@ std::vector<std::string> impedance_doubts(const Case& the_case) {
   for (const case_tables::Device& device : the_case.devices) {
     if (device.table == nullptr) continue;
     if (device.table->projected > 0)
-      doubts.push_back(device.file + ": " + std::to_string(device.table->projected) +
-                       " row(s) have an impedance with a real part below 0, by up to " +
-                       format_rounded(-100.0 * device.table->least_real_share) +
-                       " % of its magnitude, as measured phases may give; 0 is used there");
+      doubts.push_back(
+          device.file + ": " + std::to_string(device.table->projected) +
+          " row(s) have an impedance with a real part below 0, by up to " +
+          format_rounded(-100.0 * device.table->least_real_share) +
+          " % of its magnitude, a usual error of phases; these real parts are set to 0");
     double largest = 0.0;
     for (const double phase : device.table->phase_deg) largest = std::max(largest, std::abs(phase));
     if (largest >= noticeable && largest <= turn)
       doubts.push_back(device.file + ": phase_deg never exceeds " + format_rounded(largest) +
-                       ", as for a pure dashpot; are the phases in radians?");
+                       " degrees, as for a pure dashpot; are the phases in radians?");
   }
   return doubts;
 }

@@ -25,8 +25,7 @@ std::string in_small_letters(std::string_view text) {
   return small;
 }
 
-/// Throws where there is too little memory for a text of such a size: in the midst of one the
-/// parser cannot say so.
+/// Throws std::bad_alloc if memory is too short for the parser, which cannot report it itself.
 void require_memory_to_parse() {
   constexpr std::size_t enough = 8U << 20U;
   const std::vector<char> memory(enough, ' ');

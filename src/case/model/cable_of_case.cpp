@@ -21,7 +21,7 @@ StiffnessReading stiffness_reading_of(const Case& the_case) {
   return reading == "secant" ? StiffnessReading::secant : StiffnessReading::least_squares;
 }
 
-/// A range of the readings that the user has not chosen is not to blame, but the key that he gave.
+/// Beginning of a message: the given key that conflicts with a default range; else empty.
 std::string blame_for_range(const Case& the_case, const char* key, const char* range) {
   const bool by_key = the_case.is_given(key) && !the_case.is_given(range);
   return by_key ? std::string(key) + " = " + format_number(case_value(the_case, key)) +
@@ -29,7 +29,7 @@ std::string blame_for_range(const Case& the_case, const char* key, const char* r
                 : "";
 }
 
-/// Displacement of the absorber's place, upward of its rest (m, below 0), where the statics end.
+/// Highest position of the absorber's place in the statics (m, < 0: above its rest).
 double highest_reading(const Case& the_case) {
   const auto irvine = irvine_statics_of(the_case);
   return irvine.displacement(irvine.lowest_force() * (1.0 - 1e-6));
@@ -120,7 +120,7 @@ void require_reading_range(const Case& the_case) {
     throw WrongInput(blame_for_range(the_case, "absorber.position", "reduction.reading_above") +
                      "reduction.reading_above = " + format_number(range.above) +
                      " m: must be less than " + format_rounded(-highest) +
-                     " m, the highest that the static model can lift the absorber's place");
+                     " m, the largest lift of the absorber's place in the static model");
   if (!(range.below <= the_case.conductor.sag))
     throw WrongInput(blame_for_range(the_case, "conductor.sag", "reduction.reading_below") +
                      "reduction.reading_below = " + format_number(range.below) +
@@ -138,7 +138,7 @@ std::pair<double, double> default_frequencies(const Case& the_case) {
   constexpr std::size_t wanted = 6;
   const double place = needed(the_case, "absorber.position") / the_case.conductor.span;
   std::vector<double> moving;
-  // A place near a support is moved by high modes only; the first of all stands in for the first.
+  // A place near a support is moved by high modes only; then modes 1 and 6 are taken.
   const auto modes = irvine_modes(conductor_of(the_case), 200);
   for (const CableMode& mode : modes) {
     if (std::abs(mode.shape(place)) >= 0.1) moving.push_back(mode.frequency);
@@ -156,8 +156,8 @@ void require_force_within_statics(const Case& the_case, double force) {
   const double lowest = irvine_statics_of(the_case).lowest_force();
   if (force > lowest) return;
   throw WrongInput("a force of " + format_number(force) +
-                   " N lifts half of the cable's own weight or more, beyond the static model: the "
-                   "force must be greater than " +
+                   " N lifts half of the cable's weight or more, which the static model excludes: "
+                   "the force must be greater than " +
                    format_rounded(lowest) + " N");
 }
 

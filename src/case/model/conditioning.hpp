@@ -10,46 +10,44 @@
 
 namespace holdfast::program {
 
-/// Warnings of an answer that a small change of the question would change much, or that is not of
-/// the true force; empty where there is nothing. Each is one line.
+/// Warnings of results that are sensitive to small changes of the case, or that are not for the
+/// true force. Each is one line, or empty without a warning.
 
-/// Warns of a reduction near its double solution.
+/// Warns of a reduction near its double solution, where k2 and m1 are very sensitive.
 std::string sensitive_reduction_warning(const Case& the_case);
 
-/// Warns of tangents of the boundary that are nearly a cusp.
+/// Warns of a stability boundary that nearly has a cusp.
 std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& features);
 
 /// Warns of an orbit near a switching surface.
-/// @param border_share  of PeriodicOrbit or EventOrbit
+/// @param border_share  distance / size of the orbit, from PeriodicOrbit or EventOrbit
 std::string near_border_warning(double border_share);
 
-/// Warns of an orbit that has copies shifted in time: neighbours may come to different ones and
-/// stay apart for good, though each is asymptotically stable.
-/// @param period       of the orbit (samples)
-/// @param coincidence  samples after which sampling and forcing meet again; 0 < coincidence ≤
-/// period
+/// Warns of an orbit with copies shifted in time: motions may settle on different copies and never
+/// approach each other, though each copy is asymptotically stable.
+/// @param period       period of the orbit (samples)
+/// @param coincidence  samples after which the force repeats at the samples, 1 … period
 std::string shifted_copies_warning(std::int64_t period, std::int64_t coincidence);
 
-/// Warns of a largest exponent whose sign is not known.
+/// Warns of a largest Lyapunov exponent whose sign is uncertain.
 std::string open_sign_warning(const LyapunovResult& result);
 
-/// Warns of exponents along a motion whose reading has steps, between which its derivative is zero.
+/// Warns of Lyapunov exponents with quantised readings, whose derivative is 0 between steps.
 std::string stepped_reading_warning(const Case& the_case);
 
-/// Warns of exponents averaged over few forcing periods.
-/// @param averaged  s
+/// Warns of Lyapunov exponents averaged over fewer than 20 forcing periods.
+/// @param averaged  duration of the average (s)
 std::string short_average_warning(const Case& the_case, double averaged);
 
-/// The amplitude without control under the force as the case holds it over a sampling period τ (s),
-/// as a share of that under the true force at f (Hz); 1 where the case integrates the force
-/// exactly.
+/// Ratio of the amplitudes without control under the force held over a sampling period τ (s) and
+/// under the true force, at f (Hz); 1 if the case integrates the force exactly or has none.
 double held_share(const Case& the_case, double sampling_period, double frequency);
 
-/// A warning where the two differ by more than 2 %, with what is shown; empty elsewhere.
-/// @param shown  behind a semicolon: "ratios are to the true one"
+/// Warns of a held_share() that differs from 1 by more than 2 %; empty otherwise.
+/// @param shown  end of the warning, after a semicolon: "ratios are to the true one"
 std::string held_force_warning(const Case& the_case, double sampling_period, double frequency,
                                const std::string& shown);
-/// Warning about the held force at the case's own τ and f.
+/// Warns of the held force at the case's own τ and f.
 std::string held_force_warning(const Case& the_case, const std::string& shown);
 
 }  // namespace holdfast::program

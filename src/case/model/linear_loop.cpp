@@ -26,7 +26,7 @@
 
 namespace holdfast::program {
 
-/// The loop as a sum over its poles, each part of it made when it is first asked for.
+/// The loop as a sum over its poles. Each part is computed on first use.
 struct LinearLoop::ByPoles {
   explicit ByPoles(const Case& of) : case_(of) {}
 
@@ -65,7 +65,7 @@ struct LinearLoop::ByPoles {
   mutable std::optional<ModalResponse<double>> response_;
   mutable std::optional<UnitCircleCrossings<double>> circle_;
   mutable std::optional<ConductorWithAbsorber> conductor_;
-  mutable std::optional<LoopMap<double>> map_;  // once the roots were not found without it
+  mutable std::optional<LoopMap<double>> map_;  // used only if roots are not found otherwise
 };
 
 LinearLoop::LinearLoop(const Case& the_case)
@@ -78,13 +78,13 @@ LinearLoop::~LinearLoop() = default;
 std::vector<Interval<double>> LinearLoop::stable_gains(FreeGain free,
                                                        const PdGains<double>& gains) const {
   if (!closed_) return by_poles_->circle().stable_gains(free, gains);
-  // The crossings that `margins` has.
+  // `margins` uses the same crossings.
   return holdfast::stable_gains(loop_map(linear_plant(plant_of(case_)), closed_->sampling), free,
                                 gains);
 }
 
 std::function<void(double, std::uint8_t*)> LinearLoop::stable_rows(const Axis& differential) const {
-  if (!closed_)  // the circle is made before threads ask for it
+  if (!closed_)  // the circle is computed before threads use it
     return [=, kept = by_poles_, &circle = by_poles_->circle()](double p, std::uint8_t* flags) {
       fill_stability_row(circle, p, differential, flags);
     };
@@ -115,10 +115,10 @@ SteadyResponse<double> LinearLoop::response(double frequency) const {
 
 void LinearLoop::require_poles() const {
   if (closed_ || by_poles_->response().at_radius(0.0)) return;
-  loop_poles_of(case_);  // says which motions coincide
+  loop_poles_of(case_);  // throws with a more specific message, if it can
   throw NoAnswer(
-      "two natural motions of the loop coincide too nearly to be told apart: change a parameter of "
-      "the plant by a thousandth");
+      "two poles of the loop nearly coincide and cannot be separated: change a parameter of the "
+      "plant by a thousandth");
 }
 
 MinimumAmplitude LinearLoop::quietest(const AmplitudeOptions& options, double frequency,

@@ -22,55 +22,54 @@
 
 namespace holdfast::program {
 
-/// The gains that serve a band of frequencies best.
+/// The gains of least largest steady amplitude over a band of frequencies.
 struct MinimaxGains {
-  double proportional_gain;  ///< N/m; NaN where none is admissible
-  MinimaxAmplitude quietest;
+  double proportional_gain;   ///< P (N/m); NaN where no gain is admissible
+  MinimaxAmplitude quietest;  ///< D and its largest amplitude
 };
 
-/// The loop of a case without play, 1 = P G_z + D G_v, as charts, boundaries, margins, design and
-/// responses have it: filters, lags, late forces and a velocity by difference are in it; quanta,
-/// the largest force and jitter are not, which texts/support.toml tells.
+/// The linear loop of a case, with the characteristic equation 1 = P G_z + D G_v and the sampled
+/// transfer functions G_z, G_v from force to displacement and velocity readings. Filters, lags,
+/// delays and a velocity by difference are included; play, quanta, force limit and jitter are not.
 ///
-/// Which way a question is answered is settled here and nowhere else: in closed form where the loop
-/// is of order 4 + 1, else by the poles from the command to the readings. May be asked from many
-/// threads.
+/// This class alone decides the method: closed forms for a loop of order 4 + 1, else sums over the
+/// poles from the command to the readings. Thread-safe.
 class LinearLoop {
  public:
-  /// Throws MissingKeys. Best gains, margins and longest periods throw NoAnswer where natural
-  /// motions cannot be told apart.
-  /// @param the_case  must outlive this
+  /// Throws MissingKeys. The functions for best gains, margins and longest periods throw NoAnswer
+  /// if two poles nearly coincide.
+  /// @param the_case  case, which must outlive the loop
   explicit LinearLoop(const Case& the_case);
   explicit LinearLoop(Case&&) = delete;
   LinearLoop(const LinearLoop&) = default;
   LinearLoop& operator=(const LinearLoop&) = delete;
   ~LinearLoop();
 
-  /// Whether ends of τ and δ are walked to, which the closed forms need not.
+  /// Whether the limits of τ and δ are found in steps, not in closed form.
   bool walks() const { return !closed_; }
 
-  /// The open intervals of one gain, the other being held, in which the loop is stable.
+  /// The open intervals of one gain, the other being fixed, in which the loop is stable.
   std::vector<Interval<double>> stable_gains(FreeGain free, const PdGains<double>& gains) const;
-  /// Writes which of some D are stable, 1 or 0, at one P after another.
+  /// A function that writes, at a given P, 1 (stable) or 0 for each D of the axis.
   std::function<void(double p, std::uint8_t* flags)> stable_rows(const Axis& differential) const;
-  /// The largest modulus of its roots.
+  /// The spectral radius, the largest modulus of the characteristic roots.
   double radius(const PdGains<double>& gains) const;
-  /// The boundary of stability over a range of P.
+  /// The stability boundary in the plane of P and D over a range of P (N/m).
   std::vector<BoundaryPoint<double>> boundary(const Interval<double>& proportional) const;
 
-  /// The steady response at f (Hz), relative to no control under the true force.
+  /// The steady response at f (Hz), relative to the uncontrolled one under the true force.
   SteadyResponse<double> response(double frequency) const;
   /// The D of least steady amplitude at f (Hz) and P.
   MinimumAmplitude quietest(const AmplitudeOptions& options, double frequency, double p) const;
   /// The P and D of least steady amplitude at f (Hz), with the modulus margin of the options.
   MinimumAmplitudeGains quietest_pair(const AmplitudeOptions& options, double frequency) const;
-  /// The D of least largest amplitude over a band.
+  /// The D at P whose largest steady amplitude over a band is least.
   MinimaxAmplitude quietest_over(const AmplitudeOptions& options, double p,
                                  const FrequencyBand& band) const;
-  /// The gains of least largest amplitude over several loops and a band, or one frequency, of those
-  /// that each of them admits as `quietest_pair` does.
-  /// @param options  of each loop
-  /// @param p        none: the best P too
+  /// The gains whose largest steady amplitude over several loops and a band (or one frequency) is
+  /// least, among the gains with the modulus margin of the options in every loop.
+  /// @param options  options of each loop
+  /// @param p        P (N/m); none: P is optimised too
   static MinimaxGains quietest_for_all(const std::vector<LinearLoop>& loops,
                                        const std::vector<AmplitudeOptions>& options,
                                        const FrequencyBand& band, std::optional<double> p);
@@ -78,26 +77,26 @@ class LinearLoop {
   double first_frequency() const;
   /// The D of least spectral radius at P.
   MinimumRadius fastest(double p) const;
-  /// The largest sampling period, δ/τ being the question's.
+  /// The largest feasible sampling period, for the δ/τ and criterion of the question.
   MaxDelay longest_period(const MaxDelayOptions& question) const;
-  /// The D that stabilise at another sampling period, δ/τ being the question's.
+  /// The stable intervals of D at another sampling period (s), for the δ/τ of the question.
   std::vector<Interval<double>> stable_gains(const MaxDelayOptions& question, double period) const;
-  /// ρ − 1 at another sampling.
+  /// The spectral radius minus 1 at another sampling period and delay.
   double excess(const Sampling<double>& sampling, const PdGains<double>& gains) const;
 
-  /// How far D, P, τ and δ may go; by poles τ and δ are walked, τ up to a hundred times its own.
+  /// The stability limits of D, P, τ and δ, each changed alone; τ by poles up to 100 times.
   StabilityMargins margins(const PdGains<double>& gains) const;
-  /// Gain, phase and delay that the loop as a whole can bear.
+  /// Gain, phase and delay margins of the whole loop.
   LoopMargins whole_margins(const PdGains<double>& gains) const;
 
  private:
   struct ByPoles;
 
-  /// Throws NoAnswer where the loop has no sum over its poles.
+  /// Throws NoAnswer if the loop is not a sum over its poles, since two poles nearly coincide.
   void require_poles() const;
-  /// The D that leave a modulus margin and keep a radius at P, as `quietest_pair` has them.
+  /// The intervals of D at P that keep the modulus margin and the radius of the options.
   std::vector<Interval<double>> gains_of_modulus(const AmplitudeOptions& options, double p) const;
-  /// The range in which P is looked for first, about that tuned to f (Hz).
+  /// The initial search range of P (N/m), around the P tuned to f (Hz).
   Interval<double> range_about_tuned(double frequency) const;
 
   const Case& case_;

@@ -110,7 +110,7 @@ std::optional<IdealLoop<double>> exactly_switched_loop_of(const Case& the_case) 
   if (!is_of_masses(motion_kind_of(the_case, Switching::exact))) return std::nullopt;
   ImplementedLoop loop = implemented_loop_of(the_case, Switching::sampled);
   const ContactLaw law = loop.backlash.law;
-  // Between the samples they are one law.
+  // With exact switching these laws are the same as kollar.
   if (law == ContactLaw::immediate || law == ContactLaw::play)
     loop.backlash.law = ContactLaw::kollar;
   return ideal_loop(loop);
@@ -133,7 +133,7 @@ std::string divergence_warning(const Case& the_case, bool controlled, double kic
   if (!controlled || has_play || !has_ideal_computer(the_case) || size == 0.0) return "";
   const double radius = LinearLoop(the_case).radius(gains_of(the_case));
   if (!(radius > 1.0 + 1e-9)) return "";
-  return grown + ", and nothing bounds it: the largest root of the loop has the modulus " +
+  return grown + ", and nothing bounds it: the loop is unstable with the spectral radius " +
          format_number(std::round(radius * 1e9) / 1e9);
 }
 

@@ -11,13 +11,13 @@
 
 namespace holdfast::program {
 
-/// A case as the motion sees it, with the switching that was asked for and with or without control.
+/// Options of a motion of a case: its switching, and with or without control.
 struct MotionChoice {
   Switching switching = Switching::sampled;
   bool controlled = true;
 };
 
-/// All that a motion depends on beside its initial state.
+/// The loop of a case in the paper's model: plant, sampling, gains, force and backlash.
 IdealLoop<double> ideal_loop_of(const Case& the_case);
 
 /// The loop, an IdealLoop or a ModalLoop, with P = D = 0 and a drive without backlash.
@@ -28,17 +28,16 @@ Loop uncontrolled(Loop loop) {
   return loop;
 }
 
-/// Quanta, differences and limits of the computer.
+/// Quanta of the readings, source of the velocity and largest force of the computer.
 ControllerLimits controller_limits_of(const Case& the_case);
 
-/// Whether the computer reads and commands without quanta, differences, limits and jitter.
+/// Whether the computer has no quanta, no velocity by difference, no force limit and no jitter.
 bool has_ideal_computer(const Case& the_case);
 
-/// The four ways in which a case moves. Masses are two, alone with a computer whose force comes
-/// within the sample; a conductor itself, a filter, a lag, a later force and all that is the user's
-/// own are followed by natural motions. Sampled is the paper's model, which IdealLoop describes:
-/// switching at samples, the paper's backlash or none, one harmonic, an ideal computer; all else is
-/// built, and goes from event to event.
+/// The four models of a motion. `masses`: two masses whose computer acts within one sampling
+/// period. `modes` or `plant`: a conductor by its modes, or any filter, drive lag, later force or
+/// user-defined part. `sampled`: the paper's model of IdealLoop with switching at samples, its
+/// backlash or none, one harmonic and an ideal computer. `built`: all else, from event to event.
 enum class MotionKind { sampled_masses, built_masses, sampled_modes, built_plant };
 MotionKind motion_kind_of(const Case& the_case, Switching switching);
 
@@ -49,19 +48,17 @@ constexpr bool is_of_masses(MotionKind kind) {
   return kind == MotionKind::sampled_masses || kind == MotionKind::built_masses;
 }
 
-/// Whether the linear loop is of order 4 + 1, of which there are closed forms: masses with a
-/// measured velocity.
+/// Whether the linear loop has closed forms (order 4 + 1): two masses with measured velocity.
 bool has_closed_forms(const Case& the_case);
 
-/// The loop of a drive that switches when it happens, where that is all there is to the case beside
-/// the paper's model: exact play or none, one harmonic, an ideal computer. Nothing of any other.
+/// The loop of a case that differs from the paper's model only by exact switching: play or none,
+/// one harmonic, an ideal computer. None for any other case.
 std::optional<IdealLoop<double>> exactly_switched_loop_of(const Case& the_case);
 
-/// Throws MissingKeys for what a loop of the case needs, its motion too, and the case has not; a
-/// job that computes for long asks first.
+/// Throws MissingKeys for missing keys of the loop and its motion. A long job calls it first.
 void require_loop_keys(const Case& the_case);
 
-/// The loop with all that the case says of it.
+/// The loop of two masses with all features of the case.
 ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching);
 
 /// The loop with P = D = 0 and a drive without backlash.
@@ -72,15 +69,14 @@ ImplementedLoopOf<Plant> uncontrolled(ImplementedLoopOf<Plant> loop) {
   return loop;
 }
 
-/// A size (m, m/s) that no bounded motion of the case reaches, from its initial state or displaced
-/// by `kick`, m, on its way.
+/// A size (m, m/s) that no bounded motion of the case reaches, also if displaced by `kick` (m).
 double divergence_bound(const Case& the_case, double kick);
 
-/// That a motion diverges: it has passed its divergence_bound(), or nothing bounds the growth of an
-/// unstable loop, neither a play nor a largest force nor a step of the readings. Empty otherwise.
-/// @param controlled  else without control
-/// @param kick        displacement on its way, m
-/// @param size        that it has reached at `time` (s), m and m/s
+/// A warning that a motion diverges: its size exceeds divergence_bound(), or the loop is unstable
+/// and neither play, a largest force nor quanta bound its growth. Empty otherwise.
+/// @param controlled  false: without control
+/// @param kick        displacement (m) applied once during the motion; 0: none
+/// @param size        size (m, m/s) that the motion has reached at `time` (s)
 std::string divergence_warning(const Case& the_case, bool controlled, double kick, double time,
                                double size);
 

@@ -11,7 +11,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Throws NoAnswer where two natural motions of it cannot be told apart.
+/// Throws NoAnswer if two poles of conductor and absorber nearly coincide.
 SampledModes sampled_modes_of(const Case& the_case, bool controlled) {
   const std::vector<PlantPole> poles = conductor_with_absorber_of(the_case).poles;
   const IdealLoop<double> ideal = ideal_loop_of(the_case);
@@ -27,8 +27,8 @@ SampledModes sampled_modes_of(const Case& the_case, bool controlled) {
           modal_state(loop.modes, initial_state_of(the_case)), poles};
 }
 
-/// Time between samples (s) of a motion that no computer takes part in: 200 or more to a period of
-/// the force; where these would be millions, fewer whose phases are spread over it evenly.
+/// Sampling period (s) of a motion without control: at least 200 samples per period of the force;
+/// if these exceed 4 million, fewer samples with phases spread evenly over the period.
 double resolving_period(double frequency, double duration) {
   constexpr double samples_of_cycle = 200.0, samples_of_motion = 20000.0, most_samples = 4e6;
   const double longest = duration / samples_of_motion;
@@ -38,7 +38,7 @@ double resolving_period(double frequency, double duration) {
   return (std::floor(longest * frequency) + golden_section) / frequency;
 }
 
-/// The case without computer, drive and play: its readings whole and at once, its force none.
+/// The case without gains, quanta, filters, drive lag, delay and play.
 Case without_computer(Case the_case) {
   const double period = the_case.control.sampling_period;
   the_case.control = {};
@@ -85,8 +85,8 @@ MovingLoop smooth_loop_of(const Case& the_case, Switching switching) {
   MovingLoop moving = moving_loop_of(the_case, {switching});
   if (std::holds_alternative<BuiltPlant>(moving) && !is_ideal(controller_limits_of(the_case)))
     throw WrongInput("with " + modal_words(the_case) +
-                     " orbits, basins, exponents and verdicts need an ideal computer: no quanta, "
-                     "no control.largest_force, a measured velocity");
+                     ", orbits, basins, exponents and verdicts need an ideal computer: set the "
+                     "quanta of [control] to 0, largest_force = \"none\", velocity = \"measured\"");
   return moving;
 }
 

@@ -15,55 +15,54 @@
 
 namespace holdfast::program {
 
-/// Two masses in the paper's model, from one sampling period to the next.
+/// Two masses in the paper's model, computed from sample to sample.
 struct SampledMasses {
   static constexpr bool by_events = false;
   IdealLoop<double> loop;
-  Vector<double, 4> state;  ///< the initial one, as below
+  Vector<double, 4> state;  ///< initial [z1, v1, z2, v2] (m, m/s)
 };
 
-/// Two masses with all that is built, from one event to the next.
+/// Two masses with all features of a case, computed from event to event.
 struct BuiltMasses {
   static constexpr bool by_events = true;
   ImplementedLoop loop;
   Vector<double, 4> state;
 };
 
-/// A conductor by its modes in the paper's model.
+/// A conductor given by its modes in the paper's model, computed from sample to sample.
 struct SampledModes {
   static constexpr bool by_events = false;
   ModalLoop loop;
   ModalMotion::Full state;
-  std::vector<PlantPole> poles;  ///< of conductor and absorber
+  std::vector<PlantPole> poles;  ///< poles of conductor and absorber
 };
 
-/// A plant of any order, a conductor's or one of the user's own, with all that is built.
+/// A conductor's or user-defined plant of any order, with all features of a case, by events.
 struct BuiltPlant {
   static constexpr bool by_events = true;
   ImplementedLoopOf<ControlledPlant> loop;
   Vector<double, Eigen::Dynamic> state;
 };
 
-/// The loop of a case as its motion sees it: the one place that decides by which of the library's
-/// motions a case moves. What a job asks of it is an overload for each, or a visitor of `loop` and
-/// `state`.
+/// The loop of a case with its initial state, in the model by which its motion is computed. Jobs
+/// handle it by an overload for each model, or by a visitor of `loop` and `state`.
 using MovingLoop = std::variant<SampledMasses, BuiltMasses, SampledModes, BuiltPlant>;
 
-/// The moving loops that go from event to event.
+/// The moving loops that are computed from event to event.
 using BuiltLoop = std::variant<BuiltMasses, BuiltPlant>;
 
 /// The moving loop of a case.
-/// @throws MissingKeys, WrongInput, NoAnswer or InvalidParameter where there is no such motion
+/// @throws MissingKeys, WrongInput, NoAnswer or InvalidParameter where the case has no such motion
 MovingLoop moving_loop_of(const Case& the_case, const MotionChoice& choice);
 
-/// The loop with all that the case says of it, also where the paper's model is all there is to it.
+/// The loop with all features of the case, computed by events even if the paper's model would do.
 BuiltLoop built_loop_of(const Case& the_case, const MotionChoice& choice);
 
-/// Two masses in the paper's model, whatever else the case says.
+/// The two masses of a case in the paper's model; its other features are ignored.
 SampledMasses sampled_masses_of(const Case& the_case);
 
-/// `moving_loop_of` for orbits, basins, exponents and verdicts, which need tangents.
-/// @throws WrongInput for a plant of any order whose computer limits force or reading
+/// The moving loop of a case for orbits, basins, exponents and verdicts, which need derivatives.
+/// @throws WrongInput for a BuiltPlant with quanta, a largest force or a velocity by difference
 MovingLoop smooth_loop_of(const Case& the_case, Switching switching);
 
 /// The motion of a moving loop from its initial state.
@@ -72,7 +71,7 @@ EventMotion<> motion_of(const BuiltMasses& moving);
 ModalMotion motion_of(const SampledModes& moving);
 EventMotion<DriveContact<ControlledPlant>> motion_of(const BuiltPlant& moving);
 
-/// Hold and sampling of a moving loop: members of its loop, or of the computer of that.
+/// The part of a moving loop with the members `hold` and `sampling`: its loop or its computer.
 template <class Moving>
 auto& clock_of(Moving& moving) {
   if constexpr (Moving::by_events)
@@ -81,17 +80,16 @@ auto& clock_of(Moving& moving) {
     return moving.loop;
 }
 
-/// τ, s.
+/// The sampling period τ (s) of a moving loop.
 double period_of(const MovingLoop& moving);
 
 /// A size (m, m/s) that no bounded motion of a moving loop reaches.
 double divergence_bound(const MovingLoop& moving);
 
-/// The plant alone under the force that acts on it, which no computer holds: P = D = 0, a drive
-/// without backlash, and samples that show the peaks of the motion; in the paper's model where the
-/// force has one harmonic. Nothing of backlash and computer counts but the sampling period, by
-/// which the modes of a conductor may be chosen.
-/// @param duration  s, of the motion
+/// The motion of the plant without control under the true force: P = D = 0, no backlash, and
+/// samples fine enough for the peaks; in the paper's model if the force has one harmonic. Of
+/// [control] and [backlash] only the sampling period matters: it may select the conductor's modes.
+/// @param duration  duration of the motion (s)
 MovingLoop motion_without_control(const Case& the_case, double duration);
 
 }  // namespace holdfast::program

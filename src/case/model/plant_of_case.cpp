@@ -14,14 +14,14 @@ namespace holdfast::program {
 namespace {
 
 void require_two_masses(const Case& the_case) {
-  // Keys that the masses are reduced from are asked for first.
+  // Missing keys of the reduction are reported first.
   if (the_case.conductor_given) require_keys(the_case, {"absorber.mass", "absorber.position"});
   require_keys(the_case,
                {"plant.conductor_mass", "plant.conductor_stiffness", "plant.conductor_damping",
                 "plant.absorber_mass", "plant.absorber_stiffness", "plant.absorber_damping"});
 }
 
-/// In place of a value that nothing depends on.
+/// A value, or `other` for a missing one, on which nothing depends.
 double known_or(double other, double value) { return std::isnan(value) ? other : value; }
 
 }  // namespace

@@ -13,30 +13,28 @@
 
 namespace holdfast::program {
 
-/// The library's objects for what a case file says of plant, control and excitation. Each throws
-/// MissingKeys where the case does not say it.
+/// The plant, control and excitation of a case as library objects. Each function below throws
+/// MissingKeys if the case does not have a key that it needs.
 TwoMass<double> plant_of(const Case& the_case);
 PdGains<double> gains_of(const Case& the_case);
 Sampling<double> sampling_of(const Case& the_case);
-/// The exact discretisation of the loop, and what its stability depends on.
+/// The exact discretisation of the loop, and the parameters on which its stability depends.
 SampledLoop<double> loop_of(const Case& the_case);
 OperatingPoint operating_point_of(const Case& the_case);
 HarmonicExcitation<double> excitation_of(const Case& the_case);
-/// Excitation of a motion, which can do without: where the case has neither amplitude nor frequency
-/// it is no force, with the period of a sample for want of another.
+/// Excitation of a motion: without amplitude and frequency, 0 N with one period per sample.
 HarmonicExcitation<double> motion_excitation_of(const Case& the_case);
 ForceHold force_hold_of(const Case& the_case);
 Vector<double, 4> initial_state_of(const Case& the_case);
 
-/// Seconds that the case's force lasts: to the last row of its record; infinite without one.
+/// Duration (s) of the case's recorded force, up to its last row; infinite without a record.
 double end_of_force(const Case& the_case);
 
-/// Throws NoAnswer where motions have more samples than are followed, 10¹⁰.
+/// Throws NoAnswer if motions have more than 10¹⁰ samples in all.
 void require_bearable(double samples);
 
-/// Number of samples of a motion of the case at t = 0, τ, … up to the last one not after
-/// `duration`, s. Throws WrongInput where the recorded force of the case ends before, NoAnswer
-/// where they are not bearable.
+/// Number of samples of a motion of the case: t = 0, τ, … up to `duration` (s). Throws WrongInput
+/// if the recorded force ends earlier, NoAnswer for more than 10¹⁰ samples.
 std::int64_t samples_of(const Case& the_case, double duration);
 
 }  // namespace holdfast::program

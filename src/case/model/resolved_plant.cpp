@@ -22,13 +22,14 @@ NoAnswer no_plant(const Case& the_case, const FrequencyReduction<double>& asked,
                                  ? "; or give reduction.first_frequency and "
                                    "reduction.second_frequency, now computed from the conductor"
                                  : "";
-  return NoAnswer(
-      "no two-mass plant has the natural frequencies " + format_rounded(asked.first_frequency) +
-      " and " + format_rounded(asked.second_frequency) +
-      " Hz with k1 = " + format_rounded(asked.conductor_stiffness) + " N/m and an absorber of " +
-      format_rounded(asked.absorber_mass) + " kg: with this k1 the absorber may weigh " +
-      format_rounded(result.largest_absorber_mass) + " kg at most, or k1 must be " +
-      format_rounded(result.smallest_conductor_stiffness) + " N/m at least" + remedy);
+  return NoAnswer("no two-mass plant has the natural frequencies " +
+                  format_rounded(asked.first_frequency) + " and " +
+                  format_rounded(asked.second_frequency) +
+                  " Hz with the stiffness k1 = " + format_rounded(asked.conductor_stiffness) +
+                  " N/m and an absorber of " + format_rounded(asked.absorber_mass) +
+                  " kg: set absorber.mass to " + format_rounded(result.largest_absorber_mass) +
+                  " kg at most, or change the conductor so that k1 is " +
+                  format_rounded(result.smallest_conductor_stiffness) + " N/m at least" + remedy);
 }
 
 /// The keys of the two masses that the user gave.
@@ -53,7 +54,7 @@ std::string partial_plant_text(const std::vector<const CaseKey*>& given) {
   return names + " given; the rest of the plant is reduced from the conductor";
 }
 
-/// A plant of natural frequencies f1 and f2 says little of what the cable does far from them.
+/// A remark on an excitation far from the natural frequencies, where the plant is not valid.
 std::string distant_force_text(const Case& the_case) {
   const double frequency = effective_excitation(the_case).frequency;
   const double first = the_case.reduction.first_frequency;
@@ -72,7 +73,7 @@ std::string joined_texts(const std::vector<std::string>& texts) {
   return all;
 }
 
-/// Fits c2 where it is not given; what there is to say of the fit.
+/// Fits c2 unless it is given. Returns a warning of a poor fit, or "".
 std::string settle_damping(Case& the_case) {
   if (the_case.is_given("plant.absorber_damping")) return "";
   const AbsorberDampingFit found = fit_absorber_damping(the_case, plant_of(the_case));

@@ -8,26 +8,26 @@
 
 namespace holdfast::program {
 
-/// Reduction that the case asks for: k1 as it is read, m2 and the two natural frequencies.
+/// Inputs of the reduction of a case: k1, m2 and the two natural frequencies.
 FrequencyReduction<double> reduction_options_of(const Case& the_case);
 
-/// m1 and k2 from that k1, the absorber's mass and the two frequencies of [reduction].
+/// The reduction of a case: m1 and k2 from k1, the absorber's mass and both frequencies.
 ReductionResult reduction_of(const Case& the_case);
 
-/// m1, k1, c1, m2, k2 reduced from the conductor; c2 is 0 here.
-/// Throws NoAnswer where no real plant has the two frequencies, saying what would have one.
+/// The plant m1, k1, c1, m2, k2 reduced from the conductor, with c2 = 0. Throws NoAnswer if no real
+/// plant has the two frequencies, naming admissible values.
 TwoMass<double> plant_without_absorber_damping(const Case& the_case);
 
-/// Completes a case whose plant is not wholly given: reduces it from the conductor, sets the keys
-/// of [plant] that are given over it, and fits c2 where that is not one of them.
-/// @return what the user has to know of the plant, or an empty text: what of it is given and what
-///         reduced, that the excitation is far from the frequencies that it was reduced for
-/// Throws NoAnswer where there is no such plant, or a package is missing.
+/// Completes a case whose plant is not given in full: reduces the plant from the conductor, keeps
+/// the given keys of [plant], and fits c2 unless it is given.
+/// @return remarks for the user, or an empty text: given and reduced keys, a poor fit of c2, a
+///         sensitive reduction, an excitation far from the plant's frequencies
+/// Throws NoAnswer if no such plant exists or the program lacks an optional package.
 std::string settle_plant(Case& the_case);
 
-/// Settles the absorber alone, which is all of [plant] that a conductor by its modes has: its mass
-/// is absorber.mass unless plant.absorber_mass is given.
-/// @return which of its values are built-in, or an empty text
+/// Completes the absorber of a case, the only part of [plant] for a conductor by its modes: its
+/// mass is absorber.mass unless plant.absorber_mass is given.
+/// @return names of its keys with built-in values, as a remark, or an empty text
 std::string settle_absorber(Case& the_case);
 
 }  // namespace holdfast::program

@@ -14,13 +14,13 @@
 namespace holdfast::program {
 namespace {
 
-/// The state that every job finds the span in.
+/// Temperature (°C) of the conductor in every job.
 double present_temperature(const Case& the_case) {
   const double own = the_case.weather.temperature;
   return std::isfinite(own) ? own : the_case.stringing.temperature;
 }
 
-/// Whether the tension is not just the one that was read.
+/// Whether the present tension differs from the measured one and must be computed.
 bool needs_change_of_state(const Case& the_case) {
   return present_temperature(the_case) != the_case.stringing.temperature ||
          std::isnan(the_case.stringing.tension);
@@ -31,7 +31,7 @@ bool has_expansion(const Case& the_case) {
          find_conductor(the_case.conductor.name) != nullptr;
 }
 
-/// H (N) of a catenary with that sag.
+/// Horizontal tension H (N) of a catenary with the given sag (m), weight (N/m) and span (m).
 double tension_of_sag(double sag, double weight, double span) {
   const auto excess = [&](double logarithm) {
     return catenary_sag(std::exp(logarithm), weight, span) - sag;
@@ -59,12 +59,12 @@ ConductorCurves conductor_curves_of(const Case& the_case) {
   if (std::isfinite(c.thermal_expansion) || named == nullptr) {
     if (!has_expansion(the_case))
       throw MissingKeys(
-          "[stringing] needs conductor.thermal_expansion (1/K); conductor.name takes a conductor's "
-          "data from the library");
+          "[stringing] needs conductor.thermal_expansion (1/K): give it, or set conductor.name to "
+          "take it from the library");
     curves.outer = linear_wires(modulus, c.thermal_expansion);
     return curves;
   }
-  // The whole conductor is softer than its straight wires; both materials are alike in that.
+  // The conductor is softer than its straight wires, by the same factor for both materials.
   const double stiffness = named->outer.stiffness + named->core.stiffness;
   curves.outer = linear_wires(modulus * named->outer.stiffness / stiffness, named->outer.expansion);
   curves.core = linear_wires(modulus * named->core.stiffness / stiffness, named->core.expansion);
@@ -121,14 +121,15 @@ SpanTension tension_in(const Case& the_case, const StrungSpan& span, const SpanW
   const std::string state = state_text(weather, bare);
   if (tension.support > strength)
     throw WrongInput("[stringing]: " + state + " the tension would be " +
-                     format_rounded(tension.support) +
-                     " N, beyond conductor.rated_strength = " + format_rounded(strength) + " N");
+                     format_rounded(tension.support) + " N, beyond conductor.rated_strength = " +
+                     format_rounded(strength) + " N: string the span slacker or lower its load");
   if (!(tension.core_share >= 0.0))
-    throw WrongInput("[stringing]: " + state + " no tension balances the conductor");
+    throw WrongInput("[stringing]: " + state +
+                     " no equilibrium tension was found: check the values in [conductor]");
   if (!tension.within_curves)
     throw WrongInput("[stringing]: " + state + " the conductor would be stretched by " +
                      format_rounded(tension.strain) +
-                     " of its length, beyond the range of its stress-strain curves");
+                     " of its length, beyond its stress-strain curves: string the span slacker");
   return tension;
 }
 
@@ -147,7 +148,7 @@ CaseFault stringing_fault(const Case& the_case) {
   for (const char* key : {"conductor.tension", "conductor.sag"})
     if (the_case.is_given(key))
       return {{key, "stringing.tension", "stringing.sag"},
-              std::string(key) + " follows from [stringing]: give only one of them"};
+              std::string(key) + " is computed from [stringing]: remove this key or [stringing]"};
   if (!std::isnan(s.tension) && !std::isnan(s.sag))
     return {{"stringing.tension", "stringing.sag"},
             "stringing.tension and stringing.sag are both given: give only one of them"};
@@ -161,14 +162,14 @@ CaseFault stringing_fault(const Case& the_case) {
   if (strain > 0.02)
     return {{"stringing.tension"},
             "stringing.tension would stretch the conductor by " + format_rounded(strain) +
-                " of its length, more than the limit of 0.02"};
+                " of its length, more than the limit of 0.02: lower it or check [conductor]"};
   if (needs_change_of_state(the_case) && !has_expansion(the_case))
     return {{"weather.temperature", "stringing.temperature"},
-            "[stringing] needs conductor.thermal_expansion (1/K) for another temperature; "
-            "conductor.name takes a conductor's data from the library"};
+            "[stringing] needs conductor.thermal_expansion (1/K) to compute the tension in another "
+            "state; give it, or set conductor.name to take it from the library"};
   if (has_load(the_case) && !std::isfinite(the_case.conductor.diameter))
     return {{"weather.ice", "weather.wind_pressure"},
-            "ice and wind need conductor.diameter (m); conductor.name takes it from the library"};
+            "ice and wind need conductor.diameter (m): give it, or conductor.name of the library"};
   return {};
 }
 

@@ -21,12 +21,12 @@ namespace {
 using Keys = std::vector<std::string>;
 using Quantities = std::vector<PlausibleQuantity>;
 
-/// NaN, where the case does not tell the quantity, is beyond nothing.
+/// Whether a value is outside a range; NaN, an unknown value, never is.
 bool is_beyond(const AdmissibleRange& range, double value) {
   return value < range.lowest || value > range.highest;
 }
 
-/// Number of ways in which a case is unlike most cables, to tell equally possible units apart.
+/// Number of quantities unusual for cables, to choose between equally possible units.
 int oddness(const Case& the_case) {
   const case_tables::Conductor& c = the_case.conductor;
   const double diameter = std::isfinite(c.diameter) ? c.diameter
@@ -45,7 +45,7 @@ int oddness(const Case& the_case) {
   return odd;
 }
 
-/// How much is wrong with a case; less is better.
+/// Implausibility: 1000 for a fault, 100 for each impossible and 1 for each unusual quantity.
 int badness(const Case& the_case, const Quantities& quantities) {
   int sum = first_fault(the_case).message.empty() ? 0 : 1000;
   for (const PlausibleQuantity& quantity : quantities) {
@@ -55,7 +55,7 @@ int badness(const Case& the_case, const Quantities& quantities) {
   return sum;
 }
 
-/// The case with the values of some keys times a factor, that of another unit or another.
+/// The case with the values of some keys multiplied by a factor.
 Case scaled(Case the_case, const Keys& keys, double factor) {
   for (const std::string& name : keys) {
     const CaseKey& key = *find_case_key(name);
@@ -64,7 +64,7 @@ Case scaled(Case the_case, const Keys& keys, double factor) {
   return the_case;
 }
 
-/// All keys of a table that the user gave in that unit.
+/// All given keys of the table of `like` that have its unit.
 Keys of_same_unit(const Case& the_case, const CaseKey& like) {
   Keys keys;
   for (const CaseKey& key : case_keys())
@@ -97,7 +97,7 @@ std::string given_text(const Case& the_case, const Keys& keys) {
   return text;
 }
 
-/// Units that explain a case equally well, of the same keys.
+/// Search for the keys and the units in which their values make a case most plausible.
 class BestUnits {
  public:
   BestUnits(const Case& the_case, const Quantities& quantities)
@@ -112,7 +112,7 @@ class BestUnits {
       if (unit != other.own || !other.is_mistaken) continue;
       const Case changed = scaled(case_, keys, other.factor());
       const int bad = badness(changed, quantities_), odd = oddness(changed);
-      // A fault that half as much again mends for the most part is no mistaken unit.
+      // If a factor of 1.5 removes at least half of the implausibility, the unit is not mistaken.
       const double a_little = other.factor() < 1.0 ? 1.0 / 1.5 : 1.5;
       const int mended = badness_ - badness(scaled(case_, keys, a_little), quantities_);
       if (2 * mended > badness_ - bad || bad >= badness_) continue;
@@ -129,8 +129,10 @@ class BestUnits {
   UnitGuess found() && {
     if (guess_.keys.empty()) return std::move(guess_);
     const bool one = guess_.keys.size() == 1;
-    guess_.text = one ? "; is it in " + names_ : "; are " + listed(guess_.keys) + " in " + names_;
-    if (one && is_sure_) guess_.text += ", " + value_of(guess_.corrected, guess_.keys.front());
+    guess_.text =
+        one ? "; did you mean " + names_ : "; are " + listed(guess_.keys) + " in " + names_;
+    if (one && is_sure_)
+      guess_.text += ", that is " + value_of(guess_.corrected, guess_.keys.front());
     guess_.text += "?";
     return std::move(guess_);
   }
@@ -140,12 +142,12 @@ class BestUnits {
   const Quantities& quantities_;
   int badness_, least_, oddness_ = 0;
   std::string names_;
-  bool is_sure_ = false;  // one unit alone
+  bool is_sure_ = false;  // exactly one unit is best
   UnitGuess guess_;
 };
 
-/// " (is it in lb/ft, 1.628 kg/m?)", of the unit by which the value is nearest to what it should
-/// be: within what conductors of one name differ by, as an area in kcmil is of the aluminium alone.
+/// Hint, " (did you mean lb/ft, that is 1.628 kg/m?)", at the unit that brings a value nearest to
+/// the library, within 15 % since conductors of one name differ; empty without such a unit.
 std::string mistaken_unit_text(const std::string& own, double given, double ratio) {
   double nearest = 0.15;
   const Unit* found = nullptr;
@@ -156,8 +158,8 @@ std::string mistaken_unit_text(const std::string& own, double given, double rati
     found = &unit;
   }
   if (found == nullptr) return "";
-  return std::string(" (is it in ") + found->name + ", " + format_rounded(found->in_own(given)) +
-         " " + own + "?)";
+  return std::string(" (did you mean ") + found->name + ", that is " +
+         format_rounded(found->in_own(given)) + " " + own + "?)";
 }
 
 std::string found_text(const PlausibleQuantity& quantity, double value) {
@@ -172,7 +174,7 @@ UnitGuess guessed_unit(const Case& the_case, const Keys& keys, const Quantities&
   BestUnits best(the_case, quantities);
   std::set<Keys> groups;
   for (const std::string& name : keys) {
-    const CaseKey* key = find_case_key(name);  // null of a device's key
+    const CaseKey* key = find_case_key(name);  // null for a key of a device
     if (key == nullptr || !the_case.is_given(name)) continue;
     groups.insert(of_same_unit(the_case, *key));
     Case copy = the_case;
@@ -197,7 +199,7 @@ CaseFault impossible_fault(const Case& the_case) {
 std::vector<PlausibleQuantity> in_question(const Case& the_case,
                                            const std::vector<PlausibleQuantity>& quantities) {
   const bool has_masses = is_two_masses(the_case), has_absorber = has_active_absorber(the_case);
-  // The mass that a reduction would hang on the conductor is not the one that hangs there.
+  // Without a reduction a given plant.absorber_mass is used, not absorber.mass.
   const auto is_out = [&](const std::string& key) {
     return (!has_masses && the_case.is_given("plant.absorber_mass") && key == "absorber.mass") ||
            (!has_masses && key.rfind("plant.conductor", 0) == 0) ||
@@ -211,7 +213,7 @@ std::vector<PlausibleQuantity> in_question(const Case& the_case,
 
 std::vector<std::string> doubts_about(const Case& the_case, const Quantities& quantities) {
   std::vector<std::string> doubts;
-  Case read = the_case;  // with the units that are guessed
+  Case read = the_case;  // with the values in the guessed units
   for (const PlausibleQuantity& quantity : quantities) {
     const double value = quantity.of(read);
     if (!is_beyond(quantity.usual, value) || is_half_borrowed(the_case, quantity.keys)) continue;
@@ -240,7 +242,7 @@ std::string contradicted_conductor_text(const Case& the_case) {
   } catch (const MissingKeys&) {
     return "";
   } catch (const WrongInput&) {
-    // The range of its readings is not that of this conductor, which no answer needs.
+    // The range of the readings of k1 does not fit this conductor, but no answer needs it.
   }
   const auto [first, second] = undamped_frequencies(the_case.plant);
   const case_tables::Reduction& reduction = the_case.reduction;
@@ -272,7 +274,7 @@ std::string contradicted_name_text(const Case& the_case) {
   constexpr double tolerance = 0.1;
   std::string differ;
   for (const LibraryKey& key : library_keys()) {
-    // How many layers, and how stiffly they hold together, no name tells.
+    // A name does not determine the number of layers nor the bending stiffness.
     if (key.name == "conductor.layers" || key.name == "conductor.bending_stiffness") continue;
     const double given = case_value(the_case, key.name), ratio = given / (conductor->*key.value);
     if (is_from_library(the_case, key.name) || !std::isfinite(ratio)) continue;
@@ -283,8 +285,8 @@ std::string contradicted_name_text(const Case& the_case) {
               format_rounded(ratio) + mistaken_unit_text(unit, given, ratio);
   }
   if (differ.empty()) return "";
-  return the_case.places.at("conductor.name") + ": values beside conductor.name = \"" +
-         conductor->name + "\" differ from those of the library: " + differ;
+  return the_case.places.at("conductor.name") + ": values given besides conductor.name = \"" +
+         conductor->name + "\" differ from the library; remove those that are wrong: " + differ;
 }
 
 std::string borrowed_damping_text(const Case& the_case) {

@@ -24,7 +24,7 @@ constexpr AdmissibleRange at_most(double highest) {
 }
 constexpr AdmissibleRange at_least(double lowest) { return {lowest}; }
 
-/// A quantity, and beyond what it is impossible.
+/// A quantity with its usual and possible ranges.
 PlausibleQuantity quantity(const char* name, const char* unit, std::vector<std::string> keys,
                            double (*of)(const Case&), const AdmissibleRange& usual,
                            const char* reason, const AdmissibleRange& possible = whatever,
@@ -32,7 +32,7 @@ PlausibleQuantity quantity(const char* name, const char* unit, std::vector<std::
   return {name, unit, std::move(keys), of, usual, possible, reason, asks_unit};
 }
 
-/// One that is the number of a key.
+/// A quantity that is the value of one key.
 PlausibleQuantity number_of(const char* key, const char* unit, double (*of)(const Case&),
                             const AdmissibleRange& usual, const char* reason,
                             const AdmissibleRange& possible = whatever) {
@@ -46,14 +46,14 @@ double weight_of(const Case& c) {
 
 double force_frequency(const Case& c) { return effective_excitation(c).frequency; }
 
-/// A word stands for what is not known.
+/// A finite value, else NaN: infinity means "unknown".
 double known(double value) { return std::isfinite(value) ? value : unknown; }
 
 double largest_displacement(const Case& c) {
   return std::max(std::abs(c.initial.z1), std::abs(c.initial.z2));
 }
 
-/// The value where it is of the case's own cable, not of the built-in one.
+/// The value if the case has a cable of its own; NaN for the built-in cable.
 double of_own_cable(const Case& c, double value) { return has_own_cable(c) ? value : unknown; }
 
 template <double Wind::*Member>
@@ -61,21 +61,22 @@ double of_wind(const Case& c) {
   return c.wind ? (*c.wind).*Member : unknown;
 }
 
-/// The part of a circle of that diameter that the conductor's cross section fills.
+/// The conductor's metal area divided by that of a circle of the given diameter.
 double filled_share(const Case& c, double diameter) {
   return 8.0 * c.conductor.area / (two_pi * diameter * diameter);
 }
 
 constexpr bool asks_no_unit = false;
 constexpr const char* reach_reason =
-    "the reach is half the distance from the nearer support, or 3 m if the case gives only "
+    "the reach is half the distance from the nearer support, or 3 m if the case gives "
+    "only "
     "[plant]; vibrations are 1e-5 to 0.1 of the reach";
 constexpr const char* usual_diameters =
-    "lines have 0.005 to 0.06, stays 0.1 to 0.3, cables of suspension bridges 1.1";
+    "lines have 0.005 to 0.06, stays 0.1 to 0.3, cables of suspension bridges up to 1.1";
 constexpr const char* usual_shares =
     "a rod has 1, a strand 0.75, a sheathed stay 0.3, a model under foam 0.01";
 
-/// Quantities of one key come first: what they explain is not laid to the others.
+/// Quantities of one key come first, so that a mistake in a key is attributed to that key.
 const Quantities listed_of_case = {
     number_of(
         "conductor.youngs_modulus", "Pa", [](const Case& c) { return c.conductor.youngs_modulus; },
@@ -83,11 +84,11 @@ const Quantities listed_of_case = {
         "rubber has 1e7, polymer ropes 1e9, aluminium 7e10, steel 2.1e11, diamond 1.1e12"),
     number_of(
         "conductor.span", "m", [](const Case& c) { return c.conductor.span; }, {0.05, 8000},
-        "the longest span of a line has 5400; a steel wire of 28000 breaks under its weight",
+        "the longest span of a line is 5400 m; a steel wire of 28000 m breaks under its own weight",
         at_most(1e5)),
     number_of(
         "conductor.gravity", "m/s2", [](const Case& c) { return c.conductor.gravity; }, {0.05, 30},
-        "gravity is 9.81 on earth, its part across a steep stay is less"),
+        "gravity is 9.81 on earth; its component across a steep stay is less"),
     number_of(
         "conductor.damping_ratio", "", [](const Case& c) { return c.conductor.damping_ratio; },
         at_most(0.2), "cables have 0.0001 to 0.03"),
@@ -98,18 +99,18 @@ const Quantities listed_of_case = {
         [](const Case& c) { return known(c.conductor.outer_wire_modulus); }, {1e9, 1e12},
         "aluminium has 7e10, steel 2e11"),
     quantity(
-        "conductor.outer_wire_diameter over conductor.diameter", "",
+        "conductor.outer_wire_diameter / conductor.diameter", "",
         {"conductor.outer_wire_diameter", "conductor.diameter"},
         [](const Case& c) {
           return known(c.conductor.outer_wire_diameter / known(c.conductor.diameter));
         },
         {1e-3, 1}, "seven wires have 0.33, sixty-one 0.11, a stay of a hundred strands 0.03"),
     number_of("wind.speed", "m/s", of_wind<&Wind::speed>, {0.005, 90},
-              "the strongest gust on record had 113", at_most(150)),
+              "the strongest gust on record had 113 m/s", at_most(150)),
     number_of("wind.diameter", "m", of_wind<&Wind::diameter>, {1e-4, 1.5}, usual_diameters,
               {1e-6, 10}),
     quantity(
-        "wind.effective_length over conductor.span", "", {"wind.effective_length"},
+        "wind.effective_length / conductor.span", "", {"wind.effective_length"},
         [](const Case& c) {
           return of_own_cable(c, of_wind<&Wind::effective_length>(c) / c.conductor.span);
         },
@@ -137,10 +138,10 @@ const Quantities listed_of_case = {
         "control.sampling_period", "s", [](const Case& c) { return c.control.sampling_period; },
         at_least(1e-6), "controllers of machines take 100 to 100000 samples a second"),
     quantity(
-        "control.processing_delay over control.sampling_period", "",
+        "control.processing_delay / control.sampling_period", "",
         {"control.processing_delay", "control.sampling_period"},
         [](const Case& c) { return c.control.processing_delay / c.control.sampling_period; },
-        at_most(10), "computers answer in a sampling period, with a bus or a camera in a few"),
+        at_most(10), "computers answer within a sampling period, with a bus or a camera in a few"),
     number_of(
         "backlash.width", "m", [](const Case& c) { return c.backlash.width; }, at_most(0.01),
         "belts and gears have 1e-5 to 0.005"),
@@ -152,7 +153,7 @@ const Quantities listed_of_case = {
         "control.velocity_quantum", "m/s", [](const Case& c) { return c.control.velocity_quantum; },
         at_most(1), "encoders have 1e-6 to 0.1"),
     quantity(
-        "conductor.bending_stiffness over that of a solid rod", "",
+        "conductor.bending_stiffness divided by that of a solid rod of the same metal area", "",
         {"conductor.bending_stiffness", "conductor.area", "conductor.youngs_modulus"},
         [](const Case& c) {
           const double area = c.conductor.area;
@@ -182,7 +183,7 @@ const Quantities listed_of_case = {
         {8e7, 6e9},
         "aluminium conductors have 1.6e8 to 3.3e8, steel strands up to 2e9, carbon fibre 5e9"),
     quantity(
-        "the tension over conductor.rated_strength", "",
+        "the tension divided by conductor.rated_strength", "",
         {"conductor.sag", "conductor.tension", "conductor.rated_strength", "conductor.span"},
         [](const Case& c) {
           return of_own_cable(c, parabolic_tension_of(c) / known(c.conductor.rated_strength));
@@ -190,7 +191,7 @@ const Quantities listed_of_case = {
         at_most(0.75), "lines have 0.1 to 0.3 every day and up to 0.7 under ice, stays 0.45",
         at_most(1)),
     quantity(
-        "conductor.sag over conductor.span", "", {"conductor.sag", "conductor.span"},
+        "conductor.sag / conductor.span", "", {"conductor.sag", "conductor.span"},
         [](const Case& c) { return of_own_cable(c, c.conductor.sag / c.conductor.span); },
         at_most(0.125),
         "the paper's Eq. 1 and Irvine's modes hold only for shallow cables; exact statics and "
@@ -209,13 +210,13 @@ const Quantities listed_of_case = {
         [](const Case& c) { return parabolic_tension_of(c) / c.conductor.area; }, at_most(5e9),
         "steel wire breaks at 2.2e9, carbon fibre at 5e9"),
     quantity(
-        "absorber.position over conductor.span, or over 100 m if the span is longer,", "",
+        "absorber.position / conductor.span, or / 100 m if the span is longer,", "",
         {"absorber.position", "conductor.span"},
         [](const Case& c) { return c.absorber.position / std::min(c.conductor.span, 100.0); },
         at_least(1e-3), "absorbers sit at 0.005 to 0.5; at its support a conductor does not move",
         at_least(5e-5)),
     quantity(
-        "absorber.mass over the mass of the conductor", "",
+        "absorber.mass divided by the mass of the conductor", "",
         {"absorber.mass", "conductor.mass_per_length"},
         [](const Case& c) {
           return has_own_cable(c) && has_absorber(c)
@@ -231,11 +232,11 @@ const Quantities listed_of_case = {
         },
         {0.005, 1.1}, usual_shares),
     quantity(
-        "wind.diameter over conductor.diameter", "", {"wind.diameter", "conductor.diameter"},
+        "wind.diameter / conductor.diameter", "", {"wind.diameter", "conductor.diameter"},
         [](const Case& c) { return of_wind<&Wind::diameter>(c) / known(c.conductor.diameter); },
-        {0.9, 10}, "the wind meets the conductor, or the thicker ice around it"),
+        {0.9, 10}, "wind.diameter is that of the conductor, or of the ice around it"),
     quantity(
-        "plant.absorber_mass over absorber.mass", "", {"plant.absorber_mass", "absorber.mass"},
+        "plant.absorber_mass / absorber.mass", "", {"plant.absorber_mass", "absorber.mass"},
         [](const Case& c) {
           const bool both = c.is_given("plant.absorber_mass") && c.is_given("absorber.mass");
           return both && c.plant.absorber_mass > 0.0 ? c.plant.absorber_mass / c.absorber.mass
@@ -243,23 +244,23 @@ const Quantities listed_of_case = {
         },
         {0.5, 2}, "both are masses of the same absorber, and plant.absorber_mass is used"),
     quantity(
-        "control.sampling_period over the period of the force", "",
+        "control.sampling_period divided by the period of the force", "",
         {"control.sampling_period", "excitation.frequency", "wind.speed", "wind.diameter"},
         [](const Case& c) { return c.control.sampling_period * force_frequency(c); }, at_most(2),
         "at 0.5 or more the samples do not show the vibration"),
     quantity(
-        "the largest initial displacement over the reach of the absorber's place", "",
+        "the largest initial displacement divided by the reach of the absorber", "",
         {"initial.z1", "initial.z2"},
         [](const Case& c) { return largest_displacement(c) / reach_of_absorber(c); }, at_most(1),
         reach_reason),
     quantity(
-        "the largest initial displacement over conductor.span", "", {"initial.z1", "initial.z2"},
+        "the largest initial displacement / conductor.span", "", {"initial.z1", "initial.z2"},
         [](const Case& c) { return of_own_cable(c, largest_displacement(c) / c.conductor.span); },
         whatever, "no cable is displaced by more than its span", at_most(1)),
     quantity(
         "the largest initial velocity", "m/s", {"initial.v1", "initial.v2"},
         [](const Case& c) { return std::max(std::abs(c.initial.v1), std::abs(c.initial.v2)); },
-        at_most(30), "lines that gallop reach 10"),
+        at_most(30), "galloping lines reach 10 m/s"),
 };
 
 /// |z1| of the steady vibration without control, m.
@@ -273,12 +274,12 @@ double free_amplitude(const Case& c) {
   return effective_excitation(c).amplitude / std::abs(ground + spring - spring * spring / absorber);
 }
 
-/// The largest circular frequency that control has to do with, 1/s.
+/// The larger of the angular frequencies (rad/s) of the force and of the plant's higher mode.
 double highest_frequency(const Case& c) {
   return two_pi * std::max(force_frequency(c), undamped_frequencies(c.plant)[1]);
 }
 
-/// |P| beside that of Eq. 6, which is not taken as less than a tenth of m2 ω².
+/// |P| divided by the tuned |P| of Eq. 6, which counts as at least a tenth of m2 ω².
 double proportional_share(const Case& c) {
   const double gain = std::abs(c.control.proportional_gain);
   if (c.control.proportional_gain_tuned || gain == 0.0) return unknown;
@@ -297,7 +298,7 @@ double damping_ratio(double damping, double stiffness, double mass) {
 
 const Quantities listed_of_plant = {
     quantity(
-        "plant.conductor_mass over the mass of the conductor", "",
+        "plant.conductor_mass divided by the mass of the conductor", "",
         {"plant.conductor_mass", "conductor.mass_per_length", "reduction.first_frequency"},
         [](const Case& c) {
           return c.conductor_given ? c.plant.conductor_mass * c.conductor.gravity / weight_of(c)
@@ -305,17 +306,17 @@ const Quantities listed_of_plant = {
         },
         {1e-5, 10}, "a mode moves only a part of the span's mass"),
     quantity(
-        "plant.absorber_mass over plant.conductor_mass", "",
+        "plant.absorber_mass / plant.conductor_mass", "",
         {"plant.absorber_mass", "plant.conductor_mass", "absorber.mass"},
         [](const Case& c) { return c.plant.absorber_mass / c.plant.conductor_mass; }, {1e-5, 100},
         "absorbers have 0.001 to 10 of the mass that they damp"),
     quantity(
-        "absorber.clamp_mass over plant.absorber_mass", "",
+        "absorber.clamp_mass / plant.absorber_mass", "",
         {"absorber.clamp_mass", "plant.absorber_mass"},
         [](const Case& c) { return c.absorber.clamp_mass / c.plant.absorber_mass; }, at_most(2),
         "the clamp is only a part of the absorber"),
     quantity(
-        "the higher natural frequency of the plant over the lower", "",
+        "the higher natural frequency of the plant divided by the lower", "",
         {"plant.conductor_stiffness", "plant.absorber_stiffness", "plant.conductor_mass",
          "plant.absorber_mass", "reduction.first_frequency", "reduction.second_frequency"},
         [](const Case& c) {
@@ -324,21 +325,23 @@ const Quantities listed_of_plant = {
         },
         at_most(20), "an absorber is tuned near the vibration that it damps"),
     quantity(
-        "c1 over its critical value", "", {"plant.conductor_damping", "plant.conductor_stiffness"},
+        "plant.conductor_damping divided by critical damping", "",
+        {"plant.conductor_damping", "plant.conductor_stiffness"},
         [](const Case& c) {
           const auto& p = c.plant;
           return damping_ratio(p.conductor_damping, p.conductor_stiffness, p.conductor_mass);
         },
         at_most(1), "cables have 0.0001 to 0.03"),
     quantity(
-        "c2 over its critical value", "", {"plant.absorber_damping", "plant.absorber_stiffness"},
+        "plant.absorber_damping divided by critical damping", "",
+        {"plant.absorber_damping", "plant.absorber_stiffness"},
         [](const Case& c) {
           const auto& p = c.plant;
           return damping_ratio(p.absorber_damping, p.absorber_stiffness, p.absorber_mass);
         },
         at_most(30), "a damper this strong locks the absorber"),
     quantity(
-        "the frequency of the force over the higher natural frequency of the plant", "",
+        "the frequency of the force divided by the higher natural frequency of the plant", "",
         {"excitation.frequency", "wind.speed", "wind.diameter", "plant.conductor_stiffness",
          "plant.absorber_stiffness", "plant.conductor_mass", "plant.absorber_mass"},
         [](const Case& c) {
@@ -347,18 +350,18 @@ const Quantities listed_of_plant = {
         },
         at_most(5), "a force this fast hardly moves a plant of two masses"),
     quantity(
-        "control.sampling_period over the longest period of the plant", "",
+        "control.sampling_period divided by the longest period of the plant", "",
         {"control.sampling_period", "plant.conductor_stiffness"},
         [](const Case& c) { return c.control.sampling_period * undamped_frequencies(c.plant)[0]; },
         at_most(1), "at 0.5 or more the samples show none of the plant's vibrations"),
-    quantity("control.proportional_gain over the P of the paper's Eq. 6", "",
+    quantity("control.proportional_gain / the P of the paper's Eq. 6", "",
              {"control.proportional_gain"}, proportional_share, {1.6e-3, 200},
              "a gain far below this range has no effect, a gain far above it only disturbs"),
-    quantity("control.differential_gain over m2 omega", "", {"control.differential_gain"},
+    quantity("control.differential_gain / (m2 omega)", "", {"control.differential_gain"},
              differential_share, {3e-3, 500},
              "a gain far below this range has no effect, a gain far above it only disturbs"),
     quantity(
-        "the vibration without control over the reach of the absorber's place", "",
+        "the vibration amplitude without control divided by the reach of the absorber", "",
         {"excitation.amplitude", "wind.speed", "wind.diameter", "wind.effective_length",
          "plant.conductor_stiffness", "excitation.frequency"},
         [](const Case& c) { return free_amplitude(c) / reach_of_absorber(c); }, at_most(1),

@@ -6,31 +6,30 @@
 
 namespace holdfast::program {
 
-/// A quantity that follows from a case, and within what it lies for all cables, their winds,
-/// dampers and computers: full-scale lines, stays and crossings as well as models of a metre.
+/// A quantity computed from a case, with its usual and possible ranges for all cables, winds,
+/// dampers and computers: from models one metre long to full-scale lines, stays and crossings.
 struct PlausibleQuantity {
   const char* name;               // "conductor.mass_per_length / conductor.area"
   const char* unit;               // "" without dimension
-  std::vector<std::string> keys;  // that it is made of, the one most often mistaken first
-  double (*of)(const Case&);      // NaN where the case does not tell it
-  AdmissibleRange usual;          // beyond: a warning
-  AdmissibleRange possible;       // beyond: refused
+  std::vector<std::string> keys;  // keys of its values, the most often mistaken first
+  double (*of)(const Case&);      // its value; NaN: unknown
+  AdmissibleRange usual;          // outside: a warning
+  AdmissibleRange possible;       // outside: refused
   const char* reason;             // why these bounds
-  bool asks_unit = true;          // what lies beyond may be in another unit
+  bool asks_unit = true;          // whether a mistaken unit may be the cause
 };
 
-/// Quantities of conductor, absorber, wind, computer and initial state: known as soon as the case
-/// is read.
+/// Quantities of conductor, absorber, wind, computer and initial state, known from the case alone.
 const std::vector<PlausibleQuantity>& quantities_of_case();
 
-/// Quantities of the plant, once it is settled. All of it is possible.
+/// Quantities of the plant, known once it is settled. No value of them is refused.
 const std::vector<PlausibleQuantity>& quantities_of_plant();
 
-/// How far the absorber's place may move without leaving what a model of small motions says, m:
-/// half of its distance from the nearer support; 3 m where the cable is not the case's own.
+/// The reach (m) of the absorber's place, the largest displacement for a model of small motions:
+/// half of its distance from the nearer support; 3 m if the case gives no cable of its own.
 double reach_of_absorber(const Case& the_case);
 
-/// The two natural frequencies of the plant without its dampers, Hz, ascending.
+/// The two natural frequencies (Hz, ascending) of the plant without damping.
 std::array<double, 2> undamped_frequencies(const case_tables::Plant& plant);
 
 }  // namespace holdfast::program

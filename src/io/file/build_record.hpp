@@ -8,23 +8,22 @@ namespace holdfast::program {
 /// A library that this program was built with.
 struct Dependency {
   std::string name;
-  std::string version;  ///< "3.4.0"; of what is loaded when the program runs, that it was built for
+  std::string version;  ///< "3.4.0": the version at build time
   std::string licence;  ///< SPDX expression
 };
 
-/// Packages that this program was built with, in alphabetical order; what an optional package would
-/// have added is left out where it was missing.
+/// Libraries that this program was built with, alphabetically; without missing optional ones.
 std::vector<Dependency> dependencies();
 
-/// Compiler and instruction set, "GCC 12.2.0, x86-64".
+/// Compiler, and AVX2 or AVX-512 if compiled for it: "GCC 12.2.0", "GCC 12.2.0, AVX2".
 std::string compiler_text();
 
-/// Text of `--version`: the version on the first line, then the compiler, the instruction set that
-/// is taken on this processor with those that could be, and the dependencies.
+/// Text of `--version`: the version on the first line, then the compiler, the instruction set in
+/// use with all sets available on this processor, and the libraries.
 std::string version_text();
 
-/// The software bill of materials: CycloneDX 1.5 as JSON. The same for the same build: it has
-/// neither a date nor a serial number.
+/// The software bill of materials, CycloneDX 1.5 as JSON. It has neither a date nor a serial
+/// number: equal builds give equal texts.
 std::string bill_of_materials();
 
 }  // namespace holdfast::program

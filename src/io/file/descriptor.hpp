@@ -6,7 +6,7 @@
 
 namespace holdfast::program {
 
-/// An open file of the system, closed when the object goes; a number below 0 stands for none.
+/// A file descriptor of the system, closed by the destructor; a negative number means none.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -24,7 +24,7 @@ class Descriptor {
   int number() const { return number_; }
   bool is_open() const { return number_ >= 0; }
 
-  /// Leaves it to the caller to close the file.
+  /// Returns the descriptor and gives up its ownership: the caller must close it.
   int release() { return std::exchange(number_, -1); }
 
  private:

@@ -31,18 +31,20 @@ FolderLock::FolderLock(const fs::path& folder) {
   constexpr mode_t everyone_may_read_and_write = 0666;  // less the user's umask
   const fs::path file = folder / file_name;
   while (!descriptor_.is_open()) {
-    // Network file systems lock only what is open for writing.
+    // Network file systems lock only files that are open for writing.
     Descriptor opened(
         open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, everyone_may_read_and_write));
     if (!opened.is_open() && errno == ELOOP)
       throw WrongInput("cannot write " + file.string() +
-                       ": it is a symbolic link, which holdfast does not follow");
+                       ": it is a symbolic link, which holdfast does not follow; remove the link");
     if (!opened.is_open()) refuse_to_write(file, errno);
     const int error = lock_file(opened.number());
-    if (error == EWOULDBLOCK) throw OutputError(folder.string() + " is in use by another program");
+    if (error == EWOULDBLOCK)
+      throw OutputError(folder.string() +
+                        " is in use by another program; wait until that program ends");
     const bool has_locks = error != ENOLCK && error != EOPNOTSUPP && error != ENOSYS;
     if (error != 0 && has_locks) refuse_to_write(file, error);
-    // Its last holder may have removed it.
+    // The program that had the lock before may have removed the file.
     if (has_name(opened.number(), file)) descriptor_ = std::move(opened);
   }
 }

@@ -6,23 +6,23 @@
 
 namespace holdfast::program {
 
-/// Takes the advisory lock of an open file, which the system lets go of with the file, however its
-/// process ends. Gives 0 or the system's error number: EWOULDBLOCK where another program holds it.
+/// Takes an open file's advisory lock without waiting. The system releases it with the file, even
+/// if the process is killed. Returns 0, EWOULDBLOCK if another program has it, or another error.
 int lock_file(int descriptor);
 
-/// Whether the open file still has that name, itself and not by a link.
+/// Whether `name` still is the name of the open file itself, not of a link to it.
 bool has_name(int descriptor, const std::filesystem::path& name);
 
-/// Keeps every other program of this machine from a folder while the object lives, by an advisory
-/// lock on its file `lock`, no link to one. The system lets go of the lock when the process ends,
-/// however it ends. On a file system without locks it keeps nobody away.
+/// Advisory lock of a folder against all other programs of this machine, while the object exists.
+/// The locked file is `lock` in the folder, which must not be a link. The system releases the lock
+/// when the process ends. Without effect on a file system without locks.
 class FolderLock {
  public:
-  /// The name of the file, which stays when the object goes.
+  /// Name of the locked file, which remains after the lock is released.
   static constexpr const char* file_name = "lock";
 
-  /// Throws OutputError where another program holds the folder; what refuse_to_write() throws where
-  /// the file cannot be made.
+  /// Throws OutputError if another program has locked the folder, and the exceptions of
+  /// refuse_to_write() if the lock file cannot be created.
   explicit FolderLock(const std::filesystem::path& folder);
 
  private:

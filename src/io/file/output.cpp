@@ -24,11 +24,11 @@ namespace fs = std::filesystem;
 }
 
 [[noreturn]] void refuse_to_open(const fs::path& shown, int error) {
-  if (error == EINTR) throw_if_interrupted();  // a pipe waits for its reader here
+  if (error == EINTR) throw_if_interrupted();  // here a pipe waits for its reader
   refuse_to_write(shown, error);
 }
 
-/// Where a file of that name would lie once every symbolic link is followed, dangling ones too.
+/// The path with all symbolic links followed, dangling links too.
 fs::path follow_links(fs::path path) {
   constexpr int most_links = 40;
   std::error_code error;
@@ -40,8 +40,8 @@ fs::path follow_links(fs::path path) {
   return path;
 }
 
-/// The name, of several, under which a file is written before it gets its own. The checksum stands
-/// for that one, which may itself be as long as the system admits.
+/// The temporary name, with a number, of a target. The target's own name may be as long as the
+/// system admits, so its checksum is used.
 fs::path temporary_for(const fs::path& target, unsigned number) {
   constexpr std::size_t digits = 16;
   return target.parent_path() /
@@ -49,8 +49,8 @@ fs::path temporary_for(const fs::path& target, unsigned number) {
           std::to_string(number) + ".tmp");
 }
 
-/// Removes a temporary file that no process writes any more: its lock is free. One of another user,
-/// or on a file system without locks, stays.
+/// Removes a temporary file whose lock is free, since no process writes it any more; true if
+/// removed. Files of other users, and files on a file system without locks, remain.
 bool remove_left(const fs::path& temporary) {
   struct stat status {};
   const Descriptor left(open(temporary.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
@@ -60,9 +60,8 @@ bool remove_left(const fs::path& temporary) {
          unlink(temporary.c_str()) == 0;
 }
 
-/// Opens a new file beside the target and locks it, so that other runs of the same output know it
-/// to be in use, and removes what such runs have left that were killed. None is open where none can
-/// be made, and the reason is in errno.
+/// Opens and locks a new temporary file beside the target, and removes those left by killed runs.
+/// The lock shows other runs that the file is in use. On failure no file is open and errno is set.
 Descriptor open_temporary(const fs::path& target, fs::path& file) {
   constexpr unsigned most = 1000;
   unsigned number = 0;
@@ -72,7 +71,7 @@ Descriptor open_temporary(const fs::path& target, fs::path& file) {
     remove_left(file);
     opened = Descriptor(open_new_file(file));
     if (!opened.is_open() && errno != EEXIST) return opened;
-    // Another run may have found it before it was locked.
+    // Another run may have taken the file before it was locked.
     const bool lost = opened.is_open() && (lock_file(opened.number()) == EWOULDBLOCK ||
                                            !has_name(opened.number(), file));
     if (lost) opened = Descriptor();
@@ -114,7 +113,7 @@ OutputFile::OutputFile(const std::optional<fs::path>& path) {
     shown_ = "standard output";
     return;
   }
-  if (path->empty()) throw WrongInput("cannot write to a file without a name");
+  if (path->empty()) throw WrongInput("cannot write to a file without a name: give a name");
   shown_ = *path;
   struct stat status {};
   const bool exists = stat(path->c_str(), &status) == 0;
@@ -132,7 +131,7 @@ OutputFile::OutputFile(const std::optional<fs::path>& path) {
     if (file_.is_open()) temporary_ = opened;
   }
   if (!file_.is_open()) refuse_to_open(shown_, errno);
-  // Absolute, since the handler of a second signal does not know of a change of folder.
+  // Absolute, since the signal handler does not know of a change of the working folder.
   if (is_file()) guard_ = std::make_unique<RemovedBySignal>(fs::absolute(temporary_).c_str());
 }
 
@@ -155,7 +154,8 @@ void OutputFile::write(std::string_view bytes) {
       bytes.remove_prefix(static_cast<std::size_t>(written));
       continue;
     }
-    if (errno == EPIPE) throw OutputError(shown_.string() + " was closed by its reader");
+    if (errno == EPIPE)
+      throw OutputError("cannot write all of " + shown_.string() + ": it was closed by its reader");
     if (errno != EINTR) fail(errno);
     throw_if_interrupted();
   }
@@ -164,7 +164,7 @@ void OutputFile::write(std::string_view bytes) {
 void OutputFile::finish() {
   if (!file_.is_open()) return;
   if (is_file()) lock_ = Descriptor(fcntl(file_.number(), F_DUPFD_CLOEXEC, 0));
-  // Some file systems report a lack of space only here.
+  // Some file systems report a full disk only here.
   if (close(file_.release()) != 0 && errno != EINTR) fail(errno);
 }
 
@@ -191,7 +191,7 @@ void commit_together(OutputFile& file, OutputFile& companion) {
   file.appear();
   try {
     companion.appear();
-  } catch (...) {  // a table alone would have nothing to say what made it
+  } catch (...) {  // a table without metadata would not say how it was made
     unlink(file.target().c_str());
     throw;
   }

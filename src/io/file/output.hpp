@@ -11,35 +11,34 @@
 
 namespace holdfast::program {
 
-/// Whether a result of that name is asked for as netCDF: the name ends in `.nc`.
+/// Whether the path names a netCDF file: it ends in `.nc`. False without a path.
 bool is_netcdf_name(const std::optional<std::filesystem::path>& path);
 
-/// Whether a result of that name is asked for as a Zarr store: the name ends in `.zarr`, with or
-/// without a slash behind.
+/// Whether the path names a Zarr store: it ends in `.zarr` or `.zarr/`. False without a path.
 bool is_store_name(const std::optional<std::filesystem::path>& path);
 
-/// Whether the name ends in `.svg`, `.png` or `.pdf`, which asks for a picture.
+/// Whether the path names a picture: it ends in `.svg`, `.png` or `.pdf`.
 bool is_picture_name(const std::filesystem::path& path);
 
-/// Throws WrongInput where the name ends in something that promises another format than the job's.
-/// @param drawn  the job has a picture
+/// Throws WrongInput if the name has the ending of a format that the job does not write.
+/// @param drawn  whether the job has a picture
 void require_output_name(const std::filesystem::path& path, bool drawn);
 
-/// The length of what was written, and its checksum(), CRC-64/XZ: by them a reader knows the file.
+/// Size and checksum (CRC-64/XZ) of a written file, by which a reader can verify the file.
 struct Written {
   std::uint64_t bytes = 0;
   std::uint64_t checksum = 0;
 };
 
-/// A file that appears whole or not at all, or standard output.
+/// An output file that appears complete or not at all, or standard output.
 ///
-/// Bytes go to a temporary file in the target's folder, and commit() gives it the target's name;
-/// without commit() it is removed, and what a process that was killed has left of it goes with the
-/// next one that writes the same file. Without a path, or for "-", they go to standard output, and
-/// for a device or a pipe (/dev/null) to that.
+/// Bytes go to a temporary file in the target's folder, which commit() renames to the target.
+/// Without commit() the temporary file is removed; a temporary file of a killed process is removed
+/// by the next run with the same target. Without a path or for "-", bytes go to standard output. If
+/// the target is a device or a pipe (/dev/null), bytes go directly to it.
 ///
-/// Throws WrongInput from the constructor when the path cannot be written, OutputError when a
-/// write fails, Interrupted when a signal has come.
+/// Throws WrongInput from the constructor when the path cannot be written, OutputError when a write
+/// fails, Interrupted after a signal.
 class OutputFile {
  public:
   explicit OutputFile(const std::optional<std::filesystem::path>& path);
@@ -49,24 +48,23 @@ class OutputFile {
 
   void write(std::string_view bytes);
 
-  /// Hands everything to the system and closes the file, so that commit() can fail no more for
-  /// want of space. commit() calls it where the caller did not.
+  /// Closes the file; commit() then cannot fail for lack of space. commit() calls it if need be.
   void finish();
 
-  /// Makes the file appear. For standard output: sees to it that all was written.
+  /// Makes the file appear under the target's name; closes a device or a pipe.
   void commit();
 
-  /// Bytes that write() has been given so far, of a named file.
+  /// Size and checksum of the bytes passed to write() so far; only for a named file.
   const Written& written() const { return written_; }
 
-  /// Whether a named file will appear, as opposed to standard output, a device or a pipe.
+  /// Whether commit() makes a file appear; false for standard output, a device or a pipe.
   bool is_file() const { return !temporary_.empty(); }
 
-  /// The file that gets the target's name at commit(), for a library that writes files itself
-  /// instead of write(); it must have closed the file by then. Empty unless is_file().
+  /// Path of the temporary file, for a library that writes the file itself instead of write(). The
+  /// library must have written it completely before commit(). Empty unless is_file().
   const std::filesystem::path& temporary() const { return temporary_; }
 
-  /// Where the file will appear; symbolic links are followed.
+  /// Path at which the file will appear, with symbolic links followed.
   const std::filesystem::path& target() const { return target_; }
 
  private:
@@ -74,19 +72,19 @@ class OutputFile {
   [[noreturn]] void fail(int error) const;
   void appear();
 
-  std::filesystem::path shown_;  // as the user wrote it
+  std::filesystem::path shown_;  // path as the user gave it
   std::filesystem::path target_;
   std::filesystem::path temporary_;  // empty unless the file appears by renaming
   std::unique_ptr<RemovedBySignal> guard_;
   Descriptor file_;  // none for standard output
-  Descriptor lock_;  // holds the lock of the temporary file once that is finished
+  Descriptor lock_;  // keeps the lock of the temporary file after finish()
   Written written_;
   bool committed_ = false;
 };
 
-/// Makes a named file appear and beside it the one that describes it, whatever signal comes
-/// meanwhile: both or neither. Where an older pair stands, its description goes first, so that no
-/// file ever stands beside the description of another. Throws what commit() throws.
+/// Makes a file and its companion, which describes it, appear together: both or neither, whatever
+/// signal arrives meanwhile. An older companion is removed first, so that no file is ever beside
+/// the description of another. Throws the exceptions of commit().
 void commit_together(OutputFile& file, OutputFile& companion);
 
 }  // namespace holdfast::program

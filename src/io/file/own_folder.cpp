@@ -17,7 +17,7 @@ namespace {
 
 constexpr int as_itself = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
 
-/// Status of the entry itself; its kind is no file's where there is none.
+/// Status of an entry, links not followed; all zero, the type of no file, if it does not exist.
 struct stat status_of(const Descriptor& folder, const std::string& name) {
   struct stat status {};
   if (fstatat(folder.number(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) status = {};
@@ -40,7 +40,7 @@ OwnFolder::OwnFolder(const OwnFolder& parent, const std::string& name)
     : OwnFolder(openat(parent.descriptor_.number(), name.c_str(), as_itself)) {}
 
 std::vector<std::string> OwnFolder::names() const {
-  // Reading moves the position of a descriptor: another one of the same folder.
+  // Reading the entries moves a descriptor's position, hence a second descriptor of the folder.
   Descriptor again(openat(descriptor_.number(), ".", as_itself));
   const std::unique_ptr<DIR, int (*)(DIR*)> entries(fdopendir(again.number()), &closedir);
   if (!entries) return {};
@@ -71,7 +71,7 @@ void OwnFolder::remove_empty_folder(const std::string& name) const {
 std::filesystem::path new_passing_folder(const std::string& beginning) {
   std::string name = (std::filesystem::temp_directory_path() / beginning).string() + "XXXXXX";
   if (mkdtemp(name.data()) == nullptr)
-    throw OutputError("cannot make the folder " + name + ": " + system_words(errno));
+    throw OutputError("cannot create the folder " + name + ": " + system_words(errno));
   return name;
 }
 

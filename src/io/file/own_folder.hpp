@@ -8,20 +8,20 @@
 
 namespace holdfast::program {
 
-/// A folder that the effective user owns, opened as itself and not by a link. What is removed is
-/// removed from it, wherever its name may lead meanwhile; only files are, no links, no devices, and
-/// folders only where they are empty.
+/// A folder owned by the effective user, opened directly and not through a symbolic link. Entries
+/// are removed from the opened folder, even if its path leads elsewhere meanwhile. Only regular
+/// files and empty folders are removed, no links and no devices.
 class OwnFolder {
  public:
-  /// Not open where there is no such folder, where it is a link, and where another user owns it.
+  /// Opens a folder; is_open() is false if it does not exist, is a link or belongs to another user.
   explicit OwnFolder(const std::filesystem::path& folder);
-  /// The folder of that name in another.
+  /// Opens the folder `name` inside `parent`; is_open() is false in those three cases.
   OwnFolder(const OwnFolder& parent, const std::string& name);
 
   bool is_open() const { return descriptor_.is_open(); }
   std::vector<std::string> names() const;
 
-  /// Whether the file was given the other name, in the same folder.
+  /// Renames a regular file within the folder; true if this succeeded.
   bool rename(const std::string& name, const std::string& to) const;
   void remove_file(const std::string& name, bool empty_alone = false) const;
   void remove_empty_folder(const std::string& name) const;
@@ -31,11 +31,11 @@ class OwnFolder {
   Descriptor descriptor_;
 };
 
-/// Makes a folder of that beginning in the temporary folder, of a name that nobody can foresee and
-/// into which no other user sees. Throws OutputError.
+/// Creates a folder in the temporary folder, readable by this user only, with an unpredictable name
+/// that starts with `beginning`. Returns its path. Throws OutputError.
 std::filesystem::path new_passing_folder(const std::string& beginning);
 
-/// The folders there whose names begin so.
+/// Paths in the temporary folder whose names start with `beginning`.
 std::vector<std::filesystem::path> passing_folders(const std::string& beginning);
 
 }  // namespace holdfast::program

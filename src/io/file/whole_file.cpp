@@ -32,8 +32,8 @@ bool is_number(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
 }
 
-/// Finishes a write that a signal cuts short: what comes here is ready, and a job looks for the
-/// signal between its pieces of work.
+/// Writes all bytes, continuing after a signal; jobs check for signals between their pieces of
+/// work. Returns 0 or the system's error number.
 int write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -43,7 +43,7 @@ int write_all(int descriptor, std::string_view bytes) {
   return 0;
 }
 
-/// Forces a file to the disk, where its file system can.
+/// Flushes a file to the disk; returns 0, also if its file system cannot, or an error number.
 int synchronise(int descriptor) {
   int status = 0;
   do {
@@ -52,7 +52,7 @@ int synchronise(int descriptor) {
   return status == 0 || errno == EINVAL || errno == ENOSYS ? 0 : errno;
 }
 
-/// As much as there is, up to the size of the text, which is cut to it.
+/// Reads at most `text.size()` bytes and shortens `text` to the bytes read; 0 or an error number.
 int read_all(int descriptor, std::string& text) {
   std::size_t filled = 0;
   while (filled < text.size()) {
@@ -66,7 +66,7 @@ int read_all(int descriptor, std::string& text) {
   return 0;
 }
 
-/// Reads an open file; gives 0 or the system's error number.
+/// Reads an open regular file completely; returns 0 or the system's error number.
 int read_regular(int descriptor, std::string& text) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0) return errno;
@@ -76,7 +76,7 @@ int read_regular(int descriptor, std::string& text) {
   return read_all(descriptor, text);
 }
 
-/// A pipe waits here for its writer, until a signal comes.
+/// Opens a file for reading. Opening a pipe waits for its writer, until a signal arrives.
 Descriptor open_to_read(const fs::path& file) {
   for (;;) {
     Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC));
@@ -96,15 +96,15 @@ int open_new_file(const fs::path& file) {
 int write_whole_file(const fs::path& file, std::string_view bytes) {
   fs::path temporary;
   int descriptor = -1;
-  do {  // a process that was killed may have had our number
+  do {  // a killed process with this process number may have left one
     temporary = temporary_beside(file);
     descriptor = open_new_file(temporary);
   } while (descriptor < 0 && errno == EEXIST);
   if (descriptor < 0) return errno;
   int error = write_all(descriptor, bytes);
-  // On the disk before it has its name: what counts as done shall outlast a loss of power.
+  // Flushed before it is renamed: a finished file must survive a loss of power.
   if (error == 0) error = synchronise(descriptor);
-  // Some file systems report a lack of space only here.
+  // Some file systems report a full disk only here.
   if (close(descriptor) != 0 && errno != EINTR && error == 0) error = errno;
   if (error == 0 && rename(temporary.c_str(), file.c_str()) != 0) error = errno;
   if (error != 0) unlink(temporary.c_str());
@@ -126,7 +126,7 @@ std::optional<std::string> name_behind_temporary(std::string_view name) {
 }
 
 std::optional<std::string> read_whole_file(const fs::path& file, int& error) {
-  // Without O_NONBLOCK a pipe would be waited for.
+  // O_NONBLOCK: opening a pipe does not wait for its writer.
   const Descriptor descriptor(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   std::string text;
   error = descriptor.is_open() ? read_regular(descriptor.number(), text) : errno;
@@ -135,7 +135,7 @@ std::optional<std::string> read_whole_file(const fs::path& file, int& error) {
 }
 
 std::string read_input(const fs::path& file) {
-  constexpr std::size_t largest = std::size_t{1} << 31;  // an endless device shall end
+  constexpr std::size_t largest = std::size_t{1} << 31;  // ends the reading of an endless device
   const Descriptor opened = open_to_read(file);
   std::string text;
   std::vector<char> chunk(std::size_t{1} << 16);

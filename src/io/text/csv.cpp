@@ -58,7 +58,7 @@ void CsvWriter::text_cell(double value) {
 
 void CsvWriter::text_cell(std::string_view text) {
   separate();
-  // An empty cell alone on its line would read as a blank line.
+  // An empty cell in quotes: alone on its line it would read as a blank line.
   const bool blank_line = text.empty() && width_ == 1;
   if (blank_line || needs_quotes(text)) {
     append_quoted(buffer_, text);
@@ -102,7 +102,7 @@ struct CsvRow {
   std::size_t line = 0;
 };
 
-/// The first of comma, semicolon and tab that stands outside quotes in the first line.
+/// Separator of the first line outside quotes: comma, else semicolon, else tab; default: comma.
 char separator_of(std::string_view text) {
   constexpr std::string_view known = ",;\t";
   bool quoted = false;
@@ -116,7 +116,7 @@ char separator_of(std::string_view text) {
   return known[first % known.size()];
 }
 
-/// Takes rows off the front of a CSV text, over blank lines and comments.
+/// Reader of the rows of a CSV text; skips blank lines and comments.
 class CsvScanner {
  public:
   CsvScanner(std::string_view text, const std::string& name) : text_(text), name_(name) {
@@ -128,7 +128,7 @@ class CsvScanner {
 
   char separator() const { return separator_; }
 
-  /// The names of the columns; where the first line has numbers already, of the comment before it.
+  /// Names of the columns; if the first line has numbers, taken from the comment before it.
   std::vector<std::string> header() {
     skip_idle_lines();
     const std::string_view rest = text_.substr(position_);
@@ -191,7 +191,7 @@ class CsvScanner {
     position_ = std::min(text_.find_first_not_of(' ', position_), text_.size());
   }
 
-  /// Blanks may stand about the quotes of a cell.
+  /// The next cell; blanks around its quotes are skipped.
   std::string next_cell() {
     const std::size_t begin = position_;
     skip_blanks();
@@ -231,11 +231,11 @@ class CsvScanner {
   const std::string& name_;
   std::size_t position_ = 0;
   std::size_t line_ = 1;
-  std::string_view comment_;  // the last one
+  std::string_view comment_;  // the last comment
   char separator_ = ',';
 };
 
-/// "0,5" as "0.5"; nothing where that is no number.
+/// The cell "0,5" as "0.5"; nullopt if the result is not a number.
 std::optional<std::string> with_point(std::string cell) {
   const std::size_t comma = cell.find(',');
   if (comma == std::string::npos) return std::nullopt;
@@ -244,14 +244,14 @@ std::optional<std::string> with_point(std::string cell) {
   return cell;
 }
 
-/// Whether the comma may be one of thousands, as in "1,234".
+/// Whether the comma may separate thousands, as in "1,234".
 bool may_be_grouped(std::string_view cell) {
   const std::size_t comma = cell.find(',');
   return comma >= 1 && comma <= 3 && cell.front() != '0' && cell.size() == comma + 4;
 }
 
-/// Makes points of the decimal commas in a table whose cells stand between semicolons or tabs.
-/// Throws WrongInput where they may be others.
+/// Replaces decimal commas by points in a table separated by semicolons or tabs. Throws WrongInput
+/// if the commas may separate thousands.
 void take_decimal_commas(std::vector<std::string>& cells, char separator, const std::string& file) {
   bool has_comma = false, has_point = false, is_decimal = separator == ';';
   for (std::string& cell : cells) {
@@ -274,7 +274,7 @@ bool is_blank(const std::vector<std::string>& cells) {
                      [](const std::string& cell) { return trimmed(cell).empty(); });
 }
 
-/// Says which columns they are, not what they are called: the file may be none of the user's.
+/// Gives the positions of the columns, not their names: the file may not be the user's own.
 void refuse_repeated_names(const std::vector<std::string>& names, const std::string& file) {
   std::vector<std::pair<std::string_view, std::size_t>> sorted;
   for (std::size_t i = 0; i < names.size(); ++i) sorted.emplace_back(names[i], i);
@@ -284,7 +284,7 @@ void refuse_repeated_names(const std::vector<std::string>& names, const std::str
                          [](const auto& a, const auto& b) { return a.first == b.first; });
   if (same == sorted.end()) return;
   throw WrongInput(file + ":1: the columns " + std::to_string(same->second + 1) + " and " +
-                   std::to_string(std::next(same)->second + 1) + " have the same name");
+                   std::to_string(std::next(same)->second + 1) + " have the same name; rename one");
 }
 
 }  // namespace
@@ -330,8 +330,8 @@ double CsvTable::finite(std::size_t row, const std::string& column) const {
 
 void CsvTable::require_rows(std::size_t fewest, const std::string& what) const {
   if (rows() < fewest)
-    throw WrongInput(name_ + ": " + what + " needs " + std::to_string(fewest) +
-                     " rows at least, but has " + std::to_string(rows()));
+    throw WrongInput(name_ + ": " + what + " needs at least " + std::to_string(fewest) +
+                     " rows, but has " + std::to_string(rows()));
 }
 
 std::vector<double> CsvTable::ascending(const std::string& column) const {
@@ -371,7 +371,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
   table.name_ = name;
   table.names_ = scanner.header();
   const std::size_t width = table.names_.size();
-  if (width == 0) throw WrongInput(name + ": has no header row");
+  if (width == 0) throw WrongInput(name + ": has no header row; begin with a row of column names");
   refuse_repeated_names(table.names_, name);
   for (CsvRow row = scanner.next_row(); !row.cells.empty(); row = scanner.next_row()) {
     if (width > 1 && is_blank(row.cells)) continue;

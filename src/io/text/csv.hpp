@@ -15,26 +15,26 @@
 
 namespace holdfast::program {
 
-/// The text as a cell of CSV: in quotes where RFC 4180 wants them.
+/// The text as a CSV cell, in quotes where RFC 4180 requires them or the text begins with #.
 std::string csv_cell(std::string_view text);
 
-/// Writes a table as CSV (RFC 4180: CRLF line ends, quotes where needed), the header row first.
-/// Numbers have the shortest digits that read back the same; `inf`, `-inf`, `nan`; 0 without a
-/// sign; booleans 0, 1.
+/// Writer of a table as CSV (RFC 4180: CRLF line ends, quotes where needed), the header row first.
+/// Numbers have the shortest digits that read back equal, or are `inf`, `-inf`, `nan`; zero has no
+/// sign; booleans are 0 or 1.
 ///
 ///     writer.row(0.5, 12, "spring");
-///     writer.cell(0.5); writer.cell(12); writer.end_row();   // where the width is not fixed
+///     writer.cell(0.5); writer.cell(12); writer.end_row();   // for a variable number of columns
 ///
-/// Throws std::logic_error when a row has not as many cells as there are columns, Interrupted
-/// every so many rows, and what OutputFile::write() throws.
+/// Throws std::logic_error if the number of cells in a row is not the number of columns,
+/// Interrupted (checked every 1024 rows), and the exceptions of OutputFile::write().
 class CsvWriter {
  public:
   CsvWriter(OutputFile& output, const std::vector<Column>& columns);
 
-  /// From here on cells go to these columns, of which there are as many, and none becomes text.
+  /// Redirects all further cells from text to columns in memory, as many as the table has.
   void give_to(std::vector<ReceivedColumn>& columns) { received_ = columns.data(); }
 
-  /// A number, a text or a boolean.
+  /// Appends a cell: a number, a text or a boolean.
   template <typename Value>
   void cell(const Value& value) {
     if (received_ != nullptr)
@@ -59,18 +59,18 @@ class CsvWriter {
     end_row();
   }
 
-  /// Rows that are text already, each with its cells and its line end as this class writes them.
+  /// Appends `rows` rows given as text, with cells and line ends in the format of this class.
   void rows_of_text(std::string_view text, std::uint64_t rows);
 
-  /// Hands what is still held back to the output; call before its commit().
+  /// Writes the buffered text to the output; call before commit() of the output.
   void flush();
 
   std::uint64_t rows() const { return rows_; }
-  /// How many cells of each column were no number, of those that became text here.
+  /// Number of NaN cells in each column, of the cells written as text.
   const std::vector<std::uint64_t>& nans() const { return nans_; }
 
  private:
-  /// A cell as a column in memory takes it.
+  /// A cell's value in the type of a column in memory.
   static double received_as(double value) { return value; }
   static std::string_view received_as(std::string_view text) { return text; }
   template <typename Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
@@ -104,33 +104,33 @@ class CsvWriter {
   std::size_t cells_in_row_ = 0;
   std::uint64_t rows_ = 0;
   std::string buffer_;
-  ReceivedColumn* received_ = nullptr;  // where cells are not to become text
+  ReceivedColumn* received_ = nullptr;  // in place of text, if not null
 };
 
-/// A table read from CSV: text cells, with numbers on request. What is wrong with it is told by
-/// line and column; a cell is quoted only where require() has shown that the file is what it was
-/// taken for, as whoever names a file need not be allowed to read it.
+/// A table read from CSV: text cells, converted to numbers on request. Faults are reported by line
+/// and column. The text of a cell appears in a message only after require() has succeeded: a file
+/// of other content may be one that the user must not read.
 class CsvTable {
  public:
   const std::vector<std::string>& names() const { return names_; }
   std::size_t rows() const { return lines_.size(); }
 
-  /// Throws WrongInput unless there are these columns.
+  /// Throws WrongInput unless all these columns exist.
   void require(const std::vector<std::string>& columns);
 
-  /// Throws WrongInput when there is no such column.
+  /// Text of a cell. Throws WrongInput if the column does not exist.
   const std::string& text(std::size_t row, std::string_view column) const;
-  /// Throws WrongInput with file and line for a cell that is not a number; `inf`, `nan` are.
+  /// Number in a cell, also `inf` or `nan`. Throws WrongInput, with file and line, for other text.
   double number(std::size_t row, std::string_view column) const;
   std::vector<double> numbers(std::string_view column) const;
-  /// The same; throws also for an empty cell and for a number that is not finite.
+  /// Finite number in a cell. Throws WrongInput for an empty cell or any other content.
   double finite(std::size_t row, const std::string& column) const;
-  /// A column of finite numbers, each above the one before. Throws WrongInput where one is not.
+  /// Column of finite, strictly ascending numbers. Throws WrongInput if it is not.
   std::vector<double> ascending(const std::string& column) const;
-  /// Throws WrongInput for fewer rows than `what` needs.
+  /// Throws WrongInput for fewer than `fewest` rows; `what` names the data in the message.
   void require_rows(std::size_t fewest, const std::string& what) const;
 
-  /// Fault of a row, with file and line.
+  /// Exception with file, line and message for a fault in a row.
   WrongInput fault(std::size_t row, const std::string& message) const;
 
  private:
@@ -142,17 +142,17 @@ class CsvTable {
   std::vector<std::string> names_;
   std::vector<std::string> cells_;  // row after row
   std::vector<std::size_t> lines_;
-  bool known_ = false;  // it has the columns of what it was taken for
+  bool known_ = false;  // whether require() succeeded
 };
 
-/// Reads a CSV file with a header row: LF or CRLF, quoted fields that may hold both; blank lines,
-/// lines that begin with #, and separators at the end of lines count for nothing. Columns stand
-/// between commas or, where the header has none outside quotes, between semicolons or tabs; then
-/// numbers may have decimal commas. Above numbers without a header the last comment is one.
-/// Throws WrongInput, `file:line: …`, for anything malformed, ambiguous or unreadable.
+/// Reads a CSV file with a header row, LF or CRLF line ends and quoted fields, which may contain
+/// line ends. Blank lines, lines that begin with # and separators at line ends are ignored. Columns
+/// are separated by commas or, if the header has none outside quotes, by semicolons or tabs; then
+/// numbers may have decimal commas. If the first row has numbers, the last comment before it is the
+/// header. Throws WrongInput, `file:line: …`, for malformed, ambiguous or unreadable files.
 CsvTable read_csv(const std::filesystem::path& file);
 
-/// Parses a table from a text; `name` stands for the file in messages.
+/// Parses a table from a text; messages give `name` as the file.
 CsvTable parse_csv(std::string_view text, const std::string& name);
 
 }  // namespace holdfast::program

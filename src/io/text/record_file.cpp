@@ -10,7 +10,7 @@
 namespace holdfast::program {
 namespace {
 
-/// A table over time with one column beside it.
+/// Parses a table with the columns time_s and `column`; throws WrongInput for too few rows.
 CsvTable record_of(const std::string& text, const std::string& name, const std::string& column,
                    std::size_t fewest_rows, const std::string& what) {
   CsvTable table = parse_csv(text, name);

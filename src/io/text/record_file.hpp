@@ -8,29 +8,29 @@
 
 namespace holdfast::program {
 
-/// A force on the conductor as it was recorded.
+/// A recorded force on the conductor.
 struct ForceRecord {
   std::vector<double> times;   // s, ascending
   std::vector<double> forces;  // N
 };
 
-/// A record in a CSV file: the columns `time_s` and, of a decay, `displacement_m`, of a force
-/// `force_N`, in any order and beside any others.
+/// Reads a record from a CSV file. Its columns are `time_s` and `displacement_m` for a decay,
+/// `time_s` and `force_N` for a force; their order and further columns do not matter.
 ///
-/// Throws WrongInput, with file and line where there is one: what read_csv() refuses, no such
-/// column, an empty cell, text in a number, a number that is not finite, time that does not ascend,
-/// or too few instants, eight of a decay and two of a force. A decay must start displaced.
+/// Throws WrongInput, with file and line if possible, in the cases of read_csv(), and for a missing
+/// column, an empty cell, a cell that is not a finite number, times that do not ascend, fewer than
+/// eight rows of a decay or two of a force, or a decay with an initial displacement of 0.
 DecayRecord read_decay_file(const std::filesystem::path& file);
 ForceRecord read_force_record(const std::filesystem::path& file);
 
-/// Reads a record from a text; `name` stands for the file in messages.
+/// Reads a record from a text; messages give `name` as the file.
 DecayRecord read_decay_text(const std::string& text, const std::string& name);
 ForceRecord read_force_text(const std::string& text, const std::string& name);
 
-/// The step of time (s) that nine of ten steps do not exceed; of two instants or more.
+/// The time step (s) that nine tenths of the steps do not exceed; needs at least two instants.
 double usual_step(const std::vector<double>& times);
 
-/// Words on the first gap, a step of more than three usual ones; empty where there is none.
+/// Message about the first gap, a step of more than three usual_step(); empty if there is none.
 std::string gap_text(const std::vector<double>& times);
 
 }  // namespace holdfast::program

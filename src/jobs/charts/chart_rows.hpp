@@ -17,8 +17,7 @@ namespace holdfast::program {
 /// The axes of a chart over P and D.
 std::vector<GridAxis> gain_axes(const GainGrid& grid);
 
-/// Where rows of a chart are computed, in memory of somebody else's: flags, then as many columns of
-/// numbers as the chart has.
+/// Caller's memory for the rows of a chart: stability flags, and the chart's columns of numbers.
 struct ChartMemory {
   std::size_t columns;  ///< values in a row
   std::uint8_t* first_flags;
@@ -35,37 +34,37 @@ struct ChartMemory {
 struct ChartRows {
   std::int64_t rows;
   std::int64_t columns;        ///< values in a row
-  std::size_t number_columns;  ///< beside the flags
-  /// Computes rows first … first + count − 1 into memory from its row `offset` on. Each tile of
-  /// rows has a copy of its own.
+  std::size_t number_columns;  ///< besides the flags
+  /// Computes rows first … first + count − 1 and writes them to the memory from row `offset` on.
+  /// Each tile of rows uses its own copy of this function.
   std::function<void(std::int64_t first, std::int64_t count, std::int64_t offset,
                      const ChartMemory&)>
       fill;
 };
 
-/// Computes a chart on the threads that the job was given and writes it; progress goes to standard
-/// error. A store appears chunk by chunk, and those that are there are not computed again.
+/// Computes a chart on the job's threads and writes it; shows progress on standard error. A Zarr
+/// store is written chunk by chunk; chunks already present are not computed again.
 /// Throws Interrupted, InvalidParameter, and what GridOutput and fill_store() throw.
 void write_chart(const JobContext& context, const GridLayout& layout, const ChartRows& chart);
 
-/// Computes a chart where it is wanted; progress goes to the host of the job alone. Throws
+/// Computes a chart into the caller's memory; reports progress only to the job's host. Throws
 /// Interrupted, InvalidParameter.
 void fill_chart(const ChartRows& chart, const ChartMemory& memory, int threads);
 
-// The charts; one of a case holds on to it.
+// Charts for write_chart() and fill_chart().
 
 /// Columns: stable and, with `radius`, the spectral radius of the sampled loop.
 ChartRows sampled_chart(const LoopChart& chart, bool radius, InstructionSet instructions);
 
-/// Chart over P and D of the loop of a case, whichever it is.
+/// Stability chart over P and D of a case's loop, for any plant. Columns as of sampled_chart().
 ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool radius,
                              InstructionSet instructions);
 
 /// Columns: stable and, with `abscissa`, the spectral abscissa (1/s) of the continuous loop.
 ChartRows continuous_chart(const TwoMass<double>& plant, const GainGrid& grid, bool abscissa);
 
-/// Columns: stable, amplitude (m) and its ratio to that without control; nan where unstable. On any
-/// plant of the case.
+/// Columns: stable, steady amplitude (m) of z1 and its ratio to the amplitude without control; both
+/// are NaN where the loop is unstable. For any plant of the case.
 ChartRows response_chart(const JobContext& context, const SteadyResponse<double>& response,
                          double force_amplitude, const GainGrid& grid);
 

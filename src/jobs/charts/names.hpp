@@ -7,7 +7,7 @@
 
 namespace holdfast::program {
 
-/// The curves' names in tables.
+/// Names of the boundary curves in tables.
 inline constexpr Named<BoundaryCurve> curve_names[] = {
     {BoundaryCurve::plus_one, "plus_one"},
     {BoundaryCurve::minus_one, "minus_one"},
@@ -15,7 +15,7 @@ inline constexpr Named<BoundaryCurve> curve_names[] = {
     {BoundaryCurve::zero, "zero"},
     {BoundaryCurve::imaginary_pair, "imaginary_pair"}};
 
-/// The keys of the case that stability depends on.
+/// Case keys of the parameters that stability depends on.
 inline constexpr Named<LoopParameter> parameter_keys[] = {
     {LoopParameter::proportional_gain, "control.proportional_gain"},
     {LoopParameter::differential_gain, "control.differential_gain"},
@@ -28,7 +28,7 @@ inline constexpr Named<LoopParameter> parameter_keys[] = {
     {LoopParameter::absorber_stiffness, "plant.absorber_stiffness"},
     {LoopParameter::absorber_damping, "plant.absorber_damping"}};
 
-/// The words for what is proved, in tables.
+/// Names of the results of stability proofs, in tables.
 inline constexpr Named<ProvedStability> proved_names[] = {
     {ProvedStability::stable, "stable"},
     {ProvedStability::unstable, "unstable"},

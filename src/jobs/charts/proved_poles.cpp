@@ -32,12 +32,12 @@ std::vector<EnclosedPole> proved_poles_of(const Case& the_case) {
   std::vector<EnclosedPole> poles = possible_poles_of(the_case);
   if (poles.empty())
     throw NoAnswer(
-        "two natural motions of conductor, absorber and hardware are too close to be proved "
-        "distinct: change plant.absorber_damping or absorber.position by a thousandth");
+        "two poles of the conductor with absorber, filter and drive lag are too close to be proved "
+        "distinct: change plant.absorber_damping or absorber.position by 0.1 %");
   if (!all_decay(poles))
     throw NoAnswer(
-        "it cannot be proved that every natural motion of conductor and absorber decays: give "
-        "conductor.damping_ratio a value above 0");
+        "it cannot be proved that all poles of the conductor with absorber, without control, "
+        "have a negative real part: give conductor.damping_ratio a value above 0");
   return poles;
 }
 

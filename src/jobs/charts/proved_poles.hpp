@@ -7,11 +7,11 @@
 
 namespace holdfast::program {
 
-/// The poles of a case's plant, of two masses or of a conductor by its modes, each proved to
-/// decay. Throws NoAnswer where they are not apart or one may lie on the boundary.
+/// Enclosures of the poles of a case's plant (two masses or conductor modes), each proved to decay.
+/// Throws NoAnswer where two poles cannot be separated or one may not decay.
 std::vector<EnclosedPole> proved_poles_of(const Case& the_case);
 
-/// Proved poles of a modal case; none where nothing can be proved.
+/// Enclosures of the poles as of proved_poles_of(); empty where nothing can be proved.
 std::vector<EnclosedPole> poles_if_proved(const Case& the_case);
 
 }  // namespace holdfast::program

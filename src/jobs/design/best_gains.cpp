@@ -81,8 +81,8 @@ std::string play_warning(const Case& the_case, const PdGains<double>& gains, dou
   if (left <= noticeable * ideal) return "";
   return "D = " + format_rounded(gains.differential) + " N s/m leaves " + format_rounded(ideal) +
          " of the uncontrolled vibration without play, but " + format_rounded(left) +
-         " of it with the case's play of " + format_rounded(backlash.width) + " m, computed over " +
-         format_rounded(duration) + " s";
+         " of this vibration with the case's play of " + format_rounded(backlash.width) +
+         " m, computed over " + format_rounded(duration) + " s";
 }
 
 MaxDelayOptions tuned_delay_question(const Case& the_case, double frequency) {

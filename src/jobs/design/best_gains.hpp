@@ -12,42 +12,41 @@
 
 namespace holdfast::program {
 
-/// Options of a D of least amplitude: to stay below a spectral radius, or else to have a margin,
-/// which two masses measure by the decay of their loop and a conductor by the distance of its loop
-/// from instability, whatever is between plant and computer.
+/// Options of the search for the D of least amplitude: an upper limit of the spectral radius, or
+/// else a stability margin (default `usual_margin`). The margin refers to the decay rate for two
+/// masses and to the modulus margin for a modal conductor, both with or without filter and lag.
 AmplitudeOptions amplitude_options_of(const Case& the_case,
                                       std::optional<double> largest_radius = std::nullopt,
                                       std::optional<double> margin = std::nullopt);
 
-/// The D of least steady amplitude that has the usual margin and with which a motion settles in the
-/// first half of a duration T: its spectral radius is at most e^{−10 τ/T}, so that the transient
-/// falls to e^{−5} by then.
+/// Search for the D of least steady amplitude whose motion settles within T/2, half of a duration
+/// T. The spectral radius is at most e^{−10 τ/T}, so the transient falls to e^{−5} within T/2.
 class BestGains {
  public:
   /// @param duration  T (s), > 0
   explicit BestGains(double duration) : duration_(duration) {}
 
-  /// Its D is NaN where the outcome says that there is none.
+  /// Best D of a two-mass loop; NaN where the outcome says that no D is admissible.
   const MinimumAmplitude& of(const IdealLoop<double>& loop);
-  /// Best D of the loop of a case, whichever it is; on a conductor it need not settle in that time,
-  /// for the slowest modes, which no absorber reaches, do not.
+  /// Best D of a case's loop, for any plant. On a conductor the motion need not settle within T/2,
+  /// because no absorber damps the slowest modes enough.
   MinimumAmplitude of(const Case& the_case) const;
 
  private:
   double duration_;
-  std::optional<IdealLoop<double>> known_;  // the last one asked for
+  std::optional<IdealLoop<double>> known_;  // loop of the last search
   MinimumAmplitude answer_{};
 };
 
-/// Warning of the play of a case for a gain that was chosen without it: the ratio to the
-/// uncontrolled vibration by the motions of both, of two masses; "" where the case has no play or
-/// no such gain.
-/// @param gains  N/m, N s/m
-/// @param ideal  the ratio without play
+/// Warning that the case's play leaves more vibration than gains chosen without play promise, from
+/// the motions of two masses with and without control. Empty where play adds less than 5 %, or the
+/// case has no play, no two masses or no finite gain.
+/// @param gains  P (N/m), D (N s/m)
+/// @param ideal  ratio to the uncontrolled amplitude without play
 std::string play_warning(const Case& the_case, const PdGains<double>& gains, double ideal,
                          InstructionSet set);
 
-/// The question which computer is the slowest that attenuates at a frequency (Hz), P being tuned to
-/// it by Eq. 6; its processing delay keeps the case's share of the sampling period.
+/// Options of the search for the longest sampling period that attenuates at a frequency (Hz), with
+/// P tuned to this frequency by Eq. 6. The ratio δ/τ of the case is kept.
 MaxDelayOptions tuned_delay_question(const Case& the_case, double frequency);
 }  // namespace holdfast::program

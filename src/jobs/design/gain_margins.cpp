@@ -75,8 +75,8 @@ GainMargins gain_margins(const LinearLoop& loop, const PdGains<double>& gains) {
 void warn_of_edge(double spectral_radius, double sampling_period, bool quiet) {
   if (spectral_radius > 1.0 - 1e-6 * std::min(1.0, sampling_period))
     report_warning(
-        "without a margin the D of least amplitude lies on the boundary of stability (spectral "
-        "radius 1): give --margin 0.5 to stay away from it",
+        "the D of least amplitude lies on the boundary of stability (spectral radius 1): give "
+        "--margin 0.5 to stay away from this boundary",
         quiet);
 }
 
@@ -92,7 +92,7 @@ ProvedMargins proved_margins_of(const Case& the_case, const PdGains<double>& gai
   const ProvedMargins proved = proved_margins(proved_poles_of(the_case), sampling_of(the_case),
                                               gains, found, {}, [] { throw_if_interrupted(); });
   if (proved.stability != ProvedStability::stable)
-    throw NoAnswer("the loop is too near the boundary of stability to be proved stable");
+    throw NoAnswer("the loop is too near instability to be proved stable: leave --prove out");
   if (!has_closed_forms(the_case)) correct_by_proof(found, proved, the_case, gains);
   return proved;
 }

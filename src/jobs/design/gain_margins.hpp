@@ -7,41 +7,39 @@
 
 namespace holdfast::program {
 
-/// Margin that a recommended D keeps where nothing else is asked: half the way from the boundary of
-/// stability to the D that decays fastest (`AmplitudeOptions::margin`).
+/// Default margin of a recommended D: half of the way from the stability boundary to the D of
+/// fastest decay (`AmplitudeOptions::margin`).
 inline constexpr double usual_margin = 0.5;
 
-/// The margins of a case's loop with some gains, in the units of the program's tables; NaN where
-/// the loop is not stable.
+/// Stability margins of a loop with given gains, in the tables' units; NaN where it is not stable.
 struct GainMargins {
   double spectral_radius;
-  double gain_decibels;     ///< of both gains together, upwards; infinite without an end
-  double phase_degrees;     ///< infinite where the loop's gain is 1 at no frequency
-  double delay;             ///< s, further; as far as was looked where no end was met
-  bool is_delay_of_search;  ///< the latter
+  double gain_decibels;     ///< of both gains together, dB; ∞: any increase is stable
+  double phase_degrees;     ///< ∞ where the open loop's gain is 1 at no frequency
+  double delay;             ///< s, additional to δ; or the end of the search
+  bool is_delay_of_search;  ///< whether `delay` is the end of the search
 };
 
-/// @param gains  not finite: all is NaN
+/// @param gains  P (N/m), D (N s/m); where one is not finite, all margins are NaN
 GainMargins gain_margins(const LinearLoop& loop, const PdGains<double>& gains);
 
-/// Warns of gains on the boundary of stability itself, which are none to use.
+/// Warns that gains lie on the stability boundary and have no margin.
 void warn_of_edge(double spectral_radius, double sampling_period, bool quiet);
 
-/// How far P, D, τ and δ of a case may go.
+/// Stable ranges of P, D, τ and δ around the values of a case.
 struct CaseMargins {
   StabilityMargins margins;
-  /// Whether no instability between the value and the ends of τ and δ can have been passed over:
-  /// where these are walked in steps, that is then proved if it takes no longer than a second or
-  /// so.
+  /// Whether τ and δ surely have no unstable interval within their ranges: found by formula, or by
+  /// a proof that takes about a second at most.
   bool looked_everywhere;
 };
 
-/// As far as doubles find them, looked at everywhere where that is soon done.
+/// Margins in floating point, with a quick proof that no step missed an unstable interval.
 CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains);
 
-/// Proves those margins, of a case of which it may be asked (texts/support.toml). Throws what
-/// proved_poles_of does, Interrupted, and NoAnswer where the loop is not proved to be stable.
-/// @param found  how far to look; its ends of τ and δ that the walk has passed over are put right
+/// Proves stability margins by interval arithmetic, for the cases that texts/support.toml admits.
+/// Throws what proved_poles_of throws, Interrupted, and NoAnswer if the loop is not proved stable.
+/// @param found  margins to prove; ends of τ and δ beyond a missed unstable interval are corrected
 ProvedMargins proved_margins_of(const Case& the_case, const PdGains<double>& gains,
                                 StabilityMargins& found);
 

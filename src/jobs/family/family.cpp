@@ -72,10 +72,10 @@ std::vector<Deciding> deciding_columns(const std::string& job) {
       all.push_back({text_of(row[0]), text_of(row[1]) == "largest"});
     }
   if (all.empty())
-    throw WrongInput("--family: " + job +
-                     " does not compare members; jobs of the linear loop do: holdfast "
-                     "stability, boundary --stable-interval, response, margins, max-delay and "
-                     "modal-damping");
+    throw WrongInput(
+        "--family: " + job +
+        " cannot compare the members of a family; the jobs stability, boundary "
+        "--stable-interval, response, margins, max-delay, modal-damping and aeolian can");
   return all;
 }
 
@@ -129,14 +129,17 @@ class WorstRows {
       if (const auto place = worst_.place_of(one.column))
         deciding_.emplace_back(*place, one.largest);
     if (deciding_.empty())
-      throw WrongInput("--family: this table has no column that decides which member is worst");
+      throw WrongInput(
+          "--family: this table has no column that tells which member is worst; leave "
+          "--family out");
   }
 
   void add(Rows rows, const FamilyMember& member) {
     if (rows.rows.size() != worst_.rows.size())
       throw NoAnswer("--family: member " + members_.front() + " gives " +
                      std::to_string(worst_.rows.size()) + " rows and member " + member.text() +
-                     " gives " + std::to_string(rows.rows.size()) + ": they cannot be compared");
+                     " gives " + std::to_string(rows.rows.size()) +
+                     ", so that the rows cannot be compared: give narrower ranges in [uncertain]");
     for (std::size_t k = 0; k < rows.rows.size(); ++k) {
       if (!is_worse(rows.rows[k], worst_.rows[k])) continue;
       worst_.rows[k] = std::move(rows.rows[k]);
@@ -237,8 +240,8 @@ void write_common_intervals(const JobContext& context, const std::vector<FamilyM
       else
         report_warning("the interval of the " + gain.first + " from " + format_number(lower.value) +
                            " to " + format_number(upper.value) +
-                           " has no row: the members drawn are stable there, but stability of all "
-                           "members is not proved",
+                           " is left out: the computed members are stable in it, but stability of "
+                           "all members of the family is not proved",
                        context.quiet);
     }
   }
@@ -286,8 +289,8 @@ void write_worst_of_family(const JobContext& context, int draws, bool prove,
   const std::vector<FamilyMember> members = family_members(context.case_data, draws);
   const std::vector<Deciding> deciding = deciding_columns(context.job);
   if (!prove)
-    report_warning("each row is the worst of " + std::to_string(members.size()) +
-                       " members of the family; other members are not covered",
+    report_warning("each row is the worst of the " + std::to_string(members.size()) +
+                       " members computed; other members of the family are not covered",
                    context.quiet);
   const bool intersects = deciding.front().column == "intersection";
   if (intersects) return write_common_intervals(context, members, prove, answer);

@@ -11,34 +11,33 @@
 
 namespace holdfast::program {
 
-/// A case of a family: a number for each key of [uncertain].
+/// Member of a family of cases: one value for each key of [uncertain].
 struct FamilyMember {
   std::vector<std::pair<std::string, double>> values;
 
-  /// The number of a key; NaN where the member has none.
+  /// Value of a key; NaN where the member has no such key.
   double value_of(const std::string& key) const;
-  /// The settings that make the case of it: {"stringing.tension=25e3", …}.
+  /// Settings that turn the case into this member: {"stringing.tension=25e3", …}.
   std::vector<std::string> overrides() const;
-  /// "stringing.tension=25e3;control.sampling_period=0.001".
+  /// Settings as one text: "stringing.tension=25e3;control.sampling_period=0.001".
   std::string text() const;
 };
 
-/// Members of a case's family: the middle of its box, its corners where these are few, and further
-/// ones by a Latin hypercube; of a single range, values equally far apart, both ends among them.
-/// Every call gives the same ones for the same case and number.
-/// @param draws  of them in all, at least 2
+/// Members of a case's family: the centre of the box of ranges, its corners if few, and further
+/// members by Latin-hypercube sampling. A single range gives equally spaced values with both ends.
+/// Deterministic: equal arguments give equal members.
+/// @param draws  total number of members, at least 2
 /// Throws WrongInput for a case without [uncertain], and what uncertain_ranges() throws.
 std::vector<FamilyMember> family_members(const Case& the_case, int draws);
 
-/// A job's answer about one member.
+/// Function that computes a job's table for one member.
 using MemberAnswer = std::function<ReceivedTable(const FamilyMember&)>;
 
-/// Writes a job's table over a family: of each row that of the member which is worst, and which
-/// member that is. What is worst, texts/jobs.toml says of each job; stable intervals are
-/// intersected. Says on standard error that members were drawn, and that nothing is proved between
-/// them, unless intervals are to be proved, see proved_interval().
-/// Throws WrongInput where the job has no worst, NoAnswer where members answer with other rows, and
-/// what a member's answer throws, with the member named.
+/// Writes a job's table over a family: each row is that of the worst member, whose name is added.
+/// [worst] of texts/jobs.toml defines which column decides; stable intervals are intersected. Warns
+/// that other members are not covered, unless intervals are to be proved, see proved_interval().
+/// Throws WrongInput where [worst] has no column for the job, NoAnswer where members give different
+/// numbers of rows, and what a member's answer throws, with the member named.
 void write_worst_of_family(const JobContext& context, int draws, bool prove,
                            const MemberAnswer& answer);
 

@@ -32,11 +32,13 @@ class DesignedFamily {
       : question_(question), members_(family_members(context.case_data, question.draws)) {
     for (const UncertainRange& range : uncertain_ranges(context.case_data)) {
       if (range.key == "control.proportional_gain" || range.key == "control.differential_gain")
-        throw WrongInput("uncertain." + range.key + ": design --family chooses the gains itself");
+        throw WrongInput("uncertain." + range.key +
+                         ": design --family chooses the gains itself; remove this range");
       if (range.key == question.schedule) whole_ = range;
     }
     if (!question.schedule.empty() && whole_.key.empty())
-      throw WrongInput("--schedule " + question.schedule + ": [uncertain] gives no range for it");
+      throw WrongInput("--schedule " + question.schedule +
+                       ": [uncertain] gives no range for this key; add one");
     std::stable_sort(members_.begin(), members_.end(), [this](const auto& one, const auto& other) {
       return one.value_of(whole_.key) < other.value_of(whole_.key);
     });
@@ -172,7 +174,7 @@ void write_family_gains(const JobContext& context, const FamilyDesign& question,
   for (const auto& piece : family.pieces())
     family.write(table, piece, context_with, largest_radius);
   report_warning("the gains are the best for the " + std::to_string(question.draws) +
-                     " members drawn from the family; other members may have a larger amplitude",
+                     " computed members of the family; other members may have a larger amplitude",
                  context.quiet);
   warn_of_edge(largest_radius, context.case_data.control.sampling_period, context.quiet);
   table.commit();

@@ -11,25 +11,25 @@
 
 namespace holdfast::program {
 
-/// The question which gains serve a whole family best.
+/// Options of the search for the best gains of a whole family.
 struct FamilyDesign {
-  FrequencyBand band;  ///< Hz; both ends alike: one frequency
+  FrequencyBand band;  ///< Hz; equal ends: one frequency
   std::optional<double> largest_radius, margin;
-  std::optional<double> largest_ratio;  ///< amplitude that may be left, over that without control
-  bool both_gains = false;              ///< P too, else D alone
-  bool prove = false;                   ///< that every member of the box is stable with them
-  std::string schedule;  ///< uncertain key along which the gains may change; "": one pair
+  std::optional<double> largest_ratio;  ///< upper limit of amplitude over amplitude without control
+  bool both_gains = false;              ///< whether P is searched too; else only D
+  bool prove = false;                   ///< whether stability of every member is to be proved
+  std::string schedule;  ///< uncertain key over which gains are scheduled; "": one pair
   int draws = 100;
 };
 
-/// The context of the case with some overrides, "key=value", ready to be asked.
+/// Function that gives the job context of the case with overrides, each "key=value".
 using ContextWith = std::function<JobContext(const std::vector<std::string>& overrides)>;
 
-/// Writes the gains of least worst amplitude over the members that are drawn, a row for each piece
-/// of the schedule: the fewest pieces in each of which one pair serves all. Neighbours share the
-/// members at their border.
+/// Writes the gains that minimise the largest amplitude ratio over the drawn members, one row for
+/// each piece of the schedule. The pieces are the fewest in each of which one pair of gains is
+/// admissible for all members; adjacent pieces share the member at their border.
 /// Throws WrongInput where gains are uncertain or the schedule's key is not, NoAnswer where no
-/// gains serve, and what family_proof_of() throws.
+/// gains are admissible, and what family_proof_of() throws.
 void write_family_gains(const JobContext& context, const FamilyDesign& question,
                         const ContextWith& context_with);
 

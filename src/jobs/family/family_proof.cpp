@@ -167,7 +167,8 @@ FamilyProof proof_of_string(const JobContext& context, std::size_t parts) {
   const Case& the_case = context.case_data;
   if (!std::isfinite(the_case.plant.modes))
     throw WrongInput(
-        "--family --prove on a string needs a number of modes: give, for example, --set "
+        "--family --prove with plant.model = \"string\" needs a finite number of modes: add, for "
+        "example, --set "
         "plant.modes=40");
   const TautString<double> string = string_of(the_case);
   const auto& plant = the_case.plant;
@@ -201,9 +202,9 @@ FamilyProof family_proof_of(const JobContext& context, std::size_t parts) {
       the_case.conductor.damping != "rayleigh")
     return proof_of_string(context, parts);
   throw WrongInput(
-      "--family --prove works only for two masses, or plant.model = \"string\" with one damping "
-      "ratio, without devices, under an ideal computer without filter or lag and with a delay of "
-      "at most a sampling period; --family without --prove compares members of any loop");
+      "--family --prove works only for plant.model = \"two_masses\", or \"string\" with "
+      "conductor.damping = \"ratio\"; without [[device]], under an ideal computer and drive "
+      "(docs/support.md); leave --prove out to compare members of any loop");
 }
 
 std::optional<Interval<double>> proved_interval(JobContext context, const std::string& gain,

@@ -11,28 +11,28 @@
 
 namespace holdfast::program {
 
-/// The proof about all members of a case's family.
+/// Result of a stability proof over all members of a case's family.
 struct FamilyProof {
   ProvedStability verdict;
-  double stable_share, undecided_share;  // of the box's volume
-  std::size_t parts;                     // boxes that were looked at
-  FamilyMember unstable;                 // one that is; without values: none found
+  double stable_share, undecided_share;  // shares of the box's volume
+  std::size_t parts;                     // sub-boxes examined
+  FamilyMember unstable;                 // member proved unstable; without values: none found
 };
 
-/// Proves that every member of [uncertain] is stable, or finds one that is not: of two masses, or
-/// of a taut string with plant.modes modes of one damping ratio, under an ideal computer with a
-/// delay of at most a sample. Along weather.temperature the tension is that of the change of state.
-/// On the threads of the context. Throws Interrupted, and WrongInput for another loop, and for a
-/// key that has no range there.
-/// @param parts  most boxes that are looked at
+/// Proves that every member of [uncertain] is stable, or finds an unstable one, on the context's
+/// threads. Admits two masses, or a taut string with plant.modes modes of one damping ratio, under
+/// an ideal computer with a delay of at most a sample. A range of weather.temperature is converted
+/// to tensions by the change-of-state equation. Throws Interrupted, and WrongInput for another loop
+/// or a key whose range the proof does not admit.
+/// @param parts  largest number of sub-boxes to examine
 FamilyProof family_proof_of(const JobContext& context, std::size_t parts = 4000);
 
-/// An interval of a gain in which every member of the family is proved stable: the given one but
-/// for a small share at each end, 0.002 where that can be proved, and at most 0.1. None where less
-/// is.
+/// Interval of a gain in which every member of the family is proved stable: the given interval
+/// shortened at each end by a share of its length, from 0.002 to at most 0.1; an unstable member
+/// found replaces an end. nullopt where no such interval is proved.
 /// @param gain      "proportional_gain" or "differential_gain"
-/// @param other     the value of the other gain
-/// @param interval  in which members that were drawn are stable
+/// @param other     value of the other gain
+/// @param interval  interval in which the drawn members are stable
 std::optional<Interval<double>> proved_interval(JobContext context, const std::string& gain,
                                                 double other, Interval<double> interval);
 

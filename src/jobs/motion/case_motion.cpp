@@ -79,14 +79,15 @@ namespace {
 
 void require_resolved(const SwitchCounts& counts, double time, bool quiet) {
   if (counts.accumulates) {
-    throw NoAnswer("the contact changes more than " + std::to_string(EventMotion<>::most_switches) +
+    throw NoAnswer("the drive enters or leaves its contact more than " +
+                   std::to_string(EventMotion<>::most_switches) +
                    " times within one sampling period, before t = " + format_number(time) +
-                   " s: the motion cannot be followed further");
+                   " s: the motion cannot be computed beyond this time");
   }
   if (counts.grazing > 0)
     report_warning(std::to_string(counts.grazing) +
-                       " change(s) of contact are decided by rounding: Delta z or its velocity "
-                       "just touches the value at which the contact changes",
+                       " change(s) of contact depend on rounding errors, since z2 - z1 or v2 - v1 "
+                       "only touches its switching threshold; compare a slightly changed case",
                    quiet);
 }
 

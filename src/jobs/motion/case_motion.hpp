@@ -13,15 +13,15 @@
 
 namespace holdfast::program {
 
-/// The motion of a case from its initial state, by whichever of the library's motions follows it.
-/// Its states are [z1, v1, z2, v2], of conductor and absorber at their place. It is a motion as
-/// is_motion_v has it; the library's own are compiled once, behind it.
+/// Motion of a case from its initial state, by the library's motion class for its loop. States are
+/// [z1, v1, z2, v2] of conductor and absorber at the absorber's position. Satisfies is_motion_v; as
+/// a wrapper it compiles the library's motion templates only once.
 class CaseMotion {
  public:
   using State = Vector<double, 4>;  ///< [z1, v1, z2, v2] (m, m/s, m, m/s)
 
   explicit CaseMotion(const MovingLoop& moving);
-  /// Throws WrongInput, NoAnswer or InvalidParameter where there is no such motion.
+  /// Throws WrongInput, NoAnswer or InvalidParameter where the case has no motion of this choice.
   CaseMotion(const Case& the_case, const MotionChoice& choice);
 
   EventSample sense();
@@ -33,7 +33,7 @@ class CaseMotion {
   State state() const;
   PortReadings<TwoMass<double>> readings() const { return {}; }
 
-  /// Contact changes that it has met with; none where the contact changes at samples alone.
+  /// Contact changes so far; all 0 where the contact changes only at samples.
   const SwitchCounts& counts() const;
 
  private:
@@ -42,11 +42,11 @@ class CaseMotion {
       motion_;
 };
 
-/// Where a motion has come to.
+/// Time, size and contact changes at the end of a motion.
 struct ReachedState {
   double time;          ///< s
-  double size;          ///< the largest number of its state, m and m/s
-  SwitchCounts counts;  ///< what it has met with
+  double size;          ///< largest |component| of the state, m and m/s
+  SwitchCounts counts;  ///< contact changes of the motion
 };
 
 /// @tparam Motion  CaseMotion or an EventMotion
@@ -55,10 +55,10 @@ ReachedState end_of(const Motion& motion) {
   return {motion.time(), motion.state().cwiseAbs().maxCoeff(), motion.counts()};
 }
 
-/// At the end of a motion: throws NoAnswer where its changes of contact accumulate, so that it is
-/// not to be trusted; warns where rounding decided some of them, and where the motion diverges, as
-/// one within the range of numbers may too.
-/// @param kick  displacement on its way, m
+/// Reports doubts about a finished motion: throws NoAnswer where contact changes accumulate, so
+/// that the motion is unreliable. Warns where rounding decided contact changes, and where the
+/// motion diverges, even without overflow.
+/// @param kick  displacement imposed during the motion, m
 void tell_of_end(const JobContext& context, const ReachedState& end, bool controlled = true,
                  double kick = 0.0);
 

@@ -20,38 +20,36 @@ namespace holdfast::program {
 /// cannot be told apart.
 MovingLoop cell_motion(const Case& the_case, Switching switching, double duration);
 
-/// The metrics of each motion; those of the paper's model side by side, on the packs of the
-/// instruction set. A motion that passes the divergence_bound() of its loop has diverged. Throws
-/// Interrupted.
+/// Metrics of each motion; those of the paper's model are computed in SIMD lanes of the instruction
+/// set. A motion beyond its loop's divergence_bound() counts as diverged. Throws Interrupted.
 std::vector<MotionMetrics> metrics_of(const std::vector<MovingLoop>& motions, double duration,
                                       InstructionSet set);
 
-/// The metrics of a motion that is known to diverge beyond the samples that were taken of it.
+/// Metrics of a diverging motion, where the computed samples do not show the divergence.
 MotionMetrics diverging(const MotionMetrics& metrics);
 
-/// The exponents of a motion and where it ended: of one from sample to sample the time alone.
+/// Lyapunov exponents of a motion and its end; switching only at samples, only the end's time.
 struct ExponentsOfMotion {
   LyapunovResult result;
   ReachedState end;
 };
 
-/// The exponents of any moving loop; throws Interrupted.
-/// @param tangents  sampling of the loop whose S and S* are the tangents of sampled masses; else
-///                  that of the motion
+/// Lyapunov exponents of any moving loop; throws Interrupted.
+/// @param tangents  sampling whose matrices S and S* are the tangent maps of two masses switching
+///                  at samples; nullopt: the sampling of the motion
 ExponentsOfMotion exponents_of(const MovingLoop& motion, const LyapunovRun& run,
                                const std::optional<Sampling<double>>& tangents = {});
 
-/// The run of the largest exponent alone over so many samples; nothing where the motion diverges or
-/// the samples are none.
+/// Largest Lyapunov exponent; nullopt where the motion diverges or `samples` is below 1.
 std::optional<LyapunovResult> run_largest_exponent(const MovingLoop& motion, std::int64_t samples);
 
-/// Per sample, over the whole duration; NaN where the motion diverges or is a single sample.
+/// Largest Lyapunov exponent per sample over a duration (s); NaN for divergence or a single sample.
 double largest_exponent_of(const MovingLoop& motion, double duration);
 
-/// Samples of the certified orbit; 0 where none is found.
+/// Period of the certified orbit, in samples; 0 where none is found.
 std::int64_t period_of(const MovingLoop& motion, const OrbitLimits& limits);
 
-/// The verdict and the period of its certified orbit.
+/// Verdict on a motion and the period of its certified orbit.
 struct CellVerdict {
   AttractorType kind;
   std::int64_t period;  ///< samples; 0: none

@@ -48,8 +48,9 @@ Eigen::VectorXd bent_to(const CableElements& cable, double z1) {
     force = next;
     start = cable.held_by(force);
   }
-  throw NoAnswer("no static equilibrium of the cable was found with the absorber's place at " +
-                 format_number(z1) + " m: give a smaller initial.z1");
+  throw NoAnswer(
+      "no static equilibrium of the cable was found with the absorber's place displaced by " +
+      format_number(z1) + " m: give a smaller initial.z1");
 }
 
 Eigen::VectorXd start_of(const Case& the_case, const CableElements& cable) {
@@ -63,7 +64,7 @@ Eigen::VectorXd start_of(const Case& the_case, const CableElements& cable) {
 void require_of_elements(const Case& the_case) {
   if (the_case.conductor.damping == "ratio")
     throw WrongInput(
-        "--plant elements needs Rayleigh's damping: set conductor.damping = \"rayleigh\"");
+        "--plant elements needs Rayleigh damping: set conductor.damping = \"rayleigh\"");
 }
 
 /// Throws where the motion has ended.
@@ -74,7 +75,7 @@ void require_cable(const cvode::ElementsMotion& motion) {
                    " s and the model ends there: the loop is unstable or the force too large; "
                    "give a shorter --duration to see the growth");
   throw NoAnswer("the integrator CVODE failed at t = " + format_number(motion.time()) +
-                 " s: " + one_line(motion.words()));
+                 " s: " + one_line(motion.words()) + "; a shorter --duration ends before");
 }
 
 }  // namespace

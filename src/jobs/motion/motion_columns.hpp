@@ -8,8 +8,8 @@
 
 namespace holdfast::program {
 
-/// The columns of a motion at its samples: those of `simulate` and of an orbit's trace. Where the
-/// contact may change between the samples its mode is told too.
+/// Columns of a motion at its samples, for `simulate` and `orbit --trace`. With exact switching a
+/// column for the contact mode is added.
 inline std::vector<Column> motion_columns(Switching switching = Switching::sampled) {
   return columns_of(switching == Switching::exact ? "motion between samples" : "motion");
 }

@@ -65,10 +65,11 @@ std::string trust_warning(const TrustedDigits& trusted) {
   if (!is_worth_telling(trusted)) return "";
   const std::string few =
       std::string("fewer than six digits that ") +
-      (trusted.by_rounding ? "another rounding" : "the next wider number type") + " confirms";
+      (trusted.by_rounding ? "a run with other rounding errors" : "a run in extended precision") +
+      " confirms";
   if (trusted.until)
     return "after t = " + format_number(*trusted.until) + " s the result has " + few +
-           ": rounding decides it" + rate_text(trusted) + " (trusted_digits in the metadata)";
+           ": rounding errors dominate" + rate_text(trusted) + " (trusted_digits in the metadata)";
   return (trusted.least.empty() ? "the result" : trusted.least) + " has " + few +
          " (trusted_digits in the metadata)";
 }

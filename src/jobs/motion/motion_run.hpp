@@ -11,9 +11,8 @@
 
 namespace holdfast::program {
 
-/// Looks now and then whether the user or the system asks the program to stop, and if so ends a
-/// motion by throwing Interrupted.
-/// @param sample  number of the sample that the motion has reached
+/// Throws Interrupted if the user or the system has asked to stop; checks this every 2¹⁴th sample.
+/// @param sample  index of the current sample
 inline void look_for_interrupt(std::int64_t sample) {
   constexpr std::int64_t samples_between_looks = 1 << 14;
   if (sample % samples_between_looks == 0) throw_if_interrupted();
@@ -25,14 +24,13 @@ inline void look_for_interrupt(std::int64_t sample) {
                  " s; give a shorter --duration to see how it grows");
 }
 
-/// Throws NoAnswer when the motion diverged, saying when.
+/// Throws NoAnswer with the time (s) where the outcome is a diverged motion.
 inline void require_completed(TrajectoryOutcome outcome, double time) {
   if (outcome == TrajectoryOutcome::diverged) refuse_diverging(time);
 }
 
-/// Runs `samples` samples of a motion past the observers, as `run_trajectory` does, to the last
-/// one. Ends early only by an exception: when the program is asked to stop, or NoAnswer when the
-/// motion diverges.
+/// Runs a motion over `samples` samples and shows each to the observers, as `run_trajectory` does.
+/// Throws Interrupted when the program is asked to stop, NoAnswer when the motion diverges.
 template <class Motion, class... Observers>
 void run_to_completion(Motion& motion, std::int64_t samples, const std::optional<Kick>& kick,
                        Observers&&... observers) {

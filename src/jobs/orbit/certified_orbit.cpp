@@ -30,10 +30,10 @@ constexpr Named<OrbitOutcome> reasons[] = {{OrbitOutcome::incommensurate, "incom
                                            {OrbitOutcome::none_found, "none found"},
                                            {OrbitOutcome::neutral, "neutral"}};
 
-/// Why there is no certificate, as a sentence without its end.
-/// @param found   of either model
-/// @param cycles  f τ, of the excitation in a sample
-/// @param ratio   the same as a fraction, where it is one
+/// Reason why there is no certificate, as a sentence without its end.
+/// @param found   search result of either model
+/// @param cycles  f τ, periods of the excitation per sample
+/// @param ratio   f τ as a fraction, if it is one
 template <class Result>
 std::string reason_for(const Result& found, double cycles, const std::optional<Rational>& ratio,
                        std::int64_t largest_period) {
@@ -49,7 +49,7 @@ std::string reason_for(const Result& found, double cycles, const std::optional<R
        {"longest", std::to_string(largest_period)}});
 }
 
-/// The certified orbit that a motion comes to, and how it was found.
+/// Certified orbit of a motion, with the result of its search.
 template <class Moving>
 auto certified_result(const JobContext& context, const Moving& moving,
                       std::int64_t largest_period) {
@@ -64,13 +64,13 @@ auto certified_result(const JobContext& context, const Moving& moving,
   return found;
 }
 
-/// The ten largest of the multipliers of a plant of any order.
+/// Keeps the ten largest multipliers of a plant of any order.
 void keep_largest(std::vector<Multiplier>& multipliers) {
   constexpr std::size_t most = 10;
   if (multipliers.size() > most) multipliers.resize(most);
 }
 
-/// An orbit of all states, as it is seen at the absorber's place.
+/// Orbit in all states of the plant, reduced to the states at the absorber's position.
 template <class Readings>
 EventOrbit as_seen(const EventOrbitOf<Eigen::Dynamic>& orbit, const Readings& readings) {
   EventOrbit seen{};

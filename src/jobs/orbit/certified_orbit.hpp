@@ -12,7 +12,7 @@
 
 namespace holdfast::program {
 
-/// The search for the periodic orbit that a motion comes to.
+/// Searches for the periodic orbit to which a loop's motion converges.
 template <class Moving>
 auto orbit_of(const Moving& moving, const OrbitLimits& limits) {
   if constexpr (Moving::by_events)
@@ -21,11 +21,10 @@ auto orbit_of(const Moving& moving, const OrbitLimits& limits) {
     return find_periodic_orbit(moving.loop, moving.state, limits);
 }
 
-/// The periodic orbit that a loop's motion comes to; on a conductor by its modes with the ten
-/// largest of its multipliers, and in the model that switches between the samples as conductor and
-/// absorber show it. Warns where a switching surface is near. Throws NoAnswer, saying why, where
-/// there is none, or none with a certificate.
-/// @param largest_period  samples
+/// Certified periodic orbit to which a loop's motion converges. Of a modal conductor it has the ten
+/// largest multipliers and, with exact switching, the states of conductor and absorber. Warns where
+/// a switching surface is near; throws NoAnswer, with the reason, where none is found.
+/// @param largest_period  longest period searched, samples
 PeriodicOrbit certified_orbit(const JobContext& context, const SampledMasses& moving,
                               std::int64_t largest_period);
 EventOrbit certified_orbit(const JobContext& context, const BuiltMasses& moving,
@@ -35,18 +34,19 @@ PeriodicOrbit certified_orbit(const JobContext& context, const SampledModes& mov
 EventOrbit certified_orbit(const JobContext& context, const BuiltPlant& moving,
                            std::int64_t largest_period);
 
-/// The certified orbit and where it begins, in the model that switches between the samples.
+/// Certified orbit of two masses with exact switching, and its start.
 EventOrbitResult<DriveContact<>> certified_event_orbit(const JobContext& context,
                                                        const BuiltMasses& moving,
                                                        std::int64_t largest_period);
 
-/// How far from the orbit every motion is sure to come to it.
+/// Radii of capture: every motion within this distance of the orbit converges to it.
 struct CaptureRadii {
-  double smallest;  ///< m, 0 where none was found; ∞ without backlash
-  double largest;   ///< m
+  double smallest;  ///< along the orbit, m; 0: none found; ∞: no backlash
+  double largest;   ///< along the orbit, m
 };
 
-/// Radii on a conductor by its modes: of a ball of all deviations, and of the ellipsoid around it.
+/// Radii for a modal conductor: `smallest` of a ball in all states, `largest` of the ellipsoid
+/// around that ball.
 CaptureRadii capture_radii_of(const ModalLoop& loop, const PeriodicOrbit& orbit);
 
 /// Certificate of an orbit.

@@ -45,7 +45,7 @@ bool moves_the_coincidence(const std::string& key) {
 
 std::vector<FollowedKey> map_keys(const Case& the_case, const std::vector<std::string>& axes) {
   if (axes.size() != 2)
-    throw WrongInput("--map: a map needs two keys, not " + std::to_string(axes.size()) +
+    throw WrongInput("--map: give two keys, not " + std::to_string(axes.size()) +
                      ", for example --map backlash.width=0.0005:0.002 --map "
                      "control.differential_gain=-20:0");
   std::vector<FollowedKey> keys{followed_key(the_case, "--map", axes[0]),
@@ -53,17 +53,18 @@ std::vector<FollowedKey> map_keys(const Case& the_case, const std::vector<std::s
   if (keys[0].name == keys[1].name) throw WrongInput("--map: both keys are " + keys[0].name);
   if (moves_the_coincidence(keys[0].name) && moves_the_coincidence(keys[1].name))
     throw WrongInput(
-        "--map: control.sampling_period and excitation.frequency together change the ratio of "
-        "sampling and excitation period, so that the orbit cannot be followed over both");
+        "--map: control.sampling_period and excitation.frequency cannot both be keys, since their "
+        "product stays constant on the map: give another key for one of them");
   for (const FollowedKey& key : keys)
     if (moves_the_coincidence(key.name) && !the_case.excitation.harmonics.empty())
-      throw WrongInput("--map " + key.name +
-                       ": the orbit cannot be followed, since the forces of excitation.harmonics "
-                       "would change their phases at the samples: remove them or map another key");
+      throw WrongInput(
+          "--map " + key.name +
+          ": the orbit cannot be followed, since the phases of excitation.harmonics at "
+          "the samples would change: remove excitation.harmonics or give another key");
   return keys;
 }
 
-/// The case at a point of the map. f τ and δ/τ stay, and a tuned gain too.
+/// Case at a point of the map; f τ, δ/τ and the tuning of P are kept.
 class CaseOfMap {
  public:
   CaseOfMap(const Case& the_case, const std::vector<FollowedKey>& keys)
@@ -106,7 +107,7 @@ std::string meeting_of(const MotionBorder& one, const MotionBorder& other) {
   return a < b ? a + "+" + b : b + "+" + a;
 }
 
-/// The border begun where a piece begins, without the last point, which repeats the first one.
+/// Border that begins at the start of a piece, without the last point, a copy of the first.
 std::vector<MotionBorderPoint> from_a_corner(const MotionRegion& region) {
   std::vector<MotionBorderPoint> points = region.border;
   if (!region.closed || points.size() < 3) return points;
@@ -118,7 +119,7 @@ std::vector<MotionBorderPoint> from_a_corner(const MotionRegion& region) {
   return points;
 }
 
-/// Steps that only look for a corner are left out.
+/// Whether a point is shown: short steps of the search for a corner are not.
 bool is_shown(const std::vector<MotionBorderPoint>& points, std::size_t k,
               const ParameterWindow& window, const MotionBorderPoint& last) {
   const bool begins = k == 0 || !(points[k].border == points[k - 1].border);
@@ -154,10 +155,11 @@ void write_region(const JobContext& context, const std::vector<FollowedKey>& key
   }
   table.commit();
   if (!region.closed)
-    report_warning("the border could not be followed beyond the last row", context.quiet);
+    report_warning("the border is incomplete: it could not be followed beyond the last row",
+                   context.quiet);
 }
 
-/// Follows the border of the motion of a loop, `moving_at(case)` being the one at a point.
+/// Follows the border of the motion of a loop; `moving_at(case)` gives the motion at a point.
 template <class MovingAt>
 void write_borders_of(const JobContext& context, const std::vector<FollowedKey>& keys,
                       std::int64_t largest_period, const MovingAt& moving_at) {
@@ -191,12 +193,13 @@ FollowedKey followed_key(const Case& the_case, const std::string& option, const 
   if (!moves_the_orbit(key) && !moves_the_coincidence(key))
     throw WrongInput(
         option + " " + key +
-        ": expected control.proportional_gain, differential_gain or processing_delay, a key "
-        "of [plant], backlash.width or excitation.amplitude");
+        ": expected control.proportional_gain, control.differential_gain, "
+        "control.processing_delay, a key of [plant], backlash.width or excitation.amplitude; with "
+        "--map also control.sampling_period or excitation.frequency");
   require_admissible(option + " " + text, key, range.min, range.max);
   if (!(range.min <= value && value <= range.max))
     throw WrongInput(option + " " + text + ": the case's " + key + " = " + format_number(value) +
-                     " must lie in the range");
+                     " must lie between MIN and MAX");
   if (key == "backlash.width" && value == 0.0)
     throw WrongInput(option +
                      " backlash.width: an orbit without backlash cannot be followed to one with "

@@ -14,22 +14,22 @@ namespace holdfast::program {
 struct FollowedKey {
   std::string name;
   Range range;
-  double value;  ///< of the case
+  double value;  ///< in the case
 };
 
-/// The key that an option (`--follow`, `--map`) asks for. Throws WrongInput, naming option, key and
-/// range, where the orbit cannot be followed along it; on a map keys that move the coincidence of
-/// sampling and excitation go too.
+/// Key, range and case value of an option (`--follow` or `--map`). Throws WrongInput, naming
+/// option, key and range, where the orbit cannot be followed along the key. `--map` also admits
+/// control.sampling_period and excitation.frequency.
 /// @param text  KEY=MIN:MAX
 FollowedKey followed_key(const Case& the_case, const std::string& option, const std::string& text);
 
-/// Writes the border of the region of two keys in which the case's periodic motion is and attracts,
-/// in pieces, each named by what ends the motion there. With the sampling period or the frequency
-/// of the excitation as a key f τ stays as it is.
-/// Throws WrongInput where the keys or their ranges cannot be followed, NoAnswer where the motion
-/// has no certified orbit.
-/// @param axes            KEY=MIN:MAX, two
-/// @param largest_period  of the orbit, samples
+/// Writes the border of the region, in the plane of two keys, in which the case's periodic motion
+/// exists and attracts. Each piece of the border is named by the event that ends the motion. If a
+/// key is the sampling period τ or the excitation frequency f, the other changes so that f τ stays.
+/// Throws WrongInput where the motion cannot be followed along the keys, NoAnswer where it has no
+/// certified orbit.
+/// @param axes            two texts KEY=MIN:MAX
+/// @param largest_period  longest period of the orbit, samples
 void write_motion_borders(const JobContext& context, const std::vector<std::string>& axes,
                           std::int64_t largest_period, Switching switching);
 

@@ -29,7 +29,7 @@ constexpr Named<MotionOrigin> origin_names[] = {{MotionOrigin::start, "start"},
                                                 {MotionOrigin::continued, "continued"},
                                                 {MotionOrigin::neighbour, "neighbour"}};
 
-/// Two keys over their values.
+/// Grid over two keys.
 struct MapGrid {
   KeyAxis slow, fast;
 
@@ -53,7 +53,7 @@ KeyAxis map_axis(const Case& the_case, const std::string& text) {
 
 MapGrid map_grid(const Case& the_case, const std::vector<std::string>& axes) {
   if (axes.size() != 2)
-    throw WrongInput("--map: a map needs two keys, not " + std::to_string(axes.size()) +
+    throw WrongInput("--map: give two keys, not " + std::to_string(axes.size()) +
                      ", for example --map backlash.width=0.0005:0.002:31 --map "
                      "control.sampling_period=0.001:0.012:12");
   MapGrid grid{map_axis(the_case, axes[0]), map_axis(the_case, axes[1])};
@@ -66,7 +66,7 @@ MapGrid map_grid(const Case& the_case, const std::vector<std::string>& axes) {
   return grid;
 }
 
-/// The case of a cell; nothing where it is no admissible one.
+/// Case of a cell; nullopt where it is not admissible.
 std::optional<Case> case_of_cell(const Case& the_case, const MapGrid& grid, std::size_t cell) {
   Case there = the_case;
   set_case_value(there, grid.slow.key, grid.slow_at(cell));
@@ -91,7 +91,7 @@ std::vector<MapCell> cells_by(const JobContext& context, const MapGrid& grid,
                     options);
 }
 
-/// Whether every cell is one of the paper's model: the ends of the axes tell.
+/// Whether every cell follows the paper's model, judged by the ends of the axes.
 bool all_of_the_paper(const Case& the_case, const MapGrid& grid, Switching switching) {
   const std::size_t last = grid.shape().cells() - 1, across = grid.shape().columns - 1;
   for (const std::size_t cell : {std::size_t{0}, across, last - across, last}) {
@@ -101,7 +101,7 @@ bool all_of_the_paper(const Case& the_case, const MapGrid& grid, Switching switc
   return true;
 }
 
-/// The number of the outcome among the words of the column.
+/// Index of the outcome in the words of the column.
 double outcome_number(const MapCell& cell) {
   constexpr std::array<OrbitOutcome, 8> order = {
       OrbitOutcome::certified,      OrbitOutcome::approaching,    OrbitOutcome::on_surface,
@@ -110,7 +110,7 @@ double outcome_number(const MapCell& cell) {
   return static_cast<double>(std::find(order.begin(), order.end(), cell.outcome) - order.begin());
 }
 
-/// The least and the most of a number over the motions of a cell.
+/// Smallest and largest value of a number over the motions of a cell.
 template <class Number>
 std::pair<double, double> extremes(const MapCell& cell, const Number& number) {
   if (cell.motions.empty()) {

@@ -10,17 +10,17 @@
 
 namespace holdfast::program {
 
-/// Question to a map.
+/// Options of a map of periodic motions over two keys.
 struct MotionCellsQuestion {
-  std::vector<std::string> axes;  ///< KEY=MIN:MAX:COUNT, two
-  std::int64_t largest_period;    ///< of a motion, samples
+  std::vector<std::string> axes;  ///< two texts KEY=MIN:MAX:COUNT
+  std::int64_t largest_period;    ///< longest period, samples
   Switching switching;
-  bool each_motion;                                 ///< a row for each motion of each cell
-  std::vector<Vector<double, 4>> more_starts = {};  ///< beside the case's initial state
+  bool each_motion;                                 ///< one row per motion, not per cell
+  std::vector<Vector<double, 4>> more_starts = {};  ///< further initial states
 };
 
-/// Writes the periodic motions of a case of two masses in the cells of a plane of two keys: what
-/// the case's initial state comes to, and how many coexist.
+/// Writes the periodic motions of a two-mass case in each cell of a grid over two keys: the motion
+/// from the case's initial state, and the number of coexisting motions.
 /// Throws WrongInput where the keys or their ranges are not admissible.
 void write_motion_cells(const JobContext& context, const MotionCellsQuestion& question);
 

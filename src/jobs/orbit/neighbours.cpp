@@ -12,8 +12,8 @@
 namespace holdfast::program {
 namespace {
 
-/// Steps of one common period by which an orbit is ahead of its own first sample at some state:
-/// where it comes nearest.
+/// Time shift of a state relative to the orbit's first sample, in steps of the common period, by
+/// the nearest point of the orbit.
 std::size_t nearest_stroboscopic_instant(const PeriodicOrbit& orbit,
                                          const Vector<double, 4>& state) {
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
@@ -38,7 +38,7 @@ SettledMotion settled(const IdealLoop<double>& loop, const Vector<double, 4>& st
 std::string meeting_text(const IdealLoop<double>& loop, const SettledMotion& reference,
                          const SettledMotion& other) {
   const PeriodicOrbit *first = reference.orbit(), *second = other.orbit();
-  if (first == nullptr || second == nullptr) return "unknown: no two certified orbits";
+  if (first == nullptr || second == nullptr) return "unknown: an orbit is not certified";
   if (!is_phase_shifted_copy(*first, *second)) return "different orbits";
   const std::int64_t period = first->period_samples();
   // Long enough for either motion to be far nearer to its own phase than to the next one.
@@ -55,7 +55,7 @@ std::string meeting_text(const IdealLoop<double>& loop, const SettledMotion& ref
   const auto copies = first->states.size() / static_cast<std::size_t>(first->ratio.denominator);
   const std::size_t later = (phase(reference) + copies - phase(other)) % copies;
   if (later == 0) return "meet: the same orbit in the same phase";
-  return "stay apart: copies shifted by " + std::to_string(later) +
+  return "stay apart: the same orbit, shifted in time by " + std::to_string(later) +
          (later == 1 ? " coincidence" : " coincidences") + ", of " + std::to_string(copies);
 }
 
@@ -73,8 +73,7 @@ std::string apart_text(const IdealLoop<double>& loop, const Vector<double, 4>& r
            std::to_string(second->period_samples());
   const std::string meeting = meeting_text(loop, one, two);
   const std::string orbit = "both motions settle on one certified orbit of " + period;
-  if (meeting.rfind("meet", 0) != 0)
-    return orbit + ", but to copies shifted in time, and " + meeting;
+  if (meeting.rfind("meet", 0) != 0) return orbit + ", but in different phases, and " + meeting;
   return orbit + " in the same phase, so they will meet: the orbit's largest multiplier is " +
          format_rounded(first->largest_multiplier()) + " per period";
 }

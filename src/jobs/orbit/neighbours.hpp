@@ -8,7 +8,7 @@
 
 namespace holdfast::program {
 
-/// A motion and the orbit that it was found to come to.
+/// Motion and the result of the search for its periodic orbit.
 struct SettledMotion {
   Vector<double, 4> initial_state;
   OrbitResult search;
@@ -18,12 +18,12 @@ struct SettledMotion {
   }
 };
 
-/// How two motions of one loop end beside one another, by their certified orbits: at different
-/// ones, or at one orbit in the same or in another phase; in the words of the page.
+/// Text that compares the final motions of two initial states of one loop by their certified
+/// orbits: different orbits, or the same orbit in the same or in a shifted phase.
 std::string meeting_text(const IdealLoop<double>& loop, const SettledMotion& reference,
                          const SettledMotion& other);
 
-/// Why two motions of a loop are still apart, as far as their certified orbits tell.
+/// Reason why two motions of a loop stay apart, from their certified orbits, as a text.
 std::string apart_text(const IdealLoop<double>& loop, const Vector<double, 4>& reference,
                        const Vector<double, 4>& other);
 

@@ -58,7 +58,7 @@ std::vector<ProvedOrbitRange> proved_orbit_along(const Case& the_case, const Per
                                                  const std::string& key, const Range& range) {
   if (key.rfind("plant.", 0) == 0 || key == "control.processing_delay")
     throw WrongInput("--prove --follow " + key +
-                     ": --prove needs a key that acts linearly: control.proportional_gain, "
+                     ": with --prove the key must be control.proportional_gain, "
                      "control.differential_gain, excitation.amplitude or backlash.width");
   const auto family = [&](double value) {
     throw_if_interrupted();

@@ -16,13 +16,13 @@
 
 namespace holdfast::program {
 
-/// Switching surfaces, in tables and messages.
+/// Names of the switching surfaces, in tables and messages.
 inline constexpr Named<SwitchingSurface> surface_names[] = {
     {SwitchingSurface::reversal, "reversal"},
     {SwitchingSurface::gap_lower, "gap_lower"},
     {SwitchingSurface::gap_upper, "gap_upper"}};
 
-/// Switching surfaces of a drive that switches between the samples.
+/// Names of the switching surfaces of a drive that switches between samples.
 inline constexpr Named<ContactSurface> contact_surface_names[] = {
     {ContactSurface::reversal, "reversal"},
     {ContactSurface::gap_lower, "gap_lower"},
@@ -31,7 +31,7 @@ inline constexpr Named<ContactSurface> contact_surface_names[] = {
     {ContactSurface::driven_acceleration, "driven_acceleration"},
     {ContactSurface::sampling_instant, "sampling_instant"}};
 
-/// Outcomes of proofs, in tables.
+/// Names of the outcomes of orbit proofs, in tables.
 inline constexpr Named<OrbitProofOutcome> orbit_proof_names[] = {
     {OrbitProofOutcome::proved, "proved"},
     {OrbitProofOutcome::not_contracting, "not_contracting"},
@@ -40,18 +40,18 @@ inline constexpr Named<OrbitProofOutcome> orbit_proof_names[] = {
     {OrbitProofOutcome::near_surface, "near_surface"},
     {OrbitProofOutcome::no_ball, "no_ball"}};
 
-/// The proof of a case's orbit. Throws NoAnswer, saying what could not be decided and by how much.
+/// Proof of a case's orbit by interval arithmetic. Throws NoAnswer with the undecided condition.
 OrbitProof proved_orbit_of(const Case& the_case, const PeriodicOrbit& orbit);
 
-/// The proof of an orbit of a drive that switches between the samples.
+/// Proof of an orbit whose drive switches between samples. Throws NoAnswer if it fails.
 EventOrbitProof proved_orbit_of(const IdealLoop<double>& loop,
                                 const EventOrbitResult<DriveContact<>>& found);
 
-/// The unit of what a test is about: of Δz, Δż or an acceleration, or of a derivative by time.
+/// Unit of the quantity of a contact test: Δz, Δż, an acceleration, or a higher time derivative.
 std::string unit_of(const ContactTest& test);
 
-/// The ranges of a key of the case in which the orbit is proved, and what is between. Throws
-/// Interrupted, and WrongInput for a key in which the loop is not linear.
+/// Ranges of a key in which the orbit is proved, and the unproved ranges between them. Throws
+/// Interrupted, and WrongInput for a key on which the loop does not depend linearly.
 std::vector<ProvedOrbitRange> proved_orbit_along(const Case& the_case, const PeriodicOrbit& orbit,
                                                  const std::string& key, const Range& range);
 

@@ -13,7 +13,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Vibration of a loop that grows.
+/// Vibration of an unstable loop: none.
 constexpr Vibration no_vibration{{std::numeric_limits<double>::quiet_NaN(), BalanceRange::within},
                                  std::numeric_limits<double>::quiet_NaN()};
 
@@ -22,7 +22,7 @@ TautString<double> string_in_wind(const Case& the_case) {
   return string_of(the_case);
 }
 
-/// y/d of a point of the grid.
+/// y/d at a point of the amplitude grid.
 double share_of_diameter(const WindPowerLaw& wind, std::size_t point, std::size_t points) {
   if (point + 1 == points) return wind.lowest;
   return wind.highest * std::pow(wind.lowest / wind.highest,
@@ -38,7 +38,7 @@ double taken_by_devices(const TautString<double>& string, double angular_frequen
   return taken;
 }
 
-/// The largest angle (rad/m) by which a clamp bends the conductor there: at a support or a device.
+/// Largest angle (rad/m) by which a clamp at a support or a device bends the conductor.
 double sharpest_angle(const std::array<EndResponse, 2>& ends) {
   double angle = 0.0;
   for (const EndResponse& end : ends) {
@@ -175,12 +175,12 @@ std::string RangeCount::text() const {
   std::string text;
   if (below_ > 0)
     text = std::to_string(below_) +
-           " row(s) vibrate below the measured range of the wind law: they give the lower end of "
-           "this range, a hundredth of the diameter (amplitude_range)";
+           " row(s) vibrate below the measured range of the wind law: their amplitude is the lower "
+           "end of this range, a hundredth of the diameter, an upper bound (amplitude_range)";
   if (above_ > 0)
     text += (text.empty() ? "" : "; ") + std::to_string(above_) +
-            " row(s) vibrate above the measured range of the wind law: they give the upper end of "
-            "this range";
+            " row(s) vibrate above the measured range of the wind law: their amplitude is the "
+            "upper end of this range, a lower bound (amplitude_range)";
   return text;
 }
 

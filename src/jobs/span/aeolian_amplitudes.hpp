@@ -15,13 +15,13 @@
 
 namespace holdfast::program {
 
-/// A vibration at one frequency, without the devices and with them.
+/// Amplitude and strain of a span vibrating at one frequency.
 struct Vibration {
-  BalancedAmplitude amplitude;  ///< at the antinodes of the free span; NaN where the loop grows
-  double strain;                ///< of the outermost wire, zero to peak; NaN where not known
+  BalancedAmplitude amplitude;  ///< at the antinodes of the free span; NaN: unstable loop
+  double strain;                ///< of the outermost wire, zero to peak; NaN: unknown wires
 };
 
-/// Vibration of a span in the wind at one frequency, by one law of the wind and one of the losses.
+/// Vibration of a span at one frequency, by one law of wind power and one of self-damping.
 struct AeolianRow {
   double frequency;   ///< Hz
   double wind_speed;  ///< m/s
@@ -29,13 +29,13 @@ struct AeolianRow {
   Vibration bare, damped;
 };
 
-/// Data of a case with its span for the energy balance, whatever devices are on it.
+/// Data of a case's span for the energy balance, independent of its devices.
 class SpanInWind {
  protected:
   /// Throws WrongInput for a conductor whose diameter is not known.
   explicit SpanInWind(const Case& the_case);
 
-  /// Strain of the outermost wire, where the antinodes vibrate by an amplitude (m).
+  /// Strain of the outermost wire, zero to peak, for an amplitude (m) at the antinodes.
   double strain_of(const std::array<EndResponse, 2>& ends, double amplitude) const;
 
   TautString<double> string_;
@@ -44,27 +44,27 @@ class SpanInWind {
   std::optional<ClampBending> bending_;
 };
 
-/// The energy balance of a case's span, one frequency after the other.
+/// Energy balance of wind, self-damping and devices on a case's span.
 class AeolianBalance : SpanInWind {
  public:
   /// Throws WrongInput for a conductor whose diameter is not known.
   AeolianBalance(const Case& the_case, bool controlled);
 
-  /// One row by each pair of laws.
+  /// Rows at a frequency (Hz), one for each pair of a wind law and a self-damping law.
   std::vector<AeolianRow> rows(double frequency) const;
 
-  /// The vibration with the devices by the pair of laws that gives the largest amplitude.
+  /// Largest vibration with the devices at a frequency (Hz), over all pairs of laws.
   Vibration largest(double frequency) const;
 
-  /// Hz at which a wind of a speed (m/s) sheds its vortices, and the speed of a frequency.
+  /// Frequency (Hz) of vortex shedding in a wind of a speed (m/s); speed_of() is the inverse.
   double frequency_of(double speed) const { return strouhal_ * speed / diameter_; }
   double speed_of(double frequency) const { return frequency * diameter_ / strouhal_; }
 
   double diameter() const { return diameter_; }  ///< m
   bool knows_strain() const { return bending_.has_value(); }
   bool has_devices() const { return !devices_.empty(); }
-  bool is_growing() const { return grows_; }  ///< with the devices; then they have no amplitude
-  /// Pa, of the outer wires; NaN where they are not known.
+  bool is_growing() const { return grows_; }  ///< with devices; no amplitude then
+  /// Young's modulus of the outer wires (Pa); NaN where it is not known.
   double outer_wire_modulus() const;
 
  private:
@@ -74,23 +74,22 @@ class AeolianBalance : SpanInWind {
 
   double strouhal_;
   std::vector<SpanDevice> devices_;
-  bool grows_;  // with the devices it comes to no steady vibration
+  bool grows_;  // unstable with the devices: no steady vibration
 };
 
-/// `AeolianBalance::largest` of one set of devices after another, at frequencies that are known:
-/// what wind and conductor say by each pair of laws is computed once, on the grid on which
-/// `balanced_amplitude` looks.
+/// Fast `AeolianBalance::largest` for many sets of devices at fixed frequencies. Wind power and
+/// self-damping by each pair of laws are computed once, on the grid of `balanced_amplitude`.
 class LargestVibration : SpanInWind {
  public:
   /// @param frequencies  Hz
   LargestVibration(const Case& the_case, const std::vector<double>& frequencies);
 
-  /// With ends that answer to the k-th frequency.
+  /// Largest vibration at the k-th frequency, for given responses of the two ends.
   Vibration at(std::size_t k, const std::array<EndResponse, 2>& ends) const;
 
  private:
   static constexpr std::size_t points = 61;
-  /// Power spare for devices (W/m³) at amplitudes from the largest of a law of the wind downward.
+  /// Wind power minus self-damping (W/m³), from the wind law's largest amplitude downward.
   using Spare = std::array<double, points>;
 
   double spare(const WindPowerLaw& wind, const LossLaw& loss, double frequency, double y) const;
@@ -98,14 +97,14 @@ class LargestVibration : SpanInWind {
                             double taken) const;
 
   std::vector<double> frequencies_;
-  std::vector<std::vector<Spare>> spares_;  // of each pair, at each frequency
+  std::vector<std::vector<Spare>> spares_;  // for each pair of laws and frequency
 };
 
-/// How many rows lie beyond the amplitudes that the law of the wind was measured for.
+/// Number of rows with an amplitude outside the measured range of the wind law.
 class RangeCount {
  public:
   void add(const AeolianRow& row, bool with_devices);
-  std::string text() const;  ///< what the user has to know of them; empty for none
+  std::string text() const;  ///< warning about these rows; empty for none
 
  private:
   std::int64_t below_ = 0, above_ = 0;

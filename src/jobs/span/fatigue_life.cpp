@@ -109,12 +109,13 @@ void require_wires(const AeolianBalance& balance) {
   constexpr double stiffest_alloy = 1e11;
   if (modulus > stiffest_alloy)
     throw WrongInput(
-        "the safe border line is known only for wires of aluminium and its alloys, but "
+        "the CIGRE safe border line is known only for wires of aluminium and its alloys, but "
         "conductor.outer_wire_modulus = " +
-        format_number(modulus) + " Pa is of steel: the life of such strands cannot be computed");
+        format_number(modulus) +
+        " Pa is that of steel: the fatigue life of steel wires cannot be computed");
 }
 
-/// A temperature of the year.
+/// Temperature of the year with its case and hours.
 struct Season {
   Case at;       // the case at it
   double hours;  // a year
@@ -132,7 +133,7 @@ std::vector<Season> seasons_of(const Case& the_case) {
   return seasons;
 }
 
-/// The year of a span, entry by entry: a wind speed at a temperature.
+/// Year of a span, one entry for each wind speed at each temperature.
 struct SpanYear {
   Years bare, damped;
   std::vector<std::size_t> speed_of, season_of;  // of each entry
@@ -147,7 +148,7 @@ struct SpanYear {
     }
   }
 
-  /// Gives the rows of speeds or temperatures their parts of the damages.
+  /// Assigns their shares of the damages to the rows of speeds or temperatures.
   template <class Row>
   void share_out(const SafeBorderLine& line, const std::vector<std::size_t>& group_of,
                  std::vector<Row>& rows) const {
@@ -163,7 +164,7 @@ struct SpanYear {
   static inline const Band unknown{std::nan(""), std::nan(""), std::nan("")};
 };
 
-/// Adds a temperature's winds.
+/// Adds the winds at one temperature.
 void add_season(const Season& season, std::size_t number, const std::vector<WindHours>& hours,
                 const AeolianBalance& balance, const std::array<double, 2>& counted, SpanYear& year,
                 FatigueLife& life) {
@@ -212,7 +213,7 @@ FatigueLife fatigue_life_of(const Case& the_case, bool controlled, double lowest
   }
   if (year.damped.of_laws.empty())
     throw WrongInput(
-        "no wind of [site] sheds vortices within --frequency: give other speeds, or a wider "
+        "no wind of [site] sheds vortices within --frequency: give other site.speeds, or a wider "
         "--frequency");
   const SafeBorderLine line = life_line_of(the_case);
   life.damage_bare = year.bare.damage(line);

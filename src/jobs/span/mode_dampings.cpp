@@ -18,7 +18,7 @@ namespace {
 
 constexpr double turn = 2.0 * pi<double>;
 
-/// The asymptote for the absorber alone at a frequency.
+/// Krenk's asymptote for the absorber alone at a frequency.
 double asymptote(const Case& the_case, const TautString<double>& string,
                  const std::vector<SpanDevice>& devices, double frequency) {
   TautString<double> damped = string;
@@ -45,7 +45,7 @@ std::vector<ModeRow> rows_of_plant(const Case& the_case, int count, bool control
   return rows;
 }
 
-/// Roots of the sampled loop, each from the pole of the mode with everything but the computer.
+/// Roots of the sampled loop, each followed from the pole of the mode with all but the computer.
 class LoopRoots {
  public:
   explicit LoopRoots(const Case& the_case)

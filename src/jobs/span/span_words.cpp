@@ -66,15 +66,14 @@ std::string unknown_strain_note(const AeolianBalance& balance) {
 std::string instability_note(const Case& the_case, bool controlled) {
   if (!comes_back(string_of(the_case), span_devices_of(the_case, false)))
     return "a negative stiffness pushes the conductor away more than the tension pulls it back: "
-           "the span is unstable at rest, and the results for its vibration do not hold";
+           "the span is unstable at rest, its results are invalid; give less negative stiffness";
   if (!controlled || !has_active_absorber(the_case)) return "";
   for (const case_tables::Device& device : the_case.devices)
     if (device.table)
-      return "stability of the control loop is not computed beside a measured impedance table";
+      return "stability of the control loop is not computed with a measured impedance table";
   if (!is_growing_span(the_case, controlled)) return "";
-  return "the loop of absorber and computer is unstable on this span: its motion grows, and no "
-         "steady vibration is given (modal-damping shows which modes grow, place finds stable "
-         "gains)";
+  return "the loop of absorber and computer is unstable on this span, so no steady vibration is "
+         "given: modal-damping shows which modes grow, place finds stable gains";
 }
 
 std::string self_damping_note(const Case& the_case) {
@@ -84,8 +83,8 @@ std::string self_damping_note(const Case& the_case) {
   return "the laws of self-damping were measured only on steel-cored aluminium (ACSR), and " +
          (conductor != nullptr ? conductor->name + " is " + conductor->kind +
                                      ": this conductor may damp far less and vibrate more"
-                               : "conductor.name does not name such a conductor: another kind may "
-                                 "damp far less and vibrate more") +
+                               : "conductor.name names no ACSR conductor: another kind may damp "
+                                 "far less and vibrate more") +
          " than these laws predict";
 }
 

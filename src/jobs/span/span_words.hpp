@@ -10,37 +10,37 @@
 
 namespace holdfast::program {
 
-/// The frequencies (Hz) at which a span vibrates in the wind: of winds of 1 to 8 m/s, or those of
-/// the jobs where the diameter is not known, and of them those at which its devices were measured.
+/// Frequencies (Hz) of aeolian vibration of a span: vortex shedding in winds of 1 to 8 m/s, or 3 to
+/// 150 Hz where the diameter is not known; limited to the range of measured devices.
 Axis aeolian_frequencies(const Case& the_case);
 
-/// Throws WrongInput, with what an option was given, where a frequency (Hz) is not above 0 or above
-/// 1000.
+/// Checks that frequencies (Hz) are above 0 and at most 1000. Throws WrongInput, which quotes the
+/// option and its text.
 void require_frequencies(std::string_view option, std::string_view text, double lowest,
                          double highest);
 
-/// The frequencies of an option, MIN:MAX:COUNT. Throws WrongInput where one is not above 0.
+/// Frequencies of an option, MIN:MAX:COUNT. Throws what require_frequencies() throws.
 Axis parse_frequencies(std::string_view option, std::string_view text);
 
-/// That the strains are nan for want of the conductor's wires; empty where they are known.
+/// Note that strains are NaN because the conductor's wires are not given; else empty.
 std::string unknown_strain_note(const AeolianBalance& balance);
 
-/// That the absorber's loop grows, whose steady vibration is then none; empty where it is stable,
-/// or there is no absorber.
+/// Note that the span is unstable at rest or the absorber's loop grows, so that there is no steady
+/// vibration; empty for a stable loop or without absorber.
 std::string instability_note(const Case& the_case, bool controlled);
 
-/// That the laws of self-damping are of other conductors than the case's, or that nobody knows;
-/// empty where it is of their kind, or damped by its ratio.
+/// Note that the self-damping laws were measured on conductors of another kind, or that the kind is
+/// not known; empty for ACSR, or without a rated strength.
 std::string self_damping_note(const Case& the_case);
 
-/// That the line of life is of other conductors than the case's; empty where it is of its kind or
-/// nobody knows.
+/// Note that the safe border line was measured on another kind of conductor; empty where the kind
+/// is the same or not known.
 std::string life_line_note(const Case& the_case);
 
-/// A life (years) for a sentence; of thousands nobody knows more than that.
+/// Text of a life in years, with two digits; "more than 1000" above 1000.
 std::string years_text(double years);
 
-/// Advice to a designer about a life, in one honest sentence; empty where there is none.
+/// Advice on a fatigue life, one sentence, for a required life of `years`; empty for a life of NaN.
 std::string life_advice(const FatigueLife& life, double years);
 
 }  // namespace holdfast::program

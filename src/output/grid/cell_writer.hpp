@@ -8,16 +8,16 @@
 
 namespace holdfast::program {
 
-/// One way in which the cells of a grid become a file, in ascending order, the first axis slowest,
-/// in bounded memory: with values that are such as their columns say, and never more than there
-/// are. The file appears at commit() or not at all.
+/// Writer of the cells of a grid in ascending order, the first axis slowest, in bounded memory. The
+/// caller passes values that fit their columns, and no more cells than the grid has. A file appears
+/// at commit() or not at all; chunks of a Zarr store appear one by one.
 class CellWriter {
  public:
   virtual ~CellWriter() = default;
   CellWriter(const CellWriter&) = delete;
   CellWriter& operator=(const CellWriter&) = delete;
 
-  /// The next cells; one entry a column.
+  /// Appends the next `cells` cells; `columns` has a pointer to the values of each column.
   virtual void append(std::size_t cells, const std::vector<const double*>& columns) = 0;
   virtual void commit() = 0;
 
@@ -25,31 +25,31 @@ class CellWriter {
   CellWriter() = default;
 };
 
-/// The bytes of a Table with a column for each axis, then the columns, at less cost.
-/// Throws what Table throws.
+/// A CSV writer with the bytes of a Table of the axes and then the columns, but faster.
+/// Throws the exceptions of Table.
 std::unique_ptr<CellWriter> csv_cells(const JobContext& context, const GridLayout& layout);
 
-/// NetCDF-4 after the CF conventions 1.10, readable as it is by xarray and ncdump: the axes are
-/// dimensions with coordinate variables of their names, in which a dot becomes an underscore (the
-/// attribute `key` keeps it), the columns variables over all of them: doubles, integers of 64 bits,
-/// and for words bytes with their meanings. The file's attributes hold version, job, options and
-/// the full case as TOML; there is no metadata file beside it. Cells are written a chunk_shape() at
-/// a time, so that each is compressed once; memory holds one chunk of every column, for any grid.
+/// A writer of a netCDF-4 file after the CF conventions 1.10, readable by xarray and ncdump. Axes
+/// are dimensions with coordinate variables of their names; a dot becomes an underscore, and the
+/// attribute `key` keeps the original name. Columns are variables over all axes: doubles, integers
+/// of 64 bits, or bytes with meanings for words. The file's attributes have version, job, options
+/// and the full case as TOML; there is no metadata file. Cells are written one chunk_shape() at a
+/// time and compressed once; memory holds one chunk of every column.
 ///
-/// Throws NoAnswer where the library is missing, WrongInput where the output is no file,
-/// OutputError where a call of the library fails, and what OutputFile throws.
+/// Throws NoAnswer if the library is missing, WrongInput if the output is not a regular file,
+/// OutputError if a call of the library fails, and the exceptions of OutputFile.
 std::unique_ptr<CellWriter> netcdf_cells(const JobContext& context, const GridLayout& layout);
 
-/// A Zarr store as StoreFolder has it, a chunk_shape() at a time; cells of a store that is there
-/// already are written over.
+/// A writer of a Zarr store (StoreFolder), one chunk_shape() at a time. Cells of an existing store
+/// are overwritten.
 ///
-/// Throws what StoreFolder::enter() and put() throw.
+/// Throws the exceptions of StoreFolder::enter() and put().
 std::unique_ptr<CellWriter> zarr_cells(const JobContext& context, const GridLayout& layout);
 
-/// Whether the tables of a job go to the host of its thread: where it has one, and no --output.
+/// Whether a job's tables go to the JobHost of its thread: it has one, and --output is not given.
 bool is_received(const JobContext& context);
 
-/// Cells that become a table of the host's, which there must be.
+/// A writer to a table of the thread's JobHost, which must exist.
 std::unique_ptr<CellWriter> memory_cells(const JobContext& context, const GridLayout& layout);
 
 }  // namespace holdfast::program

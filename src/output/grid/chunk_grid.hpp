@@ -8,12 +8,12 @@
 
 namespace holdfast::program {
 
-/// Most values of a chunk: enough for the compression to pay and few enough to keep in memory.
+/// Largest number of values of a chunk: enough for good compression, few enough to keep in memory.
 constexpr std::size_t values_in_chunk = std::size_t{1} << 16;
 
-/// A shape of chunks that are contiguous when cells are numbered with the last axis fastest: whole
-/// along the last axes, one cell along the first ones, in part along one between them.
-/// @param most  cells of a chunk, at least 1
+/// A chunk shape that makes chunks contiguous when cells are numbered with the last axis fastest:
+/// the full length along the last axes, part of one axis, one cell along the first axes.
+/// @param most  largest number of cells of a chunk, at least 1
 inline std::vector<std::size_t> chunk_shape(const std::vector<std::size_t>& shape,
                                             std::size_t most) {
   std::vector<std::size_t> chunk(shape.size(), 1);
@@ -25,18 +25,18 @@ inline std::vector<std::size_t> chunk_shape(const std::vector<std::size_t>& shap
   return chunk;
 }
 
-/// The cells of a grid in chunks of such a shape, both numbered with the last axis fastest: a chunk
-/// is a run of cells. At the end of the axis that is cut, a chunk has fewer cells than the others;
-/// in its file the rest are filled.
+/// A grid of cells divided into chunks of a chunk_shape(). Cells and chunks are numbered with the
+/// last axis fastest, so a chunk is a run of consecutive cells. The last chunk along the divided
+/// axis may have fewer cells; its file is padded.
 struct ChunkGrid {
   std::vector<std::size_t> shape;  ///< cells along each axis, at least 1
-  std::vector<std::size_t> chunk;  ///< as chunk_shape() gives it
+  std::vector<std::size_t> chunk;  ///< cells of a chunk along each axis, by chunk_shape()
 
   std::int64_t cells() const { return product(shape); }
-  /// Cells of a file.
+  /// Number of cells in the file of a chunk, padding included.
   std::int64_t cells_of_file() const { return product(chunk); }
 
-  /// Chunks along an axis.
+  /// Number of chunks along an axis.
   std::int64_t along(std::size_t axis) const {
     return (length(shape, axis) - 1) / length(chunk, axis) + 1;
   }
@@ -47,7 +47,7 @@ struct ChunkGrid {
     return all;
   }
 
-  /// The place of a chunk along each axis.
+  /// Index of a chunk along each axis.
   std::vector<std::int64_t> place(std::int64_t number) const {
     std::vector<std::int64_t> places(shape.size());
     for (std::size_t axis = shape.size(); axis-- > 0; number /= along(axis))
@@ -84,13 +84,13 @@ struct ChunkGrid {
   }
 };
 
-/// Cells of a grid that come in order, kept until a chunk of it is full.
+/// Buffer for the cells of a grid, appended in order, until a chunk is full.
 class WaitingCells {
  public:
   WaitingCells(ChunkGrid grid, std::size_t columns) : grid_(std::move(grid)), values_(columns) {}
 
-  /// Takes the next cells, one entry a column, and hands every chunk that is full to `put`: its
-  /// number and the values of each column.
+  /// Appends the next cells, with one pointer per column. Calls `put(number, values)` for every
+  /// full chunk, with its number and one list of values per column.
   template <class Put>
   void append(std::size_t cells, const std::vector<const double*>& columns, const Put& put) {
     for (std::size_t done = 0; done < cells;) {
@@ -104,7 +104,7 @@ class WaitingCells {
       put(chunk_, values_);
       for (std::vector<double>& column : values_) column.clear();
       waiting_ = 0;
-      // Behind the last one there is none to be asked for.
+      // No chunk follows the last one.
       if (chunk_ + 1 < grid_.chunks()) ++chunk_;
     }
   }

@@ -18,14 +18,14 @@ std::vector<Column> columns_of(const GridLayout& layout) {
   return all;
 }
 
-/// Each with the comma behind it; 0 without a sign.
+/// Appends a number and a comma; zero has no sign.
 void append_number(std::string& text, double value) {
   std::array<char, longest_number> digits;  // NOLINT: put_number fills it
   text.append(digits.data(), put_number(digits.data(), value + 0.0)) += ',';
 }
 
-/// The texts of an axis' first values, each formed once; of a very long axis keeping them all would
-/// cost more memory than it saves time.
+/// The texts of an axis' first values, each formed once. For a very long axis, keeping all texts
+/// would cost more memory than it saves time.
 std::vector<std::string> texts_of(const GridAxis& axis) {
   constexpr std::size_t most = std::size_t{1} << 16;
   std::vector<std::string> texts(std::min(axis.count(), most));
@@ -33,7 +33,7 @@ std::vector<std::string> texts_of(const GridAxis& axis) {
   return texts;
 }
 
-/// How the values of a column become text.
+/// Conversion of a column's values to text.
 class ColumnText {
  public:
   explicit ColumnText(const CellColumn& column) : whole_(column.column.datatype == "integer") {
@@ -56,7 +56,7 @@ class ColumnText {
   std::vector<std::string> words_;  // as in the file, with their commas
 };
 
-/// Lines are formed as text and handed over many at a time.
+/// Writer of cells as CSV; forms many lines as text before it passes them to the table.
 class CsvCells final : public CellWriter {
  public:
   CsvCells(const JobContext& context, const GridLayout& layout)

@@ -17,7 +17,7 @@ std::string options_text(const JobContext& context) {
   return options.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-/// History of the file, as CF asks for it (2.6.2).
+/// History attribute of the file (CF 2.6.2): version and command.
 std::string history_of(const JobContext& context) {
   std::string text = "holdfast " + computed_by(context) + ": holdfast " + context.job;
   const auto append = [&text](const std::string& option, const std::string& value) {
@@ -34,8 +34,7 @@ void append_long_name(Attributes& attributes, const Column& column) {
   if (!column.description.empty()) attributes.emplace_back("long_name", column.description);
 }
 
-// Multiply-adds are contracted in the wider instruction sets, and irregular motions make of the
-// last digit everything.
+// Wider instruction sets contract multiply-adds, and the last digit decides irregular motions.
 constexpr const char* irregular_motions =
     "Cells of regular motions agree to rounding with all instruction sets; a cell with a chaotic "
     "or undecided motion (metric verdict) may differ with another set";

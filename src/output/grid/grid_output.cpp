@@ -16,7 +16,7 @@ namespace {
 constexpr double largest_integer = 9007199254740992.0;  // 2^53
 constexpr std::size_t most_words = 128;                 // a signed byte each in netCDF
 
-/// Whether the datatype is one that a grid has, with words as it wants them.
+/// Whether a grid can have the column: a known datatype, and valid words.
 bool is_writable(const CellColumn& column) {
   const std::string& datatype = column.column.datatype;
   if (column.words.size() > most_words) return false;
@@ -66,7 +66,7 @@ GridOutput::GridOutput(const JobContext& context, const GridLayout& layout)
     : columns_(require_writable(layout).columns), cells_(layout.cells()) {
   if (!is_netcdf_name(context.output) && !is_store_name(context.output))
     require_text_meant(context, cells_, "cells",
-                       "--output FILE.zarr writes them as a Zarr store, FILE.nc as netCDF");
+                       "a name that ends in .nc writes them as netCDF, in .zarr as a Zarr store");
   if (is_received(context))
     writer_ = memory_cells(context, layout);
   else if (is_store_name(context.output))

@@ -19,7 +19,7 @@
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
-// The library's function of that name, which is not linked but loaded.
+// Function of the library by its name; the library is loaded at run time, not linked.
 #define NETCDF(function) netcdf_function<decltype(function)>(#function)
 #endif
 
@@ -38,7 +38,7 @@ int code_of_error() { return errno > 0 && errno < unknown_error ? errno : unknow
 
 extern "C" void holdfast_on_crash(int) { _exit(code_of_error()); }
 
-/// The library has one word for whatever the system says to HDF5; the system's own says more.
+/// Error message: the system's for a fault of the machine, which is more precise, or the library's.
 std::string words_for(int status, int error) {
   const bool machine = error == ENOSPC || error == EDQUOT || error == EIO || error == EFBIG;
   return machine ? system_words(error) : NETCDF(nc_strerror)(status);
@@ -56,7 +56,7 @@ ChunkGrid chunks_of(const GridLayout& layout) {
   return grid;
 }
 
-/// A file under its temporary name: dimensions, variables and attributes first, then values.
+/// Writer of a netCDF file with a temporary name: first its dimensions and attributes, then values.
 class NetcdfCells final : public CellWriter {
  public:
   NetcdfCells(const JobContext& context, const GridLayout& layout)
@@ -65,7 +65,8 @@ class NetcdfCells final : public CellWriter {
         grid_(chunks_of(layout)),
         waiting_(grid_, layout.columns.size()) {
     if (!output_.is_file())
-      throw WrongInput("cannot write " + shown_ + ": netCDF needs a regular file");
+      throw WrongInput("cannot write " + shown_ +
+                       ": netCDF needs a regular file; give another name");
     // Absolute, since a name with a colon could pass for a URL.
     path_ = std::filesystem::absolute(output_.temporary()).string();
     check(NETCDF(nc_create)(path_.c_str(), NC_NETCDF4 | NC_CLOBBER, &file_));
@@ -75,7 +76,7 @@ class NetcdfCells final : public CellWriter {
       check(NETCDF(nc_def_dim)(file_, cf_name(axis.column.name).c_str(), axis.count(),
                                &dimensions.emplace_back()));
     for (const GridAxis& axis : layout.axes) {
-      // A coordinate misses no value (CF 2.5.1).
+      // A coordinate has no missing values (CF 2.5.1).
       coordinates.push_back(
           add_variable(axis.column, NC_DOUBLE, {dimensions[coordinates.size()]}, false));
       describe(coordinates.back(), axis_attributes(axis.column));
@@ -116,7 +117,7 @@ class NetcdfCells final : public CellWriter {
       check(NETCDF(nc_put_att_text)(file_, variable, name.c_str(), text.size(), text.data()));
   }
 
-  /// @param may_miss  its values are NaN where nothing is written
+  /// @param may_miss  whether values that are not written are NaN
   int add_variable(const Column& column, int type, const std::vector<int>& dimensions,
                    bool may_miss) const {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -142,13 +143,13 @@ class NetcdfCells final : public CellWriter {
     variables_.push_back(variable);
   }
 
-  /// Bytes are shuffled before they are compressed. Cells come in order: the chunk at hand is all
-  /// that is kept in memory, in place of the library's usual megabytes.
+  /// Sets chunks, and compression with shuffled bytes. Cells come in order, so the cache keeps one
+  /// chunk in place of the library's usual megabytes.
   void set_chunks(int variable) const {
     constexpr int shuffle = 1, deflate = 1, level = 1;
     check(NETCDF(nc_def_var_chunking)(file_, variable, NC_CHUNKED, grid_.chunk.data()));
     check(NETCDF(nc_def_var_deflate)(file_, variable, shuffle, deflate, level));
-    // With any preference for whole chunks HDF5 never lets go of those that stick out of the grid.
+    // With any preference for whole chunks, HDF5 never releases chunks that extend beyond the grid.
     constexpr float preference_for_whole_chunks = 0.0F;
     constexpr std::size_t slots = 101;
     const auto bytes = static_cast<std::size_t>(grid_.cells_of_file()) * sizeof(double);
@@ -170,9 +171,9 @@ class NetcdfCells final : public CellWriter {
     }
   }
 
-  /// Hands all to the system, closes the file and reads the last value of each variable again. The
-  /// library crashes while it closes a file that it cannot write, hence a copy of this process
-  /// closes it; to this one the file stays open, as it does where there is no commit().
+  /// Writes all, closes the file and reads the last value of each variable again. The library
+  /// crashes when it closes a file that it cannot write; therefore a child process closes it. In
+  /// this process the file stays open, as it does without commit().
   void finish() const {
     check(NETCDF(nc_sync)(file_));
     const int code = run_in_child([&] {
@@ -183,7 +184,7 @@ class NetcdfCells final : public CellWriter {
     if (code == 0) return;
     const bool said = code > 0 && code != unknown_error;
     throw OutputError("cannot write " + shown_ + ": " +
-                      (said ? system_words(code) : "the netCDF library could not finish it"));
+                      (said ? system_words(code) : "the netCDF library could not close the file"));
   }
 
   bool close_and_read() const {

@@ -26,10 +26,10 @@ namespace {
                  "): install the package libnetcdf-dev");
 }
 
-/// The library with which the program was built, or the one of that name on this machine.
+/// Loads the library with which the program was built, or another of its name on this machine.
 void* load() {
-  // HDF5 locks the files that it opens, as this program does with what it writes until it is whole;
-  // both would keep each other away, and some file systems have no locks at all.
+  // HDF5 locks the files that it opens, and this program locks unfinished files: each would block
+  // the other. Some file systems have no locks at all.
   setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
   const std::string path = HOLDFAST_NETCDF_LIBRARY;
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -37,15 +37,15 @@ void* load() {
     library = dlopen(path.substr(path.rfind('/') + 1).c_str(), RTLD_NOW | RTLD_LOCAL);
   }
   if (library == nullptr) refuse_to_load();
-  // HDF5, under netCDF, tidies up when the process ends, and dies of a file that it could not
-  // finish for want of space. All that it shall finish is closed before.
+  // HDF5, used by netCDF, cleans up when the process ends, and crashes on a file that it could not
+  // finish for lack of space. Files to be finished are closed before.
   const auto forgo = reinterpret_cast<int (*)()>(dlsym(library, "H5dont_atexit"));
   if (forgo != nullptr) forgo();
   return library;
 }
 
-/// HDF5 crashes where it is given no memory: the library is not called where less is left than any
-/// of its calls takes.
+/// Throws std::bad_alloc if less memory is left than any call of HDF5 takes: without memory HDF5
+/// crashes.
 void require_room() {
   constexpr std::size_t room = std::size_t{16} << 20U;
   void* const found = mmap(nullptr, room, PROT_READ | PROT_WRITE,

@@ -21,157 +21,156 @@ struct TableRequest {
   std::vector<std::string> arguments;  ///< {"simulate", "--duration", "1", …}, without --output
 };
 
-/// A unit of length and how many of it a metre has.
+/// Unit of length, and the number of these units in a metre.
 struct LengthUnit {
   const char* name = "mm";
   double per_metre = 1e3;
 };
 
-/// A picture of the report: the tables it is drawn from and the gnuplot commands that draw it.
+/// Picture of the report: its tables and the gnuplot commands that draw it.
 struct Figure {
-  std::string name;     ///< "fig06a": pictures/fig06a.svg
-  std::string title;    ///< heading
-  std::string caption;  ///< says what is drawn, so that the picture can be understood alone
-  std::vector<TableRequest> tables;  ///< the name of each begins with that of the figure
-  /// gnuplot commands; the file of the table NAME-loop is @-loop@, that of the table NAME @@, the
-  /// unit of small lengths @unit@, of which a metre has @length@.
+  std::string name;                  ///< "fig06a": pictures/fig06a.svg
+  std::string title;                 ///< heading
+  std::string caption;               ///< description that makes the picture understandable alone
+  std::vector<TableRequest> tables;  ///< each name begins with the figure's name
+  /// gnuplot commands. @@ stands for the file of the table NAME, @-loop@ for that of NAME-loop,
+  /// @unit@ for the unit of small lengths, @length@ for the number of these units in a metre.
   std::string plot;
   double height = 360.0;        ///< of the picture, in points; its width is 640
-  LengthUnit length_unit = {};  ///< of length_unit_for()
-  std::string heading = {};     ///< in the picture itself, "" where it stands above it
+  LengthUnit length_unit = {};  ///< unit of small lengths
+  std::string heading = {};     ///< inside the picture; "": the title stands above it
 };
 
-/// One list after the other.
+/// Concatenation of two lists.
 template <class List>
 List joined(List first, const List& others) {
   first.insert(first.end(), others.begin(), others.end());
   return first;
 }
 
-/// The figures of a list of texts/figures.toml, which is compiled in.
-/// @param list    "paper"
-/// @param values  what the texts leave open to the program
-/// @param panels  the same for each of the panels, where the list has none
+/// Figures of a list in texts/figures.toml, which is compiled in.
+/// @param list    name of the list, such as "paper"
+/// @param values  replacements of @KEY@ in the texts
+/// @param panels  replacements for each panel, where the list gives no panels
 std::vector<Figure> listed_figures(const std::string& list, const Values& values = {},
                                    const std::vector<Values>& panels = {});
 
-/// The texts of a table.
+/// Strings of a TOML table, by their keys.
 Values values_of(const toml::table& table);
 
-/// A figure of a kind of that file.
+/// Figure of a [kind] in texts/figures.toml.
 /// @param figure  its name, title and caption
-/// @param tables  of each the suffix of its name and its command; null: those of the kind
+/// @param tables  suffix of the name and command of each table; null: the tables of the kind
 Figure figure_of_kind(Figure figure, const std::string& kind_name, const toml::array* tables,
                       const Values& given, const std::vector<Values>& panels);
 
-/// A text of that file that is no figure's, or one of a table in it, as "words"; "" where there is
-/// none.
+/// Text of texts/figures.toml, at the top level or in a table ("words"); "" where there is none.
 std::string listed_text(const std::string& name);
 std::string listed_text(const std::string& table, const std::string& name);
 
-/// The rows of its list of pictures.
+/// Rows of the list `pictures` in texts/figures.toml.
 const toml::array& listed_pictures();
 
-/// The figures of a case with its settings.
-/// @param builtin  the case is the paper's: Figs. 2–13 of Kollár 2022, with the settings that their
-///                 captions give, and some beyond them
+/// Figures of a case's report.
+/// @param builtin  whether the case is the paper's: then Figs. 2–13 of Kollár 2022, with the
+///                 settings of their captions, and some beyond them
 std::vector<Figure> figures_of(const Case& the_case, bool builtin);
 
-/// "P" and "D": a window of gains around those of the case, as wide as the gains themselves.
+/// Ranges "P" and "D" of a window of gains around the gains of the case, as wide as these gains.
 Values window_of_gains(const Case& the_case);
 
-/// Range of --p or --d in a chart of gains: as it is given, else the paper's, and where the case's
-/// gains lie outside of that, or its absorber is of another size, one about the case's.
-/// @param range  given or the paper's, MIN:MAX with a count behind it or without
+/// Range of --p or --d in a chart of gains: the given range, else the paper's. If the case's gains
+/// lie outside this one, or the absorber is of another size: a range around these gains.
+/// @param range  given or paper's range, MIN:MAX or MIN:MAX:COUNT
 std::string shown_gains(const JobContext& context, const std::string& option,
                         const std::string& range);
 
-/// Where the spectrum of a motion ends (Hz): behind the fourth harmonic of the force, or where the
-/// samples show no more.
+/// Highest frequency (Hz) of a spectrum's picture: beyond the fourth harmonic of the force, at most
+/// half the sampling rate.
 std::string greatest_frequency(const Case& the_case);
 
-/// The arguments of a command line without quotes.
+/// Arguments of a command line without quotes, split at blanks.
 std::vector<std::string> words_of(const std::string& command);
 
-/// Does one command line of the program, without the program's name; throws what its job throws.
+/// Runs one command line, without the program's name; throws what its job throws.
 using CommandRunner = std::function<void(const std::vector<std::string>&)>;
 
-/// A job's command line with the options that made the case before its own: job, case, the rest.
-/// @param arguments  the job and its own options
+/// Command line of a job with the options that made the case inserted: job, case, own options.
 std::vector<std::string> command_of(const std::vector<std::string>& arguments,
                                     const std::vector<std::string>& case_arguments);
 
-/// A command line of the program as a shell reads it.
+/// Command line of the program with the quotes that a shell needs.
 std::string shell_text(const std::vector<std::string>& arguments,
                        const std::vector<std::string>& case_arguments);
 
-/// Text of a number with so many significant digits.
+/// Text of a number with `digits` significant digits.
 std::string rounded(double value, int digits);
 
-/// A little above the value, with one digit: where an axis ends.
+/// End of an axis: a number with one digit, a little above the value.
 double rounded_up(double value);
 
-/// The unit in which a length (m) is between 0.1 and 100 or so: mm, µm or nm.
+/// Unit (mm, µm or nm) in which a length (m) is a number of about 0.1 to 100.
 LengthUnit length_unit_for(double length);
 
-/// An axis of frequencies as the jobs read it: MIN:MAX:COUNT.
+/// Text MIN:MAX:COUNT of an axis of frequencies, as the jobs read it.
 std::string frequencies_text(const Axis& axis);
 
-/// Values that the texts leave open of the pictures of a span.
+/// Replacements of @KEY@ for the pictures of a span.
 Values span_values(const Case& the_case);
 
-/// Figures of a span as a line engineer draws them: its vibration and strain over frequency, what
-/// its devices take at each end, the damping of its modes, and the damage over wind speed.
+/// Figures of a span for a line engineer: vibration and strain over frequency, absorption at each
+/// end, damping of the modes, and damage over wind speed.
 std::vector<Figure> span_figures(const Case& the_case);
 
-/// A key of the case along an axis of a map, and how the picture shows it.
+/// Axis of a map over a key of the case, and its display in the picture.
 struct MapAxis {
   std::string key;
   double min, max;  // in the key's unit, min < max
   bool logarithmic;
   std::string label;
-  double scale;  // the picture shows scale times the key's value
+  double scale;  // displayed value over the key's value
 };
 
-/// gnuplot's expression for what the picture's axis shows of a value, itself an expression.
+/// gnuplot expression of the displayed value on an axis.
+/// @param value  gnuplot expression of the key's value
 std::string shown_on(const MapAxis& axis, const std::string& value);
 
-/// Values that the texts leave open of an axis: "x axis" of a sweep with 61 values, "x label",
-/// "x range", "x tics" and, as "x", the expression for what it shows of a column.
+/// Replacements of @KEY@ for an axis: "x axis" (sweep axis of 61 values), "x label", "x range", "x
+/// tics", and "x", the expression of the displayed value of a column.
 Values values_of(const std::string& letter, const MapAxis& axis, const std::string& column);
 
-/// Label of an axis for a key of the case, with the unit in which it shows it: "sampling period τ
-/// (ms)"; of another word, that word.
+/// Label of an axis over a key of the case, with the displayed unit: "sampling period τ (ms)". Any
+/// other word is its own label.
 std::string label_of(const std::string& key);
 
-/// So many times an axis of that label shows the key's value.
+/// Displayed value over the key's value, on an axis with the label of label_of().
 double scale_of(const std::string& key);
 
-/// The largest finite |value| (m) of the columns of a table whose unit is the metre; 0 for none.
+/// Largest finite |value| (m) in the columns of a table with the unit metre; 0 for none.
 double largest_length(const CsvTable& table);
 
-/// Values that the texts leave open of the panels of a table over axes, one for each column behind
-/// those: its label, its values, what its shades or, over one axis, its ordinate span, how it is
-/// drawn. A column of words is drawn with a shade, or a height, a word.
+/// Replacements of @KEY@ for the panels of a table, one panel for each column after the axes:
+/// label, values, colour or ordinate range, and style. A column of words has one shade, or one
+/// height, per word.
 std::vector<Values> panels_of(const CsvTable& table, std::size_t axes, const LengthUnit& unit);
 
-/// Whether a gnuplot can be started here (Debian package gnuplot-nox).
+/// Whether gnuplot can be started (Debian package gnuplot-nox).
 bool gnuplot_available();
 
-/// The whole gnuplot script of a figure: style, axes, tables. It is run in the report's folder and
+/// Complete gnuplot script of a figure: style, axes, tables. It runs in the report's folder and
 /// reads data/NAME.csv.
 /// @param ending  of the picture: ".svg", ".png" or ".pdf"
 std::string gnuplot_script(const Figure& figure, const std::string& ending = ".svg");
 
-/// A picture in bytes, and its panels.
+/// Bytes of a picture, and its panels.
 struct Drawing {
   std::string bytes;
   std::vector<PicturePanel> panels;
 };
 
-/// Draws pictures/NAME.svg in the report's folder, or with another ending, and leaves the script
-/// beside it as NAME.gp; or neither, where they are not kept. The picture appears whole or not at
-/// all. Throws OutputError when gnuplot fails, in its words.
+/// Draws pictures/NAME.svg (or another ending) in the report's folder, and writes the script
+/// NAME.gp beside it; keeps neither file where `kept` is false. The picture appears whole or not at
+/// all. Throws OutputError with gnuplot's message when gnuplot fails.
 Drawing draw(const Figure& figure, const std::filesystem::path& folder,
              const std::string& ending = ".svg", bool kept = true);
 

@@ -70,15 +70,15 @@ MapAxis frequency_axis(const Case& the_case, double from, double to) {
                    to * of_case);
 }
 
-/// So many forcing periods, in seconds, to four digits.
+/// Text (s, four digits) of a number of forcing periods.
 std::string duration_of(const Case& the_case, double forcing_periods) {
   const double exact = forcing_periods / frequency_of(the_case);
   const double unit = std::pow(10.0, std::floor(std::log10(exact)) - 3.0);
   return format_rounded(std::round(exact / unit) * unit);
 }
 
-/// One of the maps side by side, its heading in gnuplot's enhanced text and its options of the job
-/// sweep: of the D with which a motion settles in the first half of its duration (`BestGains`).
+/// Map of a panel: heading (gnuplot text) and options of the job sweep, for the D with which a
+/// motion settles in the first half of its duration (`BestGains`).
 Values settling_panel(const std::string& duration) {
   const double settling_time = 0.5 * std::strtod(duration.c_str(), nullptr);
   return {{"heading", "{/:Italic D}\u00a0that settles in " + rounded(settling_time, 4) + " s"},
@@ -120,7 +120,7 @@ std::vector<Values> backlash_panels(const Case& the_case, const std::string& dur
   return panels;
 }
 
-/// With the limit of Fig. 5 over the same abscissa.
+/// Map with the limit of Fig. 5 over the same abscissa.
 Figure frequency_delay_figure(const Case& the_case, bool builtin) {
   const double lowest = 0.5, highest = 5.0, frequency = frequency_of(the_case);
   const std::string duration = duration_of(the_case, 2000.0);
@@ -161,7 +161,7 @@ double rms_of(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// How well the plant stands for its cable in one vibration: what the caption leaves open.
+/// Replacements of @KEY@ for the caption: agreement of plant and cable in one vibration.
 Values judged(const DecayRecord& plant, const DecayRecord& cable) {
   constexpr double same_frequency = 0.02, same_motion = 0.2;
   std::vector<double> difference = cable.displacements;
@@ -181,7 +181,7 @@ Values judged(const DecayRecord& plant, const DecayRecord& cable) {
           {"apart after", rounded(0.5 / std::abs(1.0 / of_plant - 1.0 / of_cable), 2)}};
 }
 
-/// Judgement on the vibration in the picture; empty where the cable cannot be followed.
+/// Judgement on the vibration in the picture; empty where the cable cannot be simulated.
 Values judged_plant(const Case& the_case, const CableDecayOptions& options) {
   try {
     const CableDecay cable = cable_decay(the_case, options);
@@ -191,7 +191,7 @@ Values judged_plant(const Case& the_case, const CableDecayOptions& options) {
   }
 }
 
-/// The loop of the case's own plant.
+/// Figures of the loop of any case but the built-in one.
 std::vector<Figure> figures_of_loop(const Case& the_case) {
   Values values = window_of_gains(the_case);
   values.emplace_back("greatest frequency", greatest_frequency(the_case));
@@ -220,7 +220,7 @@ bool is_of_papers_size(const Case& the_case) {
          Interval<double>{50.0, 1200.0}.contains(size);
 }
 
-/// As many modes as vibrate in the wind, twenty at least, and no more than are soon found.
+/// Number of modes that vibrate in the wind: at least twenty, limited by computing time.
 std::int64_t modes_shown(const Case& the_case, const Axis& frequencies) {
   const TautString<double> string = string_of(the_case);
   const double lowest = string.wave_speed() / (2.0 * string.span);

@@ -33,7 +33,7 @@ std::string with_unbroken_labels(const std::string& plot) {
   return text;
 }
 
-/// The environment without what makes gnuplot read files of the user's or choose for itself.
+/// Environment without variables by which gnuplot reads user files or chooses settings.
 std::vector<char*> environment_of_gnuplot() {
   std::vector<char*> kept;
   for (char** variable = environ; *variable != nullptr; ++variable)
@@ -82,7 +82,7 @@ class Messages {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
 };
 
-/// Whether all of a picture is there: gnuplot does not tell that a disk is full.
+/// Whether a picture is complete: gnuplot does not report a full disk.
 bool is_whole(std::string_view picture, const std::string& ending) {
   using namespace std::string_view_literals;
   const std::string_view end = ending == ".svg"   ? "</svg>"sv
@@ -93,7 +93,7 @@ bool is_whole(std::string_view picture, const std::string& ending) {
   return picture.substr(last + 1 - end.size(), end.size()) == end;
 }
 
-/// The line that gives a picture its heading: above the key, or in its place.
+/// gnuplot line for the heading of a picture, above the key or in its place.
 std::string heading_line(const Figure& figure) {
   if (figure.heading.empty()) return "";
   const bool has_key = figure.plot.find("unset key") == std::string::npos;

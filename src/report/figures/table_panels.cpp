@@ -11,7 +11,7 @@
 namespace holdfast::program {
 namespace {
 
-/// A column that tables over axes have, with its unit and its words.
+/// Column of tables over axes, with its unit and words.
 CellColumn known_column(const std::string& name) {
   for (const char* list :
        {"sweep metrics", "sampled stability", "continuous stability", "response"})
@@ -29,7 +29,7 @@ std::vector<double> magnitudes(const CsvTable& table, const std::string& name) {
   return values;
 }
 
-/// Where the shades end: what diverges would leave one shade for all the rest. "*": at the largest.
+/// End of the colour scale, so that diverging values do not take all shades; "*": at the largest.
 std::string limit_of(const std::vector<double>& magnitudes, double scale) {
   constexpr double most = 30.0;  // medians
   if (magnitudes.empty()) return "*";
@@ -63,7 +63,7 @@ std::string column_label(const Column& column, const LengthUnit& unit) {
   return replaced(name, "_", " ") + (shown.empty() ? "" : " (" + shown + ")");
 }
 
-/// As many as there are words, told apart by all kinds of colour vision.
+/// Shades for words, distinguishable with all kinds of colour vision.
 std::string shades_of(std::size_t words) {
   constexpr std::array<const char*, 7> colours = {"#e6e6e6", "#56b4e9", "#e69f00", "#009e73",
                                                   "#f0e442", "#d55e00", "#0072b2"};

@@ -37,15 +37,15 @@ std::string range_of(double value) {
   return format_number(value) + ":" + format_number(value) + ":1";
 }
 
-/// A share of the vibration without control above which control is not worth its drive.
+/// Amplitude ratio above which control is not worth its drive.
 constexpr double worthwhile = 0.95;
 
-/// Negligible share of the vibration without control: so little more or less is the same.
+/// Negligible change of the amplitude ratio.
 constexpr double negligible = 0.005;
 
-/// Largest |z₁| of the steady motion with control and without it, and what the drive does for it.
+/// Largest |z₁| of the steady motion with and without control, and the largest commanded force.
 struct LoopVibration {
-  double controlled, free, force;  ///< m, m; N, the largest that the computer asks for
+  double controlled, free, force;  ///< m, m; N, largest command
 
   double ratio() const { return controlled / free; }
 };
@@ -53,7 +53,7 @@ struct LoopVibration {
 /// Seconds of a motion: 20, or as long as the case's force lasts.
 double duration_of(const Case& the_case) { return std::min(20.0, end_of_force(the_case)); }
 
-/// Common ground of all answers about a case.
+/// Data common to all answers about a case.
 struct Question {
   const Case& the_case;
   InstructionSet set;
@@ -62,8 +62,7 @@ struct Question {
   double radius_without_play;  ///< spectral radius of the loop without play
 
   bool is_unstable_without_play() const { return !(radius_without_play < 1.0); }
-  /// Seconds until a twentieth of the slowest natural motion is left; without play, where it
-  /// decays.
+  /// Seconds until a twentieth of the slowest natural motion is left; without play, if it decays.
   double settling() const {
     return std::log(20.0) * the_case.control.sampling_period / -std::log(radius_without_play);
   }
@@ -99,8 +98,8 @@ std::vector<LoopVibration> vibrations_of(const std::vector<Case>& cases, const Q
   return vibrations;
 }
 
-/// A loop that is unstable without its play lives on it, and without play it grows: the text says
-/// so.
+/// Text of the vibration left; for a loop that is unstable without play it says that only the play
+/// bounds the motion, or that the motion grows.
 std::string help_text(const Question& question, const LoopVibration& vibration) {
   const bool unstable = question.is_unstable_without_play();
   const auto& backlash = question.the_case.backlash;
@@ -127,7 +126,8 @@ std::string help_text(const Question& question, const LoopVibration& vibration) 
          page_text(lives_on_play ? "bounded by play" : "grows without play", values);
 }
 
-/// Vibration without control as the paper's force, held over a sample, would make it.
+/// Text of the vibration without control under the force held over a sample; empty if the hold does
+/// not matter.
 std::string held_force_text(const Question& question) {
   const Case& the_case = question.the_case;
   if (held_force_warning(the_case, "").empty()) return "";
@@ -141,7 +141,7 @@ std::string force_text(const LoopVibration& vibration) {
   return page_text("force asked for", {{"force", rounded(vibration.force, 3)}});
 }
 
-/// Vibration left where the drive switches when it happens and not at samples.
+/// Text of the vibration left with exact switching; empty if not computed.
 std::string exact_switching_text(const Question& question) {
   // A conductor by its modes is followed state by state between samples: too slow for an answer.
   if (!(question.the_case.backlash.width > 0.0) ||
@@ -229,8 +229,7 @@ std::string gain_of_case_text(const Case& the_case) {
                                      {"tuned", rounded(tuned, 4)}});
 }
 
-/// Adds to the answer what the play makes of a gain; where it spoils the gain, to its first
-/// sentence.
+/// Adds the effect of the play on a gain to the detail, or to the answer if play spoils the gain.
 void add_play(Answer& answer, const Question& question, double differential_gain, double ideal) {
   if (!(question.the_case.backlash.width > 0.0)) return;
   const Case changed = case_with(question.the_case, "control.differential_gain", differential_gain);
@@ -290,9 +289,9 @@ Answer how_slow(const Case& the_case) {
   const MaxDelay longest = LinearLoop(the_case).longest_period(question);
   Answer answer = asked("slow", {{"range", range_of(question.frequency)}});
   if (longest.sampling_period > 0.0 && std::isfinite(longest.sampling_period)) {
-    const std::string held =
-        held_force_warning(the_case, longest.sampling_period, question.frequency,
-                           "attenuation is judged with the held force");
+    const std::string held = held_force_warning(
+        the_case, longest.sampling_period, question.frequency,
+        "the attenuation is relative to the vibration without control under the continuous force");
     answer.detail += held.empty() ? "" : " At that period: " + held + ".";
   }
   const char* text = "up to a period";
@@ -303,8 +302,8 @@ Answer how_slow(const Case& the_case) {
   return answer;
 }
 
-/// Whether control reduces the vibration with each of some widths of the play. A loop that is
-/// unstable without play is not served by none, however slowly its motion grows.
+/// Whether control reduces the vibration at each of some widths of the play. A loop that is
+/// unstable without play counts as not reduced at width 0, however slowly its motion grows.
 std::vector<char> widths_that_serve(const Question& question, const std::vector<double>& widths) {
   std::vector<Case> cases;
   cases.reserve(widths.size());
@@ -325,7 +324,7 @@ std::vector<double> evenly(double from, double to, int parts) {
   return values;
 }
 
-/// How far from a width that serves towards one that does not all serve, in twenty steps.
+/// Width up to which all serve, in twenty steps from one that serves towards one that does not.
 double limit_between(const Question& question, double serving, double failing) {
   const std::vector<double> widths = evenly(serving, failing, 20);
   const std::vector<char> serve = widths_that_serve(question, widths);
@@ -333,8 +332,8 @@ double limit_between(const Question& question, double serving, double failing) {
   return widths[static_cast<std::size_t>(std::max<std::ptrdiff_t>(first - 1, 0))];
 }
 
-/// Text on the stretch of widths that serve about the case's own, or else of the first one, which
-/// begins without play but where the loop needs its play.
+/// Text on the range of widths that serve around the case's own, or else on the first such range;
+/// it begins at 0 unless the loop needs its play.
 std::string play_text(const Question& question, const std::vector<double>& widths) {
   const std::vector<char> serve = widths_that_serve(question, widths);
   const auto next =
@@ -369,8 +368,7 @@ std::string play_text(const Question& question, const std::vector<double>& width
   return page_text(name, values);
 }
 
-/// Twice the largest |z₂ − z₁| (m) of the steady motion without control: a play as wide swallows
-/// it.
+/// Twice the largest |z₂ − z₁| (m) of the steady motion without control: play as wide swallows it.
 double steady_swing_without_control(const Case& the_case) {
   const double duration = duration_of(the_case);
   double largest = 0.0;
@@ -414,7 +412,7 @@ Answer what_motion(const MotionRow& row) {
           row.rests_on, row.arguments};
 }
 
-/// Whether all that [uncertain] allows is stable, by a proof where there can be one.
+/// Answer whether all values of [uncertain] are stable, by a proof where one exists.
 Answer does_it_hold_for_all(const JobContext& context) {
   Answer answer = asked("family");
   try {

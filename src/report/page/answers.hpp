@@ -10,52 +10,51 @@
 
 namespace holdfast::program {
 
-/// A question of whoever designs or judges a damper, and what holdfast says.
+/// Question of a designer, and the answer of holdfast.
 struct Answer {
   std::string question;
   std::string answer;                  ///< in a few words
-  std::string detail;                  ///< what was computed, and how far it reaches
-  std::vector<std::string> arguments;  ///< of the command that shows it, without the case's
+  std::string detail;                  ///< what was computed, and its limits
+  std::vector<std::string> arguments;  ///< of the command, without the options of the case
 };
 
-/// The question of the name in texts/page.toml, with what is said of it whatever the answer.
+/// Question by its name in texts/page.toml, with detail and command but no answer yet.
 Answer asked(const std::string& name, const Values& values = {});
 
-/// Answers on the case as it is, switching at samples: what is doubtful of it, where something is;
-/// does control help, which D, how slow a computer, how much play, what motion, does it hold on the
-/// conductor itself; of a span without an absorber span_answers(). A question that the case does
-/// not let be answered says why. Each is handed over once it is known. Throws Interrupted.
+/// Answers questions about a case, with contact changes only at samples: doubtful values, if any;
+/// benefit of control, best D, slowest computer, largest play, kind of motion, validity on the
+/// conductor itself. A span without an absorber gets span_answers(). A question that cannot be
+/// answered gives the reason. `take` gets each answer once it is known. Throws Interrupted.
 void answer(const JobContext& context, const std::function<void(const Answer&)>& take);
 
-/// Whether what two masses say of a case holds on its conductor as a hanging cable: whether its
-/// gains are stable there, what of the absorber would have to move with the clamp if they are not,
-/// and how much vibration is left. It is not asked where the conductor is not the plant's.
+/// Answer whether results for two masses are valid on the conductor as a hanging cable: stability
+/// of the gains there, the clamp mass that would make them stable, and the vibration left. Not
+/// computed where the plant is not the conductor's.
 Answer does_it_hold_on_the_cable(const Case& the_case);
 
-/// Answers for a line or stay engineer: what vibrates without devices, what with them, how long the
-/// conductor lives, which frequency is worst, what the devices take, how its modes are damped,
-/// whether the absorber's loop is stable. A question that the case does not let be answered says
-/// what to give. Throws Interrupted.
+/// Answers for a line or stay engineer: vibration without and with devices, life of the conductor,
+/// worst frequency, absorption by the devices, damping of the modes, stability of the absorber's
+/// loop. A question that cannot be answered names the missing data. Throws Interrupted.
 void span_answers(const JobContext& context, const std::function<void(const Answer&)>& take);
 
-/// One motion in the words of the page; a number that there is not is "–".
+/// Row of the page about one motion; "–" stands for a number that does not exist.
 struct MotionRow {
-  std::string place;             ///< of the motion in the paper, or whose it is
-  std::string motion;            ///< sampling period, backlash and start
-  std::string verdict;           ///< attractor_type_text()
-  std::string period;            ///< s, samples, forcing periods
-  std::string multiplier = "–";  ///< largest modulus, of one period
-  std::string border = "–";      ///< nearest change of contact (mm; mm/s)
-  std::string capture = "–";    ///< radius of the neighbourhoods from which motions tend to it (mm)
-  std::string precision = "–";  ///< how the same orbit comes out in extended precision
-  std::string rests_on = {};    ///< what the verdict rests on
-  std::string neighbour = {};   ///< how it ends beside the motion from rest; "": not compared
-  std::vector<std::string> arguments = {};  ///< of the command that shows it, without the case's
-  bool diverges = false;                    ///< it leaves every bound
-  bool stays_in_play = false;               ///< its certified orbit never leaves the play
+  std::string place;                        ///< figure of the paper, or "this case"
+  std::string motion;                       ///< sampling period, backlash and start
+  std::string verdict;                      ///< attractor_type_text()
+  std::string period;                       ///< s, samples, forcing periods
+  std::string multiplier = "–";             ///< largest modulus, of one period
+  std::string border = "–";                 ///< nearest change of contact (mm; mm/s)
+  std::string capture = "–";                ///< radius of attraction (mm)
+  std::string precision = "–";              ///< same orbit in extended precision
+  std::string rests_on = {};                ///< evidence for the verdict
+  std::string neighbour = {};               ///< comparison with the motion from rest; "": none
+  std::vector<std::string> arguments = {};  ///< of the command, without the case's options
+  bool diverges = false;                    ///< whether the motion grows without limit
+  bool stays_in_play = false;               ///< whether the orbit never leaves the play
 };
 
-/// "τ = 1 ms, r₀ = 0.5 mm".
+/// Text of sampling period and play: "τ = 1 ms, r₀ = 0.5 mm".
 std::string loop_text(const Case& the_case);
 
 /// The motions of Kollár's Figs. 6–13 with their neighbours, and some beyond them.

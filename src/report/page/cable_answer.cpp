@@ -29,8 +29,8 @@ Case on_cable(const Case& the_case) {
   return changed;
 }
 
-/// Share of the vibration without control under the true force, without play; NaN where sampling
-/// does not show it.
+/// Amplitude ratio to no control under the true force, without play; NaN where sampling does not
+/// show the vibration.
 double share_left(const Case& the_case, const PdGains<double>& gains) {
   const double frequency = excitation_of(the_case).frequency;
   if (!(2.0 * frequency * sampling_of(the_case).period < 1.0))
@@ -63,7 +63,7 @@ double least_clamp_mass(const Case& cable) {
   return serving;
 }
 
-/// Why the loop grows: what the largest root does.
+/// Text on how the largest root grows.
 std::string growth_text(const Case& cable, const std::complex<double>& root) {
   const double turn = std::abs(std::arg(root));
   if (turn > 0.9 * pi<double>) return page_text("grows from sample to sample");
@@ -103,7 +103,7 @@ Interval<double> nearest_interval(const std::vector<Interval<double>>& intervals
       [&](const auto& one, const auto& other) { return away(one) < away(other); });
 }
 
-/// The name of what the cable says of the case's gains.
+/// Name of the text on the case's gains on the cable.
 std::string holding_of(const Case& cable, const std::vector<Interval<double>>& stable) {
   const PdGains<double> gains = gains_of(cable);
   const bool is_stable = std::any_of(stable.begin(), stable.end(), [&](const auto& gap) {
@@ -114,7 +114,7 @@ std::string holding_of(const Case& cable, const std::vector<Interval<double>>& s
   return stable.empty() ? "no gain on the cable" : "unstable on the cable";
 }
 
-/// How much vibration is left there, and of two masses.
+/// Text of the vibration left on the cable and on two masses.
 std::string share_text(const Case& the_case, const Case& cable) {
   const PdGains<double> gains = gains_of(the_case);
   const double there = share_left(cable, gains), here = share_left(the_case, gains);
@@ -123,7 +123,7 @@ std::string share_text(const Case& the_case, const Case& cable) {
                    {{"there", rounded(100.0 * there, 3)}, {"here", rounded(100.0 * here, 3)}});
 }
 
-/// Gives the answer and what is to be added to its detail.
+/// Writes the answer, and adds to its detail.
 void judge(const Case& the_case, const Case& cable, Answer& answer) {
   const PdGains<double> gains = gains_of(the_case);
   const auto stable = LinearLoop(cable).stable_gains(FreeGain::differential, gains);

@@ -9,7 +9,7 @@ namespace holdfast::program {
 
 namespace {
 
-/// A table that scrolls by itself where it is wider than the page.
+/// HTML table that scrolls where it is wider than the page.
 /// @param rows  HTML
 std::string html_table(const std::vector<std::string>& headings, const std::string& rows) {
   std::string html, all;
@@ -41,8 +41,8 @@ std::string motions_part(const Page& page) {
   }
   return page_text(
       "motions", {{"table", html_table({"figure", "case", "verdict", "period", "largest multiplier",
-                                        "nearest change of contact", "radius of capture",
-                                        "extended precision"},
+                                        "distance to the nearest change of contact",
+                                        "radius of attraction", "confirmed in extended precision"},
                                        rows)}});
 }
 
@@ -68,7 +68,7 @@ std::string picture(const DrawnFigure& drawn) {
                                {"source", replaced(shown.url, "&", "&amp;")}});
 }
 
-/// Links to the tables of a figure and to what is drawn of them.
+/// Links to the tables and pictures of a figure.
 std::string links_to_files(const DrawnFigure& drawn) {
   std::string links;
   for (const TableRequest& table : drawn.figure.tables)
@@ -118,7 +118,7 @@ std::string answers_part(const Page& page) {
   return html;
 }
 
-/// The text of a file of texts that holds one.
+/// Text of a file of texts that contains only one.
 std::string only_text(std::string_view file, const char* name) {
   return text_of(toml::parse(file)[name]);
 }

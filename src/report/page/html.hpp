@@ -9,7 +9,7 @@
 
 namespace holdfast::program {
 
-/// A figure as it came out: its picture, or the reason why there is none.
+/// Figure with its picture, or with the reason why there is none.
 struct DrawnFigure {
   Figure figure;
   std::vector<std::string> commands;  ///< the command line of each table
@@ -23,16 +23,16 @@ struct Page {
   std::string introduction;
   std::vector<std::string> case_arguments;  ///< the options that made the case
   std::string case_text;                    ///< the full case as TOML
-  bool explored = false;                    ///< explorer.html lies beside the page
-  std::vector<Answer> answers;              ///< what a designer asks
+  bool explored = false;                    ///< whether explorer.html lies beside the page
+  std::vector<Answer> answers;              ///< questions of a designer, answered
   std::vector<MotionRow> motions;
   std::vector<DrawnFigure> figures;
 };
 
-/// The page as one self-contained HTML text: pictures inside, nothing loaded from elsewhere.
+/// Page as one self-contained HTML text: pictures are embedded, nothing is loaded.
 std::string html_of(const Page& page);
 
-/// The text of texts/page.toml, which is compiled in, with its values.
+/// Text of texts/page.toml by its name, with values for its @KEY@.
 std::string page_text(const std::string& name, const Values& values = {});
 
 /// Text with &, <, > and quotes escaped.

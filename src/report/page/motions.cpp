@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* no_value = "–";
 
-/// A motion with all that is known of it.
+/// Motion with all that is known about it.
 struct KnownMotion {
   IdealLoop<double> loop;
   Vector<double, 4> initial_state;
@@ -66,7 +66,7 @@ std::string border_text(const Borders& borders) {
   return distance(borders.displacement, " mm") + "; " + distance(borders.velocity, " mm/s");
 }
 
-/// Nearest border of a loop as it is built.
+/// Nearest change of contact, with exact switching.
 std::string border_text(const SwitchingMargins& margins) {
   return rounded(1e3 * margins.border_distance, 2) + " mm";
 }
@@ -107,7 +107,7 @@ MotionRow row_of(const std::string& place, const std::string& text, const Found&
   return row;
 }
 
-/// With what the certificate of two masses says beside.
+/// Adds the certificate's results for two masses.
 MotionRow row_of(const std::string& place, const std::string& text, const KnownMotion& motion,
                  const std::string& settings) {
   MotionRow row = row_of(place, text, motion.found, motion.loop.sampling.period, settings);

@@ -25,14 +25,14 @@ namespace fs = std::filesystem;
 constexpr const char* passing_folder = "holdfast-picture-";
 constexpr std::array<const char*, 2> parts = {"data", "pictures"};
 
-/// Whether a table, a script or a picture, or what describes it, is called so.
+/// Whether a file name is that of a table, script, picture or their metadata.
 bool is_of_picture(const fs::path& name) {
   const std::string ending = name.extension().string();
   return ending == ".csv" || ending == ".json" || ending == ".gp" || ending == ".tmp" ||
          is_picture_name(name);
 }
 
-/// Removes what pictures are made of from a folder, and the folder where nothing else is in it.
+/// Removes the files of pictures from a folder, and the folder if it is then empty.
 void remove_passing(const fs::path& path) {
   const OwnFolder folder(path);
   for (const char* part : parts) {
@@ -48,7 +48,7 @@ void remove_passing(const fs::path& path) {
   rmdir(path.c_str());
 }
 
-/// Removes the rest of pictures whose program was killed.
+/// Removes files left by programs that were killed while drawing.
 void remove_left_passing() {
   for (const fs::path& left : passing_folders(passing_folder)) {
     std::error_code ignored;
@@ -62,7 +62,7 @@ void remove_left_passing() {
   }
 }
 
-/// Where tables lie that only a picture is made of.
+/// Temporary folder for the tables of one picture.
 class PassingFolder {
  public:
   PassingFolder() : path_(new_passing_folder(passing_folder)), lock_(path_) {
@@ -91,7 +91,7 @@ std::string option_text(const PictureRequest& request, const std::string& option
   return filled("@" + option + "@", request.options);
 }
 
-/// A range of gains as the job takes it.
+/// Range of gains as the job uses it.
 std::string shown_option(const PictureRequest& request, const std::string& option) {
   return shown_gains(request.context, option, option_text(request, option));
 }
@@ -114,7 +114,7 @@ const toml::array& row_for(const PictureRequest& request) {
                    " draws a picture only with " + needed + "; or give a name that ends in .csv");
 }
 
-/// The keys of its axes and their values; of a chart over the gains P and D.
+/// Keys and values of the table's axes; for a chart over P and D, the gains.
 std::vector<KeyValues> axes_of(const PictureRequest& request) {
   std::vector<KeyValues> axes;
   const std::string& job = request.context.job;
@@ -130,7 +130,7 @@ std::vector<KeyValues> axes_of(const PictureRequest& request) {
           {"control.differential_gain", parse_axis("--d", shown_option(request, "--d"))}};
 }
 
-/// Throws WrongInput for a single value; for a list where an image needs even steps.
+/// Throws WrongInput for an axis with a single value, or a list where an image needs even steps.
 MapAxis map_axis_of(const KeyValues& axis, bool even) {
   MapAxis shown{axis.key, 0.0, 0.0, false, label_of(axis.key), scale_of(axis.key)};
   std::int64_t count = 0;
@@ -160,14 +160,14 @@ std::string ends_of(const Axis& axis) {
   return format_number(axis.min) + ":" + format_number(axis.max);
 }
 
-/// From one value of an axis in equal steps to the next, as it is shown.
+/// Step of an axis, in displayed units.
 double step_of(const KeyValues& axis) {
   const auto* const even = std::get_if<Axis>(&axis.values);
   if (even == nullptr || even->count < 2) return 0.0;
   return (even->max - even->min) / static_cast<double>(even->count - 1) * scale_of(axis.key);
 }
 
-/// Values that the texts leave open of a picture over axes.
+/// Replacements of @KEY@ for a picture over axes.
 Values values_of_axes(const std::vector<KeyValues>& axes) {
   if (axes.size() > 2)
     throw WrongInput("a picture shows one axis or two, not " + std::to_string(axes.size()));
@@ -186,7 +186,7 @@ Values values_of_axes(const std::vector<KeyValues>& axes) {
   return values;
 }
 
-/// Values that the texts leave open of any picture.
+/// Replacements of @KEY@ for any picture.
 Values picture_values(const PictureRequest& request) {
   const Case& the_case = request.context.case_data;
   const std::string& job = request.context.job;
@@ -206,7 +206,7 @@ Values picture_values(const PictureRequest& request) {
   return joined(joined(values, span_values(the_case)), values_of_axes(axes_of(request)));
 }
 
-/// The command line of a table, "own" standing for the job's.
+/// Command line of a table; "own" means the job's own.
 std::vector<std::string> command_line(const PictureRequest& request, const std::string& command) {
   std::vector<std::string> words = words_of(command);
   if (command.rfind("own", 0) != 0) {
@@ -217,7 +217,7 @@ std::vector<std::string> command_line(const PictureRequest& request, const std::
   return joined(request.own, words);
 }
 
-/// Writes the tables of a picture and gives the job's own, or the first.
+/// Writes the tables of a picture; returns the job's own table, or else the first.
 CsvTable written_tables(const PictureRequest& request, const CommandRunner& run,
                         const toml::array& tables, const Values& values,
                         const PassingFolder& folder) {
@@ -232,7 +232,7 @@ CsvTable written_tables(const PictureRequest& request, const CommandRunner& run,
   return read_csv(own);
 }
 
-/// The bytes of a PDF whose date is the same on every day; the others have none.
+/// Bytes of a picture; a PDF gets a constant date, so that equal requests give equal bytes.
 std::string without_date(std::string picture) {
   const std::string before = "/CreationDate (D:", none = "19700101000000";
   const std::size_t at = picture.find(before);

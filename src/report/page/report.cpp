@@ -32,8 +32,8 @@ namespace {
 using Arguments = std::vector<std::string>;
 namespace fs = std::filesystem;
 
-/// The folder of a report, and data/ and pictures/ in it. Those that it has made go with it where
-/// nothing is in them, as a report leaves them that does not come to its end.
+/// Folder of a report with data/ and pictures/. Folders created here are removed if they are still
+/// empty, as after an interruption.
 class ReportFolders {
  public:
   /// Throws WrongInput where a folder cannot be made.
@@ -58,7 +58,7 @@ class ReportFolders {
   std::vector<fs::path> made_;
 };
 
-/// A report under way: its figures' tables are made by command lines of the program.
+/// Report in the making; tables are written by command lines of the program.
 class ReportWork {
  public:
   /// @param unit  of small lengths
@@ -69,7 +69,7 @@ class ReportWork {
     page.case_text = case_to_toml(context.case_data);
   }
 
-  /// With its picture, or the reason why there is none, as where its record ends too soon.
+  /// Figure with its picture, or with the reason why there is none.
   DrawnFigure make(const Figure& figure) const {
     DrawnFigure drawn{figure, {}, {}, ""};
     for (const TableRequest& table : figure.tables)
@@ -93,7 +93,7 @@ class ReportWork {
     }
   }
 
-  /// Writes the page and says where it lies, and what it lacks.
+  /// Writes the page; reports its path and any missing pictures.
   void finish() {
     file_.write(html_of(page));
     file_.commit();
@@ -157,7 +157,7 @@ std::string title_of_loop(const JobContext& context) {
          loop_text(context.case_data);
 }
 
-/// "my-line: a span of 300 m in its wind".
+/// "my-line: a span of 300 m in the wind".
 std::string title_of_span(const JobContext& context) {
   return page_text("title of span", {{"case", name_of_case(context, "The built-in case")},
                                      {"span", rounded(context.case_data.conductor.span, 4)}});

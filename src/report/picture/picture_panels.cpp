@@ -26,13 +26,13 @@ std::string lowered(const std::string& index) {
   return text;
 }
 
-/// The index that begins at a place behind "_": what braces hold, or one character.
+/// Index that begins behind "_": the content of braces, or one character.
 std::string index_at(const std::string& label, std::size_t at) {
   if (label[at] != '{') return label.substr(at, 1);
   return label.substr(at, label.find('}', at) + 1 - at);
 }
 
-/// Without braces, nor the font that one of them begins with.
+/// Text without braces and without the font named in them.
 std::string without_braces(const std::string& label) {
   std::string text;
   for (std::size_t at = 0; at < label.size(); ++at) {
@@ -81,7 +81,7 @@ void name_axis(PanelAxis& axis, const std::string& label) {
   if (has_unit) axis.unit = label.substr(unit + 2, label.size() - unit - 3);
 }
 
-/// Takes what a line behind "panel" says of the panel.
+/// Reads axis labels and scales from a line of gnuplot after "panel".
 void tell(PicturePanel& panel, std::string_view line) {
   if (begins_with(line, of_logarithms)) {
     panel.x.logarithmic |= line.find(" x") != std::string_view::npos;
@@ -112,7 +112,7 @@ void take_name(PanelAxis& axis, const PanelAxis& other) {
 
 bool same(double one, double other) { return std::abs(one - other) < 1e-3; }
 
-/// Panels one above the other have one abscissa, panels side by side one ordinate.
+/// Shares labels: of the abscissa among stacked panels, of the ordinate among panels side by side.
 void share_names(std::vector<PicturePanel>& panels) {
   for (PicturePanel& panel : panels) {
     for (const PicturePanel& other : panels) {

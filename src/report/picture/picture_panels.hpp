@@ -8,8 +8,7 @@ namespace holdfast::program {
 
 struct Figure;
 
-/// An axis of a panel: what it is called, and what it shows at its two ends. One without a name has
-/// no values to tell.
+/// Axis of a panel: name, and values at its two ends. An axis without a name shows no values.
 struct PanelAxis {
   std::string name;  ///< "displacement z₁"
   std::string unit;  ///< "mm", or ""
@@ -17,49 +16,48 @@ struct PanelAxis {
   bool logarithmic = false;
 };
 
-/// A panel of a picture: where it lies, in parts of the picture's width and height from its upper
+/// Panel of a picture: its edges, as fractions of the picture's width and height from the upper
 /// left corner, and its axes.
 struct PicturePanel {
   double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
   PanelAxis x, y, right_axis;
 };
 
-/// A script's plots, each with a question behind it that gnuplot answers where somebody wants to
-/// know its panels.
+/// gnuplot plots with a request after each, by which gnuplot prints the panel's place and axes.
 std::string with_measured_panels(const std::string& plot);
 
-/// Panels that gnuplot has measured, from its messages. A panel without a label has that of the
-/// panel below it or left of it, with which it shares the axis.
+/// Panels measured by gnuplot, from its messages. A panel without a label gets the label of the
+/// panel below or to the left, with which it shares the axis.
 std::vector<PicturePanel> measured_panels(const std::string& messages);
 
-/// The other messages.
+/// Messages of gnuplot without those about panels.
 std::string without_panels(const std::string& messages);
 
-/// The label of an axis as plain text, without gnuplot's marks of fonts, indices and blanks that do
-/// not break: "displacement {/:Italic z}_1 (mm)" is "displacement z₁ (mm)".
+/// Label of an axis as plain text, without gnuplot's marks for fonts, indices and non-breaking
+/// blanks: "displacement {/:Italic z}_1 (mm)" is "displacement z₁ (mm)".
 std::string plain_label(const std::string& label);
 
-/// The panels of a picture as the script of the page reads them: a list of
-/// {"box": [left, top, right, bottom], "x": {"name", "unit", "from", "to", "log"}, "y", "right"},
-/// in which an axis without a name is left out.
+/// JSON text of a picture's panels for the script of the page: a list of {"box": [left, top, right,
+/// bottom], "x": {"name", "unit", "from", "to", "log"}, "y", "right"}, in which an axis without a
+/// name is left out.
 std::string panels_json(const std::vector<PicturePanel>& panels);
 
-/// A picture as a page holds it.
+/// Picture as embedded in a page.
 struct PagePicture {
   std::string url;  ///< "data:image/svg+xml;charset=utf-8,…"
   std::vector<PicturePanel> panels;
 };
 
-/// Draws a figure as pictures/NAME.svg, with its script, and gives the picture that the page shows:
-/// the same drawing as long as that is short, else the dots of it, two to a point, if these are
-/// shorter. Curves of ten thousand points and clouds of them are so. Throws what draw() throws.
+/// Draws a figure as pictures/NAME.svg, with its script, and returns the picture to be embedded:
+/// the SVG if it is short, else a PNG with two pixels per point if that is shorter, as for curves
+/// of ten thousand points. Throws what draw() throws.
 PagePicture page_picture(const Figure& figure, const std::filesystem::path& folder);
 
-/// An SVG text as a URL that holds it (RFC 2397), long curves of gnuplot's by steps. Its quotes,
-/// "#" and "%" are escaped: between double quotes of HTML "&" alone is left to escape.
+/// SVG text as a data URL (RFC 2397), with gnuplot's long curves written by relative steps. Quotes,
+/// "#" and "%" are escaped; inside double quotes of HTML only "&" is left to escape.
 std::string svg_url(const std::string& svg);
 
-/// Address of a picture by the bytes of its PNG.
+/// Data URL of a PNG picture, from its bytes.
 std::string png_url(const std::string& png);
 
 }  // namespace holdfast::program

@@ -24,7 +24,7 @@ namespace {
 /// Zero to peak; 150 microstrain peak to peak.
 constexpr double endurance_limit = 75e-6;
 
-/// Range of the laws at one frequency, without the devices or with them.
+/// Lowest and highest vibration over all pairs of laws at one frequency, without or with devices.
 struct BandAt {
   double frequency, speed;
   Vibration lowest, highest;  // of amplitude and of strain, each by itself
@@ -76,7 +76,7 @@ std::string strain_text(const std::vector<BandAt>& bands) {
   return page_text("strain by every law", {{"some", some}, {"every", every}});
 }
 
-/// How a span vibrates, in words.
+/// Text on the vibration of a span.
 std::string vibration_text(const AeolianBalance& balance, const std::vector<BandAt>& bands) {
   const BandAt& worst =
       *std::max_element(bands.begin(), bands.end(), [](const BandAt& one, const BandAt& other) {
@@ -93,7 +93,7 @@ std::string vibration_text(const AeolianBalance& balance, const std::vector<Band
   return text + (balance.knows_strain() ? strain_text(bands) : page_text("strain unknown"));
 }
 
-/// The answer, or why the case has none.
+/// Completed answer, or the reason why the case has none.
 template <class Tell>
 Answer answered(Answer answer, const Tell& tell) {
   throw_if_interrupted();
@@ -105,7 +105,7 @@ Answer answered(Answer answer, const Tell& tell) {
   return answer;
 }
 
-/// That the laws are of other conductors.
+/// Note that the laws were measured on other conductors; else empty.
 std::string laws_text(const Case& the_case) {
   const std::string note = self_damping_note(the_case);
   return note.empty() ? "" : page_text("note of laws", {{"note", note}});
@@ -176,7 +176,7 @@ Answer which_frequency(const Case& the_case, const Axis& axis, const Values& val
   });
 }
 
-/// Share of the waves that one end takes, at the least and at the most.
+/// Text on the smallest and largest share of waves that one end absorbs.
 std::string taken_text(const Case& the_case, const SpanEnd& end, const std::string& name,
                        const Axis& axis) {
   if (end.devices.empty()) return page_text("end without device", {{"end", name}});

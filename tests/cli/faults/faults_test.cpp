@@ -48,12 +48,6 @@ TEST(WrongInput, OptionsAreNamedWithWhatWasExpected) {
   expect_refused("report", {"--output"});
 }
 
-TEST(WrongInput, UnknownJobComesWithTheNearestOne) {
-  expect_refused("simulat", {"simulate"});
-  expect_refused("max_delay", {"max-delay"});
-  expect_refused("", {"which job"});
-}
-
 TEST(Output, UnwritablePlacesAreRefusedBeforeAnythingIsComputed) {
   const TemporaryFolder folder;
   expect_refused("report --output '/dev/null/report'", {"report"});

@@ -76,7 +76,7 @@ TEST(SweepJob, RefusesAxesThatAreNone) {
   expect_refused("sweep --axis backlash.width=0,,1", {"0,,1"});
   expect_refused("sweep --axis backlash.width=log:0:1:3", {"log:0:1:3"});
   expect_refused("sweep --axis backlash.width=log:-1:1:3", {"log:-1:1:3"});
-  expect_refused("sweep --axis excitation.hold=sampled,exact", {"excitation.hold is not a number"});
+  expect_refused("sweep --axis excitation.hold=sampled,exact", {"excitation.hold has no numbers"});
   expect_refused("sweep --axis wind.speed=1,2", {"[wind]"});
   expect_refused("sweep --axis initial.z1=0:1:2 --axis initial.z1=2,3", {"initial.z1"});
   expect_refused("sweep --axis initial.z1=0:1:1000000000 --axis initial.z2=0:1:1000000000",

@@ -254,7 +254,9 @@ TEST(ConductorName, ThatIsContradictedIsDoubted) {
   const std::string written = case_to_toml(from_text(span_of(*find_conductor("Drake"))));
   EXPECT_EQ(contradicted_name_text(from_text(written)), "");
   const std::string text = contradicted_name_text(from_text(written, {"conductor.name=Hawk"}));
-  EXPECT_EQ(text.rfind("--set conductor.name=Hawk: values beside conductor.name = \"Hawk\"", 0), 0U)
+  EXPECT_EQ(
+      text.rfind("--set conductor.name=Hawk: values given besides conductor.name = \"Hawk\"", 0),
+      0U)
       << text;
   EXPECT_TRUE(holds(text, "conductor.mass_per_length 1.628 instead of 0.975")) << text;
   EXPECT_EQ(contradicted_name_text(load_case(std::nullopt, {"conductor.name=Hawk"})), "");
@@ -287,9 +289,10 @@ TEST(ConductorDiameter, AndTheOtherNewKeysRefuseWhatNoConductorHas) {
     EXPECT_EQ(case_value(load_case(std::nullopt, {}), key),
               std::numeric_limits<double>::infinity());
   }
-  EXPECT_TRUE(holds(refusal("", {"conductor.diameter=28.14"}), "is it in mm, 0.02814 m?"));
+  EXPECT_TRUE(
+      holds(refusal("", {"conductor.diameter=28.14"}), "did you mean mm, that is 0.02814 m?"));
   EXPECT_TRUE(holds(refusal("", {"conductor.name=Drake", "conductor.rated_strength=140.1"}),
-                    "is it in kN, 1.401e+05 N?"));
+                    "did you mean kN, that is 1.401e+05 N?"));
   for (const char* setting : {"conductor.rated_strength=31500", "conductor.outer_wire_modulus=69",
                               "conductor.outer_wire_diameter=4.44"})
     EXPECT_EQ(doubts_about(load_case(std::nullopt, {"conductor.name=Drake", setting}),

@@ -144,9 +144,10 @@ TEST(Devices, MissingKeysAreAskedForByNameAndKind) {
 }
 
 TEST(Devices, AKeyThatTheKindDoesNotUseIsRefusedWithThoseItUses) {
-  EXPECT_EQ(refusal_of(devices[0] + "stiffness = 3\n"),
-            "case.toml:7: device.1.stiffness = 3: a dashpot has no such key; it has position, "
-            "to, damping, mass, clamp_mass");
+  EXPECT_EQ(
+      refusal_of(devices[0] + "stiffness = 3\n"),
+      "case.toml:7: device.1.stiffness = 3: a dashpot has no such key; its keys are position, "
+      "to, damping, mass, clamp_mass");
   for (const auto& [device, key] :
        std::vector<std::pair<std::string, std::string>>{{devices[0], "inertance = 1"},
                                                         {devices[0], "frequencies = [3]"},
@@ -155,12 +156,13 @@ TEST(Devices, AKeyThatTheKindDoesNotUseIsRefusedWithThoseItUses) {
                                                         {devices[5], "mass = 3"},
                                                         {devices[6], "file = \"a.csv\""},
                                                         {devices[7], "inertance = 3"}})
-    EXPECT_TRUE(holds(refusal_of(device + key + "\n"), " has no such key; it has position")) << key;
+    EXPECT_TRUE(holds(refusal_of(device + key + "\n"), " has no such key; its keys are position"))
+        << key;
   EXPECT_TRUE(
       holds(refusal_of(devices[6] + "mass = 1\n"), "with to = \"ground\" an inerter has no mass"));
   for (const std::size_t k : {2U, 4U})
     EXPECT_TRUE(holds(refusal_of(devices[k] + "to = \"ground\"\n"),
-                      "hangs on the conductor: to must be \"conductor\""));
+                      "hangs on the conductor: set to = \"conductor\""));
 }
 
 TEST(Devices, ContradictionsAndValuesThatTheKindCannotHaveAreRefused) {
@@ -210,13 +212,13 @@ TEST(Devices, SlipsOfTheHandAreRecognised) {
             "case.toml:4: device.1.knd = 'dashpot': unknown key: did you mean device.1.kind (");
   EXPECT_TRUE(holds(refusal_of("kind = \"dashpod\"\n"), "did you mean \"dashpot\"?"));
   EXPECT_EQ(refusal("[device]\nkind = \"dashpot\"\n"),
-            "case.toml:1: device must be a list of tables: write [[device]] before each");
+            "case.toml:1: device must be a list of tables: write [[device]] before each device");
   EXPECT_TRUE(holds(refusal("device = 3\n"), "case.toml:1: device must be a list of tables"));
   EXPECT_TRUE(holds(refusal("device = [3]\n"), "case.toml:1: device = 3: must be a list"));
   EXPECT_EQ(refusal("[[devices]]\nkind = \"dashpot\"\n"),
             "case.toml:1: [[devices]]: unknown table: did you mean [[device]]?");
   EXPECT_TRUE(holds(refusal("[devices]\nkind = 1\n"), "did you mean [[device]]?"));
-  EXPECT_TRUE(holds(refusal("[[control]]\nkind = 1\n"), "must be a table, [control]"));
+  EXPECT_TRUE(holds(refusal("[[control]]\nkind = 1\n"), "must be a table: write [control]"));
 }
 
 TEST(Devices, AreSetByTheirNumbers) {
@@ -251,7 +253,8 @@ TEST(Devices, OverridesThatMeetNoDeviceAreRefused) {
     EXPECT_TRUE(holds(override_refusal({text}), std::string("--set ") + text + ": ")) << text;
   EXPECT_TRUE(holds(override_refusal({"device.1.kind=dashpod"}), "did you mean \"dashpot\"?"));
   EXPECT_TRUE(holds(override_refusal({"device.1.dampin=3"}), "did you mean device.1.damping"));
-  EXPECT_EQ(override_refusal({"device.1.kind="}), "--set device.1.kind=: expected key=value");
+  EXPECT_EQ(override_refusal({"device.1.kind="}),
+            "--set device.1.kind=: expected key=value, but there is no value");
   EXPECT_TRUE(holds(override_refusal({"device.1.kind=dashpot"}),
                     "--set device.1.kind=dashpot: device.1: position is missing"));
   EXPECT_TRUE(holds(override_refusal({"device.1.kind=dashpot", "device.1.position=3 kg"}),
@@ -295,7 +298,7 @@ TEST(ImpedanceTable, NamesFileAndLineOfAFault) {
   EXPECT_EQ(table_refusal(header + "0,3,0\n1,3,0\n"),
             "shaker.csv:2: frequency_Hz = 0: must be above 0 Hz");
   EXPECT_EQ(table_refusal(header + "5,3,0\n"),
-            "shaker.csv: a table of impedance needs 2 rows at least, but has 1");
+            "shaker.csv: a table of impedance needs at least 2 rows, but has 1");
   EXPECT_TRUE(holds(table_refusal("frequency,magnitude,phase\n1,2,3\n"), "frequency_Hz"));
 }
 

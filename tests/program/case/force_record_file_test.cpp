@@ -58,11 +58,11 @@ TEST(ForceRecordFile, NamesFileAndLineOfAFault) {
 }
 
 TEST(ForceRecordFile, RefusesWhatIsNoRecord) {
-  EXPECT_EQ(force_refusal(""), "force.csv: has no header row");
+  EXPECT_EQ(force_refusal(""), "force.csv: has no header row; begin with a row of column names");
   EXPECT_EQ(force_refusal("time_s,force_N\n"),
-            "force.csv: a force record needs 2 rows at least, but has 0");
+            "force.csv: a force record needs at least 2 rows, but has 0");
   EXPECT_EQ(force_refusal("time_s,force_N\n0,1\n"),
-            "force.csv: a force record needs 2 rows at least, but has 1");
+            "force.csv: a force record needs at least 2 rows, but has 1");
   EXPECT_EQ(force_refusal("time_s,displacement_m\n0,1\n1,2\n"),
             "force.csv: has no column \"force_N\", columns found: 2");
   EXPECT_EQ(force_refusal("t,force_N\n0,1\n1,2\n"),

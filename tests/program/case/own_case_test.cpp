@@ -172,18 +172,18 @@ TEST(Contradictions, OfANamedConductorAreSaidWithBothValuesTheirRatioAndTheUnit)
   };
   // Of Drake: 1.094 lb/ft, 1.108 in, 0.7264 in2, 31 500 lbf, 10.1e6 psi.
   for (const Mistake& one :
-       std::vector<Mistake>{{"mass_per_length = 1.094", "lb/ft, 1.628"},
+       std::vector<Mistake>{{"mass_per_length = 1.094", "lb/ft, that is 1.628"},
 
-                            {"rated_strength = 31500", "lbf, 1.401"},
+                            {"rated_strength = 31500", "lbf, that is 1.401"},
                             {"diameter = 0.0281\nrated_strength = 31500", "lbf"}}) {
     const std::string text = said(std::string(one.line) + "\n");
     EXPECT_EQ(text.rfind("case.toml:2: ", 0), 0u) << text;
-    EXPECT_TRUE(holds(text, std::string("is it in ") + one.unit)) << text;
+    EXPECT_TRUE(holds(text, std::string("did you mean ") + one.unit)) << text;
   }
   const std::string twice = said("mass_per_length = 3.256\n");
   EXPECT_TRUE(holds(twice, "conductor.mass_per_length 3.256 instead of 1.628 kg/m, ratio 2"))
       << twice;
-  EXPECT_FALSE(holds(twice, "is it in")) << twice;
+  EXPECT_FALSE(holds(twice, "did you mean")) << twice;
 }
 
 /// The suggestion of a unit, and none other, makes the values consistent.
@@ -191,14 +191,14 @@ TEST(Contradictions, SuggestTheUnitThatTheOtherValuesSupport) {
   const std::string drake =
       "[conductor]\nmass_per_length = 1.628\nspan = 300\ntension = 28020\ndiameter = 0.028143\n";
   const auto said = [&](const std::string& more) { return refusal(drake + more); };
-  EXPECT_TRUE(holds(said("area = 468.6e-6\nyoungs_modulus = 10.1e3\n"), "is it in ksi, ") ||
-              holds(said("area = 468.6e-6\nyoungs_modulus = 10.1e3\n"), "is it in MPa"));
+  EXPECT_TRUE(holds(said("area = 468.6e-6\nyoungs_modulus = 10.1e3\n"), "did you mean ksi, ") ||
+              holds(said("area = 468.6e-6\nyoungs_modulus = 10.1e3\n"), "did you mean MPa"));
   const std::string modulus = said("area = 468.6e-6\nyoungs_modulus = 11.2e6\n");
   const std::string kcmil = said("area = 795\nyoungs_modulus = 69.6e9\n");
-  EXPECT_TRUE(holds(kcmil, "is it in kcmil, 0.00040283 m2?")) << kcmil;
-  EXPECT_TRUE(
-      holds(said("area = 468.6\nyoungs_modulus = 69.6e9\n"), "is it in mm2, 0.0004686 m2?"));
-  EXPECT_TRUE(modulus.empty() || holds(modulus, "is it in psi, 7.722")) << modulus;
+  EXPECT_TRUE(holds(kcmil, "did you mean kcmil, that is 0.00040283 m2?")) << kcmil;
+  EXPECT_TRUE(holds(said("area = 468.6\nyoungs_modulus = 69.6e9\n"),
+                    "did you mean mm2, that is 0.0004686 m2?"));
+  EXPECT_TRUE(modulus.empty() || holds(modulus, "did you mean psi, that is 7.722")) << modulus;
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ TEST(Plausibility, NamesTheKeyAndTheUnitThatWasMistaken) {
            {"reduction.first_frequency=37.7", "reduction.first_frequency", "rad/s"}}) {
     const std::string said = said_of(cardinal, {mistake.setting});
     EXPECT_TRUE(holds(said, std::string("--set ") + mistake.key + "=")) << said;
-    EXPECT_TRUE(holds(said, std::string(" in ") + mistake.unit) ||
+    EXPECT_TRUE(holds(said, std::string("did you mean ") + mistake.unit) ||
                 holds(said, std::string(" or ") + mistake.unit))
         << mistake.setting << "\n"
         << said;
@@ -153,7 +153,7 @@ TEST(Plausibility, OfAPlantNamesTheKeyAndTheUnitThatWasMistaken) {
                             {"excitation.amplitude=500", "excitation.amplitude", "mN"}}) {
     const std::string said = said_of("", {mistake.setting});
     EXPECT_TRUE(holds(said, mistake.key)) << said;
-    EXPECT_TRUE(holds(said, std::string(" in ") + mistake.unit)) << mistake.setting << "\n" << said;
+    EXPECT_TRUE(holds(said, std::string("did you mean ") + mistake.unit)) << said;
   }
   const std::string both = said_of("", {"plant.conductor_mass=76.7", "plant.absorber_mass=160"});
   EXPECT_TRUE(holds(both, "are plant.conductor_mass, plant.absorber_mass in g?")) << both;
@@ -170,7 +170,7 @@ TEST(Plausibility, APlaceAtTheSupportIsNamedBeforeTheReadingThatItSpoils) {
       doubts_about(load_case(std::nullopt, {"absorber.position=0.0016"}), quantities_of_case());
   ASSERT_EQ(doubts.size(), 1U);
   EXPECT_TRUE(holds(doubts[0], "--set absorber.position=0.0016: ")) << doubts[0];
-  EXPECT_TRUE(holds(doubts[0], "is it in km, 1.6 m?")) << doubts[0];
+  EXPECT_TRUE(holds(doubts[0], "did you mean km, that is 1.6 m?")) << doubts[0];
   const std::string refusal = said_of("", {"absorber.position=0.0016"});
   EXPECT_EQ(refusal.rfind("absorber.position = 0.0016 m", 0), 0U) << refusal;
 }
@@ -180,7 +180,7 @@ TEST(Plausibility, WhatNoCableHasIsRefusedAtItsLineWithTheAdmissibleRange) {
   text.replace(text.find("546e-6"), 6, "546");
   const std::string refusal = said_of(text, {});
   for (const char* part : {"case.toml:5: conductor.area = 546", "kg/m3; must be at least 10",
-                           "is it in mm2, 0.000546 m2?"})
+                           "did you mean mm2, that is 0.000546 m2?"})
     EXPECT_TRUE(holds(refusal, part)) << refusal;
   EXPECT_THROW(load_case(std::nullopt, {"initial.z1=-100"}), WrongInput);
   EXPECT_THROW(load_case_text(cardinal, "case.toml", {"wind.speed=300"}), WrongInput);

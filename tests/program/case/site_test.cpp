@@ -61,7 +61,7 @@ TEST(Site, ListsOfNumbersAreRefusedNumberByNumber) {
 TEST(Site, WhatDoesNotFitTogetherIsRefused) {
   for (const auto& [text, why] : std::vector<std::pair<std::string, std::string>>{
            {"speeds = [1, 2]\nhours = [3]\n",
-            "case.toml:3: site.hours = [3]: site.speeds has 2 numbers and site.hours 1"},
+            "case.toml:3: site.hours = [3]: site.speeds has 2 numbers, but site.hours has 1"},
            {"speeds = [1, 2]\n", "case.toml:2: site.speeds = [1, 2]: site.speeds has 2 numbers"},
            {"hours = [3]\n", "case.toml:2: site.hours = [3]: site.speeds has 0 numbers"},
            {"speeds = [1, 2]\nhours = [3, 4]\nweibull_scale = 6\n",
@@ -83,7 +83,7 @@ TEST(Site, WhatIsNotUsualIsDoubted) {
   EXPECT_TRUE(
       doubts("weibull_scale = 6\nweibull_shape = 1.8\nturbulence_intensity = 0.2\n").empty());
   ASSERT_EQ(doubts("turbulence_intensity = 0.9\n").size(), 1U);
-  EXPECT_TRUE(holds(doubts("weibull_scale = 40\n").front(), "is it in km/h"));
+  EXPECT_TRUE(holds(doubts("weibull_scale = 40\n").front(), "did you mean km/h"));
 }
 
 TEST(Absorber, MayBeMissingOnEveryModelButTwoMasses) {
@@ -129,10 +129,10 @@ TEST(Tension, BeyondTheRatedStrengthIsRefused) {
   const std::string span = "[conductor]\nname = \"Drake\"\nspan = 300\n";
   EXPECT_EQ(from_text(span + "tension = 1.3e5\n").conductor.tension, 1.3e5);
   const std::string message = refusal(span + "tension = 1.45e5\n");
-  EXPECT_TRUE(holds(message, "the tension over conductor.rated_strength is 1.0")) << message;
+  EXPECT_TRUE(holds(message, "the tension divided by conductor.rated_strength is 1.0")) << message;
   EXPECT_TRUE(holds(message, "must be at most 1")) << message;
   const std::string in_kN = refusal(span + "tension = 28e3\nrated_strength = 140.1\n");
-  EXPECT_TRUE(holds(in_kN, "is it in kN, 1.401e+05 N?")) << in_kN;
+  EXPECT_TRUE(holds(in_kN, "did you mean kN, that is 1.401e+05 N?")) << in_kN;
 }
 
 }  // namespace

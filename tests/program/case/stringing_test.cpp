@@ -57,14 +57,14 @@ TEST(Stringing, RefusesWhatCannotBe) {
   EXPECT_TRUE(holds(with("weather.ice=1"), "at most 0.2 m"));
   EXPECT_TRUE(holds(with("stringing.ruling_span=0"), "at least 1 and at most 10000 m"));
   EXPECT_TRUE(holds(with("stringing.sag=3"), "give only one of them"));
-  EXPECT_TRUE(holds(with("conductor.tension=28e3"), "follows from [stringing]"));
+  EXPECT_TRUE(holds(with("conductor.tension=28e3"), "is computed from [stringing]"));
   EXPECT_TRUE(holds(refusal(drake + "[stringing]\ntemperature = 15\n"), "stringing.tension (N)"));
   EXPECT_TRUE(holds(refusal(drake, {"weather.temperature=15"}), "no effect without"));
   // Beyond its strength in one state, which is named; and beyond the curves.
   EXPECT_TRUE(holds(refusal(strung, {"weather.temperature=-50", "conductor.rated_strength=36e3"}),
                     "at -50 degC the tension would be"));
   EXPECT_TRUE(holds(refusal(strung, {"stringing.tension=1.2e5", "weather.temperature=-50"}),
-                    "beyond the range of its stress-strain curves"));
+                    "beyond its stress-strain curves"));
   EXPECT_TRUE(
       holds(refusal("[conductor]\nmass_per_length = 1.6\nspan = 300\narea = 4.7e-4\n"
                     "youngs_modulus = 7e10\n[stringing]\ntemperature = 15\ntension = 28e3\n",
@@ -104,7 +104,7 @@ TEST(Weather, HasTheDamageOfEachTemperatureInItsHours) {
   EXPECT_NEAR(by_speed[0] + by_speed[1], whole, 1e-9 * whole);
   // Colder is tauter, and lives shorter.
   EXPECT_GT(bare[0] / 0.25, bare[1] / 0.75);
-  EXPECT_TRUE(holds(refusal(line, {of_year[0], "weather.hours=[1]"}), "one number of hours"));
+  EXPECT_TRUE(holds(refusal(line, {of_year[0], "weather.hours=[1]"}), "the same number of values"));
   EXPECT_TRUE(holds(refusal(line, {of_year[0], "weather.hours=[8000, 800]"}), "a year has"));
   EXPECT_THROW(answer_of({"fatigue", "--by-temperature"}, line, {}), WrongInput);
 }

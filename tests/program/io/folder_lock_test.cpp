@@ -37,7 +37,7 @@ TEST(FolderLock, KeepsASecondHolderInOneProcessAway) {
   const TemporaryFolder folder;
   const FolderLock lock(folder.path());
   EXPECT_EQ(message_of<OutputError>([&] { FolderLock second(folder.path()); }),
-            folder.path().string() + " is in use by another program");
+            folder.path().string() + " is in use by another program; wait until that program ends");
 }
 
 TEST(FolderLock, MovesWithItsObject) {

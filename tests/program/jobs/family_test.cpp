@@ -53,7 +53,7 @@ TEST(Family, HasTheMiddleTheCornersAndALatinHypercubeOfItsBox) {
 
 TEST(Family, RefusesRangesThatNoCaseHas) {
   EXPECT_TRUE(holds(override_refusal({"uncertain.absorber.masss=± 5 %"}), "did you mean"));
-  EXPECT_TRUE(holds(override_refusal({"uncertain.plant.model=± 5 %"}), "only a number"));
+  EXPECT_TRUE(holds(override_refusal({"uncertain.plant.model=± 5 %"}), "only a key with a number"));
   for (const std::string wrong : {"[2, 1]", "5 %"})
     EXPECT_TRUE(holds(override_refusal({"uncertain.absorber.mass=" + wrong}), "[lowest, highest]"));
   EXPECT_TRUE(
@@ -158,6 +158,10 @@ TEST(Family, HasTheQuantilesOfItsMotions) {
   for (const auto& [name, rank] : ranks)
     EXPECT_NEAR(quantiles.numbers(name)[0], peaks[rank], 1e-9 * peaks[rank]) << name;
   EXPECT_LT(peaks.front(), 0.9 * peaks.back());
+  // Eleven of 21 delays are within the hundred periods that a delay may have.
+  AnswerInMemory delayed =
+      answer_of(of_family, "", {"uncertain.control.processing_delay=[0, 0.2]"});
+  EXPECT_EQ(delayed.column("members").whole_numbers(), std::vector<std::int64_t>({11, 11}));
   for (const char* other : {"--axis=backlash.width=0:1e-3:2", "--part=1/2", "--resume"}) {
     Words more = of_family;
     more.emplace_back(other);

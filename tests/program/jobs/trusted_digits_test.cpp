@@ -108,7 +108,7 @@ TEST(TrustedDigitsByRounding, AreLostWhereNeighboursPart) {
     EXPECT_NEAR(std::log(1e10) / trusted.rate->per_second, *trusted.until, 0.5 * *trusted.until);
     const std::string warning = trust_warning(trusted);
     EXPECT_NE(warning.find("motions separate, the largest exponent is "), std::string::npos);
-    EXPECT_EQ(warning.find("another rounding") != std::string::npos, limited) << warning;
+    EXPECT_EQ(warning.find("other rounding errors") != std::string::npos, limited) << warning;
   }
 }
 

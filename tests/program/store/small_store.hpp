@@ -7,7 +7,7 @@
 namespace holdfast::program {
 
 /// Seven times five cells in chunks of two rows, a column of each kind and one beside the table.
-inline StoreDescription small_store(int format = 3) {
+inline StoreDescription small_store() {
   JobContext context;
   context.job = "sweep";
   context.case_data = load_case(std::nullopt, {"control.sampling_period=0.004"});
@@ -15,7 +15,6 @@ inline StoreDescription small_store(int format = 3) {
   context.case_source.name = "my.toml";
   context.case_source.overrides = {"control.sampling_period=0.004"};
   context.options = {{"--axis", "backlash.width=0:0.003:7"}, {"--axis", "initial.z1=0:1:5"}};
-  context.zarr_format = format;
   const GridLayout layout{{{{"backlash.width", "m", "r0"}, Axis{0.0, 0.003, 7}},
                            {{"initial.z1", "m", "z1 at the start"}, Axis{0.0, 1.0, 5}}},
                           {{{"steady_peak", "N.s/m", "largest |z1|"}, {}},

@@ -20,25 +20,22 @@ using tests::TemporaryFolder;
 using tests::write_text;
 
 TEST(StoreFolder, KeepsItsChunksForWhoeverOpensIt) {
-  for (const int format : {3, 2}) {
-    if (format == 2 && usual_packing() != ChunkPacking::zstd) continue;
-    const TemporaryFolder folder;
-    const StoreFolder store = StoreFolder::enter(folder / "x.zarr", small_store(format));
-    for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk) {
-      EXPECT_FALSE(store.has(chunk));
-      store.put(chunk, values_of_small_store(chunk));
-      EXPECT_EQ(store.chunks_done(), chunk + 1);
-    }
-    const StoreFolder opened = StoreFolder::open(folder / "x.zarr");
-    for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk)
-      EXPECT_EQ(opened.read(chunk), values_of_small_store(chunk));
-    const GridAxis& axis = opened.description().axes[0];
-    ASSERT_EQ(axis.count(), 7U);
-    for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(axis.at(i), small_store().axes[0].at(i));
-    EXPECT_THROW(store.has(4), std::out_of_range);
-    store.remove();
-    EXPECT_TRUE(folder.names().empty());
+  const TemporaryFolder folder;
+  const StoreFolder store = StoreFolder::enter(folder / "x.zarr", small_store());
+  for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk) {
+    EXPECT_FALSE(store.has(chunk));
+    store.put(chunk, values_of_small_store(chunk));
+    EXPECT_EQ(store.chunks_done(), chunk + 1);
   }
+  const StoreFolder opened = StoreFolder::open(folder / "x.zarr");
+  for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk)
+    EXPECT_EQ(opened.read(chunk), values_of_small_store(chunk));
+  const GridAxis& axis = opened.description().axes[0];
+  ASSERT_EQ(axis.count(), 7U);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(axis.at(i), small_store().axes[0].at(i));
+  EXPECT_THROW(store.has(4), std::out_of_range);
+  store.remove();
+  EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(StoreFolder, ManyThatBeginItAtOnceAllHaveIt) {

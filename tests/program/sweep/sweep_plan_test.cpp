@@ -80,7 +80,7 @@ TEST(SweepPlan, RefusesWhatNoCellCouldHave) {
   const std::vector<std::pair<SweepOptions, const char*>> refused = {
       {sweep_over({}), "at least one"},
       {sweep_over({"backlash.widht=0,1"}), "backlash.width"},
-      {sweep_over({"backlash.law=0,1"}), "is not a number"},
+      {sweep_over({"backlash.law=0,1"}), "has no numbers as values"},
       {sweep_over({"wind.speed=1,2"}), "no [wind]"},
       {sweep_over({"backlash.width=0,1", "backlash.width=2,3"}), "twice"},
       {sweep_over({"initial.z1=0:1:1000000000", "initial.z2=0:1:1000000000"}), "2^53"},

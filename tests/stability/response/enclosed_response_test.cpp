@@ -38,7 +38,7 @@ TEST(EnclosedResponse, IsThatOfDoubles) {
                   ours.value.radius() + 1e-7 * std::abs(theirs))
             << lambda;
         EXPECT_LT(ours.value.radius(), 1e-4 * std::abs(theirs)) << lambda;
-        EXPECT_LT(ours.rest, 1e-300);
+        EXPECT_LT(ours.rest, 1e-260);
       }
       const auto own = enclosed.power_about(ComplexEnclosure(lambda, 0.0), 0.0);
       EXPECT_LE(std::abs(own.value.middle() - power), own.value.radius() + 1e-13 * std::abs(power));

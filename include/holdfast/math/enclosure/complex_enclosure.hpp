@@ -15,9 +15,7 @@ namespace detail {
 
 /// An upper bound of the exact value of a sum that was computed as x ≥ 0. The sum has up to ten
 /// terms, each a product of up to four moduli; at most 20 roundings occurred.
-inline double above_roundings(double x) {
-  return rounded_up(x * (1.0 + 0x1.0p-48)) + std::numeric_limits<double>::denorm_min();
-}
+inline double above_roundings(double x) { return rounded_up(x * (1.0 + 0x1.0p-48)); }
 
 /// The modulus |z| up to a few roundings; a value up to 1.5 |z| where |z|² would underflow.
 inline double rounded_modulus(const std::complex<double>& z) {
@@ -28,18 +26,18 @@ inline double rounded_modulus(const std::complex<double>& z) {
 
 }  // namespace detail
 
-/// A complex number proved to lie in a disc, given by centre and radius. A rotation does not widen
-/// a disc, unlike a rectangle.
+/// A complex number proved to lie in a disc, given by centre and radius. Multiplication by e^{iθ}
+/// does not widen a disc, as it would widen a rectangle.
 ///
-/// Every operation gives a disc that contains its result for all numbers in its arguments. After a
-/// division by 0 or an overflow the radius is infinite: the number is unknown.
+/// Every operation gives a disc that contains its result for all numbers in its arguments. A
+/// division by a number that may be 0 gives an infinite radius, and so does an overflow.
 class ComplexEnclosure {
  public:
-  /// The number 0.
+  /// Constructs the exact number 0.
   ComplexEnclosure() = default;
-  /// The exact value of a double; implicit, so that doubles may be used in formulas.
+  /// Encloses a double exactly; implicit, so that doubles may be used in formulas.
   ComplexEnclosure(double exact) : centre_(exact) {}  // NOLINT(google-explicit-constructor)
-  /// The disc around a centre. A NaN, or a negative `radius`, gives an infinite radius.
+  /// Constructs a disc. A centre that is not finite, or a negative or NaN radius, gives radius ∞.
   ComplexEnclosure(const std::complex<double>& centre, double radius)
       : centre_(centre), radius_(radius) {
     const bool known = std::isfinite(centre.real()) && std::isfinite(centre.imag());
@@ -47,7 +45,7 @@ class ComplexEnclosure {
     centre_ = 0.0;
     radius_ = std::numeric_limits<double>::infinity();
   }
-  /// The number x + iy; implicit where y is left out, since a real number is complex too.
+  /// Encloses x + iy for all x and y in two intervals; implicit where y is left out (y = 0).
   ComplexEnclosure(const Enclosure& x, const Enclosure& y = {})  // NOLINT(google-explicit-*)
       : ComplexEnclosure({x.middle(), y.middle()}, (Enclosure(x.radius()) + y.radius()).upper()) {}
 
@@ -63,17 +61,17 @@ class ComplexEnclosure {
   double least_modulus() const {
     const double modulus = detail::rounded_modulus(centre_);
     const double below = modulus * (1.0 - 0x1.0p-48) - detail::above_roundings(radius_);
-    // Neither where squares vanish nor where they overflow.
+    // Valid only where squares neither underflow nor overflow.
     return modulus > 2e-140 && modulus < 1e150 && below > 0.0 ? below : 0.0;
   }
-  /// The enclosure of the real part Re z.
+  /// The enclosure of the number's real part.
   Enclosure real() const { return centre_.real() + Enclosure(-radius_, radius_); }
-  /// The enclosure of the imaginary part Im z.
+  /// The enclosure of the number's imaginary part.
   Enclosure imaginary() const { return centre_.imag() + Enclosure(-radius_, radius_); }
 
-  /// The negative −a, exact.
+  /// The negative of this number, exact.
   ComplexEnclosure operator-() const { return {-centre_, radius_}; }
-  /// The product i a with the imaginary unit, exact.
+  /// This number times the imaginary unit i, exact.
   ComplexEnclosure times_i() const { return {{-centre_.imag(), centre_.real()}, radius_}; }
   /// Adds the complex number b.
   ComplexEnclosure& operator+=(const ComplexEnclosure& b) { return *this = *this + b; }
@@ -89,7 +87,7 @@ class ComplexEnclosure {
   friend ComplexEnclosure operator-(const ComplexEnclosure& a, const ComplexEnclosure& b) {
     return a + (-b);
   }
-  /// The product a b. Real and imaginary part of the product of the centres have 2 roundings each.
+  /// The product a b; the radius includes the rounding error of the product of the centres.
   friend ComplexEnclosure operator*(const ComplexEnclosure& a, const ComplexEnclosure& b) {
     const std::complex<double>&x = a.centre_, &y = b.centre_;
     const double of_x = detail::rounded_modulus(x), of_y = detail::rounded_modulus(y);
@@ -98,7 +96,7 @@ class ComplexEnclosure {
     return {{x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()},
             detail::above_roundings(radius) + least};
   }
-  /// The quotient a / b; its radius is infinite where b may be 0.
+  /// The quotient a / b; the radius is infinite where b may be 0.
   friend ComplexEnclosure operator/(const ComplexEnclosure& a, const ComplexEnclosure& b) {
     return a * inverse(b);
   }
@@ -107,9 +105,8 @@ class ComplexEnclosure {
   friend ComplexEnclosure conj(const ComplexEnclosure& a) {
     return {std::conj(a.centre_), a.radius_};
   }
-  /// The reciprocal 1/a; unknown where a may be 0. With the centre c of a, a = c + w and y ≈ 1/c,
-  ///
-  ///     |1/(c + w) − y| ≤ (|1 − c y| + |w y|)/|c + w|
+  /// The reciprocal 1/a; radius ∞ where a may be 0. The disc's centre is y ≈ 1/c for a's centre c.
+  /// Its radius bounds |1/x − y| = |1 − x y|/|x| for all x in a.
   friend ComplexEnclosure inverse(const ComplexEnclosure& a) {
     const double squared = std::norm(a.centre_);
     const ComplexEnclosure near(std::conj(a.centre_) / squared, 0.0);
@@ -119,8 +116,8 @@ class ComplexEnclosure {
   }
 
  private:
-  static constexpr double unit = 0x1.0p-53;     // of the rounding of a double
-  static constexpr double least = 0x1.0p-1060;  // above what products lose near 0
+  static constexpr double unit = 0x1.0p-53;     // relative rounding error of a double
+  static constexpr double least = 0x1.0p-1060;  // above the underflow error of products
 
   static double size(const std::complex<double>& z) {
     return std::abs(z.real()) + std::abs(z.imag());
@@ -130,8 +127,9 @@ class ComplexEnclosure {
   double radius_ = 0.0;
 };
 
-/// The exponential e^z of every number in a disc.
-/// @param z  disc; the result is unknown where the disc is not finite or its radius is 1 or more
+/// An enclosure of the exponentials e^z of all numbers z in a disc.
+/// @param z  disc; the result has radius ∞ if the radius of z is 1 or more, or if its centre x + iy
+///           has |x| + |y| ≥ 10⁶
 inline ComplexEnclosure exponential(const ComplexEnclosure& z) {
   const double x = z.middle().real(), y = z.middle().imag();
   Matrix<Enclosure, 2> turning;
@@ -143,8 +141,8 @@ inline ComplexEnclosure exponential(const ComplexEnclosure& z) {
   return ComplexEnclosure(power(0, 0), power(1, 0)) * ComplexEnclosure({1.0, 0.0}, around.upper());
 }
 
-/// The power zⁿ of every number in a disc.
-/// @param z      a disc
+/// An enclosure of the powers zⁿ of all numbers z in a disc.
+/// @param z      disc
 /// @param count  exponent n ≥ 0
 inline ComplexEnclosure power(ComplexEnclosure z, int count) {
   ComplexEnclosure result(1.0);

@@ -25,7 +25,7 @@ inline Enclosure nested_series(const Enclosure& squared, double a, int factors =
   return sum;
 }
 
-/// The phasor of a double x (rad), |x| < 10⁶: series at x − k π/2, followed by k quarter turns.
+/// The cosine and sine of x (rad), |x| < 10⁶: series at x − k π/2, then k quarter turns.
 inline EnclosedPhasor phasor_at(double x) {
   const double quarters = std::nearbyint(x * (2.0 / pi<double>));
   const Enclosure rest = Enclosure(x) - Enclosure(0.5 * quarters) * pi<Enclosure>;
@@ -43,7 +43,7 @@ inline EnclosedPhasor phasor_at(double x) {
   }
 }
 
-/// The phasor of an angle (rad): that of its midpoint, widened by its radius, since |slope| ≤ 1.
+/// The cosine and sine of an angle (rad): at the midpoint, widened by the radius as |slope| ≤ 1.
 inline EnclosedPhasor phasor_of(const Enclosure& angle) {
   const Enclosure all(-1.0, 1.0);
   const double x = angle.middle(), radius = angle.radius();
@@ -55,9 +55,9 @@ inline EnclosedPhasor phasor_of(const Enclosure& angle) {
 
 }  // namespace detail
 
-/// The enclosure of cos x for every x (rad) in an enclosed angle.
+/// An enclosure of cos x for all angles x (rad) in an interval.
 inline Enclosure cos(const Enclosure& angle) { return detail::phasor_of(angle).cosine; }
-/// The enclosure of sin x for every x (rad) in an enclosed angle.
+/// An enclosure of sin x for all angles x (rad) in an interval.
 inline Enclosure sin(const Enclosure& angle) { return detail::phasor_of(angle).sine; }
 
 }  // namespace holdfast

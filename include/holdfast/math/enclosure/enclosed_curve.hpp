@@ -10,8 +10,8 @@
 
 namespace holdfast {
 
-/// A curve z(t) in the complex plane, −1 ≤ t ≤ 1, enclosed to second order: by z(0), z′(0) and a
-/// bound of |z″|. Every operation gives an enclosure of its result for all curves in its arguments.
+/// A curve z(t) in the complex plane, −1 ≤ t ≤ 1, enclosed by z(0), z′(0) and a bound of |z″|.
+/// Every operation gives an enclosure of its result for all curves that its arguments enclose.
 class EnclosedCurve {
  public:
   /// The constant curve z(t) = number; implicit, so that numbers may be used in formulas.
@@ -19,7 +19,7 @@ class EnclosedCurve {
       : EnclosedCurve(number, {}, 0.0) {}
   /// @param value  value z(0)
   /// @param slope  derivative z′(0)
-  /// @param bend   bound of |z″| for all t; NaN: unknown
+  /// @param bend   bound of |z″| for all t, ≥ 0; NaN or negative: no bound is known (∞)
   EnclosedCurve(const ComplexEnclosure& value, const ComplexEnclosure& slope, double bend)
       : value_(value),
         slope_(slope),
@@ -27,9 +27,9 @@ class EnclosedCurve {
         slope_size_(slope.magnitude()),
         size_(value.magnitude()) {}
 
-  /// The value z(0) of the curve at its middle.
+  /// The value z(0), at the middle of the parameter range.
   const ComplexEnclosure& value() const { return value_; }
-  /// The derivative z′(0) of the curve at its middle.
+  /// The derivative z′(0), at the middle of the parameter range.
   const ComplexEnclosure& slope() const { return slope_; }
   /// An upper bound of |z| for all t.
   double most() const { return detail::above_roundings(size_ + slope_size_ + 0.5 * bend_); }
@@ -59,10 +59,10 @@ class EnclosedCurve {
     return {a.value_ * b.value_, a.slope_ * b.value_ + a.value_ * b.slope_,
             detail::above_roundings(bend)};
   }
-  /// The curve 1/z: (1/z)′ = −z′/z², |(1/z)″| ≤ (2|z′|²/|z| + |z″|)/|z|²; unknown if z may be 0.
+  /// The curve 1/z: (1/z)′ = −z′/z², |(1/z)″| ≤ (2|z′|²/|z| + |z″|)/|z|²; bounds ∞ if z may be 0.
   friend EnclosedCurve inverse(const EnclosedCurve& z) {
     const ComplexEnclosure inverted = inverse(z.value_);
-    // 1/|z| and a rounding, 0 · ∞ being of no use.
+    // An upper bound of 1/|z| that is > 0, so that 0 · ∞ does not arise.
     const double most = detail::above_roundings(1.0 / z.least()), fast = z.steepest();
     const double bend = 2.0 * (fast * most) * (fast * most) * most + z.bend_ * most * most;
     return {inverted, -(z.slope_ * inverted * inverted), detail::above_roundings(bend)};
@@ -73,7 +73,7 @@ class EnclosedCurve {
   double bend_, slope_size_, size_;
 };
 
-/// A spiral z(t) = c e^{σt} in the complex plane, −1 ≤ t ≤ 1, with enclosed c and σ.
+/// A spiral z(t) = c e^{σt} in the complex plane, −1 ≤ t ≤ 1, with enclosures of c and σ.
 class EnclosedSpiral {
  public:
   /// @param start  value c at t = 0
@@ -102,7 +102,8 @@ class EnclosedSpiral {
   /// The complex conjugate of a spiral.
   friend EnclosedSpiral conj(const EnclosedSpiral& z) { return {conj(z.start_), conj(z.rate_)}; }
 
-  /// The difference z = a − b as a curve, accurate for similar rates too. With ν = σ_a − σ_b,
+  /// The difference z = a − b as a curve. Its bounds are narrow also for similar rates, since they
+  /// follow from ν = σ_a − σ_b (if |σ_b| < 1; otherwise |z″| ≤ |a″| + |b″|):
   ///
   ///     z′ = ν a + σ_b z,   |z| ≤ (|z(0)| + |ν||a|)/(1 − |σ_b|),   z″ = ν (σ_a + σ_b) a + σ_b² z
   friend EnclosedCurve difference(const EnclosedSpiral& a, const EnclosedSpiral& b) {
@@ -111,7 +112,7 @@ class EnclosedSpiral {
     const double most =
         over_what_is_left(detail::above_roundings(value.magnitude() + relative * a.most_), b.turn_);
     const double together = relative * (a.turn_ + b.turn_) * a.most_ + b.turn_ * b.turn_ * most;
-    // Where one turns fast, but has died out.
+    // The second bound is lower if one spiral turns fast but is small.
     const double bend =
         std::min(detail::above_roundings(together), detail::above_roundings(a.bend() + b.bend()));
     return {value, faster * a.start_ + b.rate_ * value, bend};

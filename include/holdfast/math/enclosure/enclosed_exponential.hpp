@@ -53,7 +53,7 @@ template <int Size>
 Matrix<Enclosure, Size> exponential_by_squarings(Matrix<Enclosure, Size> matrix, double norm) {
   int squarings = 0;
   for (; norm > 0.5; norm *= 0.5, ++squarings) matrix *= Enclosure(0.5);
-  constexpr int terms = 20;  // of which the last are below the rounding of the first
+  constexpr int terms = 20;  // the last terms are below the rounding error of the first
   Matrix<Enclosure, Size> power = exponential_series(matrix, norm, terms);
   for (; squarings > 0; --squarings) power = (power * power).eval();
   return power;
@@ -61,10 +61,9 @@ Matrix<Enclosure, Size> exponential_by_squarings(Matrix<Enclosure, Size> matrix,
 
 }  // namespace detail
 
-/// An enclosure of the matrix exponentials e^M of all n × n matrices M in an enclosure: the series
-/// of the balanced M/2^s, squared s times. Work: 20 + s matrix products. The result's width grows
-/// with that of M, and by a factor of about ‖e^M‖ n with each squaring.
-/// @param matrix  square, of fixed or dynamic size; the result is unbounded unless ‖M‖∞ < 10⁶
+/// An enclosure of e^M for all n × n matrices M in an enclosure. Taylor's series of the balanced
+/// M/2ˢ is squared s times; each squaring widens the result. Work: 20 + s matrix products.
+/// @param matrix  square, of fixed or dynamic size; entries (−∞, ∞) are returned if ‖M‖∞ ≥ 10⁶
 template <int Size>
 Matrix<Enclosure, Size> exponential(const Matrix<Enclosure, Size>& matrix) {
   if (!(detail::norm_bound(matrix) < 1e6))

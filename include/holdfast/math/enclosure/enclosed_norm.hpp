@@ -28,10 +28,11 @@ double largest_eigenvalue_near(const Matrix<double, Size>& form) {
 
 }  // namespace detail
 
-/// An upper bound of the norm ‖M‖₂ of all matrices M in an enclosure: σ plus the Frobenius norm of
-/// deviations from the midpoint M₀. By elimination σ² I − M₀ᵀM₀ is proved positive definite.
+/// An upper bound of the spectral norms ‖M‖₂ of all matrices M in an enclosure with midpoint M₀. It
+/// is a bound σ of ‖M₀‖₂ plus the Frobenius norm of the radii. Elimination proves σ > ‖M₀‖₂, that
+/// is, σ² I − M₀ᵀM₀ positive definite.
 /// @param matrix  enclosed matrix, N × N
-/// @return the bound; ∞ where nothing was proved
+/// @return the bound; ∞ if the proof fails
 template <int Size>
 double spectral_norm_bound(const Matrix<Enclosure, Size>& matrix) {
   const Matrix<double, Size> middle = matrix.template cast<double>();

@@ -5,21 +5,21 @@
 
 namespace holdfast {
 
-/// A function of one variable on an interval, with enclosures of its values and of its derivative.
-/// Operations follow the rules of differentiation. The class serves as a number type of Eigen.
+/// A function f of one variable on an interval, as enclosures of its values and of its derivative.
+/// Operations apply the rules of differentiation. The class serves as a number type of Eigen.
 struct EnclosedSlope {
-  Enclosure value;  ///< values f on the whole interval
-  Enclosure slope;  ///< derivative f′ on the whole interval
+  Enclosure value;  ///< enclosure of f on the whole interval
+  Enclosure slope;  ///< enclosure of f′ on the whole interval
 
-  /// The constant function 0.
+  /// Constructs the constant function 0.
   EnclosedSlope() = default;
-  /// A constant function; implicit, so that numbers may be used in formulas.
+  /// Constructs a constant function; implicit, so that numbers may be used in formulas.
   EnclosedSlope(double constant) : value(constant) {}  // NOLINT(google-explicit-constructor)
   /// @param values  enclosure of the values f
   /// @param slopes  enclosure of the derivative f′
   EnclosedSlope(const Enclosure& values, const Enclosure& slopes) : value(values), slope(slopes) {}
 
-  /// The middle of the values, for messages and plausibility checks.
+  /// The middle of the enclosure of f, for messages and plausibility checks.
   explicit operator double() const { return value.middle(); }
 
   /// The function −f.
@@ -43,14 +43,14 @@ struct EnclosedSlope {
   friend EnclosedSlope operator*(const EnclosedSlope& f, const EnclosedSlope& g) {
     return {f.value * g.value, f.slope * g.value + f.value * g.slope};
   }
-  /// The quotient f/g, with (f/g)′ = (f′ − (f/g) g′)/g; unknown where g may be 0.
+  /// The quotient f/g, with (f/g)′ = (f′ − (f/g) g′)/g; (−∞, ∞) where g may be 0.
   friend EnclosedSlope operator/(const EnclosedSlope& f, const EnclosedSlope& g) {
     const Enclosure quotient = f.value / g.value;
     return {quotient, (f.slope - quotient * g.slope) / g.value};
   }
 };
 
-/// The square root √f of a function f > 0; its derivative is unknown where f may be 0.
+/// The square root √f of a function f; the derivative is (−∞, ∞) where f may be 0.
 inline EnclosedSlope sqrt(const EnclosedSlope& f) {
   const Enclosure root = sqrt(f.value);
   return {root, f.slope / (Enclosure(2.0) * root)};
@@ -62,8 +62,8 @@ inline EnclosedSlope cos(const EnclosedSlope& f) {
 /// The sine of a function f.
 inline EnclosedSlope sin(const EnclosedSlope& f) { return {sin(f.value), cos(f.value) * f.slope}; }
 
-/// The quotient sin(f)/f for |f| < 2.4, otherwise unknown. The value is 1 − f²/6 (1 − f²/20 (…)),
-/// the derivative by f is −f/3 times a number between 1 − f²/10 and 1.
+/// The function sin(f)/f, 1 at f = 0; value and slope are (−∞, ∞) unless |f| < 2.4 is proved. The
+/// derivative with respect to f is −f/3 times a number between 1 − f²/10 and 1.
 inline EnclosedSlope sinc(const EnclosedSlope& f) {
   if (!(f.value.magnitude() < 2.4)) return {Enclosure::unknown(), Enclosure::unknown()};
   const Enclosure squared = square(f.value);

@@ -11,11 +11,12 @@ namespace holdfast {
 namespace detail {
 
 /// A bound of half the distance from a double x to its neighbours: the largest error of a sum,
-/// product, quotient or root that is rounded to x. It is valid for x = 0 too.
-/// Source: S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond, Computing predecessor and successor
-/// in rounding to nearest, BIT 49 (2009), Algorithm 1.
+/// product, quotient or root that is rounded to x. The bound is valid for x = 0 too. It is never
+/// subnormal, since operations on subnormal numbers are many times slower. Source: S. M. Rump, P.
+/// Zimmermann, S. Boldo, G. Melquiond, Computing predecessor and successor in rounding to nearest,
+/// BIT 49 (2009), Algorithm 1.
 inline double rounding_of(double x) {
-  constexpr double unit = 0x1.0000000000001p-53, least = std::numeric_limits<double>::denorm_min();
+  constexpr double unit = 0x1.0000000000001p-53, least = 0x1p-900;
   return unit * std::abs(x) + least;
 }
 /// A lower bound of all numbers that round to x; −∞ where x is not a number.
@@ -34,32 +35,32 @@ inline double rounded_up(double x) {
 /// A real number x proved to satisfy lower ≤ x ≤ upper: interval arithmetic with doubles as bounds.
 ///
 /// Every operation gives an enclosure of its result for all numbers in its arguments. Bounds are
-/// rounded outward to the next double. This is valid in every round-to-nearest mode of the
-/// processor, with or without fused multiply-adds. Division by 0 and overflow give ±∞. There is no
-/// operator `<`, since an inequality that is not proved need not be false. The class serves as a
-/// number type of Eigen's matrices and of the library's templates that need no order.
-/// Source: IEEE 1788-2015 for the set that each operation encloses; see also `rounding_of`.
+/// rounded outward. They are valid if the processor rounds to nearest, its default mode, with or
+/// without fused multiply-adds. Division by a number that may be 0 gives (−∞, ∞); a bound that
+/// overflows is ±∞. There is no operator `<`, since an inequality that is not proved need not be
+/// false. The class serves as a number type of Eigen's matrices and of templates without
+/// comparisons. Source: IEEE 1788-2015 for the set that each operation encloses.
 class Enclosure {
  public:
-  /// The number 0.
+  /// Constructs the exact number 0.
   Enclosure() = default;
-  /// The exact value of a double; implicit, so that doubles may be used in formulas.
+  /// Encloses a double exactly; implicit, so that doubles may be used in formulas.
   Enclosure(double exact) : Enclosure(exact, exact) {}  // NOLINT(google-explicit-constructor)
-  /// The interval between two doubles, lower ≤ upper; (−∞, ∞) if they descend or one is NaN.
+  /// Constructs the interval [lower, upper]; (−∞, ∞) if lower > upper or one is NaN.
   Enclosure(double lower, double upper) : lower_(lower), upper_(upper) {
     if (!(lower <= upper)) *this = unknown();
   }
 
-  /// The interval of all decimal numbers whose nearest double is the given one; 0 is exact.
+  /// An interval that contains all decimal numbers whose nearest double is `nearest`; [0, 0] for 0.
   static Enclosure of_decimal(double nearest) {
     if (nearest == 0.0) return {};
     return {detail::rounded_down(nearest), detail::rounded_up(nearest)};
   }
-  /// The interval of all decimal numbers whose nearest double is in the closed range `from` … `to`.
+  /// An interval that contains all decimal numbers whose nearest double is in [from, to].
   static Enclosure of_decimals(double from, double to) {
     return {of_decimal(from).lower(), of_decimal(to).upper()};
   }
-  /// The interval (−∞, ∞), in which nothing is known about the number.
+  /// The interval (−∞, ∞) of a number about which nothing is known.
   static Enclosure unknown() {
     Enclosure all;
     all.lower_ = -std::numeric_limits<double>::infinity();
@@ -71,7 +72,7 @@ class Enclosure {
   double lower() const { return lower_; }
   /// An upper bound of the number.
   double upper() const { return upper_; }
-  /// A double in the interval, near the midpoint where both bounds are finite.
+  /// A double in the interval, near its midpoint; ±∞ if only that bound is infinite, 0 if both are.
   double middle() const {
     const double half = 0.5 * lower_ + 0.5 * upper_;
     return half == half ? std::clamp(half, lower_, upper_) : 0.0;
@@ -85,7 +86,7 @@ class Enclosure {
   double magnitude() const { return std::max(std::abs(lower_), std::abs(upper_)); }
   /// Whether x is in the interval.
   bool contains(double x) const { return lower_ <= x && x <= upper_; }
-  /// The middle of the interval, for messages and plausibility checks.
+  /// Returns middle(), for messages and plausibility checks.
   explicit operator double() const { return middle(); }
 
   /// Whether the number is proved to be > 0.
@@ -93,7 +94,7 @@ class Enclosure {
   /// Whether the number is proved to be < 0.
   bool is_negative() const { return upper_ < 0.0; }
 
-  /// The negative −a, exact.
+  /// The negative of this number, exact.
   Enclosure operator-() const { return {-upper_, -lower_}; }
   /// Adds the number b.
   Enclosure& operator+=(const Enclosure& b) { return *this = *this + b; }
@@ -101,7 +102,7 @@ class Enclosure {
   Enclosure& operator-=(const Enclosure& b) { return *this = *this - b; }
   /// Multiplies by the number b.
   Enclosure& operator*=(const Enclosure& b) { return *this = *this * b; }
-  /// Divides by the number b; unknown where b may be 0.
+  /// Divides by the number b; the result is (−∞, ∞) where b may be 0.
   Enclosure& operator/=(const Enclosure& b) { return *this = *this / b; }
 
   /// The sum a + b.
@@ -134,7 +135,7 @@ class Enclosure {
     const double least = a.contains(0.0) ? 0.0 : std::min(std::abs(a.lower_), std::abs(a.upper_));
     return {std::max(detail::rounded_down(least * least), 0.0), detail::rounded_up(most * most)};
   }
-  /// The square root √a of the non-negative part of a; (−∞, ∞) where all of a is negative.
+  /// The square root of the numbers ≥ 0 in a; (−∞, ∞) if all numbers in a are negative.
   friend Enclosure sqrt(const Enclosure& a) {
     if (a.upper_ < 0.0) return unknown();
     const double least = std::sqrt(std::max(a.lower_, 0.0));
@@ -145,8 +146,8 @@ class Enclosure {
     if (a.contains(0.0)) return {0.0, a.magnitude()};
     return a.lower_ > 0.0 ? a : -a;
   }
-  /// The intersection of two enclosures of one number. An empty intersection means a wrong premiss
-  /// and gives (−∞, ∞).
+  /// The intersection of two enclosures of the same number. If it is empty, one of the enclosures
+  /// is wrong, and the result is (−∞, ∞).
   friend Enclosure intersection(const Enclosure& a, const Enclosure& b) {
     return {std::max(a.lower_, b.lower_), std::min(a.upper_, b.upper_)};
   }
@@ -154,9 +155,10 @@ class Enclosure {
  private:
   /// The interval spanned by four products of bounds; (−∞, ∞) if one of them is 0 · ∞.
   static Enclosure hull_of(double a, double b, double c, double d) {
-    if (!(a == a && b == b && c == c && d == d)) return unknown();
-    return {detail::rounded_down(std::min({a, b, c, d})),
-            detail::rounded_up(std::max({a, b, c, d}))};
+    const double sum = a + b + (c + d);
+    if (!(sum == sum)) return unknown();  // one is 0 · ∞, or both infinities are among them
+    return {detail::rounded_down(std::min(std::min(a, b), std::min(c, d))),
+            detail::rounded_up(std::max(std::max(a, b), std::max(c, d)))};
   }
 
   double lower_ = 0.0, upper_ = 0.0;

@@ -21,16 +21,17 @@ int nearest_power_of_four(Scalar ratio, int most) {
 
 }  // namespace detail
 
-/// The powers of two t_i for which row i and column i of diag(t)⁻¹ M diag(t) are of similar size.
+/// Powers of two t_i that balance a matrix M: row i and column i of diag(t)⁻¹ M diag(t) are of
+/// similar size.
 ///
-/// The errors of scaling and squaring and of the QR algorithm are relative to the matrix norm.
-/// Balancing reduces this norm almost to the spectral radius. Powers of two cause no rounding. The
-/// number type needs the four operations and a comparison; for dual numbers the powers are
-/// constants. Source: B. N. Parlett, C. Reinsch, Balancing a matrix, Numer. Math. 13 (1969).
+/// The errors of the matrix exponential and of the QR algorithm are proportional to the matrix
+/// norm. Balancing reduces this norm where entries differ much in size, for instance by their
+/// units. Powers of two cause no rounding. The number type needs the four operations and a
+/// comparison. Source: B. N. Parlett, C. Reinsch, Balancing a matrix, Numer. Math. 13 (1969).
 /// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size>
 Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
-  // Entries at the end of the range of numbers would carry the factors beyond it.
+  // The limit prevents overflow of the factors for entries near the largest number.
   constexpr int most = std::numeric_limits<Scalar>::max_exponent / 5;
   require_positive("rows of a square matrix", static_cast<double>(matrix.rows()), "");
   require_size("columns of a square matrix", matrix.cols(), matrix.rows());
@@ -47,7 +48,7 @@ Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
         column += moduli(j, i) * factors[i] / factors[j];
       }
       if (!(row > Scalar(0))) continue;
-      // Where nothing depends on i its unit is free.
+      // For a zero column any factor will do.
       const Scalar ratio = column > Scalar(0) ? Scalar(row / column) : Scalar(row * row);
       const int change = detail::nearest_power_of_four(ratio, 2 * most + 1);
       if (std::abs(exponents[i] + change) > most) continue;
@@ -59,11 +60,10 @@ Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
   return factors;
 }
 
-/// A matrix balanced by a diagonal similarity: original = diag(factors) · balanced ·
-/// diag(factors)⁻¹.
+/// A matrix balanced by similarity: original = diag(factors) · balanced · diag(factors)⁻¹.
 template <class Scalar, int Size>
 struct BalancedMatrix {
-  Vector<Scalar, Size> factors;   ///< the powers of two t_i, n × 1
+  Vector<Scalar, Size> factors;   ///< balancing factors t_i, powers of two, n × 1
   Matrix<Scalar, Size> balanced;  ///< balanced matrix: row i and column i of about the same size
 
   /// Balances the matrix `original`, whose entries must be finite.
@@ -71,8 +71,8 @@ struct BalancedMatrix {
       : factors(balancing(original)),
         balanced(factors.cwiseInverse().asDiagonal() * original * factors.asDiagonal()) {}
 
-  /// Transforms f, a function of the balanced matrix, to the same function of the original matrix:
-  /// diag(factors) · f · diag(factors)⁻¹.
+  /// Transforms a matrix function f of the balanced matrix, such as its exponential, to f of the
+  /// original matrix: f(original) = diag(factors) · f(balanced) · diag(factors)⁻¹.
   Matrix<Scalar, Size> restored(const Matrix<Scalar, Size>& function) const {
     return factors.asDiagonal() * function * factors.cwiseInverse().asDiagonal();
   }

@@ -19,7 +19,7 @@ std::complex<Scalar> complex_expm1(const std::complex<Scalar>& x) {
           (grown + Scalar(1)) * std::sin(x.imag())};
 }
 
-/// The number e^{iθ} − 1 to full relative accuracy, for points of the unit circle near 1.
+/// The number e^{iθ} − 1 to full relative accuracy, also for small θ.
 /// @param angle  θ (rad)
 template <class Scalar>
 std::complex<Scalar> circle_increment(const Scalar& angle) {
@@ -82,7 +82,7 @@ struct ComplexLanes {
   }
 };
 
-/// Rows of complex numbers, stored in blocks of one row for each lane of a SIMD register.
+/// A table of complex numbers, stored in blocks with one row for each lane of a SIMD register.
 /// @tparam Scalar  double
 template <class Scalar, std::size_t Columns>
 class ComplexRows {
@@ -90,7 +90,7 @@ class ComplexRows {
   using Row = std::array<std::complex<Scalar>, Columns>;    ///< one row of complex numbers
   using Block = std::array<ComplexLanes<Scalar>, Columns>;  ///< one row for each lane
 
-  /// @param first  value in the first column of the unused rows at the end of the last block
+  /// @param first  real value in the first column of the last block's unused rows
   explicit ComplexRows(const Scalar& first = Scalar(0)) : first_(first) {}
 
   /// Adds a row at the end.
@@ -101,11 +101,11 @@ class ComplexRows {
     }
     set(size_++, row);
   }
-  /// Replaces the k-th row.
+  /// Replaces row k, 0 ≤ k < size().
   void set(std::size_t k, const Row& row) {
     for (std::size_t c = 0; c < Columns; ++c) blocks_[k / lanes][c].set(lane_of(k), row[c]);
   }
-  /// The k-th row.
+  /// The row k, 0 ≤ k < size().
   Row operator[](std::size_t k) const {
     Row row;
     for (std::size_t c = 0; c < Columns; ++c) row[c] = blocks_[k / lanes][c][lane_of(k)];

@@ -8,18 +8,18 @@
 
 namespace holdfast {
 
-/// A quadratic form that a linear map M decreases: V = Σ_l (Mˡ)ᵀ Mˡ. It solves the discrete
-/// Lyapunov equation V − MᵀV M = I, so that eᵀVe falls by ‖e‖² from a vector e to M e.
+/// The solution V = Σ_{l ≥ 0} (Mˡ)ᵀ Mˡ of the discrete Lyapunov equation V − MᵀV M = I. The
+/// quadratic form eᵀVe decreases by ‖e‖² when the matrix M maps a vector e to M e.
 ///
-/// Each step doubles the number of terms, V ← V + PᵀV P, P ← P², starting from P = M (R. A. Smith,
-/// Matrix equation XA + BX = C, SIAM J. Appl. Math. 16 (1968)). As a check, V − MᵀV M must differ
-/// from I by less than a half, including rounding.
+/// Each step doubles the number of terms, V ← V + PᵀV P, P ← P², starting from V = I, P = M (R. A.
+/// Smith, Matrix equation XA + BX = C, SIAM J. Appl. Math. 16 (1968)). V is returned only if the
+/// Frobenius norm of V − MᵀV M − I and a bound of its round-off sum up to less than ½.
 /// @param map     matrix M, n × n
-/// @param enough  limit of the equation's error ‖Mˡ‖²_F below which the sum may end after l terms
-/// @return form V; none where M does not contract, or so slowly that rounding hides the contraction
+/// @param enough  bound of the equation's error; the sum ends after l terms if ‖Mˡ‖²_F < enough
+/// @return V, n × n; nullopt if the sum diverges, since an eigenvalue of M has |λ| ≥ 1, or if it
+///         converges so slowly that round-off spoils it
 /// @throws InvalidParameter where M is not square
-/// Work: 3 n³ multiply-adds per doubling; the number of doublings is log₂ of the number of steps in
-/// which Mˡ decays.
+/// Work: 3 n³ multiply-adds per doubling, up to 48 doublings.
 template <class Scalar>
 std::optional<Matrix<Scalar, Eigen::Dynamic>> discrete_lyapunov(
     const Matrix<Scalar, Eigen::Dynamic>& map, double enough = 0.0) {
@@ -38,7 +38,7 @@ std::optional<Matrix<Scalar, Eigen::Dynamic>> discrete_lyapunov(
     power = Square(power * power);
     if (power.squaredNorm() < enough) break;
   }
-  const Square left = measure - map.transpose() * (measure * map) - identity;  // is to be nothing
+  const Square left = measure - map.transpose() * (measure * map) - identity;  // equation's error
   const double rounding =
       4.0 * static_cast<double>(n) * epsilon * measure.norm() * (1.0 + map.squaredNorm());
   if (!(left.norm() + rounding < 0.5)) return std::nullopt;

@@ -16,7 +16,7 @@ namespace holdfast {
 namespace detail {
 
 /// The Schur form M = U T U* with T upper triangular and U unitary. It is computed from the real
-/// Schur form, whose 2 × 2 blocks are rotated into triangles.
+/// Schur form, whose 2 × 2 diagonal blocks are made triangular by rotations.
 template <class Scalar>
 struct TriangularForm {
   using Complex = std::complex<Scalar>;
@@ -27,7 +27,7 @@ struct TriangularForm {
   bool converged;                            ///< whether the QR algorithm converged
 
   /// @param matrix  matrix M, n × n, finite
-  /// @param scale   divisor of the matrix for the QR algorithm
+  /// @param scale   divisor: the QR algorithm runs on matrix/scale
   explicit TriangularForm(const Square& matrix, const Scalar& scale = Scalar(1)) {
     const HessenbergForm<Square> hessenberg(matrix / scale);
     Eigen::RealSchur<Square> schur(matrix.rows());
@@ -46,7 +46,7 @@ struct TriangularForm {
       if (triangle(m, m - 1) == Complex(0)) continue;
       const Complex half = (triangle(m - 1, m - 1) - triangle(m, m)) / Scalar(2);
       const Complex root = std::sqrt(half * half + triangle(m - 1, m) * triangle(m, m - 1));
-      const Complex away = half + root;  // eigenvalue less the lower diagonal entry
+      const Complex away = half + root;  // eigenvalue minus the lower diagonal entry
       const Scalar length = std::sqrt(std::norm(away) + std::norm(triangle(m, m - 1)));
       const Complex c = away / length, s = triangle(m, m - 1) / length;
       const auto turn = [&c, &s](auto&& upper, auto&& lower) {
@@ -69,14 +69,14 @@ struct TriangularForm {
 
 }  // namespace detail
 
-/// The eigenvalues and eigenvectors of a real square matrix, A V = V diag(s), as a basis in which ẋ
-/// = A x + b u, y = h x is N scalar equations:
+/// The eigenvalues s_k and eigenvectors V of a real square matrix, A V = V diag(s). In the
+/// coordinates η = V⁻¹ x the system ẋ = A x + b u, y = h x becomes N scalar equations:
 ///
 ///     η̇_k = s_k η_k + β_k u,   y = Σ γ_k η_k,   β = V⁻¹ b,   γ = h V
 ///
-/// The basis is computed from the real Schur form of the balanced matrix by back substitution; V is
-/// triangular in the Schur basis, so that no dense matrix is inverted. Work: about 30 N³. For
-/// (nearly) coinciding eigenvalues V is (nearly) singular: see `is_sound()`.
+/// The eigenvectors are computed from the Schur form of the balanced matrix by back substitution.
+/// They are triangular in the Schur basis, so that no dense matrix is inverted. Work: about 30 N³.
+/// For (nearly) equal eigenvalues V may be (nearly) singular: see `is_sound()`.
 template <class Scalar>
 class EigenBasis {
  public:
@@ -85,17 +85,18 @@ class EigenBasis {
   using ComplexMatrix = Matrix<Complex, Eigen::Dynamic>;  ///< matrix of N × N complex numbers
 
   /// @param matrix  matrix A, N × N, finite, N ≥ 1
-  /// @throws InvalidParameter where A is empty or not square; `coordinates` and `readings` throw
-  /// for arguments of another size
+  /// @throws InvalidParameter where A is empty or not square
   explicit EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix);
 
   /// The eigenvalues s, N × 1; the two of a conjugate pair are stored side by side.
   ComplexVector values() const { return triangle_.diagonal(); }
 
-  /// The coordinates β = V⁻¹ b (N × 1) of an input b.
+  /// The coordinates β = V⁻¹ b (N × 1) of an input vector b (N × 1) in the eigenvector basis.
+  /// @throws InvalidParameter unless b has N entries
   ComplexVector coordinates(const Vector<Scalar, Eigen::Dynamic>& b) const;
 
-  /// The coefficients γ = h V (N × 1) of a reading h.
+  /// The coefficients γ = h V (as N × 1) of an output row h (1 × N) in the eigenvector basis.
+  /// @throws InvalidParameter unless h has N entries
   ComplexVector readings(const RowVector<Scalar, Eigen::Dynamic>& h) const;
 
   /// Whether coordinates and readings are accurate to nine digits or more: no two eigenvectors
@@ -120,15 +121,14 @@ class EigenBasis {
     }
   }
 
-  Vector<Scalar, Eigen::Dynamic> factors_;  // of the balancing
+  Vector<Scalar, Eigen::Dynamic> factors_;  // balancing factors
   ComplexMatrix triangle_;                  // T of the complex Schur form
-  ComplexMatrix basis_;                     // U of it
-  ComplexMatrix vectors_;                   // of T, unit upper triangular
+  ComplexMatrix basis_;                     // U of the complex Schur form
+  ComplexMatrix vectors_;                   // eigenvectors of T, unit upper triangular
   bool converged_ = false;
 };
 
-// Outside the class: what stands in a class is inline and compiled again, with all that it calls,
-// in every file that uses it.
+// Defined outside the class, since inline members are compiled again in every file that uses them.
 
 template <class Scalar>
 EigenBasis<Scalar>::EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix) {

@@ -14,7 +14,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// The eigenvalues of a real Schur form, a triangle with 2 × 2 blocks on its diagonal.
+/// The eigenvalues of a real Schur form, upper triangular except for 2 × 2 blocks on its diagonal.
 template <class Scalar, int Size, int Most>
 Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1> eigenvalues_of_schur_form(
     const Eigen::Matrix<Scalar, Size, Size, 0, Most, Most>& form) {
@@ -42,17 +42,17 @@ Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1> eigenvalues_of_schur_fo
 
 /// The eigenvalues of a real square matrix of fixed, bounded or dynamic size, by the QR algorithm.
 ///
-/// The function compiles in half the time of Eigen's EigenSolver. The error is some 10⁻¹⁶ of the
-/// largest entry in `double`: where rows have different units, first balance the matrix, as
-/// `spectral_radius` does. Work: about 10 n³.
-/// @param matrix  finite, square, not empty
+/// The function compiles in half the time of Eigen's EigenSolver. In `double` the error is about
+/// 10⁻¹⁶ of the largest entry: a matrix whose rows have different units should first be balanced,
+/// as in `spectral_radius`. Work: about 10 n³.
+/// @param matrix  n × n, n ≥ 1, finite
 /// @return eigenvalues with their multiplicity, complex pairs side by side, otherwise unordered;
 ///         NaN where the QR algorithm does not converge within 40 n steps
 /// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size, int Most>
 Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1> eigenvalues(
     const Eigen::Matrix<Scalar, Size, Size, 0, Most, Most>& matrix) {
-  // Small ones are of one type, so that the algorithm is compiled once for all of them.
+  // All small matrices get one type, so that the algorithm is compiled once for them.
   constexpr int bound = 0 < Most && Most < 8 ? 8 : Most;
   using Square = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, 0, bound, bound>;
   using Values = Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1>;

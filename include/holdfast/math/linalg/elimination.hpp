@@ -18,7 +18,7 @@ Scalar pivot_size(const Scalar& x) {
   return x < Scalar(0) ? Scalar(-x) : x;
 }
 
-/// The squared modulus |z|², by which complex pivots are compared without a root.
+/// The squared modulus |z|², by which complex pivots are compared without a square root.
 template <class Scalar>
 Scalar pivot_size(const std::complex<Scalar>& z) {
   return std::norm(z);
@@ -66,13 +66,14 @@ Columns eliminated(Square matrix, Columns right) {
   return right;
 }
 
-/// The derivative λ′ = tr(R M′)/tr R of an eigenvalue λ of a matrix M, with the resolvent R = (νI −
-/// M)⁻¹ at a ν close to λ: this R is almost a multiple of the projector on the eigenvectors of λ.
-/// Coinciding eigenvalues give the mean derivative. Relative accuracy: about 10⁻⁸ in `double`.
+/// The derivative λ′ = tr(R M′)/tr R of an eigenvalue λ of a matrix M with respect to a parameter.
+/// R = (νI − M)⁻¹ with ν = λ (1 + √ε), ε the number type's relative precision, is almost a multiple
+/// of the projector on the eigenvectors of λ. A multiple eigenvalue gives the mean of its
+/// derivatives. Relative accuracy: about 10⁻⁸ in `double`.
 /// @param matrix  matrix M, n × n
-/// @param rate    derivative M′, n × n, per unit of the varying quantity
+/// @param rate    derivative M′ of M with respect to the parameter, n × n
 /// @param value   eigenvalue λ
-/// @return        derivative λ′; NaN or infinite for λ = 0, where ν = λ
+/// @return        derivative λ′; NaN, infinite or meaningless for λ = 0, since then ν = λ
 /// @throws InvalidParameter where the matrix is not square, or the rate has another size
 /// Work: the inverse of one complex matrix.
 template <class Scalar>
@@ -81,8 +82,8 @@ std::complex<Scalar> eigenvalue_derivative(const Matrix<Scalar, Eigen::Dynamic>&
                                            const std::complex<Scalar>& value) {
   using Complex = std::complex<Scalar>;
   require_size("columns of a square matrix", matrix.cols(), matrix.rows());
-  require_size("rows of the rate of a matrix", rate.rows(), matrix.rows());
-  require_size("columns of the rate of a matrix", rate.cols(), matrix.rows());
+  require_size("rows of the derivative of a matrix", rate.rows(), matrix.rows());
+  require_size("columns of the derivative of a matrix", rate.cols(), matrix.rows());
   Matrix<Complex, Eigen::Dynamic> shifted = -matrix.template cast<Complex>();
   shifted.diagonal().array() +=
       value * (Scalar(1) + std::sqrt(std::numeric_limits<Scalar>::epsilon()));

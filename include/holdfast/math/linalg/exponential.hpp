@@ -28,8 +28,8 @@ struct PadeApproximant {
     }
   }
 
-  /// Whether the approximant is exact to round-off for a matrix of norm x: the error, relative to x
-  /// e^x, is below half a unit of the last digit.
+  /// Whether the approximant is exact to round-off for matrices up to a norm x: its error, relative
+  /// to x e^x, is below half a unit of the last digit.
   template <class Scalar>
   bool suffices(const Scalar& norm) const {
     Scalar error(remainder);
@@ -87,10 +87,10 @@ Square approximated(const PadeApproximant& approximant, const Square& matrix) {
 /// The matrix exponential e^M for any number type with the four operations and a comparison, such
 /// as `long double` and the dual numbers of automatic differentiation.
 ///
-/// The method is scaling and squaring of the balanced matrix, e^M = (e^{M/2^s})^{2^s}. The degree
-/// of the diagonal Padé approximant is the smallest of 3, 5, 7 and 13 that is exact to round-off,
-/// and s > 0 only with 13. Without balancing, a norm far above the largest |eigenvalue| would need
-/// more squarings, and each loses accuracy. Work: up to 6 + s matrix products and one elimination.
+/// The method is scaling and squaring of the balanced matrix, e^M = (e^{M/2^s})^{2^s}. The diagonal
+/// Padé approximant of e^{M/2^s} has the smallest degree of 3, 5, 7 and 13 whose error is below
+/// round-off; s > 0 only for degree 13. Balancing reduces the norm and thus s, since every squaring
+/// loses accuracy. Work: up to 6 + s matrix products and one elimination.
 /// Source: N. J. Higham, The scaling and squaring method for the matrix exponential revisited,
 /// SIAM J. Matrix Anal. Appl. 26 (2005).
 /// @param matrix  square, of fixed or dynamic size; if Σ |M_ij| is not finite the result is NaN

@@ -9,7 +9,7 @@
 
 namespace holdfast {
 
-/// A set of tangent vectors, the columns of a 5 × `Columns` matrix; rows are contiguous in memory.
+/// A set of tangent vectors, small deviations from a state of 5 numbers, as columns of a matrix.
 template <class Number, int Columns>
 using TangentBasis =
     Eigen::Matrix<Number, 5, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
@@ -17,11 +17,11 @@ using TangentBasis =
 /// Flags of the tangent vectors: true until a map annihilates the vector, false afterwards.
 using Alive = std::array<bool, 5>;
 
-/// The squared diagonal of R in the factorisation B = Q R, and the norm of R⁻¹.
+/// The factor R of the factorisation B = Q R: its squared diagonal and the squared norm of R⁻¹.
 template <class Number, int Columns>
 struct Stretches {
-  Vector<Number, Columns> squares;  ///< R_ii²; 0 where a column vanishes, 1 where one is not alive
-  Number inverse;  ///< ‖R⁻¹‖_F² over the columns that are alive after the process
+  Vector<Number, Columns> squares;  ///< R_ii²; 0 for a zero column i, 1 if `alive` was false
+  Number inverse;  ///< ‖R⁻¹‖_F², Frobenius norm over the columns that remain alive
 };
 
 namespace detail {
@@ -48,12 +48,13 @@ Number inverse_square_norm(const Number (&unit_upper)[Columns][Columns],
 
 /// Orthonormalises the columns of B in place, B = Q R, by the modified Gram–Schmidt process.
 ///
-/// R = D N with D diagonal and N unit upper triangular, N_ij = ⟨b_i, b_j⟩ / D_i²: no square roots
-/// are needed for N. The error of R is round-off times ‖B‖ ‖R⁻¹‖, column by column, and Q deviates
-/// from orthogonality by as much. Source: Å. Björck, BIT 7 (1967).
-/// @param basis  matrix B, replaced by Q
-/// @param alive  flags of the columns: a column that is not alive is replaced by zeros; the flags
-///               of the first vanishing column and of all later ones are set to false
+/// R = D N with D diagonal and N unit upper triangular, which needs square roots for D only. The
+/// relative error of R and the deviation of Q from orthogonality are about round-off times
+/// ‖B‖ ‖R⁻¹‖. Source: Å. Björck, BIT 7 (1967).
+/// @param basis  matrix B, replaced by Q; a column whose flag is false in the end becomes zero
+/// @param alive  flags of the columns; they become false from the first column on whose flag is
+///               false or that depends linearly on earlier columns
+/// @return R_ii² and ‖R⁻¹‖_F²
 template <class Number, int Columns>
 Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, Alive& alive) {
   Stretches<Number, Columns> result;
@@ -75,8 +76,8 @@ Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, 
   return result;
 }
 
-/// Orthonormalises columns of any length by the classical Gram–Schmidt process, twice for accuracy.
-/// @param basis  matrix B, replaced by Q; a column that vanishes remains 0
+/// Orthonormalises columns of any length by the classical Gram–Schmidt process with repetition.
+/// @param basis  matrix B, replaced by Q; a column that depends linearly on earlier ones becomes 0
 /// @return the upper triangular matrix R of B = Q R
 inline Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& basis) {
   Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(basis.cols(), basis.cols());

@@ -16,45 +16,43 @@
 
 namespace holdfast {
 
-/// A real matrix as a function of a number x, −1 ≤ x ≤ 1: a Taylor series about x = 0,
+/// A real n × n matrix S as a function of x, −1 ≤ x ≤ 1: Taylor polynomial plus remainder R(x),
 ///
 ///     S(x) = I + Σ_k terms[k] xᵏ + R(x),   |R_ij(x)| ≤ remainder_ij
 struct TaylorMatrix {
-  std::vector<Eigen::MatrixXd> terms;  ///< coefficients of S − I by powers of x, n × n, two or more
-  Eigen::MatrixXd remainder;           ///< bound of |R_ij(x)|, n × n, ≥ 0
+  std::vector<Eigen::MatrixXd> terms;  ///< n × n coefficients of x⁰, x¹, … in S − I; two or more
+  Eigen::MatrixXd remainder;           ///< bounds of |R_ij(x)|, n × n, ≥ 0
 };
 
-/// A complex vector of n entries as a function of x, −1 ≤ x ≤ 1: the polynomial Σ_k terms[k] xᵏ and
-/// a bound of the remainder of every entry.
+/// A complex vector of n entries as a function of x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ plus a remainder.
 struct MovingVector {
-  std::vector<Eigen::VectorXcd> terms;  ///< coefficients, n × 1, as many as the TaylorMatrix has
-  Eigen::VectorXd remainder;            ///< bound of the remainder, n × 1, ≥ 0
+  std::vector<Eigen::VectorXcd> terms;  ///< coefficients of x⁰, x¹, …, each n × 1
+  Eigen::VectorXd remainder;            ///< bounds of the remainder's moduli, n × 1, ≥ 0
 };
 
-/// A test that may prove that all eigenvalues of a matrix S(x) (`TaylorMatrix`) stay inside the
-/// unit circle for −1 ≤ x ≤ 1.
+/// An attempt to prove that |λ| < 1 for all eigenvalues λ of a `TaylorMatrix` S(x), −1 ≤ x ≤ 1.
 ///
-/// In the coordinates Q of a triangular form of S(0) the terms are T_k. A unit lower triangular
-/// W(x) = I + Σ W_k xᵏ and an upper triangular D(x) = Σ D_k xᵏ are found, order by order, with
+/// Let T(x) be S(x) in a basis in which S(0) is upper triangular. A unit lower triangular W(x) =
+/// I + Σ_{k ≥ 1} W_k xᵏ and an upper triangular D(x) are computed, power by power of x, such that
 ///
-/// S W = W D + E,   E beginning with the first omitted order.
+///     T W = W D + E,   where the series of E begins with the first omitted power.
 ///
-/// Hence W⁻¹ S W = D + W⁻¹E and, W − I being nilpotent, |W⁻¹| ≤ (I − Σ|W_k|)⁻¹. The diagonal of D
-/// approximates the moving eigenvalues; |D_ii|² is bounded by its own Taylor polynomial, so that a
-/// root moving along the circle does not widen the bound. With B ≥ |D| + |W⁻¹E| for all x,
+/// Hence D + W⁻¹E has the eigenvalues of S(x), approximated by D_ii. Moduli and inequalities of
+/// matrices are meant entry by entry: |W⁻¹| ≤ (I − Σ|W_k|)⁻¹, since W − I is nilpotent. |D_ii| is
+/// bounded by the Taylor polynomial of |D_ii|². With a bound B ≥ |D| + |W⁻¹E| for all x,
 ///
-///     ρ(S(x)) ≤ ρ(B) < 1   where (I − B) v = 1 has a solution v > 0       (Perron, Frobenius)
+///     ρ(S(x)) ≤ ρ(B) < 1   if v = (I − B)⁻¹ [1, …, 1]ᵀ > 0                (Perron, Frobenius)
 ///
-/// Where two eigenvalues are so close that their entry of W would not converge, this entry is 0 and
-/// the entry of D below the diagonal remains. No exit from the circle can be missed; R includes a
-/// bound of the products' round-off. Work: about 3 m² products n × n for m terms. Source: R. A.
-/// Horn, C. R. Johnson, Matrix Analysis, 2nd ed., 8.1 and 8.3.
+/// For two eigenvalues so close that the series of their entry of W might diverge, this entry is
+/// set to 0, and D keeps an entry below the diagonal. A bound of the round-off is added to R. Work:
+/// about 3 m² products of n × n matrices for m terms.
+/// Source: R. A. Horn, C. R. Johnson, Matrix Analysis, 2nd ed., 8.1 and 8.3.
 template <class Scalar = double>
 class MovingSpectrum {
  public:
   using Complex = std::complex<Scalar>;  ///< complex type of the triangular form
 
-  /// @param matrix  moving matrix S(x); if it is not finite nothing is proved
+  /// @param matrix  matrix S(x); if an entry is not finite, `inside()` is false
   /// @throws InvalidParameter for fewer than two terms, or where the sizes disagree
   explicit MovingSpectrum(const TaylorMatrix& matrix);
 
@@ -64,12 +62,12 @@ class MovingSpectrum {
   /// Whether all eigenvalues of S(x), −1 ≤ x ≤ 1, are proved to lie inside the unit circle.
   bool inside() const { return inside_; }
 
-  /// The responses c (λI − S(x))⁻¹ g(x) for rows c, term by term in the coordinates of the proof.
-  /// They are valid if |λ(x)| = 1 and `inside()`. The remainder covers the truncation, bounded by
-  /// |(λI − S)⁻¹| ≤ (I + Σ|W_k|) (I − B)⁻¹ (I − Σ|W_k|)⁻¹, but not the round-off of these sums.
-  /// @param from_one  λ(x) − 1, with as many terms as S
-  /// @param source    g(x), with as many terms as S
-  /// @param rows      rows c, any number of them, each n wide
+  /// The numbers c (λ(x) I − S(x))⁻¹ g(x), one for each row c, as Taylor polynomials with
+  /// remainder, valid if `inside()` and |λ(x)| = 1 for all x. The remainder bounds the truncation,
+  /// not this function's round-off, by |(λI − T)⁻¹| ≤ (I + Σ|W_k|) (I − B)⁻¹ (I − Σ|W_k|)⁻¹.
+  /// @param from_one  number λ(x) − 1, with as many terms as S
+  /// @param source    vector g(x), with as many terms as S
+  /// @param rows      matrix with n columns; each of its rows is a c
   /// @throws InvalidParameter where the number of terms or the width of a row differs from S
   std::vector<TaylorNumber> responses(const TaylorNumber& from_one, const MovingVector& source,
                                       const Eigen::MatrixXd& rows) const;
@@ -111,14 +109,14 @@ class MovingSpectrum {
     terms_[0].template triangularView<Eigen::StrictlyLower>().setZero();
   }
 
-  /// A bound of the relative round-off of the sums of products in this proof.
+  /// A bound of the relative round-off of the matrix products in this class.
   Scalar rounding() const {
     return Scalar(4) * static_cast<Scalar>(static_cast<std::size_t>(size()) + terms_.size()) *
            std::numeric_limits<Scalar>::epsilon();
   }
 
-  /// Adds to the remainder the effect of the error G of `back` as an inverse of the basis V: with
-  /// back·V = I + G the similarity gives (I + G)⁻¹T, not T. Nothing is proved unless |G| is small.
+  /// Adds to the remainder the error of using `back` for V⁻¹, V = `basis`. If back·V = I + G, then
+  /// V⁻¹ S V = (I + G)⁻¹ (back S V). A remainder ∞ prevents the proof if |G| is not small.
   void count_inverse(const Form& back, const Form& basis) {
     const Bound identity = Bound::Identity(size(), size());
     off_ = (back * basis - Form::Identity(size(), size())).cwiseAbs() +
@@ -133,7 +131,8 @@ class MovingSpectrum {
     remainder_ += off_ * all;
   }
 
-  /// Selects the pairs of eigenvalues to be uncoupled: those far enough apart for convergence.
+  /// Selects the pairs of eigenvalues far enough apart for the series of W to converge. They are
+  /// called uncoupled, since W makes D zero below the diagonal for these pairs.
   void find_cleared(const Form& form, const Form& moved) {
     const Eigen::Index n = form.rows();
     cleared_ = Pairs::Constant(n, n, false);
@@ -148,7 +147,7 @@ class MovingSpectrum {
     }
   }
 
-  /// The unit upper triangular X with X⁻¹ T X zero above the diagonal where a pair is uncoupled.
+  /// The unit upper triangular X for which (X⁻¹ T X)_ij = 0, i < j, for each uncoupled pair (i, j).
   Form diagonalising(const Form& t) const {
     const Eigen::Index n = t.rows();
     Form x = Form::Identity(n, n), d = t;
@@ -169,7 +168,7 @@ class MovingSpectrum {
     return right;
   }
 
-  /// The product (νI − T₀)⁻¹ r with a column r, T₀ being upper triangular.
+  /// The product (νI − T₀)⁻¹ r for a column r and the upper triangular T₀.
   Eigen::VectorXcd solved(const Complex& nu, Eigen::VectorXcd right) const {
     for (Eigen::Index i = size() - 1; i >= 0; --i) {
       for (Eigen::Index p = i + 1; p < size(); ++p) right[i] += terms_[0](i, p) * right[p];
@@ -178,8 +177,9 @@ class MovingSpectrum {
     return right;
   }
 
-  /// Appends W_k and D_k = R + T₀W_k − W_kT₀, R = T_k + Σ (T_l W_{k−l} − W_l D_{k−l}). W_k is such
-  /// that D_k vanishes below the diagonal for uncoupled pairs.
+  /// Appends the coefficients W_k and D_k = r + T₀W_k − W_kT₀ of the next power k of x, where
+  /// r = T_k + Σ_{0<l<k} (T_l W_{k−l} − W_l D_{k−l}). W_k is such that (D_k)_ij = 0, i > j, for
+  /// each uncoupled pair (i, j).
   void split(const Form& r) {
     const Form& t = terms_[0];
     const Eigen::Index n = size();
@@ -213,14 +213,14 @@ class MovingSpectrum {
     }
   }
 
-  /// The sums Σ_{k > s} |F_k| for every s.
+  /// The sums Σ_{k > s} |F_k| of the moduli of matrices F_k (`forms`), for every index s.
   static std::vector<Bound> sums_beyond(const std::vector<Form>& forms) {
     std::vector<Bound> sums(forms.size(), Bound::Zero(forms[0].rows(), forms[0].cols()));
     for (std::size_t s = forms.size() - 1; s > 0; --s) sums[s - 1] = sums[s] + forms[s].cwiseAbs();
     return sums;
   }
 
-  /// A lower bound of 1 − |D_ii(x)| for all x; ≤ 0 where none is proved.
+  /// A lower bound of 1 − |D_ii(x)| for all x; if it is ≤ 0, the proof fails.
   double distance(Eigen::Index i) const {
     const std::size_t m = order();
     double outside = 0.0;  // |D|² − 1, at most
@@ -258,7 +258,7 @@ class MovingSpectrum {
 
   Pairs cleared_;                         // which pairs of eigenvalues are uncoupled
   std::vector<Form> terms_;               // T_k, of S − I
-  Bound remainder_;                       // of the form
+  Bound remainder_;                       // bound of R in the basis V
   Bound off_;                             // |V⁻¹ back⁻¹ − I|
   std::vector<Form> turning_, diagonal_;  // W_k and D_k, of W − I and D − I
   Form basis_, back_;                     // V and V⁻¹ of the matrix as it is given

@@ -14,9 +14,9 @@
 
 namespace holdfast {
 
-/// An eigenvalue λ of a product of many matrices, stored as a logarithm since λ may underflow.
+/// An eigenvalue λ of a product of many matrices; ln |λ| is stored, since |λ| may underflow.
 struct Multiplier {
-  double log_modulus;  ///< logarithm ln |λ|; −∞ for a null direction
+  double log_modulus;  ///< logarithm ln |λ|; −∞ for λ = 0
   double angle;        ///< argument arg λ (rad), in (−π, π]
 
   /// The eigenvalue λ, computed from its logarithm; 0 where it underflows.
@@ -79,7 +79,7 @@ Columns generic_columns(Eigen::Index rows, Eigen::Index columns) {
   return dense;
 }
 
-/// Carries the basis Q through all maps of a period. @return the product of the triangular factors
+/// Maps the basis Q through one period, orthonormalising it. @return product of triangular factors
 template <class Scalar, int Size>
 ScaledTriangle<Scalar, Size> turn_basis(const std::vector<Matrix<Scalar, Size>>& maps,
                                         Matrix<Scalar, Size>& basis) {
@@ -92,7 +92,7 @@ ScaledTriangle<Scalar, Size> turn_basis(const std::vector<Matrix<Scalar, Size>>&
   return triangle;
 }
 
-/// Whether the first `leading` directions are invariant: the block of the turn W = Q₀ᵀQ_K that
+/// Whether the first `leading` directions are invariant: the block of the rotation W = Q₀ᵀQ_K that
 /// mixes them with the other directions is small.
 template <class Scalar, int Size>
 bool decoupled(const Matrix<Scalar, Size>& turn, Eigen::Index leading) {
@@ -101,8 +101,8 @@ bool decoupled(const Matrix<Scalar, Size>& turn, Eigen::Index leading) {
          turn.bottomLeftCorner(others, leading).cwiseAbs().maxCoeff() < Scalar(1e-10);
 }
 
-/// Whether the turn decouples after the first 1 or 2, after the first 3 or 4, … directions. The two
-/// of a conjugate pair usually stay coupled, however many cycles follow.
+/// Whether the rotation W decouples the first 1 or 2, the first 3 or 4, … directions. The two
+/// directions of a conjugate pair usually stay coupled, however many periods follow.
 template <class Scalar, int Size>
 bool settled(const Matrix<Scalar, Size>& turn, Eigen::Index rank) {
   for (Eigen::Index k = 1; k == 1 || k < rank; k += 2)
@@ -110,7 +110,7 @@ bool settled(const Matrix<Scalar, Size>& turn, Eigen::Index rank) {
   return true;
 }
 
-/// Appends the eigenvalues of the block first … last − 1 of W D U, D U being `triangle`.
+/// Appends the eigenvalues of the block first … last − 1 of W D U, where D U is `triangle`.
 template <class Scalar, int Size>
 void append_multipliers(const Matrix<Scalar, Size>& turn,
                         const ScaledTriangle<Scalar, Size>& triangle, Eigen::Index first,
@@ -147,13 +147,13 @@ std::vector<Multiplier> multipliers_of_turn(const Matrix<Scalar, Size>& turn,
 
 }  // namespace detail
 
-/// The eigenvalues of M = M_K … M₁, by descending modulus, without forming the product.
+/// The eigenvalues of a matrix product M = M_K … M₁ by descending modulus; M itself is not formed.
 ///
-/// Orthogonal iteration around the period, Q₀ → Q_K with M_k Q_{k−1} = Q_k R_k, transforms M to Q₀ᵀ
-/// M Q₀ = (Q₀ᵀQ_K) R_K … R₁, where Q₀ᵀQ_K has a diagonal block for each group of eigenvalues of
-/// similar modulus. Each block has its own scale.
-/// @param maps  at least one, N × N, N ≥ 2; each conditioned well enough for a QR factorisation
-/// @return N eigenvalues; an eigenvalue of a null direction has log_modulus −∞
+/// QR factorisations M_k Q_{k−1} = Q_k R_k give M = Q_K (R_K … R₁) Q₀ᵀ, so that M is similar to
+/// (Q₀ᵀQ_K) R_K … R₁. They are repeated from Q₀ = Q_K until Q₀ᵀQ_K is block diagonal, with a block
+/// for each group of eigenvalues of similar modulus. Each block is scaled separately.
+/// @param maps  factors M₁ … M_K, K ≥ 1, each N × N, N ≥ 2, finite; they may be singular
+/// @return N eigenvalues; a zero eigenvalue has log_modulus −∞
 /// @throws InvalidParameter where there is no map, or the sizes disagree
 template <class Scalar = double, int Size = 5>
 std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<Scalar, Size>>& maps) {

@@ -30,7 +30,7 @@ class Reflection {
     for (Eigen::Index i = 1; i < direction_.size(); ++i) matrix(first + i, column) = 0;
     if (!(below > std::numeric_limits<Scalar>::min())) return;
     const Scalar length = std::sqrt(direction_[0] * direction_[0] + below);
-    // Away from x₀: nothing cancels in v₀.
+    // The sign opposite to x₀ avoids cancellation in v₀.
     matrix(first, column) = direction_[0] < Scalar(0) ? length : -length;
     direction_[0] -= matrix(first, column);
     factor_ = -Scalar(1) / (matrix(first, column) * direction_[0]);
@@ -70,10 +70,10 @@ class Reflection {
 
 }  // namespace detail
 
-/// Replaces a matrix A by R = QᵀA with R upper triangular, and B by QᵀB, with Q orthogonal.
+/// Replaces a matrix A by the upper triangular R = QᵀA, and B by QᵀB, with Q orthogonal.
 ///
-/// The method is backward stable for matrices of any rank; |R_ii| need not decrease. Work: 2 n m²
-/// for A of n × m and 4 n m c for c columns of B.
+/// The method, Householder reflections, is backward stable for matrices of any rank. There is no
+/// column pivoting. Work: 2 n m² for A of n × m and 4 n m c for c columns of B.
 /// @param matrix  matrix A, finite, at least as many rows as columns
 /// @param others  matrix B, as many rows as A
 template <class Tall, class Others>
@@ -101,7 +101,7 @@ struct HessenbergForm {
   Square basis;  ///< orthogonal matrix Q; I if it is not computed
 
   /// @param matrix      matrix M, finite
-  /// @param with_basis  whether Q is computed too, which is a third of the work
+  /// @param with_basis  whether Q is computed too, which takes about a third of the total work
   explicit HessenbergForm(const Square& matrix, bool with_basis = true)
       : form(matrix), basis(Square::Identity(matrix.rows(), matrix.rows())) {
     for (Eigen::Index k = 0; k + 2 < matrix.rows(); ++k) {

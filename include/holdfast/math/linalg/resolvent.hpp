@@ -7,7 +7,7 @@
 
 namespace holdfast {
 
-/// The resolvent of a square matrix as polynomials: (xI − M)⁻¹ = adjugate(x) / determinant(x).
+/// The resolvent (xI − M)⁻¹ = adjugate(x)/determinant(x) of an N × N matrix M, with polynomials:
 ///
 ///     determinant(x) = det(xI − M) = d₀ + d₁ x + … + xᴺ
 ///     adjugate(x)    = adj(xI − M) = A₀ + A₁ x + … + A_{N−1} x^{N−1}
@@ -16,7 +16,7 @@ struct Resolvent {
   Polynomial<Scalar, Size> determinant;  ///< coefficients d₀ … d_N, d_N = 1
   std::array<Matrix<Scalar, Size>, static_cast<std::size_t>(Size)> adjugate;  ///< A₀ … A_{N−1}
 
-  /// The polynomial row · adj(xI − M) · column, of degree N − 1.
+  /// The coefficients of the polynomial row · adj(xI − M) · column in x, of degree N − 1.
   Polynomial<Scalar, Size - 1> between(const RowVector<Scalar, Size>& row,
                                        const Vector<Scalar, Size>& column) const {
     Polynomial<Scalar, Size - 1> result;
@@ -27,9 +27,9 @@ struct Resolvent {
   }
 };
 
-/// The resolvent polynomials by the Faddeev–LeVerrier recurrence, in N matrix products.
+/// The resolvent of an N × N matrix by the Faddeev–LeVerrier recurrence, in N matrix products.
 ///
-///     A_{N−1} = I,   d_{k} = −tr(M A_k) / (N − k),   A_{k−1} = M A_k + d_k I
+///     A_{N−1} = I,   d_k = −tr(M A_k) / (N − k),   A_{k−1} = M A_k + d_k I,   k = N − 1, …, 0
 ///
 /// Source: D. K. Faddeev, V. N. Faddeeva, Computational Methods of Linear Algebra, 1963, §47.
 template <class Scalar, int Size>

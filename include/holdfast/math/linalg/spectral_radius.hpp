@@ -11,8 +11,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// The eigenvalues of the balanced matrix by the QR algorithm. Balancing matters since the error is
-/// relative to the largest entry and a loop's matrix mixes forces and displacements.
+/// The eigenvalues of the balanced matrix by the QR algorithm. Balancing is needed, since the error
+/// is relative to the largest entry and a loop's matrix mixes forces and displacements.
 template <class Scalar, int Size>
 Vector<std::complex<Scalar>, Size> balanced_eigenvalues(const Matrix<Scalar, Size>& matrix) {
   return eigenvalues(BalancedMatrix(matrix).balanced);
@@ -20,8 +20,8 @@ Vector<std::complex<Scalar>, Size> balanced_eigenvalues(const Matrix<Scalar, Siz
 
 }  // namespace detail
 
-/// The spectral radius ρ(M) = max |λ_i|; a discrete loop is asymptotically stable ⇔ ρ < 1. The
-/// result is NaN for a matrix that is not finite.
+/// The spectral radius ρ(M) = max |λ_i| over the eigenvalues λ_i of M; NaN if an entry is not
+/// finite. The discrete system x ← M x is asymptotically stable if and only if ρ < 1.
 /// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size>
 Scalar spectral_radius(const Matrix<Scalar, Size>& map) {
@@ -29,8 +29,8 @@ Scalar spectral_radius(const Matrix<Scalar, Size>& map) {
   return detail::balanced_eigenvalues(map).cwiseAbs().maxCoeff();
 }
 
-/// The spectral abscissa α(M) = max Re λ_i; a continuous loop is asymptotically stable ⇔ α < 0. The
-/// result is NaN for a matrix that is not finite.
+/// The spectral abscissa α(M) = max Re λ_i over the eigenvalues λ_i; NaN if an entry is not finite.
+/// The continuous system ẋ = M x is asymptotically stable if and only if α < 0.
 /// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size>
 Scalar spectral_abscissa(const Matrix<Scalar, Size>& generator) {

@@ -7,38 +7,37 @@
 
 namespace holdfast {
 
-/// The quantities that a loop stores beside the state z of its plant until they affect z.
+/// The quantities, besides the plant's state z, that a sampled loop stores until they affect z.
 enum class Carried : unsigned {
   in_force = 1,  ///< the command in force
-  pending = 2,   ///< the command that is computed but not in force yet
-  anchor = 4,    ///< position of the gap: Δz (m) at the last reversal of the drive
+  pending = 2,   ///< the command computed but not yet in force
+  anchor = 4,    ///< position of the gap: z₂ − z₁ (m) at the last reversal of the drive
   reading = 8,   ///< the displacement read at the last sample
 };
 
-/// The rank of a product of tangent maps from their zero pattern alone (structural rank).
+/// The structural rank of a product of linearised maps: its rank for almost every choice of the
+/// nonzero entries, given which entries are zero.
 ///
-/// The maps of a loop have zeros in known places. For almost every choice of the other entries the
-/// rank of their product is the number of disjoint paths from its inputs to its outputs, which is
-/// the smallest number of variables that cut all paths. Every cut consists of the independent
-/// directions of z at some instant (four, or three in stick) and of the stored quantities that act
-/// later. For each set of quantities that may still act only the smallest cut is kept.
-///
-/// No tolerance is involved; a coincidence of the entries themselves is not detected.
+/// This rank is the largest number of disjoint paths along nonzero entries from the inputs of the
+/// first map to the outputs of the last. It equals the size of a minimal cut, the smallest set of
+/// variables that meets every path. A cut consists of z at one instant and of the quantities that
+/// are stored there and affect z later. A loss of rank at special values of the entries is not
+/// detected. No tolerance is involved.
 /// Sources: B. Lindström, Bull. London Math. Soc. 5 (1973); K. Murota, Matrices and Matroids for
 /// Systems Analysis, 2000, secs. 2.2–2.3.
-/// Work: 16 comparisons for each call.
+/// Work: 16 comparisons for each call of a member function.
 class StructuralRank {
  public:
-  /// @param carried  stored quantities that are inputs of the first map in addition to z, as bits
+  /// @param carried  bitwise OR of the `Carried` quantities that, besides z, enter the first map
   explicit StructuralRank(unsigned carried) : carried_(carried) { least_.fill(none); }
 
-  /// Adds an instant at which z has the given number of independent directions.
+  /// Adds an instant. @param directions  number of independent entries of z there: 4, or 3 in stick
   void pass(int directions) {
     int& cut = least_[carried_];
     cut = std::min(cut, directions);
   }
 
-  /// Begins to store a quantity, which depends on z and on the quantities stored at this instant.
+  /// Begins to store a quantity that depends on z and on the quantities stored at this instant.
   void begin(Carried quantity) { carried_ |= bit(quantity); }
 
   /// Lets a stored quantity affect z; the quantity remains stored.
@@ -50,13 +49,13 @@ class StructuralRank {
     carried_ &= ~bit(quantity);
   }
 
-  /// Renames a stored quantity to `other`, under which it stays stored.
+  /// Renames a stored quantity to `other`; it remains stored.
   void become(Carried quantity, Carried other) {
     eliminate(quantity, 0, bit(other));
     if ((carried_ & bit(quantity)) != 0) carried_ = (carried_ & ~bit(quantity)) | bit(other);
   }
 
-  /// The rank of the product so far; its outputs are z and the quantities stored at this instant.
+  /// The rank of the product so far, with z and the stored quantities as outputs; after a `pass`.
   int rank() const {
     int least = none;
     for (unsigned set = 0; set < sets; ++set) least = std::min(least, least_[set] + size_of(set));
@@ -83,7 +82,7 @@ class StructuralRank {
   }
 
   unsigned carried_;
-  std::array<int, sets> least_;  // by the set of carried quantities that may yet act
+  std::array<int, sets> least_;  // smallest cut for each set of quantities that may still act
 };
 
 }  // namespace holdfast

@@ -11,12 +11,12 @@
 
 namespace holdfast {
 
-/// A complex number as a function of x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ with a bound of the remainder.
+/// A complex function of x, −1 ≤ x ≤ 1: the polynomial Σ_k terms[k] xᵏ plus a bounded remainder.
 struct TaylorNumber {
   std::vector<std::complex<double>> terms;  ///< coefficients of x⁰, x¹, …, at least one
-  double remainder;                         ///< bound of the remainder, ≥ 0
+  double remainder;                         ///< bound of the remainder's modulus, ≥ 0
 
-  /// The sum Σ |terms|, an upper bound of the polynomial's modulus.
+  /// The sum Σ |terms[k]|, an upper bound of the polynomial's modulus for −1 ≤ x ≤ 1.
   double size() const {
     double sum = 0.0;
     for (const std::complex<double>& term : terms) sum += std::abs(term);
@@ -42,13 +42,13 @@ inline TaylorNumber sum_of(TaylorNumber a, const TaylorNumber& b, double factor)
   return a;
 }
 
-/// The difference |a|² − |b|² of two functions of x: value at x = 0 and lower bound for all x.
+/// Two values of the difference |a|² − |b|² of the Taylor numbers a and b, −1 ≤ x ≤ 1.
 struct SquaresDifference {
-  double at_centre,  ///< value at x = 0
-      least;         ///< lower bound for −1 ≤ x ≤ 1
+  double at_centre,  ///< value of the polynomials at x = 0, without the remainders
+      least;         ///< lower bound for −1 ≤ x ≤ 1, with the remainders
 };
 
-/// The difference |a|² − |b|² of two Taylor numbers with equally many terms.
+/// The difference |a|² − |b|² at x = 0 and its lower bound; a and b must have equally many terms.
 inline SquaresDifference squares_difference(const TaylorNumber& a, const TaylorNumber& b) {
   const std::size_t last = a.terms.size() - 1;
   double first = 0.0, fall = 0.0;

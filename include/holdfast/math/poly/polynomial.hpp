@@ -11,12 +11,12 @@
 
 namespace holdfast {
 
-/// A polynomial p(x) = c₀ + c₁ x + … + c_n xⁿ, as its coefficients, constant term first.
+/// The coefficients c₀ … c_n of a polynomial p(x) = c₀ + c₁ x + … + c_n xⁿ, constant term first.
 template <class Scalar, int Degree>
 using Polynomial = Vector<Scalar, Degree + 1>;
 
-/// The value p(x) by Horner's rule: `degree` multiply-adds. The point x may be complex while the
-/// coefficients are real.
+/// The value p(x) of a polynomial by Horner's rule. The point x may be complex while the
+/// coefficients are real. Work: one multiply-add per degree.
 template <class Coefficients, class Point>
 Point evaluate(const Eigen::MatrixBase<Coefficients>& polynomial, const Point& x) {
   Point value = Point(polynomial[polynomial.size() - 1]);
@@ -25,7 +25,7 @@ Point evaluate(const Eigen::MatrixBase<Coefficients>& polynomial, const Point& x
   return value;
 }
 
-/// The product of two polynomials, whose degrees add.
+/// The product of two polynomials; its degree is the sum of their degrees.
 template <class Scalar, int DegreePlusOneA, int DegreePlusOneB>
 Vector<Scalar, DegreePlusOneA + DegreePlusOneB - 1> multiply(
     const Vector<Scalar, DegreePlusOneA>& a, const Vector<Scalar, DegreePlusOneB>& b) {
@@ -45,7 +45,7 @@ Vector<Scalar, Size - 1> derivative(const Vector<Scalar, Size>& polynomial) {
   return result;
 }
 
-/// The polynomial p(by + x) in powers of x (Taylor shift); by = −1 gives p(λ − 1) in powers of λ.
+/// The coefficients of p(x + by) in powers of x (Taylor shift); by = −1 gives p(x − 1).
 template <class Coefficients>
 Coefficients shifted(Coefficients p, const typename Coefficients::Scalar& by) {
   for (Eigen::Index start = 0; start + 1 < p.size(); ++start)
@@ -53,7 +53,7 @@ Coefficients shifted(Coefficients p, const typename Coefficients::Scalar& by) {
   return p;
 }
 
-/// The polynomial p(unit · x), in powers of x.
+/// The coefficients of p(unit · x) in powers of x.
 template <class Coefficients>
 Coefficients rescaled(Coefficients p, const typename Coefficients::Scalar& unit) {
   typename Coefficients::Scalar power(1);
@@ -63,13 +63,13 @@ Coefficients rescaled(Coefficients p, const typename Coefficients::Scalar& unit)
 
 namespace detail {
 
-/// The product a b without the standard's treatment of infinities, which costs several times more.
+/// The product a b by the plain formula; the C++ standard's treats infinities and is slower.
 template <class Scalar>
 std::complex<Scalar> plain_product(const std::complex<Scalar>& a, const std::complex<Scalar>& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
-/// The reciprocal 1/z without the standard's treatment of infinities, for moduli about one.
+/// The reciprocal 1/z by the plain formula, for moduli near one; infinities are not treated.
 template <class Scalar>
 std::complex<Scalar> inverse(const std::complex<Scalar>& z) {
   return std::conj(z) / std::norm(z);
@@ -97,7 +97,7 @@ NewtonStep<Scalar> newton_step(const std::vector<Scalar>& coefficients,
   return {plain_product(value, inverse(slope)), std::norm(value) <= rounding * rounding};
 }
 
-/// Updates all approximate roots once, in Gauss–Seidel order. @return whether all are final
+/// Applies one Aberth step to each root in turn. @return whether all roots have converged
 template <class Scalar>
 bool aberth_sweep(const std::vector<Scalar>& coefficients,
                   std::vector<std::complex<Scalar>>& roots) {
@@ -117,7 +117,7 @@ bool aberth_sweep(const std::vector<Scalar>& coefficients,
   return settled;
 }
 
-/// The starting points for roots of moduli about one: on the unit circle, no two conjugate.
+/// The starting points for roots of moduli near one: on the unit circle, no two conjugate.
 template <class Scalar>
 std::vector<std::complex<Scalar>> spread_circle(std::size_t count) {
   std::vector<std::complex<Scalar>> points;
@@ -134,11 +134,11 @@ std::vector<std::complex<Scalar>> spread_circle(std::size_t count) {
 
 /// All roots of a real polynomial of low degree, by the Aberth–Ehrlich iteration.
 ///
-/// Coefficients at either end that are at most `negligible` times the largest are dropped. Dropped
-/// leading coefficients mean roots at ∞, which are left out; trailing ones mean roots at 0, which
-/// are returned. The other roots, scaled to geometric mean one, are iterated until each value of
-/// the polynomial is within its rounding error. A constant has no roots. Source: O. Aberth,
-/// Iteration methods for finding all zeros of a polynomial simultaneously, 1973.
+/// Coefficients at both ends count as zero while their modulus is at most `negligible` times the
+/// largest. Each one at the high end means a root at ∞, which is left out. Each one at the low end
+/// means a root 0, which is returned. The iteration ends, after 200 sweeps at most, when p at every
+/// root is zero within rounding. The result is empty for a constant.
+/// Source: O. Aberth, Iteration methods for finding all zeros of a polynomial simultaneously, 1973.
 template <class Coefficients>
 std::vector<std::complex<typename Coefficients::Scalar>> roots(
     const Eigen::MatrixBase<Coefficients>& polynomial,
@@ -165,10 +165,10 @@ std::vector<std::complex<typename Coefficients::Scalar>> roots(
   return result;
 }
 
-/// The positive roots of a real polynomial of low degree, ascending. A double root that round-off ε
-/// has split into a complex pair, about √ε off the real axis, counts as two roots.
-/// @param polynomial  coefficients, lowest degree first
-/// @param split       largest |Im x/Re x| of a pair that counts as a split double root
+/// The positive real roots of a real polynomial of low degree, ascending, each as often as its
+/// multiplicity. Round-off may split a double root into a complex pair near the real axis.
+/// @param polynomial  coefficients, constant term first
+/// @param split       largest |Im x/Re x| at which a complex pair x counts as a double root Re x
 template <class Coefficients>
 std::vector<typename Coefficients::Scalar> positive_roots(
     const Eigen::MatrixBase<Coefficients>& polynomial, double split = 1e-5) {
@@ -182,8 +182,8 @@ std::vector<typename Coefficients::Scalar> positive_roots(
   return result;
 }
 
-/// The number of roots in the open right half-plane Re w > 0; all roots are computed.
-/// @param polynomial  degree 4 or 5 in s, or in w of `in_half_plane`, where |λ| > 1 means Re w > 0
+/// The number of roots with positive real part. All roots are computed.
+/// @param polynomial  coefficients, constant term first; in s, or in w of in_half_plane()
 template <class Coefficients>
 int unstable_roots(const Eigen::MatrixBase<Coefficients>& polynomial) {
   using Scalar = typename Coefficients::Scalar;
@@ -192,7 +192,7 @@ int unstable_roots(const Eigen::MatrixBase<Coefficients>& polynomial) {
   return count;
 }
 
-/// The quotient of a polynomial by x − root, without the remainder; its last coefficient is 0.
+/// The quotient of p(x) by x − root, without remainder, with a zero as last entry.
 template <class Scalar, int Size>
 Vector<Scalar, Size> without_root(const Vector<Scalar, Size>& polynomial, const Scalar& root) {
   Vector<Scalar, Size> quotient = Vector<Scalar, Size>::Zero();
@@ -212,7 +212,7 @@ Vector<Scalar, 3> parity_part(const Vector<Scalar, Size>& a, int parity) {
   return part;
 }
 
-/// The geometric mean (|a₀| / |a_n|)^{1/n} of the moduli of all roots w, a unit in which they are
+/// The geometric mean (|a₀| / |a_n|)^{1/n} of the moduli of all roots w, the unit in which they are
 /// of order one; 1 where this mean is 0 or not finite.
 template <class Scalar, int Size>
 Scalar mean_root_modulus(const Vector<Scalar, Size>& a) {
@@ -220,8 +220,8 @@ Scalar mean_root_modulus(const Vector<Scalar, Size>& a) {
   return std::isfinite(modulus) && modulus > Scalar(0) ? modulus : Scalar(1);
 }
 
-/// Replaces coefficients that are mere round-off by zeros, w being in units of `unit`. The limit is
-/// 1e−14 of the largest coefficient. For the first and the last it is 1e−12: with fast sampling
+/// Replaces coefficients at round-off level by zeros, measured with w in units of `unit`. The limit
+/// is 1e−14 of the largest coefficient. For the first and the last it is 1e−12: with fast sampling
 /// both are small differences of large numbers.
 template <class Scalar, int Size>
 Vector<Scalar, Size> without_round_off(Vector<Scalar, Size> a, const Scalar& unit) {
@@ -236,29 +236,29 @@ Vector<Scalar, Size> without_round_off(Vector<Scalar, Size> a, const Scalar& uni
 
 }  // namespace detail
 
-/// The even and odd parts of a polynomial on the imaginary axis, each of degree ≤ 2 in Y = y²:
-/// a(iy) = even(Y) + iy odd(Y).
+/// A polynomial a of degree 4 or 5 on the imaginary axis: a(iy) = even(Y) + iy odd(Y) with Y = y².
 template <class Scalar>
 struct ParityParts {
-  Vector<Scalar, 3> even;  ///< even part a_e: coefficients of Y⁰, Y¹, Y²
-  Vector<Scalar, 3> odd;   ///< odd part a_o, as a_e; its degree is ≤ 1 if a has degree 4
+  Vector<Scalar, 3> even;  ///< even part: coefficients of Y⁰, Y¹, Y²
+  Vector<Scalar, 3> odd;   ///< odd part: coefficients of Y⁰, Y¹, Y² (Y²: 0 if a has degree 4)
 
   /// @param a     polynomial of degree 4 or 5, constant coefficient first
-  /// @param unit  modulus of w that is taken as the unit of y
+  /// @param unit  factor of y, > 0: the parts are those of a(i · unit · y)
   template <int Size>
   ParityParts(const Vector<Scalar, Size>& a, const Scalar& unit)
       : even(detail::parity_part<Scalar, Size>(rescaled(a, unit), 0)),
         odd(detail::parity_part<Scalar, Size>(rescaled(a, unit), 1)) {}
 };
 
-/// The Möbius–Zhukovsky transform of a polynomial in powers of μ = λ − 1:
+/// The Möbius–Zhukovsky transform q(w) of a polynomial p(μ) of degree n, μ = λ − 1:
 ///
 ///     λ = (1 + w) / (1 − w),   μ = 2w / (1 − w),   q(w) = (1 − w)ⁿ p(2w / (1 − w))
 ///
-/// As |λ| < 1 becomes Re w < 0, Hurwitz's conditions on q decide the stability of the loop: q₀ = 0
-/// is a root λ = +1, q_n = 0 a root λ = −1 (w = ∞), and H_{n−1} = 0, a Hurwitz determinant, a pair
-/// on the unit circle. Source: Kollár 2022, §4.1, without the root λ = 0 (factor 1 + w) at δ = 0.
-/// @return polynomial q, constant coefficient first, of the degree of p
+/// The disc |λ| < 1 becomes the half-plane Re w < 0, so that Hurwitz's conditions apply to q. A
+/// root λ = +1 means q₀ = 0; a root λ = −1 (w = ∞) means q_n = 0. A pair on the unit circle means
+/// that the Hurwitz determinant H_{n−1} is 0. Source: Kollár 2022, §4.1, with δ = 0 and degree 4.
+/// @param in_powers_of_mu  coefficients of p, constant term first
+/// @return coefficients of q, constant term first; q has the degree of p
 template <class Scalar, int Size>
 Vector<Scalar, Size> in_half_plane(const Vector<Scalar, Size>& in_powers_of_mu) {
   Vector<Scalar, Size> result = Vector<Scalar, Size>::Zero();

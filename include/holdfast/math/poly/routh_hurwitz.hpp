@@ -5,18 +5,18 @@
 
 namespace holdfast {
 
-/// Whether all roots s of a polynomial a have Re s < 0, in every lane, for either sign of a_n.
-///
-/// Liénard and Chipart's conditions suffice (Kollár 2022, Eq. (15)); H_k are Hurwitz determinants:
+/// Whether all roots s of a polynomial Σ a_k sᵏ have Re s < 0, in every lane. Its degree n is 3, 4
+/// or 5; a_n may be negative. The conditions of Liénard and Chipart are necessary and sufficient
+/// (Kollár 2022, Eq. (15)). With the Hurwitz determinants H_k they are
 ///
 ///     a_n a_j > 0 for j = 0, 2 and n − 1,
 ///     H₂ > 0 (degree 3),   a_n H₃ > 0 (degree 4),   H₂ > 0 and H₄ > 0 (degree 5)
 ///
-/// Work: 4, 9 or 11 multiply-adds, no division. A NaN gives "not stable".
-/// Source: A. Liénard, M. H. Chipart, Journal de Mathématiques Pures et Appliquées 10 (1914).
+/// A NaN coefficient gives false. Work: 4, 9 or 11 multiply-adds for n = 3, 4, 5. Source:
+/// A. Liénard, M. H. Chipart, Journal de Mathématiques Pures et Appliquées 10 (1914).
 template <class Scalar, int Size>
 Mask<Scalar> lienard_chipart_stable(const Vector<Scalar, Size>& a) {
-  static_assert(Size >= 4 && Size <= 6, "conditions are written for degree 3, 4 and 5");
+  static_assert(Size >= 4 && Size <= 6, "the polynomial must have degree 3, 4 or 5");
   constexpr int n = Size - 1;
   const Scalar zero(0);
   const Scalar x1 = a[n - 1] * a[n - 2] - a[n] * a[n - 3];
@@ -39,8 +39,8 @@ Mask<Scalar> lienard_chipart_stable(const Vector<Scalar, Size>& a) {
   }
 }
 
-/// Whether all roots of one polynomial have Re s < 0, by `lienard_chipart_stable`. The coefficients
-/// may be of any size: they are first divided by the largest, so that no product overflows.
+/// Whether all roots s of a polynomial have Re s < 0, by `lienard_chipart_stable`. The coefficients
+/// are first divided by the largest of their moduli, so that no product overflows.
 template <class Scalar, int Size>
 bool is_hurwitz(const Vector<Scalar, Size>& a) {
   const Scalar largest = a.cwiseAbs().maxCoeff();

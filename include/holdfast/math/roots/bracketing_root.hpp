@@ -16,7 +16,7 @@ struct SignChange {
       upper;              ///< larger argument; equal to `lower` where the function is exactly zero
   Scalar value_at_lower;  ///< value, zero or of the sign opposite to value_at_upper
   Scalar value_at_upper;  ///< value, zero or of the sign opposite to value_at_lower
-  int evaluations = 0;    ///< number of function calls so far
+  int evaluations = 0;    ///< number of function calls made so far
 };
 
 namespace detail {
@@ -42,14 +42,13 @@ Scalar chandrupatla_share(const Ordinate<Scalar>& near, const Ordinate<Scalar>& 
 
 }  // namespace detail
 
-/// Narrows a bracket to at most `tolerance`, or to two neighbouring numbers, by Chandrupatla's
-/// method: inverse quadratic interpolation where three points make it reliable, bisection
-/// elsewhere.
+/// Narrows a bracket to a width of at most `tolerance`, or to two neighbouring numbers.
 ///
+/// Chandrupatla's method uses inverse quadratic interpolation where it is monotone, else bisection.
 /// The order of convergence is about 1.8 at a simple zero; at a jump the method bisects. If the
-/// function is exactly zero at an argument, both ends become this argument.
-/// @param function   Scalar → Scalar; zero, negative values and NaN count as negative
-/// @param bracket    lower < upper, values of opposite sign; any other is returned unchanged
+/// function is exactly 0 at an argument that is tried, both ends become this argument.
+/// @param function   function Scalar → Scalar; NaN counts as negative
+/// @param bracket    lower < upper; returned unchanged unless exactly one end value is > 0
 /// @param tolerance  ≥ 0, in the unit of the argument
 /// Source: T. R. Chandrupatla, A new event quadratic/bisection algorithm for finding the zero of
 /// a nonlinear function without using derivatives, Advances in Engineering Software 28 (1997).
@@ -66,7 +65,7 @@ SignChange<Scalar> bracketing_root(const Function& function, const SignChange<Sc
         std::numeric_limits<Scalar>::epsilon() * std::max(std::abs(near.x), std::abs(far.x));
     const Scalar width = std::abs(far.x - near.x);
     if (width <= std::max(tolerance, spacing)) break;
-    // Not closer to an end than what remains is worth: else the other end would never move.
+    // A minimal distance to the near end makes the other end move too.
     const Scalar margin = std::max(tolerance / Scalar(2), spacing / Scalar(2)) / width;
     const Scalar kept = std::min(std::max(share, margin), Scalar(1) - margin);
     const Scalar x = near.x + kept * (far.x - near.x);

@@ -18,8 +18,8 @@ enum class Stretch {
 /// The outcome of first_crossing(), which proves a condition step by step along an interval.
 enum class WalkOutcome {
   clear,    ///< the condition is proved up to the end
-  exit,     ///< the condition fails at `first_outside`, within `smallest` of the proved range
-  open,     ///< undecided beyond `last_inside`: round-off or the limit of work stopped the proof
+  exit,     ///< the condition fails at `first_outside`, close to the end of the proved range
+  open,     ///< undecided beyond `last_inside`, because of round-off or the limit of evaluations
   blocked,  ///< the condition fails at the start
 };
 
@@ -27,29 +27,29 @@ enum class WalkOutcome {
 struct FirstCrossing {
   WalkOutcome outcome;   ///< outcome of the search
   double last_inside;    ///< argument up to which the condition is proved
-  double first_outside;  ///< nearest known argument where the condition fails; NaN unless `exit`
+  double first_outside;  ///< border, by `edge`, beyond which the condition fails; NaN unless `exit`
   int evaluations;       ///< number of intervals examined, ≥ 1
 };
 
-/// The resolution of first_crossing() and the limit of its work.
+/// The resolution of first_crossing() and its limit of evaluations.
 struct WalkLimits {
-  double smallest;  ///< largest unproved range before an `exit`, > 0, as a share of |argument| or,
-                    ///< if that is smaller, of the first step
+  double smallest;  ///< largest unproved range between `last_inside` and `first_outside`, > 0, as a
+                    ///< share of max(|argument|, first step)
   int most_evaluations;  ///< largest number of intervals to be examined, ≥ 1
 };
 
-/// The first argument at which a condition fails between `from` and `to`, where `to` may be
-/// smaller. It is found by proofs on successive intervals, so that no exit is missed.
+/// The first argument from `from` to `to` at which a condition fails. The condition is proved on
+/// successive intervals, each adjoining the one before, so that no failure is missed.
 ///
-/// Each interval adjoins the proved range. After a proof the next interval is twice as long, else
-/// half as long. Once a failing argument is known, the intervals approach the edge estimated by
-/// `edge`; each covers at most nine tenths of the distance to it.
-/// @param examine  (centre, radius ≥ 0) → Stretch
-/// @param edge     (proved, failing) → estimate of the argument where the condition begins to fail
+/// After a proof the next interval is twice as long; after an undecided one, half as long. After a
+/// failure the search goes only up to the border that `edge` estimates. Each interval then covers
+/// at most nine tenths of the distance to this border.
+/// @param examine  function (centre, radius ≥ 0) → Stretch
+/// @param edge     function (argument proved, argument failing) → border between them, an estimate
 /// @param from     argument at the start
-/// @param to       argument at the end
+/// @param to       argument at the end, above or below `from`
 /// @param first    length of the first step, > 0
-/// @param limits   resolution and work
+/// @param limits   resolution and limit of evaluations
 template <class Examine, class Edge>
 FirstCrossing first_crossing(const Examine& examine, const Edge& edge, double from, double to,
                              double first, const WalkLimits& limits) {

@@ -9,19 +9,19 @@
 
 namespace holdfast {
 
-/// The ways in which a polynomial that starts above zero may reach zero.
+/// Whether and how a polynomial, positive just after x = 0, reaches zero for 0 ≤ x ≤ 1.
 enum class RootOutcome {
-  none,      ///< the polynomial stays above zero up to x = 1
+  none,      ///< the polynomial stays positive up to x = 1
   crossing,  ///< the polynomial falls through zero
-  grazing,   ///< the polynomial comes so near to zero with so small a slope that, within rounding,
-             ///< it may cross, touch or not reach zero
+  grazing,   ///< the polynomial is zero within rounding, with a small slope: it may cross zero,
+             ///< touch it or stay just above it
 };
 
-/// The first zero in [0, 1] of a polynomial that starts above zero.
+/// The first zero in [0, 1] of a polynomial that is positive just after x = 0.
 struct FirstRoot {
   RootOutcome outcome;  ///< existence and kind of the zero
   double at;            ///< position x of the zero, 0 ≤ x ≤ 1; 1 without a zero
-  int evaluations;      ///< number of evaluations of polynomial and slope
+  int evaluations;      ///< number of evaluations of the polynomial with its slope
 };
 
 namespace detail {
@@ -29,7 +29,7 @@ namespace detail {
 /// The distance s > 0 at which height + slope s − bend s²/2 is zero, height > 0.
 inline double safe_step(const ValueAndSlope& at, double height, double bend) {
   const double root = std::sqrt(at.slope * at.slope + 2.0 * bend * height);
-  // Each form where nothing cancels in it.
+  // The form without cancellation is used.
   const double step = at.slope > 0.0 ? (at.slope + root) / bend : 2.0 * height / (root - at.slope);
   return std::isnan(step) ? 1.0 : step;
 }
@@ -57,8 +57,8 @@ inline FirstRoot root_in_stretch(const Series& q, double rounding, int most_eval
 
 /// The first root of q(x), q(0) > 0.
 ///
-/// Where terms of q cancel, the bound of |q″| is far too large and the steps are too short. In this
-/// case q is expanded again about the point reached, over a shorter interval.
+/// Where terms of q cancel, the bound of |q″| is far too large and the steps are too short. Then q
+/// is expanded again about the point reached, over a shorter interval.
 inline FirstRoot first_root_of_positive(const Series& q) {
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * q.cwiseAbs().sum();
   constexpr int most_evaluations = 2048, patience = 16;
@@ -80,16 +80,16 @@ inline FirstRoot first_root_of_positive(const Series& q) {
 
 }  // namespace detail
 
-/// The first root in [0, 1] of a polynomial p that is above zero just after x = 0. No root is
-/// missed.
+/// The first root in [0, 1] of a polynomial p(x) = Σ c_k xᵏ. No root is missed.
 ///
-/// With the coefficients c_k and M = Σ k (k − 1) |c_k| ≥ |p″| on [0, 1], p(x + s) ≥ p(x) + p′(x) s
-/// − M s²/2. The search moves from x to the root of this parabola, before which p has no root. It
-/// converges quadratically to a crossing, linearly where p touches zero. Leading zero coefficients
-/// are divided out; a polynomial that is negative just after x = 0 has its root at 0.
+/// On [0, 1], |p″| ≤ M = Σ k (k − 1) |c_k| and hence p(x + s) ≥ p(x) + p′(x) s − M s²/2. The search
+/// moves from x to the root of this parabola in s; p has no root before. It converges quadratically
+/// to a crossing, linearly where p touches zero. A root at x = 0 with p > 0 just after it does not
+/// count. If p < 0 just after x = 0, the root is 0.
 ///
-/// Work: one Horner evaluation of p and p′ per step; some five for a crossing, at most 2048.
-/// @param p  one coefficient or more; if one is not finite, no root is reported
+/// Work: one Horner evaluation of p and p′ per step; about five steps for a crossing. After 2048
+/// steps the point reached is returned as grazing.
+/// @param p  c₀, c₁, …, one or more; if one is not finite, no root is reported
 inline FirstRoot first_root(const Series& p) {
   Eigen::Index first = 0;
   while (first < p.size() && p[first] == 0.0) ++first;

@@ -12,7 +12,7 @@
 
 namespace holdfast {
 
-/// The coefficients c₀, c₁, … of a polynomial in every lane; entries beyond its terms are unused.
+/// The coefficients c₀, c₁, … of one polynomial per lane. Entries beyond the last term are unused.
 template <class Scalar>
 using LaneSeries = std::array<Scalar, most_terms>;
 
@@ -69,7 +69,7 @@ struct RootSearch {
     const Scalar way = safe_way(max(value, rounding), slope);
     x = x + way;
     active = active & (x < one);
-    // The next value lies between zero and its rounding for sure, and falls.
+    // The next value is certainly zero within rounding, and the slope is negative.
     const Mask<Scalar> there = active & (bend * way * way <= Scalar(0.125) * rounding) &
                                (slope * slope > Scalar(64) * bend * rounding) & (slope < zero);
     at = select(there, x, at);
@@ -171,7 +171,7 @@ void search_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
     for (std::size_t g = 1; g < Count; ++g) some = some | searches[g].active;
     return some;
   };
-  // At x = 0 value and slope lie bare.
+  // At x = 0 value and slope are the first two coefficients.
   for (RootSearch<Scalar>& search : searches)
     search.step(search.p[0], terms > 1 ? search.p[1] : Scalar(0));
   for (int evaluations = 1; evaluations < patience && any(left()); ++evaluations)
@@ -187,12 +187,12 @@ void search_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
 
 }  // namespace detail
 
-/// The first roots of `Count` polynomials in every lane, found as by first_root(). The lanes step
-/// together until each is decided; a lane that needs more than 16 steps continues alone.
+/// The first roots of `Count` polynomials in every lane, by the method of first_root(). All lanes
+/// step together until each is decided; a lane that needs more than 16 steps continues alone.
 ///
-/// Work: 2 `terms` multiply-adds for each step and polynomial; some five steps if any lane has a
-/// root, mostly none otherwise.
-/// @param polynomials  one or two polynomials, in all lanes; the function modifies them
+/// Work: 2 `terms` multiply-adds for each step and polynomial. If any lane has a root there are
+/// about five steps; otherwise the first two coefficients mostly suffice.
+/// @param polynomials  one or two polynomials in every lane; the function modifies them
 /// @param terms        common number of terms, 1 … `most_terms`
 /// @param lanes        lanes to be searched, for each polynomial; other lanes report no root
 template <class Scalar, std::size_t Count>
@@ -205,7 +205,7 @@ std::array<FirstRoots<Scalar>, Count> first_roots(
     detail::search_all(searches, terms);
     return {{{searches[0].found, searches[0].at}}};
   } else {
-    static_assert(Count == 2, "a mode has two guards at most");
+    static_assert(Count == 2, "first_roots() searches one or two polynomials per lane");
     std::array<Search, 2> searches{Search(polynomials[0], terms, lanes[0]),
                                    Search(polynomials[1], terms, lanes[1])};
     detail::search_all(searches, terms);

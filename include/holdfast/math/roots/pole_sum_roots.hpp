@@ -13,30 +13,32 @@
 
 namespace holdfast {
 
-/// A characteristic function p of a sampled loop, given by the poles of the sampled plant:
+/// The characteristic function p of a sampled loop as a sum over the poles 1 + ε_k of its plant:
 ///
 ///     p(λ) = 1 − λ^{−n} w(rλ) (g/λ + Σ (a_k + b_k/λ)/(λ − 1 − ε_k)),   w(λ) = c + d (1 − 1/λ)
+///
+/// The factor λ^{−n} is a delay of n sampling periods. The gains are part of a, b and g, or of w.
 template <class Scalar>
 struct PoleSum {
   using Complex = std::complex<Scalar>;  ///< type of poles and residues
 
-  /// The term of one pole in the sum.
+  /// The term (a + b/λ)/(λ − 1 − ε) of one pole in the sum.
   struct Part {
-    Complex increment;  ///< ε = λ − 1 of the pole λ, accurate also for fast sampling
+    Complex increment;  ///< ε, the pole minus one; accurate also for a pole close to 1
     Complex present;    ///< coefficient a
     Complex past;       ///< coefficient b
   };
 
-  /// The filter w(λ) of the readings.
+  /// The filter w(λ) = c + d (1 − 1/λ) that is applied to the readings.
   struct Weight {
     Scalar constant;  ///< factor c of the reading
     Scalar change;    ///< factor d of the reading's change per sample
   };
 
   std::vector<Part> parts;              ///< terms of all poles
-  Complex past{0};                      ///< coefficient g
+  Complex past{0};                      ///< coefficient g of the term g/λ
   Weight weight{Scalar(1), Scalar(0)};  ///< filter w, common to all terms
-  Scalar radius{1};                     ///< radius r: a root λ of p is the root rλ of the loop
+  Scalar radius{1};                     ///< scale r: for a root λ of p, the loop has the root rλ
   int power = 0;                        ///< exponent n ≥ 0
 };
 
@@ -133,7 +135,7 @@ class RootIteration {
   /// Finds the conjugate of each pole; a pole without a conjugate is paired with itself.
   void find_mirrors(bool mirrored) {
     for (std::size_t i = 0; i < poles_; ++i) mirrors_.push_back(i);
-    std::size_t begin = 0;  // both kinds mostly come in the same order
+    std::size_t begin = 0;  // conjugates are mostly in the same order
     for (std::size_t i = 0; mirrored && i < poles_; ++i) {
       const Complex wanted = std::conj(parts_[i][0]);
       for (std::size_t j = 0; j < poles_ && wanted.imag() > 0; ++j) {
@@ -147,7 +149,7 @@ class RootIteration {
     }
   }
 
-  /// The first estimate of root i, off the real axis: by symmetry iterates on it would stay real.
+  /// The first estimate of root i, off the real axis, since iterates from the axis stay real.
   Complex first_of(std::size_t i) {
     Row own = parts_[i];
     own[3] = Complex(0);
@@ -237,7 +239,7 @@ class RootIteration {
     const Sums others = without(i, own);
     const Factors at = factors_at(own[0] + d);
     const Value other = rest(at, others);
-    // The value and slope of d p(λ), whose pole is gone.
+    // Value and slope of d p(λ), which has no pole at e.
     const Value left{d * other.value - at.of(own[1], own[2]),
                      other.value + d * other.slope - at.slope_of(own[1], own[2])};
     const bool settled = take(i, d, left, others, Complex(1) + (own[0] + d));
@@ -260,7 +262,7 @@ class RootIteration {
            size < enough_ * std::abs(Scalar(1) - std::abs(lambda));
   }
 
-  /// Whether the roots z have the right sum: that of the poles, plus w(∞) (g + Σ a) where n = 0.
+  /// Whether the roots z have the right sum: the sum of the poles, plus w(∞) (g + Σ a) where n = 0.
   bool has_their_sum() const {
     const Scalar weight = weight_.constant + weight_.change;
     Complex sum = power_ == 0 ? -weight * past_ : Complex(0);
@@ -283,31 +285,30 @@ class RootIteration {
   Scalar radius_;
   int power_;
   Complex past_;           // g
-  bool has_past_ = false;  // whether there are b
+  bool has_past_ = false;  // whether any b differs from zero
   Scalar tolerance_{1e-14}, floor_{1e-17}, enough_{0};
   std::size_t poles_;
   std::vector<std::size_t> mirrors_;
   ComplexRows<Scalar, 4> parts_{parked};
   std::vector<Complex> extras_;
-  std::vector<Scalar> steps_;  // how far each root went last
+  std::vector<Scalar> steps_;  // last step of each root
 };
 
 }  // namespace detail
 
-/// All roots λ of a PoleSum of N poles, in some 3 to 30 sweeps of N² operations. The eigenvalues of
-/// an equivalent matrix would take N³ operations.
-/// @param sum     function p; complex poles are in conjugate pairs
-/// @param late    whether any coefficient b differs from zero
-/// @param enough  admissible error of a root, as a share of its distance from the unit circle; 0:
-///                full precision
-/// @return all roots; an empty vector if n > 19, or if the roots do not converge or their sum is
-///         wrong, as happens for coinciding roots
+/// All roots λ of a PoleSum of N poles, by about 3 to 30 iterations of N² operations.
+/// @param sum     function p with one pole or more; complex poles are in conjugate pairs
+/// @param late    whether any coefficient b or g differs from zero
+/// @param enough  admissible error of a root relative to its distance from the unit circle; 0: full
+///                precision
+/// @return all roots; empty if n > 19, or if the iteration does not converge to roots with the
+///         correct sum, as happens for multiple roots
 template <class Scalar>
 std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late,
                                                  const Scalar& enough = Scalar(0)) {
   using Complex = std::complex<Scalar>;
   const auto all = std::exchange(sum.parts, {});
-  // Poles that have died out within a sample are one together, λ = 0, and else roots there.
+  // Poles that decay within a sample count as one pole at λ = 0; the others become roots there.
   typename PoleSum<Scalar>::Part dead{Complex(-1), Complex(0), Complex(0)};
   std::size_t of_dead = 0;
   for (const auto& part : all) {
@@ -323,7 +324,7 @@ std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late,
   if (of_dead > 0) sum.parts.push_back(dead);
   if (sum.parts.empty() || sum.power > 19) return {};
   detail::RootIteration<Scalar> iteration(sum, extra, true);
-  // Where two have settled on one real root, or an extra one on one of a pair, all begin anew.
+  // If two iterates have converged to the same root, all restart without assumed symmetry.
   if (!iteration.converge(enough) && !(enough > Scalar(0) && iteration.converge(Scalar(0))) &&
       !(iteration = {sum, extra, false}).converge(Scalar(0)))
     return {};

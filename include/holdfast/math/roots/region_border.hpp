@@ -18,11 +18,11 @@ struct PlanePoint {
   double y = 0.0;  ///< coordinate y, upward
 };
 
-/// The margin of a point in a region, with the condition nearest to failing.
+/// The result of examining a point: its margin and the condition that is nearest to failing.
 /// @tparam Label  name of a condition that ends the region; compared by ==
 template <class Label>
 struct RegionLook {
-  double margin = -1.0;  ///< margin, > 0 inside; a continuous margin makes the tracing fast
+  double margin = -1.0;  ///< margin, > 0 inside the region; tracing is fast if it is continuous
   Label label{};         ///< condition that is nearest to failing
 };
 
@@ -30,25 +30,25 @@ struct RegionLook {
 template <class Label>
 struct BorderPoint {
   PlanePoint at;  ///< position
-  Label label{};  ///< condition that ends the region; at a jump of the margin, the label outside it
+  Label label{};  ///< condition that fails beyond this point
 };
 
-/// The border of a region, with the region on its left.
+/// The border of a region, traced with the region on its left.
 template <class Label>
 struct RegionBorder {
   std::vector<BorderPoint<Label>> points;  ///< if closed, the last point repeats the first one
-  bool closed = false;  ///< whether the border returned to its start; if not, it was lost, or
-                        ///< followed into another part that touches this one
-  int looks = 0;        ///< number of points examined
+  bool closed = false;  ///< whether the trace returned to its start; if not, the trace lost the
+                        ///< border, changed to a touching part of the region or reached the limit
+  int looks = 0;        ///< number of points examined; `most_looks` after a loss or such a change
 };
 
 /// The step lengths, accuracies and limits for following a border.
 struct BorderSteps {
-  double longest = 0.02;       ///< longest step, in the unit of the plane
-  double shortest = 1e-9;      ///< shortest step, which is the accuracy of a corner
-  double tolerance = 1e-13;    ///< accuracy of a border point
-  double jump = 1e-4;          ///< smallest margin just inside the border that counts as a jump
-  int most_looks = 1'000'000;  ///< number of points examined after which the border is left open
+  double longest = 0.02;     ///< longest step, in the unit of x and y
+  double shortest = 1e-9;    ///< shortest step and accuracy of a corner, in the unit of x and y
+  double tolerance = 1e-13;  ///< accuracy of a border point, in the unit of x and y
+  double jump = 1e-4;        ///< largest margin just inside the border without a jump of the margin
+  int most_looks = 1'000'000;  ///< limit of the number of points examined
 };
 
 namespace detail {
@@ -67,7 +67,7 @@ class BorderWalk {
     if (!first) return border_;
     longest_ = std::min(steps_.longest, reach / 4.0);
     border_.points.push_back(*first);
-    // The inside is where it was come from.
+    // The search from the start arrived from inside.
     backward_ = pi<double>;
     fresh_ = true;
     for (double step = longest_; border_.looks < steps_.most_looks && !border_.closed;)
@@ -76,13 +76,13 @@ class BorderWalk {
   }
 
  private:
-  static constexpr double ahead = 0.35;  // rad to either side, where the border is expected
-  static constexpr double sweep = 0.2;   // rad
+  static constexpr double ahead = 0.35;  // half of the angle (rad) in which the border is expected
+  static constexpr double sweep = 0.2;   // largest step of the angle (rad)
 
   struct Corner {
     PlanePoint at;
     Label before, after;
-    std::ptrdiff_t number;  // of the point behind it
+    std::ptrdiff_t number;  // index of the border point after it
   };
 
   RegionLook<Label> seen(const PlanePoint& at) {
@@ -128,7 +128,7 @@ class BorderWalk {
     return BorderPoint<Label>{last, inner.margin > steps_.jump ? outer.label : inner.label};
   }
 
-  /// The exit of a ray from the region.
+  /// The first border point on a ray from an inner point; none within the limit of looks.
   std::optional<BorderPoint<Label>> ray(const PlanePoint& from, double angle) {
     for (double near = 0.0; border_.looks < steps_.most_looks;) {
       const double far = near + steps_.longest;
@@ -193,7 +193,7 @@ class BorderWalk {
     const bool bent = !fresh_ && std::abs(turned(direction - backward_ + pi<double>)) > 0.3;
     if (bent && !least) return shorter(0.5);
     border_.points.push_back(*found);
-    // Behind a corner the old piece still tells where the border came from.
+    // After a corner the direction of the previous piece is kept.
     if (!least) backward_ = direction + pi<double>;
     if (border_.points.size() == 2) first_direction_ = direction;
     fresh_ = least;
@@ -232,24 +232,24 @@ class BorderWalk {
   RegionBorder<Label> border_;
   std::vector<Corner> corners_;
   double longest_ = 0.0;
-  double backward_ = 0.0;         // angle of where the border comes from
-  double first_direction_ = 0.0;  // of the first step
-  bool fresh_ = true;             // at the first point or behind a corner: look all around
+  double backward_ = 0.0;         // angle towards the previous border point
+  double first_direction_ = 0.0;  // angle of the first step
+  bool fresh_ = true;             // at the first point or after a corner: search in all directions
 };
 
 }  // namespace detail
 
-/// Follows the border of the plane region {margin > 0} around an inner point until it closes.
+/// Traces the border of the region {margin > 0} of a plane around an inner point until it closes.
 ///
-/// Each point is the root of the margin on a circle about the previous point. At a corner, where
-/// the failing condition changes, the circles shrink until two successive points of different
-/// labels are `shortest` apart. Parts narrower than a step and holes of the region may be missed.
+/// Each border point is a root of the margin on a circle about the previous border point. At a
+/// corner, where the label changes, the circles shrink to the radius `shortest`. Holes of the
+/// region and parts narrower than a step may be missed.
 ///
 ///     const auto border = region_border<int>(look, {0.5, 0.5});
 /// @tparam Label  name of a condition that ends the region
-/// @param look   PlanePoint ↦ RegionLook<Label>; the region must be bounded
+/// @param look   function PlanePoint → RegionLook<Label>; the region must be bounded
 /// @param start  point inside the region; otherwise the border is empty
-/// @param steps  lengths of steps and accuracy of points
+/// @param steps  step lengths, accuracies and limits
 template <class Label, class Look>
 RegionBorder<Label> region_border(const Look& look, const PlanePoint& start,
                                   const BorderSteps& steps = {}) {

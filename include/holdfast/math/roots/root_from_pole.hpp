@@ -9,16 +9,16 @@
 
 namespace holdfast {
 
-/// The root s of 1 − ε g(s) at ε = 1, continued from a pole p of g at ε = 0. It shows the change of
-/// a natural motion while an added device grows from zero to its full size.
+/// The root s of 1 − ε g(s) = 0 at ε = 1, continued from the pole s = p of g at ε = 0. For example,
+/// p is an eigenvalue of a structure, ε g the effect of a device and s the eigenvalue with it.
 ///
-/// The function 1/g is smooth at the pole: the root of 1/g(s) = ε is continued by Euler's step and
-/// the secant method. ε takes a path slightly off the real axis, so that a root meeting its
-/// conjugate has a unique direction. Steps are shortened while the root turns. A root less than
-/// 10⁻⁷ |p| from the pole follows from the pole's residue alone.
+/// Euler's step and the secant method continue the root of 1/g(s) = ε; 1/g is smooth at the pole.
+/// ε takes a path slightly off the real axis, so that conjugate roots do not meet on the way. Steps
+/// are shortened where the root's path bends. If the root is less than 10⁻⁷ |p| from the pole, g is
+/// replaced by r/(s − p) + b with constants r and b.
 ///
-/// The continuation is no proof: where two roots meet, it may follow either of them.
-/// @param loop_gain  function g of a complex number; it is evaluated some hundred times
+/// Where two roots meet, the continuation may follow either of them.
+/// @param loop_gain  function g of a complex number, evaluated some hundred times
 /// @param pole       p ≠ 0, simple, exact to round-off
 /// @return root s at ε = 1, not verified; NaN where 1000 steps do not suffice
 template <class LoopGain>

@@ -6,10 +6,10 @@
 
 namespace holdfast {
 
-/// The largest number of coefficients of a series.
+/// The largest number of coefficients of a `Series`.
 inline constexpr int most_terms = 20;
 
-/// A power series c₀ + c₁ x + …, as its coefficients: at most `most_terms`, not on the heap.
+/// The coefficients c₀, c₁, … of a polynomial, at most `most_terms`, without heap allocation.
 using Series = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_terms, 1>;
 
 /// A value p(x) of a polynomial with its slope p′(x).
@@ -31,7 +31,7 @@ ValueAndSlope value_and_slope(const Eigen::MatrixBase<Coefficients>& polynomial,
   return result;
 }
 
-/// The polynomial p on [from, 1], as coefficients of p(from + y (1 − from)), 0 ≤ y ≤ 1.
+/// The coefficients of p(from + (1 − from) y) in powers of y; 0 ≤ y ≤ 1 maps to from ≤ x ≤ 1.
 inline Series rest_of(const Series& p, double from) {
   return rescaled(shifted(p, from), 1.0 - from);
 }

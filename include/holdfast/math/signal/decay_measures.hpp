@@ -16,12 +16,12 @@ struct DecayRecord {
   std::vector<double> displacements;  ///< displacements (m) from the equilibrium, downward positive
 };
 
-/// The measures of the free decay after a load is removed; those that need a longer record are NaN.
+/// The measures of a free decay after a load is removed; NaN where the record is too short for one.
 struct DecayMeasures {
-  double first_peak;       ///< peak (m) opposite to the start, between the first two crossings
-  double first_peak_time;  ///< time t₁ (s) of first_peak, from the start of the record
-  double period;           ///< period T (s), mean of the two cycles after the first crossing
-  double logarithmic_decrement;  ///< decrement δ per cycle, from the first four peaks
+  double first_peak;             ///< extremum (m) between crossings 1 and 2 of the equilibrium
+  double first_peak_time;        ///< time (s) from the start of the record to first_peak
+  double period;                 ///< period (s): mean of the two cycles after the first crossing
+  double logarithmic_decrement;  ///< logarithmic decrement per cycle, from the first four extrema
 };
 
 /// An extremum between two successive crossings of the equilibrium.
@@ -30,12 +30,12 @@ struct DecayPeak {
   double value;  ///< displacement (m)
 };
 
-/// The times (s) at which a record crosses the equilibrium, interpolated linearly between samples,
-/// and the extrema between successive crossings, found by a parabola through three samples.
+/// The crossings of the equilibrium in a record, interpolated linearly between samples, and the
+/// extrema between successive crossings, found by a parabola through three samples.
 ///
-/// A swing to one side counts as soon as it reaches a twentieth of the previous swing. Several
-/// crossings before this instant, caused by noise, are recorded as one, midway between the first
-/// and the last. Noise of standard deviation σ raises each peak by about 2σ.
+/// A crossing counts once the displacement on the new side reaches 5 % of the previous extremum. If
+/// noise causes several crossings until then, the midpoint of the first and the last counts. Noise
+/// of standard deviation σ raises the modulus of each extremum by about 2σ.
 struct DecayEvents {
   std::vector<double> crossings;  ///< times of crossing (s), ascending
   std::vector<DecayPeak> peaks;   ///< peaks[k] is between crossings[k] and crossings[k + 1]
@@ -48,7 +48,7 @@ inline void require_ascending(const std::vector<double>& times) {
   for (std::size_t k = 0; k < times.size(); ++k) {
     require_finite("time", times[k], "s");
     if (k > 0 && !(times[k] > times[k - 1]))
-      throw InvalidParameter("time", times[k], "s", "later than the one before");
+      throw InvalidParameter("time", times[k], "s", "later than the previous instant");
   }
 }
 
@@ -67,8 +67,8 @@ inline DecayPeak vertex(const DecayRecord& record, std::size_t k) {
 
 }  // namespace detail
 
-/// Finds the crossings and the extrema of a record. @throws InvalidParameter where times and
-/// displacements differ in number, times are not finite and ascending, or a displacement not finite
+/// Finds the crossings and the extrema of a record. @throws InvalidParameter if the numbers of
+/// times and displacements differ, or a value is not finite, or the times are not ascending
 inline DecayEvents decay_events(const DecayRecord& record) {
   const auto& t = record.times;
   const auto& z = record.displacements;
@@ -79,9 +79,9 @@ inline DecayEvents decay_events(const DecayRecord& record) {
   for (const double displacement : z) require_finite("displacement", displacement, "m");
   constexpr double smallest_swing = 0.05;
   DecayEvents events;
-  std::size_t extreme = 0;  // of the swing that is under way
+  std::size_t extreme = 0;  // index of the current swing's extremum
   double first = 0.0, last = 0.0;
-  bool crossing = false;  // whether the equilibrium was crossed since that swing was last seen
+  bool crossing = false;  // whether the record has crossed since that swing's last sample
   for (std::size_t k = 1; k < t.size(); ++k) {
     if ((z[k - 1] < 0.0) != (z[k] < 0.0)) {
       last = t[k - 1] + (t[k] - t[k - 1]) * z[k - 1] / (z[k - 1] - z[k]);
@@ -101,9 +101,9 @@ inline DecayEvents decay_events(const DecayRecord& record) {
   return events;
 }
 
-/// The logarithmic decrement δ per cycle of four successive peaks of alternating sign: minus twice
-/// the slope per peak of the least-squares line through l = ln |peak|, as a cycle has two peaks: δ
-/// = −2 [−3 l₁ − l₂ + l₃ + 3 l₄]/10.
+/// The logarithmic decrement per cycle, −2 (−3 l₁ − l₂ + l₃ + 3 l₄)/10 with l_k = ln |extremum k|,
+/// of four successive extrema of alternating sign. A cycle has two extrema, so that the decrement
+/// is minus twice the slope of the least-squares line through the points (k, l_k).
 template <class Scalar>
 Scalar logarithmic_decrement(const std::array<Scalar, 4>& peaks) {
   using std::abs;
@@ -112,7 +112,7 @@ Scalar logarithmic_decrement(const std::array<Scalar, 4>& peaks) {
   return (Scalar(3) * outer + inner) / Scalar(5);
 }
 
-/// The measures of a free decay that starts from a displacement at the record's first instant.
+/// The measures of a free decay; the record begins when the load is removed, away from equilibrium.
 /// @throws InvalidParameter under the conditions of decay_events()
 inline DecayMeasures decay_measures(const DecayRecord& record) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();

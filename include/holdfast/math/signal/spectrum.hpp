@@ -13,29 +13,29 @@
 
 namespace holdfast {
 
-/// The weights of the samples in a Fourier transform.
+/// The window function of a Fourier transform: weights w_n of the samples n = 0 … N − 1.
 enum class SpectralWindow {
   rectangular,  ///< w_n = 1: exact amplitudes for a record of whole periods
-  hann,         ///< w_n = ½ (1 − cos 2πn/N): for motions whose period does not fit the record
+  hann,         ///< w_n = ½ (1 − cos 2πn/N): less leakage for a record of any other length
 };
 
 /// One line of a one-sided amplitude spectrum.
 struct SpectralLine {
   double frequency;  ///< frequency (Hz)
-  double amplitude;  ///< amplitude in the signal's unit; a sine of amplitude a on this line gives a
+  double amplitude;  ///< amplitude in the signal's unit: a for a sin 2πft, f being this frequency
 };
 
 /// The one-sided amplitude spectrum of a real signal:
 ///
 ///     X_k = Σ w_n x_n e^{−2πikn/N},   amplitude_k = 2 |X_k| / Σ w_n
-///     (factor 1 in place of 2 at zero and at the Nyquist frequency)
+///     (factor 1 in place of 2 at frequency 0 and at the Nyquist frequency)
 ///
 /// @param signal           samples x_n, N ≥ 2, finite
 /// @param sampling_period  τ (s), > 0
 /// @param window           weights w_n; `rectangular` for a record of whole periods
-/// Work: N log N where N has small prime factors only, N times the largest factor otherwise.
-/// @return N/2 + 1 lines at k / (N τ)
-/// @throws InvalidParameter for fewer than two or more than 10⁹ samples, or τ ≤ 0
+/// Work: N log N if N has only small prime factors, else N times its largest prime factor.
+/// @return lines at the frequencies k/(N τ), k = 0 … N/2 (rounded down)
+/// @throws InvalidParameter for fewer than 2 samples or more than 10⁹, or unless τ > 0
 template <class Scalar = double>
 std::vector<SpectralLine> amplitude_spectrum(std::vector<Scalar> signal, double sampling_period,
                                              SpectralWindow window) {
@@ -62,8 +62,8 @@ std::vector<SpectralLine> amplitude_spectrum(std::vector<Scalar> signal, double 
   return lines;
 }
 
-/// The smallest number q of samples that last a whole number p of forcing periods: f τ = p/q.
-/// @return q; 0 where f τ is no fraction with q ≤ `largest`
+/// The denominator q of f τ = p/q in lowest terms: q sampling periods τ last p periods 1/f.
+/// @return q; 0 where f τ is no fraction with a denominator q ≤ `largest`
 /// @throws InvalidParameter unless f is finite and ≥ 0, τ finite and > 0
 inline std::int64_t samples_per_common_period(double frequency, double sampling_period,
                                               std::int64_t largest = 1'000'000) {
@@ -74,10 +74,9 @@ inline std::int64_t samples_per_common_period(double frequency, double sampling_
   return ratio ? ratio->denominator : 0;
 }
 
-/// The length of the longest record, at most `available` samples, with a whole number of forcing
-/// periods and of sampling periods: a rectangular window does not leak at the forcing frequency and
-/// its harmonics.
-/// @return `available` itself where no common period is short enough
+/// The number of samples in the longest record that lasts a whole number of forcing periods. With a
+/// rectangular window such a record has no leakage from the forcing frequency and its harmonics.
+/// @return number of samples, at most `available`; `available` where no such record is short enough
 /// @throws InvalidParameter under the conditions of samples_per_common_period()
 inline std::int64_t whole_period_samples(std::int64_t available, double frequency,
                                          double sampling_period) {

@@ -11,8 +11,8 @@
 
 namespace holdfast {
 
-/// The power of each spectral line, its part of the mean square of the signal: ½ a² for the
-/// amplitude a, but a² at zero and at the Nyquist frequency.
+/// The power of each spectral line: ½ a² for the amplitude a, but a² at frequency 0 and at the
+/// Nyquist frequency. With a rectangular window the sum is the mean square of the signal.
 /// @param lines    spectrum of amplitude_spectrum()
 /// @param samples  number N of samples of the record; the spectrum has N/2 + 1 lines
 /// @throws InvalidParameter where the numbers of samples and of lines disagree
@@ -20,7 +20,7 @@ inline std::vector<double> line_powers(const std::vector<SpectralLine>& lines,
                                        std::size_t samples) {
   if (samples < 2 || lines.size() != samples / 2 + 1) {
     throw InvalidParameter("number of lines", static_cast<double>(lines.size()), "",
-                           "N/2 + 1 for N >= 2 samples");
+                           "N/2 + 1, rounded down, with the number N >= 2 of samples");
   }
   std::vector<double> powers(lines.size());
   for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -30,27 +30,27 @@ inline std::vector<double> line_powers(const std::vector<SpectralLine>& lines,
   return powers;
 }
 
-/// The shares of a record's power on the multiples of f/m, for m = 1, 2, …
+/// The shares of a signal's power at the multiples of f/m, m = 1, 2, …, with the base frequency f.
 struct SubharmonicShares {
-  std::vector<double> shares;  ///< shares[m − 1]: share on the multiples of f/m; 1 without power
-  int division = 0;            ///< smallest m with at least the required share, 0 without such m
+  std::vector<double> shares;  ///< shares[m − 1]: share for f/m; 1 for a signal of zero power
+  int division = 0;            ///< smallest m with at least the required share; 0: none
 };
 
 /// The options of a search for subharmonic lines.
 struct SubharmonicOptions {
   double base_frequency;      ///< base frequency f (Hz), > 0
-  int largest_division = 16;  ///< largest division m, ≥ 1
-  double share = 0.999;       ///< required share of the power, 0 < share ≤ 1
+  int largest_division = 16;  ///< largest division m, 1 … 10⁵
+  double share = 0.999;       ///< required share of the power, 10⁻⁹ ≤ share ≤ 1
 };
 
-/// The shares of the power, without the mean, on the multiples of f/m, m = 1, 2, …
+/// The shares of a signal's power, without its mean, at the multiples of f/m (f: base frequency).
 ///
-/// A line is on a multiple if the two are at most half the line spacing apart. The record should
-/// contain whole periods of f/m, with a rectangular window, so that nothing leaks. Multiples less
-/// than three line spacings apart would cover almost every line: for such m the share is 0.
+/// A line counts if it lies within half a line spacing of a multiple. To avoid leakage, use a
+/// rectangular window and a record of whole periods m/f. If the multiples are less than three line
+/// spacings apart, the share is set to 0, since almost every line would count.
 ///
-/// Frequencies above the Nyquist frequency are aliased: with f τ = p/q, multiples of f appear on
-/// those of f/p = 1/(q τ), the right base frequency. Work: one comparison per line and m.
+/// Multiples of a frequency f above the Nyquist frequency are aliased. If f τ = p/q, they appear at
+/// multiples of f/p = 1/(q τ): use f/p as the base frequency. Work: one comparison per line and m.
 /// @throws InvalidParameter where an option is out of range or the lines do not match N
 inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lines,
                                             std::size_t samples,
@@ -77,11 +77,10 @@ inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lin
   return result;
 }
 
-/// The smallest number of lines, without the mean, that together contain `share` of the power; 0
-/// for a signal without power.
+/// The smallest number of lines that contain the share of the power without mean; 0 for zero power.
 /// @param lines    spectrum of amplitude_spectrum()
 /// @param samples  number N of samples of the record
-/// @param share    required share of the power, 0 < share ≤ 1
+/// @param share    required share of the power, 10⁻⁹ ≤ share ≤ 1
 /// @throws InvalidParameter where the share is out of range or the lines do not match N
 inline std::size_t lines_holding(const std::vector<SpectralLine>& lines, std::size_t samples,
                                  double share) {
@@ -96,15 +95,16 @@ inline std::size_t lines_holding(const std::vector<SpectralLine>& lines, std::si
   return count;
 }
 
-/// The share of the power in a floor between the lines: the continuous part of the spectrum.
+/// The share of a signal's power in the continuous part of its spectrum, the noise floor:
 ///
-///     (1 / ln 2) Σ over bands of [median power of a line in the band · lines of the band] / total
+///     Σ over bands of [median power of a line · number of lines] / (total power · ln 2)
 ///
-/// with bands of 32 lines. The mean and the first line, into which a Hann window spreads the mean,
-/// are left out. Powers of noise are distributed exponentially, with a median of ln 2 of their
-/// mean; separate lines do not change a median. Use a Hann window: the leakage of a rectangular
-/// window looks like a floor. Lines fewer than eight apart count as floor.
-/// @return 0 … 1; 0 for a signal without power
+/// with bands of 32 lines. The mean and the first line are left out, since a Hann window spreads
+/// the mean into the first line. The line powers of noise are distributed exponentially: their
+/// median is ln 2 times their mean. Single peaks hardly change a median, but peaks less than eight
+/// lines apart count as floor. Use a Hann window, since the leakage of a rectangular window looks
+/// like a floor.
+/// @return share, 0 … 1; 0 for a signal of zero power
 /// @throws InvalidParameter where the numbers of samples and of lines disagree
 inline double continuous_share(const std::vector<SpectralLine>& lines, std::size_t samples) {
   constexpr std::size_t band = 32;

@@ -10,16 +10,14 @@
 
 namespace holdfast {
 
-/// The means and standard errors of several long correlated series. They are computed in constant
-/// memory, from sums over the steps.
+/// The means and standard errors of several long correlated time series, found in constant memory.
 ///
-/// The steps are divided into batches of equal length. When all `Batches` batches are full,
-/// successive ones are merged in pairs. A sum may cover several steps, but not beyond the end of a
-/// batch (`steps_left()`). The errors are reliable once a batch is longer than the correlation.
-/// Source: P. W. Glynn, D. L. Iglehart, Simulation output analysis using standardized time series,
-/// 1990.
-/// @tparam Number  type of a sum
-/// @tparam Series  number of series
+/// The steps are divided into batches of equal length. When `Batches` are complete, successive ones
+/// are merged in pairs. The errors are reliable once a batch exceeds the correlation time. Source:
+/// P. W. Glynn, D. L. Iglehart, Simulation output analysis using standardized time series, 1990.
+/// @tparam Number   type of a sum
+/// @tparam Series   number of series, or Eigen::Dynamic
+/// @tparam Batches  number of batches at which they are merged, even, ≥ 4
 template <class Number, int Series, std::size_t Batches = 64>
 class BatchSums {
   static_assert(Batches % 2 == 0 && Batches >= 4, "batches are merged in pairs");
@@ -27,14 +25,14 @@ class BatchSums {
  public:
   using Sums = Vector<Number, Series>;  ///< one sum for each series
 
-  /// Constructs empty sums. The first argument is the number of steps in a batch before the first
-  /// merging, ≥ 1; the second the number of series, if known at run time only.
+  /// Constructs empty sums from the number of steps in a batch before the first merge, ≥ 1, and the
+  /// number of series, which is needed only if `Series` is Eigen::Dynamic.
   explicit BatchSums(std::int64_t first_length = 1, Eigen::Index series = Series < 0 ? 0 : Series)
       : open_(Sums::Constant(series, Number(0))), length_(first_length) {
     sums_.fill(open_);
   }
 
-  /// Adds the sums over the next `steps` steps, 0 ≤ steps ≤ steps_left().
+  /// Adds the sums of all series over the next `steps` steps, 0 ≤ steps ≤ steps_left().
   void add(const Sums& sums, std::int64_t steps) {
     open_ += sums;
     open_steps_ += steps;
@@ -45,25 +43,26 @@ class BatchSums {
   std::int64_t steps() const {
     return static_cast<std::int64_t>(complete_) * length_ + open_steps_;
   }
-  /// The number of steps to the end of the open batch, ≥ 1.
+  /// The number of steps that the open batch still lacks, ≥ 1.
   std::int64_t steps_left() const { return length_ - open_steps_; }
-  /// The number of complete batches, < `Batches`; merging halves this number at `Batches`.
+  /// The number of complete batches, less than `Batches`: merging halves it.
   std::size_t complete_batches() const { return complete_; }
 
   /// The number of steps in a complete batch.
   std::int64_t batch_length() const { return length_; }
-  /// The sums over the steps of the k-th complete batch.
+  /// The sums over the steps of complete batch k, 0 ≤ k < complete_batches().
   const Sums& batch(std::size_t k) const { return sums_[k]; }
 
-  /// The sums over all steps except those of the first `first` complete batches.
+  /// The sums over all steps after the first `first` complete batches.
   Sums totals(std::size_t first = 0) const {
     Sums total = open_;
     for (std::size_t k = first; k < complete_; ++k) total += sums_[k];
     return total;
   }
 
-  /// The standard errors of the means per step. They use the complete batches after the first
-  /// `first`, in groups of `merged` successive batches (≥ 1); NaN with fewer than four groups.
+  /// The standard errors of the means per step, estimated from the scatter of group means. A group
+  /// is `merged` ≥ 1 successive complete batches; the first `first` batches are left out.
+  /// @return one error for each series; NaN with fewer than four groups
   Sums standard_errors(std::size_t merged = 1, std::size_t first = 0) const {
     using std::sqrt;
     const std::size_t batches = (complete_ - first) / merged;

@@ -16,12 +16,12 @@ struct SettledMeans {
   Vector<double, Series> means;            ///< means over the averaged steps
   Vector<double, Series> standard_errors;  ///< standard errors; NaN with fewer than four batches
   std::int64_t steps;                      ///< number of averaged steps
-  std::int64_t left_out;                   ///< number of unsettled steps left out at the beginning
+  std::int64_t left_out;                   ///< number of steps left out at the start as transient
 };
 
 namespace detail {
 
-/// The computation of settled_means() from the sums of some series.
+/// Implementation of settled_means() for given batch sums.
 template <int Series, std::size_t Batches>
 class SettledBatches {
   using Means = Vector<double, Series>;
@@ -47,15 +47,15 @@ class SettledBatches {
            (static_cast<double>(last - first) * static_cast<double>(sums_.batch_length()));
   }
 
-  /// The standard errors from batches `first` and later, single or, if that is larger, in pairs.
+  /// The standard errors from batch `first` on: from single batches or from pairs, the larger one.
   Means scatter(std::size_t first) const {
     const Means single = sums_.standard_errors(1, first);
     if (sums_.complete_batches() - first < 8) return single;
     return single.cwiseMax(sums_.standard_errors(2, first));
   }
 
-  /// Whether the first series is still unsettled: its mean over the next batches (as many as are
-  /// left out, at least one) and its mean over all later ones differ by more than six standard
+  /// Whether the first series still has a transient: its mean over the next batches (as many as are
+  /// left out, at least one) and its mean over all later batches differ by more than six standard
   /// errors, as estimated from the second half of all batches.
   bool begins_otherwise() const {
     const std::size_t all = sums_.complete_batches(), half = all / 2;
@@ -68,8 +68,7 @@ class SettledBatches {
            6.0 * std::sqrt(static_cast<double>(all - half) * shares) * scatter(half)[0] + rounding;
   }
 
-  /// The range max − min of s_n − n · mean over the ends n of the batches, s_n being the sum over n
-  /// steps.
+  /// The range max − min of s_n − n · mean over the batch ends n, s_n being the sum over n steps.
   Means width(const Means& found) const {
     Means deviation = Means::Zero(found.size()), low = deviation, high = deviation;
     const double length = static_cast<double>(sums_.batch_length());
@@ -81,8 +80,8 @@ class SettledBatches {
     return high - low;
   }
 
-  /// The difference of two means: of the second quarter and second half of the batches used or, if
-  /// over a quarter of all is left out, of the later half of those left out and all used.
+  /// The difference of the means over the second quarter and second half of the batches used; if
+  /// over a quarter of all is left out, over the later half of those left out and over all used.
   Means drift() const {
     const std::size_t all = sums_.complete_batches(), half = (from_ + all) / 2;
     if (from_ > all / 4) return (mean(from_ / 2, from_) - mean(from_, all)).cwiseAbs();
@@ -97,26 +96,26 @@ class SettledBatches {
   }
 
   const BatchSums<double, Series, Batches>& sums_;
-  std::size_t from_ = 0;  // batches left out
+  std::size_t from_ = 0;  // number of batches left out at the start
 };
 
 }  // namespace detail
 
-/// The means of several series, with standard errors that remain valid for series with a transient
-/// and for bounded series. The first 0, 1, 2, 4, … batches, up to half of all, are left out. Their
-/// number is the smallest after which, in the first series, the next part of equal length and the
-/// rest agree within six standard errors. An error is the largest of three:
+/// The means of several series without their transient, with standard errors.
 ///
-/// - the scatter of batch means, or of pairs of them if that is larger because successive batches
-/// are correlated;
-/// - the range of the sums s_n − n · mean over n, s_n being the sum over n steps: batch means over
-/// whole periods of a bounded sum (a linear loop, a closed orbit) hardly scatter. For sums like a
-/// random walk the range is below the quantile of their scatter;
-/// - the difference of the means of the second quarter and of the second half: a bias that decays
-/// like 1/n has this size.
+/// The first b batches are left out as transient, b = 0, 1, 2, 4, … up to half of all. b is
+/// increased until, in the first series, two means agree within six standard errors. They are the
+/// means over the next b batches (one if b = 0) and over all later ones. The standard error
+/// returned is the largest of three estimates for the remaining N steps:
 ///
-/// The last two are multiplied by 1.1 and divided by the normal 99 % quantile.
-/// @param sums  sums of the series over the steps; at least one step
+/// - the standard error from batch means, or from means of pairs of batches if this is larger;
+/// - 0.43 R/N, where R is the range over n of (sum over the first n steps) − n · mean. It
+///   decides if the batch means hardly scatter, as for a periodic series;
+/// - 0.43 times the difference of the means over the second quarter and the second half of the
+///   steps: an estimate of a bias that decays like 1/N.
+///
+/// The factor 0.43 = 1.1/2.576 contains the two-sided 99 % quantile of the normal distribution.
+/// @param sums  sums of the series over one step or more
 template <int Series, std::size_t Batches>
 SettledMeans<Series> settled_means(const BatchSums<double, Series, Batches>& sums) {
   return detail::SettledBatches<Series, Batches>(sums).means();

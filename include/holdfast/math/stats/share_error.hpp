@@ -7,14 +7,13 @@
 
 namespace holdfast {
 
-/// The standard error of a share, estimated from `count` hits in `all` independent draws:
+/// The standard error of a proportion that is estimated from n independent draws:
 ///
 ///     √(s (1 − s)/(n + 2)),   s = (count + ½)/(n + 1)
 ///
-/// With Jeffreys's prior this is the standard deviation of the share given the draws. It equals the
-/// sample's standard error √(s (1 − s)/n) up to O(1/n), and is not 0 for no hits or only hits.
-/// Source: L. D. Brown, T. T. Cai, A. DasGupta, Interval estimation for a binomial proportion,
-/// Statistical Science 16 (2001).
+/// It is the posterior standard deviation for Jeffreys's prior. For large n it tends to the usual
+/// √(s (1 − s)/n); for count = 0 or count = n it remains positive. Source: L. D. Brown, T. T. Cai,
+/// A. DasGupta, Interval estimation for a binomial proportion, Statistical Science 16 (2001).
 /// @param count  number of hits, ≤ all
 /// @param all    number n of draws
 inline double share_error(std::size_t count, std::size_t all) {

@@ -22,7 +22,7 @@ class SlabQuadrature {
  public:
   using Values = std::vector<Scalar>;
 
-  /// @param integrand  function x ↦ values of the integrands, equally many for every x
+  /// @param integrand  function x ↦ values of the integrands, the same number of them for every x
   /// @param tolerance  absolute tolerance of each integral, ≥ 0
   SlabQuadrature(Integrand integrand, const Scalar& tolerance)
       : integrand_(integrand), tolerance_(tolerance) {}

@@ -8,11 +8,11 @@
 
 namespace holdfast {
 
-/// The largest number of trusted decimal digits, that of a `double`: the result for equal numbers.
+/// The largest result of trusted_digits(): 17 decimal digits identify every `double`.
 inline constexpr double most_trusted_digits = 17.0;
 
-/// Whether `long double` is wider than `double` on this platform. Where it is not (Microsoft's
-/// compiler, macOS on ARM), a comparison of the two gives `most_trusted_digits` and shows nothing.
+/// Whether `long double` has more digits than `double` on this platform. If not (Microsoft's
+/// compiler, macOS on ARM), trusted_digits() compares equal computations and tests nothing.
 inline constexpr bool long_double_is_wider =
     std::numeric_limits<long double>::digits > std::numeric_limits<double>::digits;
 
@@ -27,19 +27,19 @@ inline double digits_of(long double difference, long double scale) {
 
 }  // namespace detail
 
-/// The number of decimal digits in which a result agrees with a computation in a wider number type:
+/// The number d of decimal digits in which a value agrees with a reference in a wider number type:
 ///
 ///     d = −log₁₀(|value − reference|/scale),   0 ≤ d ≤ 17
 ///
-/// The result is 17 where value and reference are equal (infinities too) or both NaN. It is 0 where
-/// only one is finite, they differ by as much as the scale, or they differ and the scale is 0.
+/// d = 17 if value and reference are equal, finite or infinite, or both NaN. Otherwise d = 0 if
+/// either is not finite, or if they differ by the scale or more.
 ///
 ///     trusted_digits(3.14, 3.14159265L, 1.0L)   // 2.8
 ///
 /// @param value      result computed in double
 /// @param reference  result from the same inputs in the wider type
-/// @param scale      size of the quantity, finite, ≥ 0; for a quantity that passes through zero its
-///                   largest size
+/// @param scale      magnitude to which the difference is relative, finite, ≥ 0; for a quantity
+///                   that crosses zero, its largest magnitude
 inline double trusted_digits(double value, long double reference, long double scale) {
   const long double wide = value;
   if (wide == reference || (std::isnan(wide) && std::isnan(reference))) return most_trusted_digits;
@@ -47,16 +47,16 @@ inline double trusted_digits(double value, long double reference, long double sc
   return detail::digits_of(std::abs(wide - reference), scale);
 }
 
-/// The trusted digits of a number relative to its reference; a reference of 0 gives 17 or 0.
+/// The trusted digits with the scale |reference|; for reference = 0: 17 if value = 0, else 0.
 inline double trusted_digits(double value, long double reference) {
   return trusted_digits(value, reference, std::abs(reference));
 }
 
-/// The trusted digits of a vector or matrix as a whole, −log₁₀(‖value − reference‖/‖reference‖) in
-/// the Euclidean norm of all entries, limited to 0 … 17; 0 where an entry is not finite. Entries of
-/// different units must be scaled before.
-/// @param value      any shape
-/// @param reference  matrix or vector of the same shape
+/// The trusted digits of a vector or matrix as a whole: −log₁₀(‖value − reference‖/‖reference‖) in
+/// the Euclidean norm of all entries, limited to 0 … 17. The result is 0 if an entry is not finite.
+/// Entries of different units must be scaled to one unit before.
+/// @param value      vector or matrix of any shape
+/// @param reference  vector or matrix of the same shape, in the wider number type
 template <class Value, class Reference>
 double trusted_digits(const Eigen::MatrixBase<Value>& value,
                       const Eigen::MatrixBase<Reference>& reference) {

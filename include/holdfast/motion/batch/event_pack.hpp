@@ -23,12 +23,12 @@
 
 namespace holdfast {
 
-/// A pack of motions, one in each SIMD lane, whose contact may change between the samples, as in
-/// EventMotion. Each motion has its own loop; all motions are at the same sample.
+/// A pack of motions, one in each SIMD lane, whose contacts may change between samples. Each motion
+/// has its own loop; all motions are at the same sample.
 ///
-/// Each lane takes the steps of EventMotion. Lanes in which a guard may reach zero advance together
-/// from one change of contact to the next, while the other lanes wait. The change itself is
-/// computed by DriveContact, lane by lane. The results of a lane do not depend on the other lanes.
+/// Each lane uses the method of EventMotion. Lanes in which a guard may reach zero advance
+/// together, each to its next contact change, while the other lanes wait. DriveContact computes the
+/// new mode, lane by lane. The results of a lane do not depend on the other lanes.
 ///
 /// Work per sample without a change of contact: some 90 operations on packs. A change of contact in
 /// a lane takes one or two Taylor series, some 1500 operations each. No memory is allocated.
@@ -41,13 +41,13 @@ class EventPack {
  public:
   static constexpr std::size_t lanes = Lane::count;  ///< number of lanes, with one motion each
 
-  /// A sample of all motions, returned by `sense`; the states are given by state().
+  /// The sample returned by `sense`. It contains no states; see state().
   struct Sample {
     Scalar control_force;  ///< transmitted force (N) of each lane
     LaneMask engaged;      ///< lanes whose drive transmits the command
   };
 
-  /// @param starts  one start per lane; for a spare lane copy another start, then call `sleep`
+  /// @param starts  one start per lane; for an unused lane copy another one and then call `sleep`
   explicit EventPack(const std::array<EventStart, lanes>& starts)
       : excitation_(
             [&](std::size_t lane) -> const DigitalLoop& { return starts[lane].loop->digital; }),
@@ -66,7 +66,7 @@ class EventPack {
     any_late_ = any(delay_.all() < period_.all());
   }
 
-  /// Takes sample j in all lanes, which decides the commands u_j; to be called once per sample.
+  /// Takes sample j in all lanes and computes the commands u_j; to be called once per sample.
   Sample sense() {
     excitation_.begin_sample(index_);
     switches_.fill(0);
@@ -78,16 +78,16 @@ class EventPack {
     return sample;
   }
 
-  /// The observer of `advance` that ignores what happens between the samples.
+  /// An observer for `advance` that does nothing.
   struct IgnoreFlowOfLanes {
-    /// Called at a change of contact: lane, mode before, mode after, number of the guard (−1: a
-    /// jump), time (s) after the sample.
+    /// Called at a change of contact, with the lane, the mode before, the mode after, the number of
+    /// the guard that reached zero (−1: a jump of command or force) and the time (s) after t_j.
     void switched(std::size_t, int, int, int, double) const {}
   };
 
   /// Advances all lanes from t_j to t_{j+1} under the commands that the last `sense()` decided.
   void advance() { advance(IgnoreFlowOfLanes()); }
-  /// Advances to the next sample and reports to an observer with the members of IgnoreFlowOfLanes.
+  /// Advances by one sample and calls observer.switched(…) with parameters as in IgnoreFlowOfLanes.
   template <class Observer>
   void advance(Observer&& observer) {
     const Scalar delay = delay_.all(), period = period_.all(), zero(0);
@@ -104,13 +104,14 @@ class EventPack {
 
   /// The number j of the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
-  /// Renumbers the present sample; the excitation must have the same phase at both sample numbers.
+  /// Gives the present sample the number `index`, 0 or another multiple of RotatingPhasor::block.
+  /// The phase of the excitation changes accordingly.
   void restart_index(std::int64_t index) { index_ = index; }
-  /// The states z_j of all lanes.
+  /// The states z_j = [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s) of all lanes.
   std::array<Scalar, 4> state() const {
     return {state_[0].all(), state_[1].all(), state_[2].all(), state_[3].all()};
   }
-  /// The state z_j of one lane.
+  /// The state z_j = [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s) of one lane.
   Vector<double, 4> state(std::size_t lane) const {
     return {state_[0][lane], state_[1][lane], state_[2][lane], state_[3][lane]};
   }
@@ -118,9 +119,9 @@ class EventPack {
   const DriveContact<>& contact(std::size_t lane) const { return modes_.contact(lane); }
   /// Whether a lane had more than EventMotion::most_switches changes of contact in one period.
   bool accumulates(std::size_t lane) const { return accumulates_[lane]; }
-  /// Whether `accumulates` holds for at least one lane.
+  /// Whether accumulates() is true for at least one lane.
   bool some_accumulate() const { return accumulates_.any(); }
-  /// Restarts a lane's motion from the state z (m, m/s, m, m/s), with u_{j−1} = 0.
+  /// Restarts a lane at the present sample, with the state z (m, m/s, m, m/s) and u_{j−1} = 0.
   void restart(std::size_t lane, const Vector<double, 4>& z) {
     modes_.restart(lane, z);
     begin(lane, z);
@@ -154,9 +155,9 @@ class EventPack {
     return {state(lane), detail::lane_of(command, lane), detail::lane_of(force, lane)};
   }
 
-  /// Applies a jump of the command or force to the contact of two kinds of lanes: those in stick
-  /// with a guard that is no longer positive, and those with a contact that has just changed.
-  /// @param instant_number  0: at the sample, 1: at the end of the delay
+  /// Applies a jump of the command or force to the contacts that it may change: contacts in stick
+  /// with a guard that is no longer positive, and contacts that are fresh (LaneModes::fresh()).
+  /// @param instant_number  0: at the sample, 1: at the end of the processing delay
   template <class Observer>
   void jump(std::size_t instant_number, const Scalar& command, const LaneMask& which,
             Observer&& observer) {
@@ -221,8 +222,8 @@ class EventPack {
     }
   }
 
-  /// Advances lanes over a whole part of the period where a bound proves that no contact changes.
-  /// @return the lanes that were advanced
+  /// Advances the lanes of `which` in which a bound proves that no contact changes in the part of
+  /// the period, over the whole part. @return the lanes that were advanced
   LaneMask flow_without_event(const Part& part, const LaneMask& which) {
     const LaneStep<Scalar>& step = modes_.step(part.number);
     const std::array<Scalar, 4> before = state();
@@ -270,8 +271,8 @@ class EventPack {
     return far | (first_stays & second_stays & settled);
   }
 
-  /// Advances some lanes to their next change of contact, but no farther than 1/rate or the end of
-  /// the part; `phasors_` are the phasors at the lanes' present instants.
+  /// Advances the lanes of `pending` to the next change of contact, by at most 1/rate and at most
+  /// to the end of the part. `phasors_` must be the phasors at the present instants of the lanes.
   template <class Observer>
   void flow_to_event(const Part& part, const LaneMask& pending, Numbers& reached,
                      Observer& observer) {

@@ -22,17 +22,17 @@
 
 namespace holdfast {
 
-/// Whether EventPack supports the motions of a loop: two masses, exact switching, an ideal computer
-/// and clock, and a harmonic excitation only.
+/// Whether EventPack supports the motions of a loop with two masses: Switching::exact, an ideal
+/// computer and clock, and an excitation of harmonics only.
 inline bool has_event_pack(const ImplementedLoop& loop) {
   const DigitalLoop& digital = loop.digital;
   return loop.switching == Switching::exact && is_ideal(digital.limits) &&
          digital.jitter.half_width == 0.0 && digital.force.record == nullptr;
 }
 
-/// The growth rate of the powers of A (1/s): the largest ‖Aᵏ‖^{1/k}, k = 10 … most_terms, in
-/// balanced coordinates. It is nearer to the spectral radius than balanced_norm(). With either of
-/// the two as the rate, terms_for(rate h) terms of e^{A h} have the same truncation error.
+/// The growth rate of the powers of A (1/s): the largest ‖Aᵏ‖^{1/k}, k = 10 … most_terms, in the
+/// row-sum norm of the balanced matrix. It is usually smaller than balanced_norm(). As the argument
+/// of terms_for(rate h) it gives the Taylor series of e^{A h} the same error bound.
 /// @tparam States  N, the order of the plant
 template <int States>
 double rate_of_powers(const Matrix<double, States>& a) {
@@ -51,14 +51,14 @@ double rate_of_powers(const Matrix<double, States>& a) {
   return rate * size;
 }
 
-/// The dynamics of the two masses in each mode of the contact, shared by several motions. Their
-/// loops may differ in the gains and, unless the contact is a dead zone, in the backlash.
+/// The dynamics of the two masses in each mode of the contact, shared by several motions. The loops
+/// of the motions may differ in the gains and, unless the contact is a dead zone, in the backlash.
 class EventTable {
  public:
   using Motion = ModeMotion<TwoMass<double>>;  ///< motion of the two masses in one mode
-  using Drop = Motion::Bound::Drop;            ///< terms of NoEventBoundOf::drop_below_chord()
+  using Drop = Motion::Bound::Drop;            ///< coefficients of drop_below_chord()
 
-  /// @throws InvalidParameter under the conditions of EventMotion
+  /// Constructs the table of a loop. @throws InvalidParameter where EventMotion would throw
   explicit EventTable(const ImplementedLoop& loop)
       : loop_(loop), force_(loop.digital.force, loop.digital.hold, loop.digital.sampling.period) {
     const DriveContact<> contact(loop.plant, loop.backlash, loop.switching,
@@ -73,7 +73,7 @@ class EventTable {
         alike_[mode][other] = alike(motions_[mode].dynamics(), motions_[other].dynamics());
   }
 
-  /// Whether the table is valid for the motions of another loop too.
+  /// Whether the table is also valid for the motions of the loop `other`.
   bool serves(const ImplementedLoop& other) const {
     const auto& [mine, its] = std::pair(loop_.digital.sampling, other.digital.sampling);
     return numbers_of_plant(loop_.plant) == numbers_of_plant(other.plant) &&
@@ -85,17 +85,18 @@ class EventTable {
 
   /// The motion of the two masses in a mode of the contact, given by its number.
   const Motion& motion(int mode) const { return motions_[at(mode)]; }
-  /// Whether the motion in two modes differs only in the effect of the command; −1 means no mode.
+  /// Whether the equations of motion of two modes differ at most in the effect of the command. If
+  /// one number is −1 (no mode), the result is false unless both are.
   bool move_alike(int mode, int other) const {
     return mode == other || (mode >= 0 && other >= 0 && alike_[at(mode)][at(other)]);
   }
   /// The rate (1/s) of a mode: a Taylor series may cover a time of up to 1/rate.
   double rate(int mode) const { return rates_[at(mode)]; }
-  /// The excitation force over the samples; no sample is selected in this object yet.
+  /// The excitation force as constructed, for which no sample has been selected.
   const ForceOverSamples& force() const { return force_; }
 
-  /// The largest depth of a guard below its chord (the line between its values at the ends) over
-  /// part 0 or 1 of the period, in the contact's present mode. The mode must have a guard.
+  /// The coefficients of NoEventBoundOf::drop_below_chord() for the guards of the contact's present
+  /// mode, over part 0 (before t_j + δ) or 1 (after it). The mode must have a guard.
   Drop drop(const DriveContact<>& contact, std::size_t part) {
     const int mode = contact.mode();
     std::optional<std::array<Drop, 2>>& known = drops_[at(mode)];

@@ -18,16 +18,15 @@
 
 namespace holdfast {
 
-/// Whether a function g is proved to stay above zero between two given values, in every lane. If
-/// |g̈| ≤ M over the length h between these values, g is bounded by
+/// Whether a function g of time is proved to stay above zero between two instants, in every lane.
+/// If h is the time between them and |g̈| ≤ M, then
 ///
 ///     g(x h) ≥ g_0 + (g_1 − g_0) x − 4 d x (1 − x),   d = M h²/8,   0 ≤ x ≤ 1,
 ///
-/// whose minimum is min(g_0, g_1) if |g_1 − g_0| ≥ 4 d, and else min(g_0, g_1) − (4 d − |g_1 −
-/// g_0|)² / 16 d. It is never below min(g_0, g_1) − d, and far above this value if g changes fast.
-/// @param begin  value g_0, in any unit
-/// @param end    value g_1, in the same unit
-/// @param drop   d > 0, from NoEventBoundOf; for d = 0 the result is false
+/// with the minimum min(g_0, g_1) − max(4 d − |g_1 − g_0|, 0)² / 16 d. Returns whether it is > 0.
+/// @param begin  value g_0 at the first instant, in any unit
+/// @param end    value g_1 at the second instant, in the same unit
+/// @param drop   d > 0, from NoEventBoundOf::drop_below_chord(); for d = 0 the result is false
 template <class Scalar>
 Mask<Scalar> stays_above_zero(const Scalar& begin, const Scalar& end, const Scalar& drop) {
   using std::abs;
@@ -37,12 +36,12 @@ Mask<Scalar> stays_above_zero(const Scalar& begin, const Scalar& end, const Scal
   return Scalar(16) * drop * min(begin, end) > rest * rest;
 }
 
-/// The first change of contact in each lane within one stretch (time interval) of the motion.
+/// The first change of contact in each lane within a time interval of the motion.
 template <class Scalar>
 struct LaneEvent {
-  Mask<Scalar> found;   ///< whether a guard reaches zero
-  Scalar at;            ///< position, as a share 0 … 1 of the stretch; 1 without a change
-  Mask<Scalar> second;  ///< whether the second of the two guards is at zero
+  Mask<Scalar> found;  ///< whether a guard reaches zero
+  Scalar at;           ///< position of the change, as a share 0 … 1 of the interval; 1: no change
+  Mask<Scalar> second;  ///< whether the second guard is the one that reaches zero
 };
 
 namespace detail {
@@ -55,7 +54,7 @@ std::array<std::uint8_t, Lanes<Scalar>::count> lane_flags(const Mask<Scalar>& ma
   return flags;
 }
 
-/// A guard as a function of time over a stretch (time interval) of the motion.
+/// A guard as a function of time over an interval of the motion.
 template <class Scalar>
 struct GuardOnStretch {
   const LaneGuard<Scalar>& guard;
@@ -100,8 +99,7 @@ struct GuardOnStretch {
   }
 };
 
-/// Determines the first nonzero sign of a lane's guard (first_sign()) if this sign is unknown, and
-/// stores it in the contact.
+/// Stores the first nonzero sign of a lane's guard (first_sign()) in the contact if it is unknown.
 template <class Scalar>
 void learn_sign(LaneModes<Scalar>& modes, std::size_t lane, int terms, LaneSeries<Scalar>& g) {
   Series alone(terms);
@@ -127,15 +125,15 @@ void learn_signs(LaneModes<Scalar>& modes, const Mask<Scalar>& which, int terms,
 
 }  // namespace detail
 
-/// The search for the first root of any guard in a stretch of motion, in every lane at once.
+/// The search for the first root of any guard within a time interval, in all lanes at once.
 ///
-/// Each lane is searched as by next_event(): no root is missed. Work: 5 multiply-adds for each
-/// guard and term, and first_roots(). The object owns its working memory.
+/// As in next_event(), no root is missed. Work: 5 multiply-adds for each guard and Taylor term, and
+/// first_roots(). No memory is allocated.
 template <class Scalar>
 class LaneEventSearch {
  public:
-  /// @param modes    modes of the lanes; signs of guards that were unknown are stored there
-  /// @param stretch  part of the motion, at most 1 / modes.rate() long
+  /// @param modes    contact modes of the lanes; unknown signs of guards are determined and stored
+  /// @param stretch  series of the motion over the interval, at most 1/modes.rate() (s) long
   /// @param command  command u in force (N)
   /// @param which    lanes to be searched; the result has no event in any other lane
   LaneEvent<Scalar> operator()(LaneModes<Scalar>& modes, const TwoMassSeries<Scalar>& stretch,

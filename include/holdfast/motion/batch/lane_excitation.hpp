@@ -19,12 +19,12 @@
 
 namespace holdfast {
 
-/// The excitation of a pack of motions, each with its own harmonics and ForceHold. A held force is
-/// treated as one harmonic of frequency 0.
+/// The excitation of a pack of motions, each with its own harmonics and ForceHold. A force held
+/// over the sampling period is treated as one harmonic of frequency 0.
 template <class Scalar>
 class LaneExcitation {
  public:
-  /// @param of_lane  function that returns the DigitalLoop (const&) of a lane, from its number
+  /// @param of_lane  function from the number of a lane to its DigitalLoop (const&)
   template <class OfLane>
   explicit LaneExcitation(const OfLane& of_lane) {
     std::size_t lines = 1;
@@ -37,7 +37,7 @@ class LaneExcitation {
     phases_.resize(lines);
   }
 
-  /// Selects sample j = `index`; successive calls have ascending j or restart from 0.
+  /// Selects sample j = `index`: one more than before, or a multiple of RotatingPhasor::block.
   void begin_sample(std::int64_t index) {
     const auto k = static_cast<std::size_t>(index) % RotatingPhasor<Scalar>::block;
     Scalar held_force(0);
@@ -56,29 +56,30 @@ class LaneExcitation {
 
   /// Whether the force in a lane is held constant over each sampling period.
   bool is_held(std::size_t lane) const { return held_[lane] > 0.5; }
-  /// The largest number of harmonics in any lane.
+  /// The largest number of harmonics in any lane, ≥ 1.
   std::size_t lines() const { return lines_.size(); }
-  /// The phasor (F_l cos ω_l t_j, F_l sin ω_l t_j) (N) of harmonic l, or (F_j, 0), F_j being held.
+  /// The phasor F_l (cos ω_l t_j, sin ω_l t_j) (N) of harmonic l. In lanes with a held force F_j it
+  /// is (F_j, 0) for l = 0, else (0, 0).
   const ExcitationSample<Scalar>& phase(std::size_t line) const { return phases_[line]; }
 
-  /// Computes the phasors of all harmonics at the time `after` (s) since the sample.
+  /// Computes all phasors, with the harmonics' phases φ_l, at `after` (s) after the sample.
   void turned(const Scalar& after, std::vector<LanePhasor<Scalar>>& phasors) const {
     for (std::size_t l = 0; l < lines_.size(); ++l)
       phasors[l] = {lines_[l].angular_frequency, turned_by(turn_of(lines_[l], after), l)};
   }
 
-  /// Stores fixed times (s) after the sample, for which turned_to() and force_at() may be called.
+  /// Sets the fixed times (s) after the sample for which turned_to() and force_at() may be called.
   void fix_instants(const std::vector<Scalar>& after) {
     fixed_.clear();
     for (const Scalar& one : after)
       for (const Line& line : lines_) fixed_.push_back(turn_of(line, one));
   }
-  /// Computes the phasors of all harmonics at a fixed time, by its number in fix_instants().
+  /// Computes turned() at a fixed time, given by its number (from 0) in fix_instants().
   void turned_to(std::size_t instant, std::vector<LanePhasor<Scalar>>& phasors) const {
     for (std::size_t l = 0; l < lines_.size(); ++l)
       phasors[l] = {lines_[l].angular_frequency, turned_by(fixed_turn(instant, l), l)};
   }
-  /// The force F (N) at a fixed time, given by its number in fix_instants().
+  /// The force F (N) at a fixed time, given by its number (from 0) in fix_instants().
   Scalar force_at(std::size_t instant) const {
     Scalar sum(0);
     for (std::size_t l = 0; l < lines_.size(); ++l)
@@ -95,7 +96,7 @@ class LaneExcitation {
     Scalar frequency, phase_cycles, angular_frequency;  // 0 where the force is held
   };
 
-  /// The unit phasor of a harmonic's rotation over a time `after` (s), including its phase φ.
+  /// The unit phasor by which a harmonic turns in the time `after` (s), including its phase φ_l.
   static ExcitationSample<Scalar> turn_of(const Line& line, const Scalar& after) {
     using std::floor;
     const Scalar cycles = line.frequency * after + line.phase_cycles;

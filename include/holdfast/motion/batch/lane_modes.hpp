@@ -21,10 +21,10 @@
 
 namespace holdfast {
 
-/// The start of one motion of an EventPack: its loop, its table and its initial state.
+/// The data of one motion of an EventPack: its loop, EventTable and initial state.
 struct EventStart {
   const ImplementedLoop* loop;  ///< loop for which has_event_pack() is true
-  EventTable* table;            ///< table valid for that loop; it must outlive the pack
+  EventTable* table;            ///< table that serves() the loop; it must outlive the pack
   Vector<double, 4> state;      ///< initial state z_0 (m, m/s, m, m/s), finite
 };
 
@@ -35,7 +35,7 @@ struct LaneGuard {
   LaneNumbers<Scalar> command;               ///< coefficient of u, per newton
   LaneNumbers<Scalar> force;                 ///< coefficient of F, per newton
   LaneNumbers<Scalar> constant;              ///< constant, in the unit of g
-  LaneNumbers<Scalar> zeros;  ///< number of g, ġ, g̈, … that are zero just after a change
+  LaneNumbers<Scalar> zeros;  ///< number of leading zeros of g, ġ, g̈, … after a contact change
 
   /// The value of g without its force term, for the state z and the command u (N).
   Scalar at(const std::array<Scalar, 4>& z, const Scalar& u) const {
@@ -44,14 +44,15 @@ struct LaneGuard {
   }
 };
 
-/// The exact step over a part of the period in every lane, with the terms of NoEventBoundOf.
+/// The map of the state over a part of the period, of length h, in every lane (SubintervalStep),
+/// with the coefficients of NoEventBoundOf.
 template <class Scalar>
 struct LaneStep {
   using Numbers = LaneNumbers<Scalar>;               ///< one number for each lane
   std::array<std::array<Numbers, 4>, 4> transition;  ///< rows of the matrix e^{A h}
   std::array<Numbers, 4> command;                    ///< response to the command, per newton of u
-  std::array<Numbers, 4> drift;                      ///< contribution of the drift
-  std::vector<std::array<std::array<Numbers, 4>, 2>> lines;  ///< responses g_c, g_s to harmonics
+  std::array<Numbers, 4> drift;                      ///< contribution of the constant part of ż
+  std::vector<std::array<std::array<Numbers, 4>, 2>> lines;  ///< g_c, g_s of each harmonic
   Numbers drop_by_norm;                                      ///< factor of ‖z‖ (Drop::by_norm)
   Numbers drop_by_command;                                   ///< factor of |u| (Drop::by_command)
   Numbers drop_constant;                                     ///< constant term (Drop::constant)
@@ -75,8 +76,7 @@ struct LaneStep {
   }
 };
 
-/// The contacts of a pack of motions, each in its own mode, with the coefficients of the motions in
-/// these modes.
+/// The contacts of a pack of motions, each with its mode and the equations of motion in this mode.
 template <class Scalar>
 class LaneModes {
   using Numbers = LaneNumbers<Scalar>;
@@ -84,8 +84,8 @@ class LaneModes {
  public:
   static constexpr std::size_t lanes = Lanes<Scalar>::count;  ///< number of lanes (motions)
 
-  /// @param starts      starts of the motions, one per lane
-  /// @param excitation  excitation of the same motions
+  /// @param starts      loops, tables and initial states of the motions, one per lane
+  /// @param excitation  excitation of these motions
   LaneModes(const std::array<EventStart, lanes>& starts, const LaneExcitation<Scalar>& excitation)
       : starts_(starts) {
     for (auto& step : steps_) step.lines.resize(excitation.lines());
@@ -98,7 +98,7 @@ class LaneModes {
     }
   }
 
-  /// Restarts a lane with the contact that belongs to an initial state.
+  /// Restarts a lane with the initial contact at the state z = [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s).
   void restart(std::size_t lane, const Vector<double, 4>& state) {
     contacts_[lane] = contact_of(lane, state);
     ignored_.reset(lane);
@@ -110,8 +110,7 @@ class LaneModes {
   /// The contact of a lane, for reading only.
   const DriveContact<>& contact(std::size_t lane) const { return contacts_[lane]; }
 
-  /// Adopts the new mode of a lane's contact after a change. The steps of the lane are computed
-  /// when they are next needed.
+  /// Updates a lane after a change of contact mode. The next step() computes its LaneStep.
   void enter(std::size_t lane) {
     const DriveContact<>& contact = contacts_[lane];
     const int mode = contact.mode();
@@ -152,13 +151,13 @@ class LaneModes {
     has_guard_[lane] = guards.count > 0 ? 1.0 : 0.0;
   }
 
-  /// Ignores all further changes of the contact in a lane.
+  /// Ignores all further changes of the contact in a lane, until restart().
   void ignore_guards(std::size_t lane) {
     ignored_.set(lane);
     refresh_guards(lane);
   }
 
-  /// Marks that time has passed in a lane since its last change of contact.
+  /// Marks that time has passed in a lane since its last contact change: it is no longer fresh.
   void flowed(std::size_t lane) {
     contacts_[lane].flowed();
     if (unsigned_[lane]) return refresh_guards(lane);
@@ -166,7 +165,7 @@ class LaneModes {
     set_fresh(lane, false);
   }
 
-  /// The accelerations of conductor (0) and absorber (1) under the command u (N).
+  /// The accelerations of conductor (index 0) and absorber (index 1) under the command u (N).
   std::array<LaneAcceleration<Scalar>, 2> accelerations(const Scalar& u) const {
     const auto row = [&](std::size_t mass) {
       const auto& of = acceleration_[mass];
@@ -177,13 +176,13 @@ class LaneModes {
     return {row(0), row(1)};
   }
 
-  /// The exact steps of all lanes, in their present modes, over part 0 or 1 of the period.
+  /// The LaneStep of all lanes in their present modes, over part 0 (before t_j + δ) or 1.
   const LaneStep<Scalar>& step(std::size_t part) {
     if (stale_.any()) refresh_steps();
     return steps_[part];
   }
 
-  /// The norm ‖z‖ of EnergyNorm in each lane's present mode; to be called after `step`.
+  /// The norm ‖z‖ (EnergyNorm) in the present mode of each lane; step() must be called before.
   Scalar norm(const std::array<Scalar, 4>& z) const {
     using std::sqrt;
     const Scalar relative = z[2] - z[0];
@@ -193,27 +192,27 @@ class LaneModes {
 
   /// The first (0) or second (1) guard of all lanes; a missing guard has the constant 10⁹⁰.
   const LaneGuard<Scalar>& guard(std::size_t number) const { return guards_[number]; }
-  /// The rate (1/s) of each lane: a Taylor series may cover a time of up to 1/rate.
+  /// The rate (1/s) of each lane in its mode: a Taylor series may cover a time of up to 1/rate.
   Scalar rate() const { return rate_.all(); }
   /// The lanes whose drive transmits the command.
   Mask<Scalar> engaged() const { return engaged_.all() > Scalar(0.5); }
-  /// The lanes in stick, where Δż = 0.
+  /// The lanes in ContactMode::stick, where Δż = 0.
   Mask<Scalar> sticks() const { return sticks_.all() > Scalar(0.5); }
-  /// The lanes whose contact has just changed, or in which the sign of a guard is unknown.
+  /// The fresh lanes: the contact has just changed, or the sign of a guard is unknown.
   Mask<Scalar> fresh() const { return fresh_.all() > Scalar(0.5); }
-  /// The lanes outside fresh(), the complement of that mask.
+  /// The lanes that are not fresh().
   Mask<Scalar> settled() const { return fresh_.all() < Scalar(0.5); }
   /// The lanes without a guard: their contact cannot change between samples.
   Mask<Scalar> unguarded() const { return has_guard_.all() < Scalar(0.5); }
   /// The lanes with a guard: their contact may change between samples.
   Mask<Scalar> guarded() const { return has_guard_.all() > Scalar(0.5); }
-  /// The lanes in stick (those of sticks()), as bits.
+  /// The lanes of sticks(), one bit per lane.
   const std::bitset<lanes>& sticking() const { return sticking_; }
-  /// The lanes whose contact has just changed (those of fresh()), as bits.
+  /// The lanes of fresh(), one bit per lane.
   const std::bitset<lanes>& freshly_changed() const { return fresh_lanes_; }
-  /// The lanes whose contact has two guards.
+  /// The lanes whose contact has two guards, one bit per lane.
   const std::bitset<lanes>& with_two_guards() const { return two_guards_; }
-  /// The lanes in which the sign of the first guard is unknown.
+  /// The lanes in which the sign of guard 0 is unknown (GuardOf::unsigned_yet), one bit per lane.
   const std::bitset<lanes>& without_sign() const { return unsigned_; }
 
  private:

@@ -30,8 +30,8 @@ constexpr std::array<double, most_terms> inverse_factorials() {
 
 }  // namespace detail
 
-/// The number of Taylor terms in each lane. It depends only on the rate of the lane times the
-/// length of its series, so that other lanes do not change the results of a lane, to the last bit.
+/// The number of Taylor terms in each lane. It depends only on the rate and the length in this
+/// lane, so that its results are bitwise independent of other lanes.
 template <class Scalar>
 struct TermsOfLanes {
   int most;        ///< largest number of terms in any lane, 1 … most_terms
@@ -39,11 +39,11 @@ struct TermsOfLanes {
   Scalar of_lane;  ///< number of terms in each lane
 };
 
-/// The computation of terms_for(), the required number of Taylor terms, in all lanes at once.
+/// Computes the required number of Taylor terms, terms_for(), in all lanes at once.
 template <class Scalar>
 class LaneTerms {
  public:
-  /// @param turns  rate times length of each lane, 0 … 1
+  /// @param turns  rate (1/s) times length (s) of the series in each lane, 0 … 1
   TermsOfLanes<Scalar> operator()(const Scalar& turns) const {
     constexpr std::size_t lanes = Lanes<Scalar>::count;
     LaneNumbers<Scalar> of_lane;
@@ -95,29 +95,27 @@ class LaneTerms {
   std::array<int, static_cast<std::size_t>(parts) + 1> fewest_ = fewest();
 };
 
-/// The acceleration of one of the two masses in one mode of the contact, in every lane: state ·
-/// [z₁, ż₁, z₂, ż₂] + constant + force F (m/s²).
+/// Acceleration (m/s²) of a mass in a contact mode, in every lane: state · z + constant + force F.
 template <class Scalar>
 struct LaneAcceleration {
   std::array<Scalar, 4> state;  ///< coefficients of z₁, ż₁, z₂, ż₂: a row of the matrix A
-  Scalar constant;              ///< drift + b u (m/s²)
-  Scalar force;                 ///< coefficient of F (1/kg)
+  Scalar constant;              ///< constant part (m/s²), including the effect of the command u
+  Scalar force;                 ///< coefficient of the excitation force F (1/kg)
 };
 
-/// A harmonic of the excitation at the beginning of a stretch, in every lane.
+/// A harmonic of the excitation at the beginning of a time interval, in every lane.
 template <class Scalar>
 struct LanePhasor {
   Scalar angular_frequency;        ///< ω (rad/s); 0 for a held force
-  ExcitationSample<Scalar> phase;  ///< F_l cos and F_l sin (N) of the harmonic's angle
+  ExcitationSample<Scalar> phase;  ///< F_l cos α_l and F_l sin α_l (N), with the phase angle α_l
 };
 
-/// The Taylor series of the two masses' motion over a length h (s), in every lane. It is a
-/// TaylorStep on packs, with the force's series:
+/// The Taylor series of the two masses' motion and of the force over a time h (s), in every lane:
 ///
-///     d_{k+1} = h (A d_k + w_k),   z(t + x h) = Σ d_k x^k / k!
+///     d_{k+1} = h (A d_k + k! w_k),   z(t + x h) = Σ d_k x^k / k!
 ///
-/// with w_k of TaylorStep. Two of the four rows of A mean dz/dt = ż and take one product each.
-/// Work per term: 8 multiply-adds and 9 products, and 3 more for each harmonic.
+/// with A and w_k as in TaylorStep. Work per term: 8 multiply-adds and 9 products, and 3 more for
+/// each harmonic.
 template <class Scalar>
 struct TwoMassSeries {
   std::array<LaneSeries<Scalar>, 4> state;  ///< series of z₁, ż₁, z₂, ż₂
@@ -128,7 +126,7 @@ struct TwoMassSeries {
   /// @param begin    values of z₁, ż₁, z₂, ż₂ at x = 0
   /// @param phasors  harmonics of the excitation at x = 0, one or more
   /// @param length   h (s), ≥ 0
-  /// @param count    numbers of terms in the lanes
+  /// @param count    numbers of terms in the lanes, from LaneTerms
   TwoMassSeries(const std::array<LaneAcceleration<Scalar>, 2>& masses,
                 const std::array<Scalar, 4>& begin, const std::vector<LanePhasor<Scalar>>& phasors,
                 const Scalar& length, const TermsOfLanes<Scalar>& count)
@@ -158,7 +156,7 @@ struct TwoMassSeries {
     for (auto k = static_cast<std::size_t>(count.least); k < most; ++k) end_lanes(k);
   }
 
-  /// The state [z₁, ż₁, z₂, ż₂] at the share x of the length, 0 … 1.
+  /// The state [z₁, ż₁, z₂, ż₂] at the time x h, 0 ≤ x ≤ 1.
   std::array<Scalar, 4> state_at(const Scalar& x) const {
     auto k = static_cast<std::size_t>(terms.most - 1);
     std::array<Scalar, 4> sum{state[0][k], state[1][k], state[2][k], state[3][k]};
@@ -167,7 +165,7 @@ struct TwoMassSeries {
     return sum;
   }
 
-  /// The value of a series at the share x of the length, 0 … 1.
+  /// The value of one of the series (a member of `state`, or `force`) at the time x h, 0 ≤ x ≤ 1.
   Scalar value(const LaneSeries<Scalar>& series, const Scalar& x) const {
     auto k = static_cast<std::size_t>(terms.most - 1);
     Scalar sum = series[k];

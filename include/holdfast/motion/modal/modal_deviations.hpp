@@ -12,26 +12,24 @@
 
 namespace holdfast {
 
-/// Deviations from a ModalMotion, one in each column, as long as they change no contact:
+/// Small deviations from a ModalMotion, one per column, while the contacts remain unchanged:
 ///
-///     δξ_{j+1} = e^{sτ} δξ_j + γ₁ δu_{j−1} + γ₀ δu_j,   δu_j = P δz_j + D δż_j or 0 in the
-///     backlash.
+///     δξ_{j+1} = e^{sτ} δξ_j + γ₁ δu_{j−1} + γ₀ δu_j
+///     δu_j = P δz_j + D δż_j while the drive transmits, δu_j = 0 in the backlash
 ///
-/// The coordinates are [Re ξ; Im ξ of the pairs; u_{j−1}], all in metres: a natural motion by its
-/// share of the conductor's displacement at the absorber, a force by the displacement that it
-/// causes in a sampling period.
+/// The symbols are those of NaturalMotion. The coordinates of a deviation are [Re ξ; Im ξ of the
+/// conjugate pairs; u_{j−1}], all scaled to metres. An amplitude ξ is scaled by the displacement of
+/// the conductor at the absorber, a command by a bound of the displacement it causes in one period.
 ///
-/// The deviations advance by blocks of samples. Each force or reading is a row times the deviations
-/// at the start of the block, so that a block of many deviations takes two matrix products. Work
-/// per sample, for m coordinates: up to 2 m multiply-adds per deviation, m per reading of each
-/// deviation, and 60 m more.
+/// Deviations advance in blocks of samples by two matrix products. Work per sample, m coordinates:
+/// up to 2 m multiply-adds per deviation, m per reading of one, about 60 m for all.
 class ModalDeviations {
  public:
-  using Columns = Eigen::MatrixXd;  ///< deviations in columns, order() × their number
-  using Readings = Columns;         ///< a row for each reading, a column for each deviation
-  static constexpr int block = 64;  ///< largest number of samples between two take_readings()
+  using Columns = Eigen::MatrixXd;  ///< one deviation per column, order() rows
+  using Readings = Columns;         ///< one row per reading, one column per deviation
+  static constexpr int block = 64;  ///< largest block (samples); take readings at least this often
 
-  /// Constructs unit vectors as deviations, one for each coordinate.
+  /// Begins with the unit vectors as deviations, one for each coordinate.
   /// @param motions  natural motions of the loop
   /// @param gains    gains P and D, in effect while the drive transmits
   ModalDeviations(const NaturalMotions& motions, const PdGains<double>& gains)
@@ -79,10 +77,10 @@ class ModalDeviations {
 
   /// The number of coordinates: the order of the plant plus one.
   Eigen::Index order() const { return units_.size(); }
-  /// The values of [Re ξ; Im ξ; u_{j−1}] that correspond to 1 m in each coordinate.
+  /// The unscaled values of [Re ξ; Im ξ; u_{j−1}] that correspond to scaled coordinates of 1 m.
   const Eigen::VectorXd& units() const { return units_; }
 
-  /// Restarts from given deviations, in metres, order() × their number.
+  /// Restarts from given deviations: one per column, order() rows, in metres.
   void begin(const Columns& deviations) {
     start_ = units_.asDiagonal() * deviations;
     taken_ = read_ = 0;
@@ -95,11 +93,11 @@ class ModalDeviations {
     return units_.cwiseInverse().asDiagonal() * start_;
   }
 
-  /// Reads the deviations of Δz (m) at the present sample, at most once.
+  /// Records the deviations of Δz = z₂ − z (m) for take_readings(); at most once per sample.
   void read_displacement() { readings_.row(read_++) = reading(relative_z_); }
-  /// Reads the deviations of Δż (m/s) at the present sample, at most once.
+  /// Records the deviations of Δż = ż₂ − ż (m/s) for take_readings(); at most once per sample.
   void read_velocity() { readings_.row(read_++) = reading(relative_v_); }
-  /// The readings since the last call, in the order in which they were made.
+  /// The readings recorded since the last call of this function, one per row, in their order.
   Readings take_readings() {
     const Readings all = readings_.topRows(read_) * start_;
     read_ = 0;

@@ -18,23 +18,22 @@
 
 namespace holdfast {
 
-/// The motion of the sampled loop of a conductor given by N modes, one sample at a time, in O(N).
+/// The motion of the sampled loop of a conductor given by its modes, one sample at a time.
 ///
-/// Each natural motion e^{st} of conductor and absorber together is independent (NaturalMotion).
-/// The displacements are sums over all natural motions: z = Σ r ξ with the residues r of
-/// `plant_poles`, ż = Σ s r ξ, z₂ = Σ θ r ξ, θ = (k₂ + c₂ s)/(m₂ s² + c₂ s + k₂). Computer and
-/// backlash act as in `SampledMotion`. Work per sample: 20 multiply-adds per natural motion, by
-/// SIMD vectors. No memory is allocated.
+/// The motion is stored as the amplitudes ξ of the natural motions of conductor and absorber, which
+/// advance independently of each other. Displacements and velocities are weighted sums of these
+/// amplitudes (NaturalMotion). Computer and backlash act as in `SampledMotion`. Work per sample: 20
+/// multiply-adds per natural motion, in SIMD vectors. After construction no memory is allocated.
 class ModalMotion {
  public:
-  static constexpr int states = 4;  ///< number of observed states
+  static constexpr int states = 4;  ///< number of entries of the observed state
   using State = Vector<double, 4>;  ///< observed state [z, ż, z₂, ż₂] (m, m/s, m, m/s)
-  using Readings = PortReadings<TwoMass<double>>;  ///< readings of the observed states
+  using Readings = PortReadings<TwoMass<double>>;  ///< functions that read the observed state
   using Full = NaturalMotions::Full;  ///< state [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂] of `modal_plant`
 
-  using Memory = MotionMemory<double, BacklashMemory<double>>;  ///< memory before a sample
+  using Memory = MotionMemory<double, BacklashMemory<double>>;  ///< memory of the motion
 
-  /// @param loop   the loop, which is not checked
+  /// @param loop   loop; it is not validated
   /// @param poles  all `plant_poles` of the loop's modes and absorber
   /// @param state  the initial state of `modal_plant`
   ModalMotion(const ModalLoop& loop, const std::vector<PlantPole>& poles, const Full& state)
@@ -54,7 +53,7 @@ class ModalMotion {
     read();
   }
 
-  /// Takes sample j: decides whether the drive transmits, and computes u_j; once for each sample.
+  /// Takes sample j: decides whether the drive transmits, and computes u_j; once per sample.
   MotionSample<double> sense() {
     const bool engaged = law_.step(seen_[2] - seen_[0], seen_[3] - seen_[1]);
     present_force_ =
@@ -81,8 +80,8 @@ class ModalMotion {
     ++index_;
   }
 
-  /// Displaces the conductor by a length (m) at the absorber, in the shape of its deflection under
-  /// a force at the absorber; to be called before `sense()`.
+  /// Displaces the conductor in the shape of its static deflection under a force at the absorber,
+  /// by a length (m) at the absorber's place; to be called before `sense()`.
   void displace_conductor(double by) {
     for (Block& block : motions_.blocks()) {
       Part &state = block.front(), &bent = block.back();
@@ -100,7 +99,7 @@ class ModalMotion {
   const State& state() const { return seen_; }
   /// The functions that read displacements and velocities from the observed state.
   const Readings& readings() const { return readings_; }
-  /// The memory at t_j, read before `sense()`: observed state, u_{j−1} and memory of the backlash.
+  /// Observed state at t_j, u_{j−1} and memory of the backlash; to be called before `sense()`.
   Memory memory() const { return {seen_, previous_force_, law_.memory()}; }
   /// The amplitudes ξ of all natural motions, in the order of NaturalMotions.
   Eigen::VectorXcd amplitudes() const {
@@ -152,8 +151,8 @@ class ModalMotion {
 /// @param loop   the loop with its excitation and backlash
 /// @param poles  `plant_poles` of the loop's modes and absorber
 /// @param state  the initial state
-/// @return no motion where `poles` is empty, that is, not all poles were found. Then use
-///         `harmonically_forced_motion` of the plant, at N² operations per sample
+/// @return nullopt where `poles` is empty, because plant_poles() did not find all poles. Then use
+///         `harmonically_forced_motion` of the plant, with N² operations per sample for N states
 /// @throws InvalidParameter where the loop is not admissible, or the state is not finite or of
 ///         another size
 inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
@@ -167,10 +166,10 @@ inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
   return ModalMotion(loop, poles, state);
 }
 
-/// The motion of a modal loop from an initial state of `modal_plant`; computes the poles too.
+/// The motion of a modal loop from an initial state of `modal_plant`; computes the poles itself.
 /// @param loop   the loop with its excitation and backlash
 /// @param state  the initial state
-/// @return no motion where not all poles were found
+/// @return nullopt where not all poles were found
 /// @throws InvalidParameter where the loop is not admissible, or the state is not finite or of
 ///         another size
 inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,

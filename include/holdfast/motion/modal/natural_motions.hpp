@@ -21,13 +21,13 @@ namespace holdfast {
 
 /// The sampled loop of a conductor given by its modes, with its excitation and backlash.
 struct ModalLoop {
-  std::vector<PlaceMode<double>> modes;   ///< modes at the absorber's place
+  std::vector<PlaceMode<double>> modes;   ///< conductor's modes, with shapes at the absorber
   Absorber<double> absorber;              ///< absorber with its clamp
   Sampling<double> sampling;              ///< sampling period τ and processing delay δ ≤ τ (s)
   PdGains<double> gains;                  ///< gains P (N/m) and D (N s/m)
   HarmonicExcitation<double> excitation;  ///< F_m (N) and f (Hz) of the force at the absorber
   double backlash_width = 0.0;            ///< width r₀ of the backlash (m), ≥ 0
-  ForceHold hold = ForceHold::sampled;    ///< whether the force is held over a sampling period
+  ForceHold hold = ForceHold::sampled;    ///< whether the excitation is held constant over a period
 };
 
 /// Validates a loop. @throws InvalidParameter where it is not admissible
@@ -39,32 +39,32 @@ inline void validate(const ModalLoop& loop) {
   validate_backlash_width(loop.backlash_width);
 }
 
-/// The natural motion e^{st} of conductor and absorber over one sampling period,
+/// A natural motion e^{st} of conductor and absorber, s being a pole of the plant. In one sampling
+/// period τ its amplitude ξ changes under the commands u and the excitation (F_m, ω) to
 ///
-///     ξ_{j+1} = e^{sτ} ξ_j + γ₁ u_{j−1} + γ₀ u_j + g_c F_m cos ωt_j + g_s F_m sin ωt_j ,
+///     ξ_{j+1} = e^{sτ} ξ_j + γ₁ u_{j−1} + γ₀ u_j + g_c F_m cos ωt_j + g_s F_m sin ωt_j .
 ///
-/// with its weights w in the readings: z = Re Σ w_z ξ over all natural motions, and likewise ż, z₂
-/// and ż₂. A conjugate pair is represented by one of its two motions.
+/// The conductor's displacement is z = Re Σ w_z ξ over all natural motions. ż, z₂ and ż₂ are such
+/// sums with other weights. One object represents both members of a conjugate pair.
 struct NaturalMotion {
   std::complex<double> decay;    ///< factor e^{sτ} of one sampling period
-  std::complex<double> present;  ///< γ₀, factor of the present command u_j
-  std::complex<double> past;     ///< γ₁, factor of the previous command u_{j−1}
-  std::complex<double> cosine;   ///< g_c, response to F_m cos ωt_j
-  std::complex<double> sine;     ///< g_s, response to F_m sin ωt_j
-  std::complex<double> z;        ///< weight w of the conductor's displacement
-  std::complex<double> v;        ///< weight w of the conductor's velocity
-  std::complex<double> z2;       ///< weight w of the absorber's displacement
-  std::complex<double> v2;       ///< weight w of the absorber's velocity
+  std::complex<double> present;  ///< γ₀, response per newton of the present command u_j
+  std::complex<double> past;     ///< γ₁, response per newton of the previous u_{j−1}
+  std::complex<double> cosine;   ///< g_c, response per newton of F_m cos ωt_j
+  std::complex<double> sine;     ///< g_s, response per newton of F_m sin ωt_j
+  std::complex<double> z;        ///< weight w_z of ξ in the conductor's displacement z (m)
+  std::complex<double> v;        ///< weight of ξ in the conductor's velocity ż (m/s)
+  std::complex<double> z2;       ///< weight of ξ in the absorber's displacement z₂ (m)
+  std::complex<double> v2;       ///< weight of ξ in the absorber's velocity ż₂ (m/s)
 };
 
-/// The natural motions of conductor and absorber, independent of each other. Every motion of a
-/// ModalLoop is a sum of these.
+/// Independent natural motions of conductor and absorber, whose sums are a ModalLoop's motions.
 class NaturalMotions {
  public:
-  /// The state [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂] of `modal_plant`.
+  /// The state of `modal_plant`: modal coordinates and absorber, [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂].
   using Full = Vector<double, Eigen::Dynamic>;
 
-  /// @param loop   the loop, which is not checked
+  /// @param loop   loop; it is not validated
   /// @param poles  all `plant_poles` of the loop's modes and absorber
   NaturalMotions(const ModalLoop& loop, const std::vector<PlantPole>& poles) : loop_(loop) {
     const detail::PoleFinder finder(loop.modes, loop.absorber);
@@ -88,13 +88,13 @@ class NaturalMotions {
   /// The k-th natural motion.
   const NaturalMotion& operator[](std::size_t k) const { return motions_[k]; }
 
-  /// The k-th natural motion over a time `length` (s) after a sample instead of a sampling period.
+  /// The k-th natural motion with factors for the first `length` (s) of a sampling period only.
   NaturalMotion over(std::size_t k, double length) const {
     return numbers_of(shapes_[k], k >= pairs_,
                       {length, std::min(loop_.sampling.processing_delay, length)});
   }
 
-  /// The observed state [z, ż, z₂, ż₂] for given amplitudes ξ.
+  /// The observed state [z, ż, z₂, ż₂] (m, m/s, m, m/s) for amplitudes ξ of all natural motions.
   Vector<double, 4> seen(const Eigen::VectorXcd& amplitudes) const {
     Vector<double, 4> sum = Vector<double, 4>::Zero();
     for (std::size_t k = 0; k < size(); ++k) {
@@ -106,7 +106,7 @@ class NaturalMotions {
     return sum;
   }
 
-  /// The state of `modal_plant` for given amplitudes ξ.
+  /// The state of `modal_plant` for given amplitudes ξ of all natural motions.
   Full state_of(const Eigen::VectorXcd& amplitudes) const {
     Full state = Full::Zero(2 * static_cast<Eigen::Index>(loop_.modes.size()) + 2);
     for (std::size_t k = 0; k < size(); ++k) {
@@ -120,8 +120,8 @@ class NaturalMotions {
     return state;
   }
 
-  /// The amplitude ξ = ψᵀ((sM + C) q + M q̇) of the k-th natural motion in a given state. M is the
-  /// mass matrix, C the damping matrix, ψ the shape of the natural motion.
+  /// The amplitude ξ = ψᵀ((sM + C) q + M q̇) of the k-th natural motion in a given state, with its
+  /// pole s and shape ψ. The coordinates q have the mass matrix M and the damping matrix C.
   std::complex<double> amplitude(std::size_t k, const Full& state) const {
     const Shape& natural = shapes_[k];
     const Absorber<double>& absorber = loop_.absorber;
@@ -157,8 +157,9 @@ class NaturalMotions {
     bool weak = false;
   };
 
-  /// The shape for f = 1. A weakly coupled mode n has an almost unbounded component in it: for such
-  /// a mode the whole shape is multiplied by (s − s_n)/φ_n, with s_n and φ_n of the bare mode.
+  /// The shape ψ for f = 1. Where a mode n is weakly coupled to the absorber (`weak`), its
+  /// component in ψ would be almost unbounded. ψ is then multiplied by (s − s_n)/φ_n, with the bare
+  /// mode's eigenvalue s_n and its shape φ_n at the absorber.
   Shape shape_of(const PlantPole& pole, const std::optional<detail::PoleFinder::Weak>& weak) const {
     Shape shape{pole.s, 1.0, receptance(loop_.modes, pole.s), 0.0, 0.0};
     if (weak) {
@@ -177,7 +178,7 @@ class NaturalMotions {
     return shape;
   }
 
-  /// The component of ψ in the n-th mode.
+  /// The component of the natural motion's shape ψ in mode n, counted from 0.
   Complex shape_in_mode(const Shape& natural, std::size_t n) const {
     const PlaceMode<double>& mode = loop_.modes[n];
     if (natural.weak && n == natural.mode) return natural.own;

@@ -16,11 +16,10 @@
 
 namespace holdfast {
 
-/// The periodic motion of a loop near to the motion of another loop, with the same period and the
-/// same contact modes in the same order. The instants of the switches may differ.
+/// Solves for the periodic motion of a loop, starting from the orbit of a loop with similar
+/// parameters. Period and order of contact modes are the same; the switching instants may differ.
 /// @param loop   the loop to be solved, with the same f τ
-/// @param orbit  orbit of a nearby loop; at one sample or more the drive is engaged or in the gap,
-///               and the drive leaves every gap
+/// @param orbit  known orbit, with a sample outside stick; its drive leaves every gap
 /// @return an outcome other than `certified` where no such motion exists or its modes differ
 template <class Plant>
 OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
@@ -41,7 +40,7 @@ OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
   const double command = orbit.forces[(at + samples - 1) % samples];
   const double reading = fresh.readings().displacement(orbit.states[(at + samples - 1) % samples]);
   motion.go_to({start % orbit.ratio.denominator, orbit.states[at], command, reading, contact});
-  // On to the orbit's first sample.
+  // Continue to the orbit's first sample.
   for (std::size_t j = at; j < samples; ++j) {
     motion.sense();
     motion.advance();
@@ -65,7 +64,7 @@ extern template OrbitResultOf<EventOrbit> continued_orbit(const ImplementedLoop&
 
 namespace detail {
 
-/// Whether a motion is its own mirror image half a period later.
+/// Whether an orbit is symmetric: half a period later the state has the opposite sign.
 template <int States>
 bool mirrors_itself(const EventOrbitOf<States>& orbit) {
   constexpr double rounding = 1e-6;  // of each state
@@ -80,7 +79,7 @@ bool mirrors_itself(const EventOrbitOf<States>& orbit) {
   return (open.array() <= rounding * largest.array()).all();
 }
 
-/// The least margin of an orbit, as a share of its size, and the border where that margin is zero.
+/// The least margin of an orbit, relative to its size, and the border where that margin is zero.
 template <int States>
 RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
   const SwitchingMargins& margins = orbit.margins;
@@ -105,7 +104,7 @@ RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
   return look;
 }
 
-/// Continuation of an exactly switched orbit over two parameters, from the nearest known solution.
+/// Continuation of an orbit with exact switching over two parameters, from the nearest known one.
 template <class Family, class Orbit>
 class EventContinuation {
  public:
@@ -123,7 +122,7 @@ class EventContinuation {
     auto found = continued_orbit(family_(x, y), nearest->orbit);
     if (found.outcome != OrbitOutcome::certified) return {-1.0, beyond(nearest->orbit)};
     RegionLook<MotionBorder> look = look_of(*found.orbit);
-    // Where a symmetry breaks, an unsymmetric pair takes over.
+    // Where the symmetry breaks, the motion continues as a pair of asymmetric orbits.
     if (mirrored_ && look.margin > 0.0 && !mirrors_itself(*found.orbit))
       return {-1.0, beyond(nearest->orbit)};
     if (look.margin > 0.0) remember({{x, y}, std::move(*found.orbit)});
@@ -140,7 +139,8 @@ class EventContinuation {
     Orbit orbit;
   };
 
-  /// The kind of border beyond which a motion is lost, judged from the nearest known orbit.
+  /// The border that was crossed when no motion was found: `switch_at_sample` if the nearest known
+  /// orbit switches near a sample, else `jump`.
   static MotionBorder beyond(const Orbit& orbit) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const BorderKind kind = nears_sample(orbit) ? BorderKind::switch_at_sample : BorderKind::jump;
@@ -181,14 +181,14 @@ class EventContinuation {
 /// switching exists and attracts. Inside, the motion keeps its period and the order of its modes,
 /// and all multipliers, saltation included, lie inside the unit circle.
 ///
-/// The least margin of EventOrbit decides the kind of the border. Where a switch passes a sample
-/// the motion continues, but its multipliers jump. A motion that is its own mirror image half a
-/// period later is followed as long as it keeps this symmetry.
+/// The kind of a border is what first ends the motion: a multiplier at the unit circle or a margin
+/// of EventOrbit at zero. Where a contact change passes a sample, the multipliers jump but the
+/// motion may last. A symmetric motion (opposite after half a period) is followed while symmetric.
 /// @param family  (x, y) ↦ ImplementedLoop, with the same f τ everywhere
-/// @param orbit   certified orbit of family(at); its drive does not stay in the gap for ever
+/// @param orbit   certified orbit of family(at); its drive leaves every gap that it enters
 /// @param window  range of the parameters that is searched, around `at`
 /// @param at      parameters (x, y) of the orbit
-/// @param steps   steps along the border, as shares of the window; `tolerance` also locates a jump
+/// @param steps   step lengths and accuracies along the border, as shares of the window
 /// @throws InvalidParameter where the window is not finite or does not contain `at`
 template <class Family, int States>
 MotionRegion motion_region(const Family& family, const EventOrbitOf<States>& orbit,

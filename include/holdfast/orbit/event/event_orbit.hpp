@@ -22,39 +22,38 @@
 
 namespace holdfast {
 
-/// The margins of an orbit from a different switching sequence; +∞ for events that never occur.
+/// The least distances of an orbit from another switching sequence; +∞ for events that never occur.
 ///
-/// At a margin of zero the motion grazes: neighbouring motions switch in different ways, and
-/// multipliers do not describe them. The margins are those of the guards of the contact between the
-/// samples. A contact law that decides only at the samples has none.
+/// At a margin of zero the motion touches a switching surface without crossing it. Neighbouring
+/// motions then switch in different ways, and multipliers do not describe them. All margins are +∞
+/// for a contact that changes only at the samples.
 struct SwitchingMargins {
   /// The margin of an event that never occurs.
   static constexpr double none = std::numeric_limits<double>::infinity();
 
-  /// Least distance (m) between an end of the gap and a turning point of Δz before that end.
+  /// Least distance (m) of a turning point of Δz from an end of the gap that it does not reach.
   double border_distance = none;
   /// Least distance that Δz covers between leaving a gap and the next reversal (m).
   double shortest_travel = none;
   /// Least |Δż| with which Δz passes an end of the gap (m/s).
   double exit_velocity = none;
-  /// Least |Δż| at minima of |Δż| at which the engaged drive does not reverse (m/s).
+  /// Least local minimum of |Δż| (m/s) at which the engaged drive does not reverse.
   double reversal_velocity = none;
-  /// Least |a(u)|, the relative acceleration under the transmitted force u, at a reversal (m/s²).
+  /// Least |a(u)| at a reversal (m/s²); a(u) is the acceleration Δz̈ under the command u.
   double reversal_acceleration = none;
-  /// Least |a(0)|, with no force, at a reversal (m/s²); the sign of a(0) selects stick or gap.
+  /// Least |a(0)| at a reversal (m/s²); a(0), which is Δz̈ without force, selects stick or gap.
   double stick_acceleration = none;
 };
 
-/// A periodic motion of the sampled loop whose contact switches between the samples, with its
-/// numerical certificate.
+/// A periodic motion of the sampled loop that switches between samples, with a certificate.
 ///
-/// The certificate, in double precision: the motion of EventMotion closes after N samples up to
-/// `closure_error`; it has the same switches in three successive periods; all its multipliers,
-/// saltation included, lie inside the unit circle; `margins` are the margins from other switching.
-/// Only prove_event_orbit() proves that a true orbit lies within a bound of the computed one.
+/// The certificate is numerical, in doubles. The EventMotion closes after one period up to
+/// `closure_error` and has the same switches in three successive periods. All multipliers,
+/// saltation included, lie inside the unit circle. `margins` are distances from another switching
+/// sequence. Only prove_event_orbit() proves a true orbit within a bound of the computed one.
 ///
 /// There is one multiplier for each entry of [x; u_{j−1}; gap position; last measured displacement]
-/// that affects later samples, and at least five in all.
+/// that affects later samples. If there are fewer than five, multipliers 0 are added.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct EventOrbitOf : LoopOrbit<States> {
@@ -62,17 +61,17 @@ struct EventOrbitOf : LoopOrbit<States> {
   /// Force of the drive at each sample (N): while engaged the command u_j, which acts from t_j + δ;
   /// in the gap 0; in stick the force that keeps both sides together at t_j.
   std::vector<double> forces;
-  std::vector<ContactSwitch> switches;  ///< switches of one period, timed from its first sample (s)
-  /// Δz at the reversal where the present gap began (m), for each sample. The value has no meaning
-  /// at samples outside a gap and for laws other than exact play (contact/contact.hpp).
+  std::vector<ContactSwitch> switches;  ///< switches of one period; times (s) from sample 0
+  /// For each sample in a gap: Δz (m) at the reversal where this gap began. The value has no
+  /// meaning at other samples and for laws other than exact play (contact/contact.hpp).
   std::vector<double> reversals;
   SwitchingMargins margins;          ///< least margins over all switches and turning points
   std::array<double, 3> time_share;  ///< share of the time in each ContactMode; sum 1
-  double largest_displacement;       ///< max |z(t)| (m), between the samples too
-  double largest_sample;             ///< max |z_j| (m), at the samples
-  StateScale extent;                 ///< extent of both sides of the gap, at the samples
+  double largest_displacement;       ///< max |z₁(t)| (m), between the samples too
+  double largest_sample;             ///< max |z₁| (m), at the samples
+  StateScale extent;                 ///< largest |z| and |ż| of the drive's two sides, at samples
 
-  /// The largest |z| (m) of the conductor at the samples.
+  /// The largest |z₁| (m) of the conductor at the samples.
   double amplitude() const { return largest_sample; }
 
   /// The share of the samples after which the drive is engaged.
@@ -81,9 +80,8 @@ struct EventOrbitOf : LoopOrbit<States> {
     return static_cast<double>(engaged) / static_cast<double>(modes.size());
   }
 
-  /// The least margin from a different switching sequence, as a share of the orbit's size. Margins
-  /// are divided by the largest displacement x, the largest velocity v or the acceleration v²/x.
-  /// The result is infinite where no margin is finite.
+  /// The least of the `margins`, each as a share of the largest displacement x, the largest
+  /// velocity v or the acceleration v²/x of the orbit. +∞ where no margin is finite.
   double border_share() const {
     const double acceleration = extent.velocity * extent.velocity / extent.displacement;
     return std::min({extent.share_of_displacement(margins.border_distance),
@@ -93,7 +91,7 @@ struct EventOrbitOf : LoopOrbit<States> {
                      margins.reversal_acceleration / acceleration,
                      margins.stick_acceleration / acceleration});
   }
-  /// The number of times that a mode begins in one period.
+  /// The number of times that a contact mode begins in one period.
   std::int64_t entries(ContactMode mode) const {
     return std::count_if(switches.begin(), switches.end(),
                          [mode](const ContactSwitch& change) { return change.mode == mode; });
@@ -105,7 +103,7 @@ using EventOrbit = EventOrbitOf<4>;
 
 namespace detail {
 
-/// The derivative p′ of a series p.
+/// The derivative p′ of a power series p, given by its coefficients in ascending order.
 inline Series series_derivative(const Series& p) {
   if (p.size() < 2) return Series::Zero(1);
   const Eigen::Index terms = p.size() - 1;
@@ -132,7 +130,7 @@ void for_each_sign_change(Series p, Visit&& visit) {
   }
 }
 
-/// Whether a guard is a multiple of `row`, a functional of the plant's state such as Δz or Δż.
+/// Whether a guard is a multiple of `row`, a linear function of the plant's state such as Δz or Δż.
 template <int States>
 bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
   const double factor = guard.state.dot(row) / row.squaredNorm();
@@ -141,8 +139,8 @@ bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
 
 }  // namespace detail
 
-/// The measures of a motion between its samples: the margins of its switches, the time that it
-/// spends in each mode, and its largest displacement.
+/// An observer that measures a motion between its samples: the margins of its switches, the time
+/// that it spends in each contact mode, and its largest displacement.
 ///
 ///     EventOrbitMeasures<Contact> measures(motion);
 ///     motion.sense();
@@ -150,8 +148,7 @@ bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
 ///     motion.advance(measures);
 ///
 /// The motion must outlive the measures and keep its address; its samples must be consecutive.
-/// Turning points are roots of the derivatives of the same series by which the motion finds its
-/// switches, so that no turning point is missed.
+/// Turning points are found as roots of the motion's differentiated Taylor series; none is missed.
 /// @tparam Contact  contact of the motion
 template <class Contact>
 class EventOrbitMeasures {
@@ -170,7 +167,7 @@ class EventOrbitMeasures {
         velocity_row_(readings_.velocity_row()),
         trace_(motion) {}
 
-  /// Begins a sample; to be called after `sense()` and before `advance(measures)`.
+  /// Begins a sampling period; to be called after `sense()` and before `advance(measures)`.
   void begin() {
     trace_.begin();
     seen_ = 0;
@@ -183,7 +180,7 @@ class EventOrbitMeasures {
     const double all = time_[0] + time_[1] + time_[2];
     return {time_[0] / all, time_[1] / all, time_[2] / all};
   }
-  /// The largest |z(t)| (m) of the conductor.
+  /// The largest |z₁(t)| (m) of the conductor so far.
   double largest_displacement() const { return largest_displacement_; }
 
   // The observer of EventMotion::advance.
@@ -201,10 +198,10 @@ class EventOrbitMeasures {
       for (ModeGuard& guard : guards.guard) guard.zeros = 0;
     }
   }
-  /// Records that the command u_j takes effect at this instant.
+  /// Records that the command u_j takes effect, at t_j + δ.
   void commanded() { trace_.commanded(); }
-  /// Records the speed or the accelerations at the zero of a guard. A switch by a jump of the force
-  /// or the command has guard −1 and no margin.
+  /// Records the margins of a switch at which a guard reaches zero: the speed at an end of the gap,
+  /// the accelerations at a reversal. A switch by a jump of force or command (guard −1) has none.
   void switched(int from, int, int guard, const Instant& instant) {
     last_slope_ = {};
     if (guard < 0) return;
@@ -275,9 +272,9 @@ class EventOrbitMeasures {
   PortReadings<typename Motion::Plant> readings_;
   typename Motion::State displacement_row_, velocity_row_;  // of Δz and Δż, N × 1
   DenseOutput<Contact> trace_;
-  std::size_t seen_ = 0;                // parts of the trace
+  std::size_t seen_ = 0;                // number of parts of the trace measured
   ModeGuards guards_;                   // of the last stretch
-  std::array<double, 2> last_slope_{};  // of the guards where the last part ended; 0: not known
+  std::array<double, 2> last_slope_{};  // of the guards, at the end of the last part; 0: unknown
   std::optional<double> exit_;          // Δz where the last gap was left
   SwitchingMargins margins_;
   std::array<double, 3> time_{};

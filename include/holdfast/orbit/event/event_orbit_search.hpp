@@ -26,7 +26,7 @@ namespace holdfast {
 /// The result of a search for the periodic orbit of an EventMotion.
 template <class Contact>
 struct EventOrbitResult : OrbitResultOf<EventOrbitOf<EventMotion<Contact>::states>> {
-  std::optional<StroboscopicState<Contact>> point;  ///< state of the orbit at its first sample
+  std::optional<StroboscopicState<Contact>> point;  ///< the orbit's first state; nullopt: no orbit
 };
 
 namespace detail {
@@ -77,11 +77,11 @@ class PeriodRecorder {
 
 /// A sample of an orbit and its distance in time from the nearest switch.
 struct FarSample {
-  std::int64_t sample = -1;  ///< sample j; −1: none lies apart from the switches
+  std::int64_t sample = -1;  ///< sample j; −1: no sample apart from the switches
   double distance = 0.0;     ///< time from the nearest switch (s)
 };
 
-/// The sample in a contact mode that is farthest in time from any switch.
+/// The sample in a given contact mode that is farthest in time from any switch.
 template <int States>
 FarSample sample_far_from_switches(const EventOrbitOf<States>& orbit, ContactMode mode) {
   FarSample best;
@@ -125,7 +125,7 @@ bool switch_alike(const EventOrbitOf<States>& one, const EventOrbitOf<States>& o
                     });
 }
 
-/// The solver for an orbit of N samples near a given state; also measures the orbit.
+/// The solver for an orbit of N samples near a given state; it also measures the orbit.
 template <class Contact>
 class EventOrbitSolver {
  public:
@@ -139,7 +139,7 @@ class EventOrbitSolver {
   EventOrbitSolver(const RepeatingMotion<Contact>& motion, const Rational& ratio)
       : motion_(motion), readings_(motion.motion().readings()), ratio_(ratio) {}
 
-  /// Solves for an orbit of N = `samples` samples near a state at a stroboscopic instant.
+  /// Solves for an orbit of N = `samples` samples near a given state at a stroboscopic instant.
   Result solve(const Point& near, std::int64_t samples) {
     motion_.go_to(near);
     EventOrbitMeasures<Contact> unused(motion_.motion());
@@ -228,9 +228,9 @@ class EventOrbitSolver {
   Rational ratio_;
 };
 
-/// The model of an EventMotion for ReturnSearch. After a near return the fixed point is solved for.
-/// The motion has settled on an orbit once it was near the orbit (within 10⁻⁶ of the motion's
-/// extent) and then, for two periods, had the orbit's contact modes and did not move away.
+/// The Model of ReturnSearch for an EventMotion. When the state repeats, the fixed point is solved
+/// for. The motion has settled on an orbit once it came within 10⁻⁶ of its extent to the orbit and
+/// then, for two periods, had the orbit's contact modes and did not move away.
 template <class Contact>
 class EventSearchModel {
  public:
@@ -242,7 +242,7 @@ class EventSearchModel {
   using Result = EventOrbitResult<Contact>;
   using Seen = SeenMotion<Symbol, Plant>;
 
-  /// The estimated cost of solving, in simulated samples per orbit sample; measured: 16 … 60.
+  /// The cost of solving per orbit sample, as a number of simulated samples (measured 16 … 60).
   static std::int64_t samples_per_solved() { return 32; }
 
   /// @param start  motion at a stroboscopic instant
@@ -264,7 +264,7 @@ class EventSearchModel {
     return motion_.motion().contact().mode() == other.contact.mode();
   }
 
-  /// Whether a near return is worth solving for; false while the motion settles on an orbit.
+  /// Whether to solve for a proposed orbit; false while the motion settles on a known one.
   bool may_repeat(const Seen&, std::int64_t) const { return periods_on_orbit_ == 0; }
 
   Result solve(const Seen&, std::int64_t period, const Memory&) {
@@ -284,7 +284,7 @@ class EventSearchModel {
     periods_on_orbit_ = 0;
   }
 
-  /// Whether the motion has stayed on the orbit for two periods; judged at the end of each period.
+  /// Whether the motion has stayed on the orbit for two periods; tested at the end of each period.
   bool has_come(const Result& found, const Seen& seen) {
     const std::vector<ContactMode>& modes = found.orbit->modes;
     const auto period = static_cast<std::int64_t>(modes.size());
@@ -316,17 +316,17 @@ class EventSearchModel {
 ///     const auto found = find_event_orbit(motion);
 ///     if (found.outcome == OrbitOutcome::certified) use(found.orbit->period());
 ///
-/// With `certified`, beyond the statements of EventOrbit, the motion was within a millionth of its
-/// extent from the orbit and did not move away over two further periods. With `neutral` the result
-/// gives the index of a state variable that has no restoring term. The outcome is `none_found` also
-/// where changes of contact accumulate. It is `incommensurate` where sampling and forcing never
-/// return to the same phase, as under a recorded force or with sampling jitter.
+/// The outcome `certified` also means that the motion came as near to the orbit as 10⁻⁶ of its
+/// extent and did not move away over two further periods. With `neutral`, `neutral_state` is the
+/// index of a state variable without restoring term. The outcome is `none_found` also where a
+/// sampling period has more than EventMotion::most_switches contact changes. It is `incommensurate`
+/// also under a recorded force and with sampling jitter.
 ///
-/// Bounded work: at most `limits.most_samples` samples of the motion and as much again for solving.
+/// Work: at most `limits.most_samples` simulated samples, and about as much for solving.
 /// Memory: one byte per sample of the motion, some 150 bytes per sample of the orbit.
 /// @param start   the motion before a sample; it is not changed
-/// @param limits  limits of the search: largest period and length of the motion
-/// @throws InvalidParameter where the limits are not admissible
+/// @param limits  limits of the search: longest period and number of samples
+/// @throws InvalidParameter where a limit is out of its range
 template <class Contact>
 EventOrbitResult<Contact> find_event_orbit(const EventMotion<Contact>& start,
                                            const OrbitLimits& limits = {}) {

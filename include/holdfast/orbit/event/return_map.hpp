@@ -20,8 +20,8 @@
 
 namespace holdfast {
 
-/// The stroboscopic state of an EventMotion: all that its later samples depend on. Sampling and
-/// forcing are in phase at stroboscopic instants, every q samples.
+/// The complete state of an EventMotion before sample j, on which all later samples depend. At
+/// stroboscopic instants, every q samples (f τ = p/q), sampling and forcing are in phase.
 template <class Contact>
 struct StroboscopicState {
   std::int64_t phase;  ///< samples since the last stroboscopic instant, 0 … q − 1
@@ -37,7 +37,7 @@ namespace detail {
 template <class Contact>
 using PointDeviation = Vector<double, larger_size(EventMotion<Contact>::states, 3)>;
 
-/// The deviation `to` − `from` of two stroboscopic states.
+/// The deviation X(`to`) − X(`from`) of two states; its gap entry is 0 unless both remember a gap.
 template <class Contact>
 PointDeviation<Contact> difference(const StroboscopicState<Contact>& from,
                                    const StroboscopicState<Contact>& to) {
@@ -62,32 +62,31 @@ StroboscopicState<Contact> shifted(StroboscopicState<Contact> point,
 
 }  // namespace detail
 
-/// An EventMotion whose forcing repeats exactly every q samples. The sample index is reset to zero
-/// at each stroboscopic instant, so that the rounding of large times cannot shift sampling against
-/// forcing.
+/// An EventMotion whose forcing repeats exactly every q samples. Its sample index restarts at each
+/// repetition, so that rounding of large times cannot shift sampling against forcing.
 template <class Contact>
 class RepeatingMotion {
  public:
-  /// @param motion  a motion that is at a stroboscopic instant (sampling and forcing in phase)
-  ///                whenever its index is a multiple of q
-  /// @param period  q ≥ 1 of forcing_ratio()
+  /// @param motion  motion at any sample; it is at a stroboscopic instant (sampling and forcing in
+  ///                phase) whenever its index is a multiple of q
+  /// @param period  denominator q ≥ 1 of f τ = p/q, from forcing_ratio()
   RepeatingMotion(const EventMotion<Contact>& motion, std::int64_t period)
       : motion_(motion), period_(period) {
     turn_to(motion.index() % period);
   }
 
-  /// Takes the present sample; to be called once before each `advance()`.
+  /// Measures the present sample and decides the command; to be called before each `advance()`.
   typename EventMotion<Contact>::Sample sense() { return motion_.sense(); }
   /// Advances the motion to the next sample.
   void advance() { advance(IgnoreFlow()); }
-  /// Advances to the next sample and reports to an observer, as in EventMotion::advance.
+  /// Advances to the next sample and calls an observer at each event, as EventMotion::advance does.
   template <class Observer>
   void advance(Observer&& observer) {
     motion_.advance(observer);
     if (motion_.index() == period_) turn_to(0);
   }
 
-  /// The present stroboscopic state; to be read before `sense()`.
+  /// The state before the present sample; to be read before `sense()`.
   StroboscopicState<Contact> point() const {
     double reading = 0.0;
     if constexpr (!own_controller) reading = motion_.controller().memory().previous_displacement;
@@ -95,7 +94,7 @@ class RepeatingMotion {
             motion_.contact()};
   }
 
-  /// Sets the motion to a stroboscopic state and restarts the counts of contact changes.
+  /// Sets the motion to a given state and restarts the counts of contact changes.
   void go_to(const StroboscopicState<Contact>& point) {
     if constexpr (!own_controller) {
       if (motion_.loop().limits.velocity == VelocitySensing::difference)
@@ -105,7 +104,7 @@ class RepeatingMotion {
     motion_.restart_counts();
   }
 
-  /// The motion itself; its index is the phase, 0 … q − 1.
+  /// The motion at the present sample; its index is the phase, 0 … q − 1.
   const EventMotion<Contact>& motion() const { return motion_; }
   /// The number of samples q after which the forcing repeats.
   std::int64_t period() const { return period_; }
@@ -124,8 +123,8 @@ class RepeatingMotion {
 
 namespace detail {
 
-/// The units of the state X of VariationalFlow, powers of two: plant_scaling() and 1 m for two
-/// masses; for others just below the motion's largest values, or 1 if these are 0.
+/// The units of the state X of VariationalFlow, powers of two. For two masses: plant_scaling() and
+/// 1 m. For other plants: just below the motion's largest values, or 1 if these are 0.
 /// @param seen    extent of the motion's states
 /// @param forces  forces of the drive in the motion (N)
 template <class Contact>
@@ -151,38 +150,38 @@ PointDeviation<Contact> return_units(
 
 }  // namespace detail
 
-/// The return map X_0 → X_N of a motion over N samples, N a multiple of q, with its derivative. X
-/// is the state of VariationalFlow; the derivative includes the saltation at every switch.
-///
-/// The derivative is stored as the factors of a product: one map for each block of samples.
+/// The return map X_0 → X_N of a motion over N samples, N a multiple of q (f τ = p/q), with its
+/// derivative. X is [x; u_{j−1}; gap position; last measured displacement], as in VariationalFlow.
+/// The derivative includes saltation at every switch and is stored as factors (BlockProducts).
 /// @tparam Contact  contact of the motion
 template <class Contact>
 class ReturnMap {
  public:
-  /// The motion whose return is mapped.
+  /// The type of the motion whose states are mapped.
   using Motion = EventMotion<Contact>;
-  /// A deviation of X: as many entries as the plant has states, and three more.
+  /// A deviation of X, with three entries more than the plant's state x.
   using Deviation = detail::PointDeviation<Contact>;
-  /// A stroboscopic state: X and the contact of the drive.
+  /// The state X together with the contact of the drive and the phase of the forcing.
   using Point = StroboscopicState<Contact>;
 
   /// @param motion     any motion of the loop
-  /// @param samples    number N of samples
+  /// @param samples    number N of samples, a multiple of q
   /// @param units      units of X, powers of two
-  /// @param gap_opens  whether the drive leaves every gap that it enters; else the gap is constant
+  /// @param gap_opens  whether the drive leaves its gap during the N samples; if not, the gap's
+  ///                   position counts as constant
   ReturnMap(const RepeatingMotion<Contact>& motion, std::int64_t samples, const Deviation& units,
             bool gap_opens)
       : motion_(motion), samples_(samples), units_(units), gap_opens_(gap_opens) {}
 
-  /// The fixed point near a given state, by Newton's method with the linear steps of CyclicSystem.
-  /// The iteration ends when further steps bring no improvement.
+  /// Solves for the fixed point X_N = X_0 near a given state, by Newton's method with the linear
+  /// steps of CyclicSystem. The iteration ends when further steps bring no improvement.
   /// @param near  a state that is not in stick
-  /// @return nothing where 1 is a multiplier, where the motion touches a guard, or where X_N − X_0
-  ///         does not decrease to rounding
+  /// @return nullopt where 1 is a multiplier, the motion touches a switching surface, it returns in
+  ///         another contact mode, or X_N − X_0 does not decrease to rounding
   std::optional<Point> fixed_point(Point near) {
     constexpr int most_iterations = 30, most_failures = 3;
-    constexpr std::size_t samples_of_block = 64;  // what they contract has no part in a step
-    Extent extent(motion_.motion().readings());   // of all that was tried
+    constexpr std::size_t samples_of_block = 64;  // directions contracted more do not affect a step
+    Extent extent(motion_.motion().readings());   // of all states tried
     double least = std::numeric_limits<double>::infinity();
     std::optional<Point> best;
     for (int count = 0, failures = 0; count < most_iterations && failures < most_failures;
@@ -206,9 +205,10 @@ class ReturnMap {
     return least <= 1e-10 ? best : std::nullopt;
   }
 
-  /// The index of the plant state with the largest entry, in the units of X, in a neutral deviation
-  /// (unchanged after N samples). Entries of the controller, if not 0, take precedence.
-  /// @return nothing without a neutral deviation or where other deviations grow
+  /// The index of the largest entry, in the units of X, of a neutral deviation: one that is
+  /// unchanged after N samples. Only the entries of the plant's state x are compared. If variables
+  /// of a user-defined controller deviate, only these are compared.
+  /// @return nullopt without a neutral deviation or where other deviations grow
   std::optional<Eigen::Index> neutral_coordinate(const Point& point) {
     Extent unused(motion_.motion().readings());
     const Blocks blocks = linearised(point, 64, unused).blocks;
@@ -233,7 +233,7 @@ class ReturnMap {
   }
 
   /// The multipliers of a fixed point, largest first: one for each state variable of the loop, its
-  /// memory included, and at least five; a null direction has log_modulus −∞.
+  /// memory included. If these are fewer than five, multipliers 0 (log_modulus −∞) are added.
   std::vector<Multiplier> multipliers(const Point& point) {
     Extent unused(motion_.motion().readings());
     const Linearised flow = linearised(point, samples_that_keep_digits(), unused);
@@ -263,7 +263,7 @@ class ReturnMap {
   Eigen::Index gap_row() const { return order() + 1; }
 
   /// Follows the motion over N samples; multiplies its maps in blocks of up to `most` samples.
-  /// @param extent  extended by the states of the motion
+  /// @param extent  largest values of the states, which this function updates
   Linearised linearised(const Point& point, std::size_t most, Extent& extent) {
     motion_.go_to(point);
     VariationalFlow<Contact> tangent(motion_.motion());
@@ -316,7 +316,7 @@ class ReturnMap {
   }
 
   /// The number of samples whose maps may be multiplied without loss of digits in any direction of
-  /// x; 1 for a loop with memory beside x, since that memory may decay within a few samples.
+  /// x. It is 1 for a loop with memory in addition to x, since this may decay within few samples.
   std::size_t samples_that_keep_digits() const {
     const EventMotion<Contact>& motion = motion_.motion();
     const DigitalLoop& loop = motion.loop();

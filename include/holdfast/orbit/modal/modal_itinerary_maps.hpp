@@ -23,18 +23,19 @@
 
 namespace holdfast {
 
-/// The maps of a modal conductor's natural motions ξ over one sampling period, engaged or in the
-/// backlash: the counterpart of ItineraryMaps. The state is [Re ξ; Im ξ of the pairs; u_{j−1}].
+/// The maps of the sampled loop of a conductor given by its modes over one sampling period, engaged
+/// or in the backlash, as ItineraryMaps for two masses. The state is [Re ξ; Im ξ of the conjugate
+/// pairs; u_{j−1}], with the complex amplitudes ξ of the natural motions (NaturalMotion).
 class ModalItineraryMaps {
  public:
   using State = Eigen::VectorXd;  ///< state [Re ξ; Im ξ of the pairs; u_{j−1}]
-  using Map = Eigen::MatrixXd;    ///< map of deviations
-  using System = CyclicSystem<double, Eigen::Dynamic>;  ///< solver for a periodic motion
+  using Map = Eigen::MatrixXd;    ///< map of deviations over some samples
+  using System = CyclicSystem<double, Eigen::Dynamic>;  ///< linear solver for a periodic motion
 
   /// @param loop   the loop; its backlash width is not used
   /// @param poles  all `plant_poles` of the loop's modes and absorber
-  /// @param ratio  f τ = p/q, of forcing_ratio()
-  /// @param watch  called from time to time in long computations; may throw to end them
+  /// @param ratio  forcing frequency × sampling period, f τ = p/q, from forcing_ratio()
+  /// @param watch  if set, called from time to time in long computations; it may throw to end them
   /// @throws InvalidParameter unless 1 ≤ q ≤ 10⁹
   ModalItineraryMaps(const ModalLoop& loop, const std::vector<PlantPole>& poles,
                      const Rational& ratio, const std::function<void()>& watch = {})
@@ -42,19 +43,19 @@ class ModalItineraryMaps {
     watch_ = watch;
   }
 
-  /// Calls the function `watch` of the constructor, if one was given.
+  /// Calls the function `watch` given to the constructor, if any.
   void look() const {
     if (watch_) watch_();
   }
 
-  /// The deviations of a motion of the loop, in units(); call their begin() before use.
+  /// The propagator of deviations, scaled by units(). Copy it, and call begin() of the copy.
   const ModalDeviations& deviations() const { return deviations_; }
-  /// The units of the deviations, one for each coordinate of the state.
+  /// The units by which deviations are scaled, one for each coordinate of the state.
   const Eigen::VectorXd& units() const { return deviations_.units(); }
-  /// The state of rest.
+  /// The state of rest, all zero.
   State rest() const { return State::Zero(units().size()); }
 
-  /// The observed part [z, ż, z₂, ż₂; u_{j−1}] of a state.
+  /// The observed part of a state, [z, ż, z₂, ż₂; u_{j−1}]: both sides of the drive and its force.
   Vector<double, 5> seen(const State& state) const {
     const Eigen::Index count = decay_.size();
     Vector<double, 5> read;
@@ -64,8 +65,8 @@ class ModalItineraryMaps {
     return read;
   }
 
-  /// The first state of the steady motion ξ_j = A e^{iωτj} + B e^{−iωτj} with the drive always
-  /// engaged, A and B being complex; not finite where e^{iωτ} is a characteristic root of the loop.
+  /// The state of the steady motion at phase 0 of the forcing, with the drive always engaged: ξ_j =
+  /// A e^{iωτj} + B e^{−iωτj}, A and B complex. Not finite where e^{iωτ} is a root of the loop.
   State steady() const {
     using Phasors = Eigen::ArrayXcd;
     const std::complex<double> i(0.0, 1.0), back = std::conj(turn_);
@@ -88,8 +89,8 @@ class ModalItineraryMaps {
     return state;
   }
 
-  /// The characteristic roots of the loop with the drive always engaged (multipliers per sample);
-  /// empty where the roots cannot be separated numerically.
+  /// The characteristic roots of the sampled loop with the drive always engaged. Empty where the
+  /// roots cannot be separated numerically.
   std::vector<std::complex<double>> roots() const {
     PoleSum<double> loop;
     for (Eigen::Index k = 0; k < decay_.size(); ++k) {
@@ -106,10 +107,10 @@ class ModalItineraryMaps {
     return pole_sum_roots(loop, past_.cwiseAbs().maxCoeff() > 0.0);
   }
 
-  /// Follows an itinerary from a first state and records the observed part at all its samples.
+  /// Computes the motion of an itinerary from a first state; stores the observed part per sample.
   /// @param first      the state before the first sample
   /// @param itinerary  contacts, the first sample at phase 0 of the forcing
-  /// @param states     filled with [z_j; u_{j−1}], one for each sample
+  /// @param states     filled with [z, ż, z₂, ż₂; u_{j−1}]; must have one entry for each sample
   /// @return the state after the last sample
   State follow(const State& first, const Itinerary& itinerary,
                std::vector<Vector<double, 5>>& states) const {
@@ -176,10 +177,10 @@ class ModalItineraryMaps {
   std::function<void()> watch_;
 };
 
-/// The maps of blocks of an itinerary, in the units of `maps`. A block ends at most sixteen samples
-/// after an entry of its map has reached 1000.
-/// @return empty for more than 64 blocks: such an orbit cannot be distinguished from rounding
-/// Work: 2 n² multiply-adds a sample, n being the number of coordinates of a deviation.
+/// The products of the maps of an itinerary, one for each block of samples, in the units of `maps`.
+/// A block ends at most sixteen samples after an entry of its product has reached 1000. Work per
+/// sample: 2 n² multiply-adds, n being the number of coordinates of a deviation.
+/// @return empty if more than 64 blocks are needed: no orbit can then be solved for
 inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& maps,
                                                    const Itinerary& itinerary) {
   constexpr std::size_t between_looks = 16, most = 64;
@@ -201,8 +202,9 @@ inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& map
 
 /// The ten largest multipliers of one period, or all where there are fewer.
 ///
-/// If the period is one block, they are the eigenvalues of the block, provided that these exceed
-/// rounding. Else they result from orthogonal iteration of sixteen deviations, for any contraction.
+/// If the period is one block, they are computed as eigenvalues of its map, provided that all ten
+/// exceed rounding. Otherwise they come from an orthogonal iteration of sixteen deviations over the
+/// period, which also resolves strong contraction.
 /// @param maps       maps of the loop
 /// @param itinerary  contacts of one period
 /// @param blocks     maps_of_blocks() of the itinerary

@@ -26,35 +26,35 @@
 
 namespace holdfast {
 
-/// A neighbourhood of the first sample of a modal conductor's orbit: every motion that is in it at
-/// the same phase of the forcing follows the orbit's itinerary for ever and tends to the orbit.
+/// A neighbourhood of an orbit's first state, for a conductor given by its modes. Motions inside,
+/// at the same phase of the forcing, follow the orbit's itinerary for ever and tend to the orbit.
 ///
-/// A deviation e has entries for all natural motions, for the force and for the position of the
-/// drive's gap, all in metres (ModalDeviations). The norm is ‖R e‖ = √(eᵀV e), with a matrix V such
-/// that V − MᵀV M > 0, where M maps e over some periods of the orbit. Contact and the last sample's
-/// sign of Δż must agree with the orbit's. If the orbit stays in a gap, the radius is per metre of
-/// clearance from the gap's ends.
+/// The neighbourhood is ‖R e‖ < `radius`, with the deviation e of a motion from the orbit. The
+/// entries of e are those of ModalDeviations and the gap's deviation, all in m. Here ‖R e‖²
+/// = eᵀV e, where V − MᵀV M is positive definite and M maps e over one or more periods. The drive
+/// must also have the orbit's contact and, while engaged, its last sign of Δż. For an orbit that
+/// stays in a gap, the radius is per metre of clearance between the orbit and the gap's ends.
 struct ModalAttraction {
-  Eigen::VectorXd first;          ///< first state of the orbit, as in ModalItineraryMaps
+  Eigen::VectorXd first;          ///< first state of the orbit, a ModalItineraryMaps::State
   BacklashMemory<double> memory;  ///< memory of the drive before the first sample
   bool stays_inside;              ///< the drive never leaves its gap
   double lowest,                  ///< least Δz of the orbit (m)
       highest;                    ///< largest Δz of the orbit (m)
   Eigen::MatrixXd root;           ///< factor R of the norm, V = RᵀR
-  double radius;                  ///< bound of ‖R e‖ (m); > 0, ∞ where nothing switches
-  double inscribed_share;  ///< 1/‖R‖_F; the ball ‖e‖ < radius · share lies in the region
+  double radius;           ///< bound of ‖R e‖ (m, or m per m), > 0; ∞: no contact can change
+  double inscribed_share;  ///< 1/‖R‖_F (Frobenius): ‖R e‖ < radius if ‖e‖ < radius/‖R‖_F
 };
 
-/// The neighbourhood of attraction of an orbit.
+/// Computes the neighbourhood of attraction of an orbit of a conductor given by its modes.
 ///
-/// No decision changes during the period while |h Φ e| is below the orbit's distance from the
-/// switching surface with normal h, Φ being the flow of deviations. This holds if ‖R e‖ is below
-/// the least distance / ‖h Φ R⁻¹‖; the next period then begins with a smaller ‖R e‖. V belongs to
-/// one period, or to the fewest of 2, 4, … 64 periods whose contraction exceeds rounding.
+/// Φ maps the initial deviation e to that at a sample; h is a switching surface's normal. A contact
+/// is unchanged if |h Φ e| is below the orbit's distance from the surface there. `radius` is the
+/// least of this distance / ‖h Φ R⁻¹‖ over M's periods. After them ‖R e‖ is smaller. V is computed
+/// for the fewest of 1, 2, 4, … 64 periods whose contraction exceeds rounding.
 /// @param loop   the loop that has the orbit
 /// @param maps   maps of that loop
-/// @param orbit  attracting and certified
-/// @return nothing where no V is found in whose norm M contracts to working precision
+/// @param orbit  orbit of that loop, attracting and certified
+/// @return nullopt where no such V is found, the orbit cannot be solved for or the radius is 0
 template <class Loop>
 std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalItineraryMaps& maps,
                                                 const PeriodicOrbit& orbit) {
@@ -89,16 +89,16 @@ std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalIti
   return std::nullopt;
 }
 
-/// The ratio f τ = p/q in lowest terms (control/digital_loop.hpp).
+/// The ratio f τ = p/q of a modal loop (control/digital_loop.hpp); nullopt if q exceeds 10⁶.
 inline std::optional<Rational> forcing_ratio(const ModalLoop& loop) {
   return forcing_ratio(
       DigitalLoop{loop.sampling, loop.gains, multi_harmonic_force(loop.excitation), loop.hold});
 }
 
-/// Whether a motion at a stroboscopic instant lies in a neighbourhood.
+/// Whether a motion, with sampling and forcing in phase, lies in a neighbourhood of attraction.
 /// @param region  the neighbourhood, at the same phase of the forcing
 /// @param motion  the motion before a sample
-/// @param units   units of the deviations
+/// @param units   units of the deviations, ModalItineraryMaps::units()
 template <class Motion>
 bool attracts(const ModalAttraction& region, const Motion& motion, const Eigen::VectorXd& units) {
   const typename Motion::Memory memory = motion.memory();
@@ -122,7 +122,7 @@ namespace detail {
 template <class Loop>
 class ModalRegion {
  public:
-  /// The cost of solving for a sample, O(N²), relative to that of simulating a sample, O(N).
+  /// The cost of solving per orbit sample, O(N²), as a number of simulated samples, O(N).
   std::int64_t samples_per_solved() const {
     return std::max<std::int64_t>(16, maps_.units().size());
   }
@@ -142,7 +142,7 @@ class ModalRegion {
 };
 
 /// The orbit of a modal loop without backlash, which attracts every motion; O(N) work per sample.
-/// @return nothing where the loop is unstable or its roots cannot be separated numerically
+/// @return nullopt where the loop is unstable or its roots cannot be separated numerically
 template <class Maps>
 std::optional<PeriodicOrbit> orbit_without_backlash(const ModalLoop& loop, const Maps& maps,
                                                     const Rational& ratio) {
@@ -170,19 +170,18 @@ std::optional<PeriodicOrbit> orbit_without_backlash(const ModalLoop& loop, const
 
 }  // namespace detail
 
-/// Finds the periodic orbit on which the motion of a modal conductor settles, with its certificate,
-/// as find_periodic_orbit() does for two masses. The states of the orbit are those of conductor and
-/// absorber, z̃_j = [z, ż, z₂, ż₂; u_{j−1}]; its multipliers are the ten largest.
+/// Finds the periodic orbit on which the motion of a conductor given by its modes settles, with its
+/// certificate, as find_periodic_orbit() does for two masses. The orbit's states are the observed
+/// states z̃_j = [z, ż, z₂, ż₂; u_{j−1}]. Only the ten largest multipliers are given.
 ///
-/// `none_found` is also the outcome where some of the `plant_poles` were not found.
+/// The outcome is `none_found` also where not all `plant_poles` could be computed.
 ///
-/// Work: without backlash O(N) per sample of the orbit (its multipliers are powers of the loop's
-/// roots); else O(N) per sample of the motion, and for each proposed period O(N²) per sample and
-/// some N³, N being the length of the state.
+/// Work for a state of N entries: without backlash O(N) per sample of the orbit. With backlash O(N)
+/// per sample of the motion, and O(N²) per sample of a period plus O(N³) for each solution.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂]
-/// @param limits         limits of the search: largest period and length of the motion
-/// @throws InvalidParameter where an argument is not admissible
+/// @param limits         limits of the search: longest period and number of samples
+/// @throws InvalidParameter where the loop, the initial state or a limit is out of its range
 template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 OrbitResult find_periodic_orbit(const Loop& loop, const ModalMotion::Full& initial_state,
                                 const OrbitLimits& limits = {}) {

@@ -18,17 +18,16 @@ inline double contracting_rate(double log_modulus, std::size_t count) {
   return std::exp(std::max(0.5 * log_modulus / static_cast<double>(count), std::log(0.5)));
 }
 
-/// The quadratic forms P_j along a periodic sequence of linear maps, in doubles,
+/// The matrices P_j of quadratic forms along a periodic sequence of linear maps M_j, in doubles,
 ///
 ///     P_j = M_jᵀ P_{j+1} M_j / ρ² + Q_j,   j = 0 … N − 1,   P_N = P_0
 ///
-/// The sum P_0 = Σ_k (Fᵀ)ᵏ Q Fᵏ is computed by doubling: F = M_{N−1} … M_0 / ρᴺ, and Q is the P_0
-/// that results from P_N = 0.
+/// P_0 = Σ_k (Fᵀ)ᵏ Q Fᵏ is computed by doubling, with F = M_{N−1} … M_0 / ρᴺ, Q = P_0 for P_N = 0.
 /// @param count    N ≥ 1
 /// @param map_of   j ↦ M_j, Size × Size of doubles
 /// @param rest_of  j ↦ Q_j, positive definite
 /// @param rate     ρ, of contracting_rate()
-/// @return nothing where the sum is not finite: then some multiplier is not below ρᴺ
+/// @return nullopt where the sum is not finite: then some multiplier is not below ρᴺ
 template <int Size, class MapOf, class RestOf>
 std::optional<std::vector<Matrix<double, Size>>> contracting_forms(std::size_t count,
                                                                    const MapOf& map_of,

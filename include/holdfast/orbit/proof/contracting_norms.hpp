@@ -21,22 +21,22 @@ namespace holdfast {
 ///
 ///     V_j(e)² = eᵀ P_j e,   V_{j+1}(M_j e) ≤ s_j V_j(e),   s_{N−1} … s_0 < 1
 ///
-/// The P_j are those of contracting_forms() with Q_j = I, in doubles, taken as exact; the
-/// inequalities are proved by elimination in enclosures. Hence all multipliers are at most s_{N−1}
-/// … s_0 in modulus.
+/// The P_j are computed in doubles, then taken as exact. Interval elimination proves the
+/// inequalities. Hence all multipliers (eigenvalues of M_{N−1} … M_0) have moduli ≤ s_{N−1} … s_0.
 /// @tparam Size  size of e
 template <int Size>
 class ContractingNorms {
  public:
-  /// The two maps that make up the sequence, in enclosures.
+  /// The two maps of which the sequence is made, in intervals (Enclosure).
   using Maps = std::array<Matrix<Enclosure, Size>, 2>;
 
-  /// Constructs the norms. As MᵀPM is convex in M, a proof for the corners holds in between.
+  /// Computes the norms and proves the contraction at all corners. The proof is then valid for all
+  /// loops between the corners, since eᵀMᵀPM e is convex in M.
   /// @param corners      maps at the corners of a segment or box of loops, for all of which the
   ///                     norms are valid; one corner for a single loop
-  /// @param sequence     index of the map that moves sample j, for each j; not empty
-  /// @param log_modulus  ln of the largest multiplier, an estimate
-  /// @return nothing where no norms are found in which the sequence contracts
+  /// @param sequence     index (0 or 1) of the map that moves sample j, for each j; not empty
+  /// @param log_modulus  estimate of ln |λ| for the largest multiplier λ
+  /// @return nullopt where no norms are found in which the sequence contracts, or log_modulus ≥ 0
   static std::optional<ContractingNorms> of(const std::vector<Maps>& corners,
                                             const std::vector<std::uint8_t>& sequence,
                                             double log_modulus) {
@@ -55,7 +55,7 @@ class ContractingNorms {
     return norms;
   }
 
-  /// An upper bound of V_j(e), j = `sample`, over all e that `vector` encloses.
+  /// An upper bound of V_j(e), j = `sample`, over all e in the intervals of `vector`.
   Enclosure size(std::size_t sample, const Vector<Enclosure, Size>& vector) const {
     const Vector<Enclosure, Size> image = forms_[sample].template cast<Enclosure>() * vector;
     return sqrt(Enclosure(vector.dot(image).magnitude()));
@@ -65,7 +65,7 @@ class ContractingNorms {
   /// An upper bound of the product s_{N−1} … s_0; below 1.
   double contraction() const { return contraction_; }
 
-  /// An upper bound of |row · e| / V_j(e) over all e.
+  /// An upper bound of |row · e| / V_j(e), j = `sample`, over all deviations e ≠ 0.
   double reading(std::size_t sample, const RowVector<double, Size>& row) const {
     // κ² P − rowᵀ row ≥ 0, κ² = row P⁻¹ rowᵀ but for rounding; P ≥ I/2 is proved.
     const Form& form = forms_[sample];
@@ -104,7 +104,7 @@ class ContractingNorms {
             map.transpose() * (next.template cast<Enclosure>() * map).eval();
         return is_positive_definite<Size>(form * square(Enclosure(factor)) - moved);
       };
-      // Rounding leaves the solution open at the seam, and the corners are not the middle.
+      // The forms solve the equation for the mean of the corners, and only up to rounding.
       double factor = rate, more = 1e-12;
       while (!std::all_of(corners.begin(), corners.end(),
                           [&](const Maps& maps) { return shrinks(maps, factor); })) {

@@ -15,7 +15,7 @@ inline RowVector<double, 5> relative_row(bool of_velocity) {
   return RowVector<double, 5>::Unit(2 + first) - RowVector<double, 5>::Unit(first);
 }
 
-/// A row vector of doubles with a bound of the length of its error.
+/// A row vector of doubles with a bound of the Euclidean length of its error.
 struct RowWithError {
   RowVector<double, 6> row = RowVector<double, 6>::Zero();  ///< computed row
   Enclosure error;  ///< bound of the length of the row's error
@@ -35,8 +35,7 @@ struct RowWithError {
 };
 
 /// The six deviations along an orbit that begin as the unit vectors of [z̃; gap] in a weighted norm.
-/// They are computed in doubles. Their errors are bounded in the norms in which the orbit's maps
-/// contract.
+/// They are computed in doubles; their errors are bounded in contracting norms of the maps.
 template <class Number>
 class EnclosedDeviations {
  public:
@@ -57,16 +56,16 @@ class EnclosedDeviations {
     gap_.row = RowVector<double, 6>::Unit(5);
   }
 
-  /// The deviation of Δz (m) or Δż (in the unit of ż) at a sample.
+  /// The six deviations of Δz (m) or of Δż (in the unit of ż) at a sample.
   RowWithError relative(std::size_t sample, bool of_velocity) const {
     const Eigen::Index first = of_velocity ? 1 : 0;
     const Number error = error_ * Number(norms_.reading(sample, relative_row(of_velocity)));
     return RowWithError{columns_.row(2 + first), error} - RowWithError{columns_.row(first), {}};
   }
-  /// The deviation of the position of the drive's gap (m).
+  /// The six deviations of the position of the drive's gap (m).
   const RowWithError& gap() const { return gap_; }
 
-  /// Applies the decision of a sample and moves on to the next one.
+  /// Propagates the deviations from `sample` to `next` by the sample's map and contact decision.
   void advance(std::size_t sample, std::size_t next, const ContactDecision& decision,
                const Map& map) {
     if (decision.engaged) gap_ = {};
@@ -74,7 +73,7 @@ class EnclosedDeviations {
     take(next, map * columns_.template cast<Number>(), Number(norms_.factor(sample)) * error_);
   }
 
-  /// Whether all deviations, back at the first sample, are proved shorter than at the start.
+  /// Whether, after whole periods, all deviations of initial length 1 are proved shorter than 1.
   bool have_contracted(bool with_gap) const {
     Number sum, error;
     for (Eigen::Index i = 0; i < 5; ++i) {
@@ -89,7 +88,7 @@ class EnclosedDeviations {
   }
 
  private:
-  /// Keeps the midpoints; the error is `carried` plus √(Σ V_j²) of the columns' remainders.
+  /// Stores the midpoints; the error is `carried` plus √(Σ V_j²) of the columns' remainders.
   void take(std::size_t sample, const Enclosed& exact, const Number& carried) {
     columns_ = exact.template cast<double>();
     const Enclosed wrong = exact - columns_.template cast<Number>();

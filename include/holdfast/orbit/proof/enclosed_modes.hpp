@@ -21,19 +21,19 @@
 
 namespace holdfast {
 
-/// The surfaces that decide whether the contact changes between the samples.
+/// The surfaces and instants that decide when the contact changes between the samples.
 enum class ContactSurface {
   reversal,             ///< reversal of an engaged drive, Δż = 0 (m/s)
   gap_lower,            ///< Δz at the lower end of the gap (m)
   gap_upper,            ///< Δz at the upper end of the gap (m)
-  free_acceleration,    ///< a(0) = 0, without a force: stick ends in the gap (m/s²)
-  driven_acceleration,  ///< a(u) = 0, under the command: stick ends engaged (m/s²)
-  sampling_instant,     ///< instant at which the command changes (s)
+  free_acceleration,    ///< stick ends in the gap: Δz̈ = 0 without a force (m/s²)
+  driven_acceleration,  ///< stick ends engaged: Δz̈ = 0 under the command (m/s²)
+  sampling_instant,     ///< sampling instant, or the change of the force δ after it (s)
 };
 
 namespace detail {
 
-/// The positions of the entries of w, the state of a motion with the quantities that drive it,
+/// The indices of the entries of w, the plant's state with command, gap position, force and time,
 ///
 ///     w = [z₁, ż₁, z₂, ż₂, u acting, u pending, g, F, F_s, 1, t],   ẇ = A w in each mode
 ///
@@ -45,35 +45,34 @@ struct FlowPlace {
   static constexpr int size = 11;
 };
 
-/// A functional of w, as a row.
+/// A linear function of w (FlowPlace), as a row vector of coefficients.
 /// @tparam Number  Enclosure
 template <class Number>
 using FlowRow = RowVector<Number, FlowPlace::size>;
 
-/// A guard of a contact mode: a functional h w that is positive while the mode lasts.
+/// A guard of a contact mode: a linear function h w that is positive while the mode lasts.
 template <class Number>
 struct EnclosedGuard {
   ContactSurface surface;              ///< surface on which the guard is zero
   std::vector<FlowRow<Number>> terms;  ///< rows h Aᵏ/k!, k = 0 … EnclosedModes::terms; in SI units
 };
 
-/// The three modes of a drive with exact play (contact/contact.hpp) as linear systems ẇ = A w in
-/// enclosures, with their guards; z and u in plant_scaling() units.
+/// The three contact modes of a drive with exact play (contact/contact.hpp) as linear systems ẇ = A
+/// w in interval arithmetic, with their guards; z and u in plant_scaling() units.
 template <class Number>
 class EnclosedModes {
  public:
   using Rate = Matrix<Number, FlowPlace::size>;       ///< matrix A
   using State = Vector<Number, FlowPlace::size>;      ///< state w (FlowPlace)
-  using Row = FlowRow<Number>;                        ///< a functional of w
+  using Row = FlowRow<Number>;                        ///< linear function of w
   using Guards = std::vector<EnclosedGuard<Number>>;  ///< guards of a mode
 
-  /// The number of terms in the longest Taylor series of e^{As}, ‖A‖ s ≤ 3; the remainder is below
-  /// e³ 3³⁴/34! = 10⁻²¹.
+  /// Terms of the longest Taylor series of e^{As}, ‖A‖ s ≤ 3; remainder below e³ 3³⁴/34! = 10⁻²¹.
   static constexpr int terms = 34;
   /// An upper bound of e³, the growth of e^{As} over the longest series.
   static constexpr double most_growth = 20.1;
 
-  /// @param ratio  f τ = p/q
+  /// @param ratio  forcing frequency × sampling period, f τ = p/q
   EnclosedModes(const IdealLoop<Number>& loop, const Rational& ratio)
       : in_doubles_(plant_scaling(
             Matrix<double, 4>(loop.plant.state_matrix().template cast<double>()),
@@ -85,8 +84,9 @@ class EnclosedModes {
                    : loop.sampling.period - loop.sampling.processing_delay} {
     for (const Number& part : parts_)
       if (!(part.lower() > 0.0) && part.upper() > 0.0)
-        throw InvalidParameter("processing delay", part.middle(), "s",
-                               "0, the sampling period, or apart from both by more than rounding");
+        throw InvalidParameter(
+            "processing delay", part.middle(), "s",
+            "0, the sampling period, or different from both by more than rounding");
     for (const ContactMode mode : {ContactMode::engaged, ContactMode::gap, ContactMode::stick}) {
       rates_[at(mode)] = Sparse(rate_of(loop, mode));
       norm_ = std::max(norm_, norm_bound(rate(mode)));
@@ -127,7 +127,7 @@ class EnclosedModes {
                               length - Number(middle));
   }
 
-  /// The number of terms with which the remainder of a series over a time (s) is below rounding.
+  /// The number of terms with which a Taylor series over a time `length` (s) is exact to rounding.
   int terms_for(double length) const {
     int count = 1;
     for (double rest = most_growth; rest > 1e-22 && count < terms; ++count)
@@ -138,7 +138,7 @@ class EnclosedModes {
   double longest() const { return longest_; }
   /// The length (s) of a part of the sampling period: δ for part 0, τ − δ for part 1.
   const Number& part(std::size_t number) const { return parts_[number]; }
-  /// The number of equal pieces of a part without change of contact; 0 if the part is empty.
+  /// The number of equal pieces, each ≤ longest(), into which a part is divided; 0 if it is empty.
   int pieces(std::size_t part) const { return pieces_[part]; }
   /// The product e^{As} w for each column w of `states`, s being piece(part).
   template <int Columns>
@@ -147,32 +147,32 @@ class EnclosedModes {
       const Matrix<Number, FlowPlace::size, Columns>& states) const {
     return product<Columns>(steps_[part][at(mode)], states);
   }
-  /// The length of each of the pieces(part) equal pieces of a part (s).
+  /// The length (s) of each of the pieces(part) equal pieces of a part.
   Number piece(std::size_t part) const { return parts_[part] / Number(double(pieces_[part])); }
 
-  /// The guards of a mode for a sign σ of Δż. Engaged: σ Δż. Gap: the distances of Δz from the
-  /// upper end, then from the lower end. Stick: σ a(0), then −σ a(u).
+  /// A mode's guards for a sign σ of Δż. Engaged: σ Δż. Gap: distances of Δz from the upper and
+  /// lower end. Stick: σ a(0), then −σ a(u), with the relative acceleration a(s) under a force s.
   const Guards& guards(ContactMode mode, double sign) const {
     return guards_[at(mode)][sign > 0.0 ? 1 : 0];
   }
-  /// The functional Δz (m).
+  /// The row whose product with w is Δz (m).
   Row displacement() const { return units_[2] * unit(2) - units_[0] * unit(0); }
-  /// The functional Δż (m/s).
+  /// The row whose product with w is Δż (m/s).
   Row velocity() const { return units_[3] * unit(3) - units_[1] * unit(1); }
-  /// The functional a(0) (m/s²), the relative acceleration without force.
+  /// The row whose product with w is a(0) (m/s²), the relative acceleration without drive force.
   Row free_acceleration() const { return velocity() * rate(ContactMode::gap); }
-  /// The functional (m₁ ż₁ + m₂ ż₂)/(m₁ + m₂), in the unit of ż.
+  /// The row whose product with w is (m₁ ż₁ + m₂ ż₂)/(m₁ + m₂), in the unit of ż.
   const Row& common_velocity() const { return common_velocity_; }
-  /// The functional P z₁ + D ż₁, in the unit of u.
+  /// The row whose product with w is the command P z₁ + D ż₁, in the unit of u.
   const Row& command() const { return command_; }
-  /// The forces F and F_s (N) at a sample, constant up to the next sample if the force is held.
+  /// The forces F and F_s (N) at a sample; they are constant up to the next sample if F is held.
   const std::pair<Number, Number>& force(std::size_t sample) const {
     return forces_[sample % forces_.size()];
   }
-  /// The units of [z₁, ż₁, z₂, ż₂, u].
+  /// The units of [z₁, ż₁, z₂, ż₂, u], from plant_scaling().
   const Vector<double, 5>& units() const { return in_doubles_; }
 
-  /// The functional that selects one coordinate of w.
+  /// The row whose product with w is one coordinate of w.
   static Row unit(Eigen::Index coordinate) {
     Row row = Row::Zero();
     row[coordinate] = Number(1.0);
@@ -233,7 +233,7 @@ class EnclosedModes {
       const Number mass = plant.conductor_mass + plant.absorber_mass;
       a(0, 1) = a(2, 3) = Number(1.0);
       for (const Eigen::Index row : {1, 3}) {
-        // Δż = 0: both move as the conductor does.
+        // Δż = 0: both masses have the acceleration of the conductor.
         a(row, 0) = -plant.conductor_stiffness / mass;
         a(row, 1) = -plant.conductor_damping / mass;
         a(row, FlowPlace::force) = Number(1.0) / mass;
@@ -277,7 +277,7 @@ class EnclosedModes {
         guards_[at(mode)][k].push_back(guard(mode, surface, row));
       };
       add(ContactMode::engaged, ContactSurface::reversal, sign * velocity());
-      // The end at which the drive reversed is g itself.
+      // The end of the gap at which the drive reversed is g.
       add(ContactMode::gap, ContactSurface::gap_upper, positive ? upper : Row(upper + wide));
       add(ContactMode::gap, ContactSurface::gap_lower, positive ? Row(lower + wide) : lower);
       add(ContactMode::stick, ContactSurface::free_acceleration, sign * free_acceleration());

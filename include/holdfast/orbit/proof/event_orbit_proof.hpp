@@ -27,34 +27,35 @@
 
 namespace holdfast {
 
-/// The proof of a periodic motion of the sampled loop whose drive switches between the samples; a
-/// theorem where the outcome is `proved`. Exactly one periodic motion of the given period begins in
-/// the ball with the contact of the first state. This motion lies within the errors of the given
-/// states, and all its multipliers are within the bound. Every motion that begins in the ball with
-/// that contact has the same contact changes in the same sampling periods for ever and tends to the
-/// periodic motion. An orbit that stays inside its gap is considered in that gap only.
+/// The proof of a periodic motion of the sampled loop whose drive switches between the samples. It
+/// concerns the motions that begin in a ball about the first given state, with its contact. If the
+/// outcome is `proved`, these are theorems. Exactly one of these motions has the given period. It
+/// differs from the given states by at most the error bounds, and its multipliers have moduli ≤
+/// `multiplier_bound`. All others tend to it and have the same contact changes in the same sampling
+/// periods for ever. If the orbit stays in its gap, the proof is for the given gap position only.
 struct EventOrbitProof {
-  OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< result of the proof
-  double multiplier_bound = std::numeric_limits<double>::infinity();  ///< bound of all |λ|, < 1
+  OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;  ///< result of the proof
+  /// Upper bound of the moduli of all multipliers; < 1 where proved.
+  double multiplier_bound = std::numeric_limits<double>::infinity();
   double displacement_error =
       std::numeric_limits<double>::infinity();  ///< error bound of z₁, z₂ (m)
   double velocity_error = std::numeric_limits<double>::infinity();  ///< error bound of ż₁, ż₂ (m/s)
-  double miss = 0.0;           ///< largest |image of a state − next state|, as a share of extent
+  /// Largest difference of a given state, moved to the next sample, from the next given state, as a
+  /// share of the states' extent.
+  double miss = 0.0;
   double instant_error = 0.0;  ///< error bound of the recorded instants of contact changes (s)
-  /// The inequality with the least ratio of value to error; for `near_surface` the undecided
-  /// inequality.
+  /// The inequality with the least decided_by(); for `near_surface` the one that was not proved.
   ContactTest nearest;
   /// Radius (m) of the ball about the first given state, in the norm and weights of AttractionBall;
-  /// ∞ without backlash. The ball contains only states that the contact allows: while engaged there
-  /// is no gap; in stick Δż = 0 and Δz is at the gap's end; where δ = 0 there is no u_{j−1}; an
-  /// orbit that stays inside its gap keeps that gap.
+  /// ∞ without backlash. The ball contains no deviations that the contact of this state excludes.
+  /// In stick Δż is 0 and Δz is at the gap's end. The gap's position does not vary while engaged or
+  /// for an orbit that stays in its gap, and u_{j−1} does not vary where δ = 0.
   double radius = 0.0;
 };
 
 namespace detail {
 
-/// The proof of one orbit that switches between the samples, step by step. States are in
-/// plant_scaling() units.
+/// The prover of one orbit that switches between the samples. States are in plant_scaling() units.
 ///
 /// Each sample has an ellipsoid {x̂_j + X_j y, |y| ≤ r_j} about the proposed state x̂_j. All motions
 /// in it are followed to the next sample (EventPassage). With D_j the derivative of the image on
@@ -62,8 +63,8 @@ namespace detail {
 ///
 ///     r_{j+1} = ‖X_{j+1}⁻¹ D_j X_j‖ r_j + |X_{j+1}⁻¹ μ_j|.
 ///
-/// The period maps the first ellipsoid into itself and contracts there if r_N ≤ r_0 and the product
-/// of the norms is below 1.
+/// The map over one period maps the first ellipsoid into itself and contracts there if r_N ≤ r_0
+/// and the product of the norms is below 1.
 template <class Number>
 class EventOrbitProver {
  public:
@@ -81,7 +82,7 @@ class EventOrbitProver {
     if (!linearise(largest_miss, maps)) return proof_;
     proof_.outcome = OrbitProofOutcome::not_contracting;
     if (!make_axes(maps, log_modulus)) return proof_;
-    // The miss of a point, carried around once, tells how small an ellipsoid may be.
+    // Ellipsoids of radius 0, followed over one period, give the least possible first radius.
     const auto look_away = [](std::size_t, const Set&, const Passage&) {};
     Passage points(modes_, path_, delay_);
     const Turn once = turn(0.0, points, look_away);
@@ -270,8 +271,7 @@ class EventOrbitProver {
     return farthest_in_first(weights) < proof_.radius;
   }
 
-  /// The radius of the largest ball of the weighted norm in the first ellipsoid, among the states
-  /// that the contact allows.
+  /// The radius of the largest weighted ball, of states that the contact allows, in the ellipsoid.
   double weighted(double radius, const Vector<double, 6>& weights) const {
     const Node& first = nodes_.front();
     const Passage passage(modes_, path_, delay_);
@@ -300,29 +300,30 @@ class EventOrbitProver {
   const RecordedContacts& path_;
   double delay_;
   std::vector<Node> nodes_;
-  double first_radius_ = 0.0;  // r_0 of the small ellipsoid that holds the motion
+  double first_radius_ = 0.0;  // r_0 of the small ellipsoid that contains the motion
   EventOrbitProof proof_;
 };
 
 }  // namespace detail
 
 /// Proves a certified orbit whose drive switches between the samples, by interval arithmetic. The
-/// loop's numbers are the decimals nearest to the given doubles, and f τ is exactly p/q.
+/// proof is valid for all loops whose numbers round to the given doubles, with f τ exactly p/q.
 ///
 ///     const auto found = find_event_orbit(event_motion(implemented, state));
 ///     const EventOrbitProof proof = prove_event_orbit(loop, *found.orbit, *found.point);
 ///     if (proof.outcome == OrbitProofOutcome::proved) use(proof.radius);
 ///
-/// The drive's law is exact play (contact/contact.hpp). Every instant of a contact change is
-/// enclosed and shown to be the only zero of its guard; all other guards are shown to be positive
-/// in between, by Taylor series with enclosed coefficients.
+/// Here `implemented` is implemented_loop(loop) with Switching::exact: the drive has the exact play
+/// of DriveContact. A guard is a function whose zero ends a contact mode. The proof encloses every
+/// instant of a contact change and shows that it is the only zero of its guard. It shows that all
+/// other guards are positive until then, by Taylor series with enclosed coefficients.
 /// @param loop          the loop, its numbers in doubles
-/// @param orbit         the proposal: its states, period and multipliers are used
+/// @param orbit         the orbit to be proved: its states, period and multipliers are used
 /// @param first         state at which the orbit begins, at phase 0 of the forcing
-/// @param largest_miss  largest allowed difference of a given state's image from the next one, as a
-///                      share of the states' extent; beyond it the proposal is refused
-/// @throws InvalidParameter for a loop that is not admissible or an orbit of wrong p/q or length
-/// Work: some twenty passages of the period, each 0.1 ms per sample and 1 ms per change of contact.
+/// @param largest_miss  largest allowed `miss`; a larger one gives the outcome `not_closed`
+/// @throws InvalidParameter where the loop is not admissible, its f τ is not the orbit's p/q, or
+///         the orbit's number of samples is no multiple of q
+/// Work: about 20 passes through the period, each 0.1 ms per sample and 1 ms per change of contact.
 template <class Scalar>
 EventOrbitProof prove_event_orbit(const IdealLoop<Scalar>& loop, const EventOrbit& orbit,
                                   const StroboscopicState<DriveContact<>>& first,
@@ -330,8 +331,9 @@ EventOrbitProof prove_event_orbit(const IdealLoop<Scalar>& loop, const EventOrbi
   validate(loop);
   const std::int64_t samples = orbit.period_samples(), q = orbit.ratio.denominator;
   if (samples <= 0 || samples % q != 0 || first.phase != 0 || orbit.multipliers.empty())
-    throw InvalidParameter("samples of the orbit", static_cast<double>(samples), "",
-                           "a multiple of q (f tau = p/q), from phase 0, with known multipliers");
+    throw InvalidParameter(
+        "samples of the orbit", static_cast<double>(samples), "",
+        "a multiple of q (f tau = p/q); the orbit must begin at phase 0 and have multipliers");
   detail::validate_ratio(loop, orbit.ratio);
   ImplementedLoop switching = implemented_loop(loop);
   switching.switching = Switching::exact;

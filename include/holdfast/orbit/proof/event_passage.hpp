@@ -17,17 +17,17 @@
 
 namespace holdfast {
 
-/// A strict inequality on which the proof of the contacts rests: the least value of a guard, or of
-/// its first derivative that does not vanish identically, exceeds zero.
+/// A strict inequality, value > 0, that the proof of the contacts needs. The value is a guard, one
+/// of its time derivatives with the sign that the contact requires, or the time left to a sample.
 struct ContactTest {
   ContactSurface surface = ContactSurface::reversal;  ///< surface of the guard
-  int order = 0;             ///< order of the time derivative: 0 the guard itself, 1 its rate, …
+  int order = 0;             ///< order of the guard's time derivative; 0: the guard itself
   std::int64_t sample = -1;  ///< sample j, counted from the orbit's first; −1: no test
   double instant = 0.0;      ///< time since that sample (s)
-  double distance = std::numeric_limits<double>::infinity();  ///< value (SI), > 0 in a proof
+  double distance = std::numeric_limits<double>::infinity();  ///< tested value (SI), > 0 if proved
   double error = 0.0;                                         ///< bound of the value's error
 
-  /// The ratio of value to error; above 1 in a proof.
+  /// The ratio of the tested value to its error; above 1 if the inequality is proved.
   double decided_by() const { return distance / error; }
 };
 
@@ -36,10 +36,9 @@ namespace detail {
 /// The passage of a set of motions to the next sample: follows all of them through the same changes
 /// of contact and proves that no other change occurs.
 ///
-/// Just after a change of contact the motion is still close to an end of its gap. The ball at the
-/// next sample then extends beyond that end, although no motion does. Therefore the guards are also
-/// decided with a second set, the witness, as long as needed: the set carried on from the previous
-/// sample. Each motion is in both sets.
+/// Just after a contact change the motion is close to an end of its gap. The ball at the next
+/// sample then extends beyond it, although no motion does. A guard may therefore be proved positive
+/// on a second set, the witness: the previous set, followed to this sample. Each motion is in both.
 template <class Number>
 class EventPassage {
  public:
@@ -49,7 +48,7 @@ class EventPassage {
   /// Six deviations of [z₁, ż₁, z₂, ż₂, u_{j−1}, g], in the units of Modes.
   using Deviations = Matrix<Number, 6>;
 
-  /// @param delay  δ (s), in doubles
+  /// @param delay  processing delay δ (s), in doubles
   EventPassage(const Modes& modes, const RecordedContacts& path, double delay)
       : modes_(modes), path_(path), delay_(delay), moves_gap_(path.switches()) {}
 
@@ -60,7 +59,7 @@ class EventPassage {
     if (!is_late()) state[4] = 0.0;
     return state;
   }
-  /// The ball {proposed + axes · y, |y| ≤ radius} at a sample, with the constraints of the contact.
+  /// The set {proposed + axes · y, |y| ≤ radius} at a sample, with the constraints of the contact.
   Set ball(std::size_t sample, const Matrix<double, 6>& axes, double radius) const {
     Set set;
     set.radius = radius;
@@ -72,7 +71,7 @@ class EventPassage {
     prepare(path_.samples[sample].before.mode, set);
     return set;
   }
-  /// The position in w (FlowPlace) of a coordinate of [z₁, ż₁, z₂, ż₂, u_{j−1}, g].
+  /// The index in w (FlowPlace) of a coordinate of [z₁, ż₁, z₂, ż₂, u_{j−1}, g].
   static Eigen::Index place(Eigen::Index coordinate) {
     return coordinate == 5 ? FlowPlace::gap : coordinate;
   }
@@ -84,7 +83,7 @@ class EventPassage {
   }
 
   /// Moves a set from a sample to the next one.
-  /// @return false where an inequality was not proved; `nearest()` is that inequality
+  /// @return false where an inequality, `nearest()`, is not proved or the contacts are not allowed
   bool pass(std::size_t sample, Set& set) {
     sample_ = sample;
     const RecordedSample& here = path_.samples[sample];
@@ -112,8 +111,8 @@ class EventPassage {
 
   /// The inequality with the least ratio of value to error so far, or the undecided one.
   const ContactTest& nearest() const { return nearest_; }
-  /// Whether a set was stopped at an undecided inequality, `nearest()`. Otherwise it was stopped by
-  /// a sequence of contacts that the law excludes.
+  /// Whether pass() failed at an undecided inequality, `nearest()`. Otherwise it failed because the
+  /// law excludes the sequence of contacts.
   bool is_undecided() const { return is_undecided_; }
   /// An upper bound of the error of every recorded instant of contact change (s).
   double instant_error() const { return instant_error_; }
@@ -236,7 +235,7 @@ class EventPassage {
     const double near = recorded.after - now(set);
     const std::optional<Number> length = all.falls_through_zero(near);
     std::optional<Number> exact = Series(guard, single, terms).falls_through_zero(near);
-    // The centre's zero has to be the one that all motions meet first, not a later one.
+    // The zero of the centre must lie in the interval of first zeros of all motions.
     const bool is_that =
         length && exact && length->lower() <= exact->lower() && exact->upper() <= length->upper();
     if (exact && !is_that) exact = length;
@@ -283,9 +282,9 @@ class EventPassage {
     if (set.is_apart) set.at_once = modes_.flowed(mode_, set.at_once, length);
   }
 
-  /// Moves the set to a surface h w = 0 that all motions meet after a time s in `length`, the
+  /// Moves the set to a surface h w = 0 that all motions reach after a time s in `length`, the
   /// centre after `centre_length`. With the spread D of the set, the matrix A⁻ of the ending mode
-  /// and f⁻ = A⁻w, the points of meeting have the derivative (I − f⁻ h/(h f⁻)) e^{A⁻s} D by y.
+  /// and f⁻ = A⁻w, the points reached have the y-derivative (I − f⁻ h/(h f⁻)) e^{A⁻s} D.
   void meet(const Row& surface, const Number& centre_length, const Number& length,
             ContactMode after, Set& set) {
     Set there = set;
@@ -307,8 +306,8 @@ class EventPassage {
     set.is_apart = true;
   }
 
-  /// The saltation S = R + (f⁺ − R f⁻) h/(h f⁻) for all motions that meet a surface, f⁻ and f⁺
-  /// being ẇ before and after, and R the matrix that sets g. Where stick begins, S conserves
+  /// The saltation matrix S = R + (f⁺ − R f⁻) h/(h f⁻) for all motions that reach a surface, f⁻ and
+  /// f⁺ being ẇ before and after, and R the matrix that sets g. Where stick begins, S conserves
   /// momentum and makes Δż vanish at any acceleration; where stick ends at a surface, f⁺ = f⁻.
   typename Modes::Rate saltation(const Row& surface, ContactMode after, const Set& there) const {
     using Rate = typename Modes::Rate;
@@ -456,8 +455,8 @@ class EventPassage {
   ContactMode mode_ = ContactMode::engaged;
   double sign_ = 1.0;
   int zeros_ = 0;
-  std::array<double, 2> last_slopes_{};  // of the guards where the last stretch ended; 0: not known
-  std::optional<Set> witness_;           // another set with all motions, moved as the set itself
+  std::array<double, 2> last_slopes_{};  // of the guards at the end of the last part; 0: unknown
+  std::optional<Set> witness_;           // second set that contains all motions
   ContactTest nearest_;
   bool is_undecided_ = false;
   double instant_error_ = 0.0;

@@ -13,7 +13,7 @@
 
 namespace holdfast::detail {
 
-/// The Taylor series of a guard for all motions of a set, a time s after they met a surface,
+/// The Taylor series of a guard for all motions of a set, a time s after they reached a surface,
 ///
 ///     g(s) = Σ_{k<m} c_k sᵏ + c_m sᵐ,   c_k = h Aᵏ w/k!,
 ///
@@ -23,7 +23,7 @@ class GuardSeries {
  public:
   /// @param guard  guard of the mode in which the set moves
   /// @param set    set of the motions' states
-  /// @param terms  number m, EnclosedModes::terms_for() of the time considered
+  /// @param terms  number m of terms, EnclosedModes::terms_for() of the time considered
   GuardSeries(const EnclosedGuard<Number>& guard, const SetOfStates<Number>& set, int terms) {
     double size = 0.0;
     for (Eigen::Index i = 0; i < FlowPlace::size; ++i)
@@ -43,10 +43,10 @@ class GuardSeries {
     for (int k = 2; k <= order; ++k) value *= Number(double(k));
     return value;
   }
-  /// The values of g for all enclosed s.
+  /// An interval that contains g(s) for all s in the given interval.
   Number value(const Number& s) const { return value_without(0, s); }
-  /// The values of ġ for all enclosed s; the formal derivative of the remainder encloses that of
-  /// g's remainder, h A^m w s^{m−1}/(m−1)!.
+  /// An interval that contains ġ(s) for all s in the given interval; the formal derivative of the
+  /// remainder encloses that of g's remainder, h A^m w s^{m−1}/(m−1)!.
   Number slope(const Number& s) const {
     Number sum;
     for (std::size_t k = coefficients_.size(); k-- > 1;)
@@ -54,13 +54,13 @@ class GuardSeries {
     return sum;
   }
 
-  /// Whether g > 0 for 0 < s ≤ end, and at s = 0 too if `zeros` is 0.
+  /// Whether g(s) > 0 is proved for 0 < s ≤ end, and at s = 0 too if `zeros` is 0.
   /// @param zeros  number of the derivatives g, ġ, g̈, … that vanish exactly at s = 0
   bool is_positive(double end, int zeros) const { return is_positive_on(0.0, end, zeros, 0); }
 
   /// An interval of s in which g falls through zero, exactly once, for every motion of the set.
   /// @param near  estimate of the zero (s)
-  /// @return nothing where this was not proved
+  /// @return nullopt where this was not proved
   std::optional<Number> falls_through_zero(double near) const {
     for (int step = 0; step < 8; ++step)
       near -= value(Number(near)).middle() / slope(Number(near)).middle();

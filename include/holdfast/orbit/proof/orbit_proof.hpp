@@ -21,12 +21,12 @@ namespace holdfast {
 
 /// The outcome of the proof of an orbit.
 enum class OrbitProofOutcome {
-  proved,           ///< all statements of the proof are theorems
-  not_contracting,  ///< no norms were found in which the maps contract: a multiplier may be ≥ 1
-  other_contacts,   ///< the given states lead to other contacts than stated
-  not_closed,       ///< the image of a given state misses the next state by more than rounding
-  near_surface,     ///< at one sample the contact could not be decided
-  no_ball,          ///< the motion is proved, but no ball of attraction
+  proved,           ///< the orbit and all bounds of the proof are proved
+  not_contracting,  ///< no norms found in which the maps contract: some multiplier |λ| may be ≥ 1
+  other_contacts,   ///< the backlash law gives other contacts along the given states
+  not_closed,       ///< a given state, moved to the next sample, misses the next one by too much
+  near_surface,     ///< a contact could not be decided: too near a switching surface
+  no_ball,          ///< the periodic motion is proved, but no ball of attraction
 };
 
 /// An open interval (from, to).
@@ -35,26 +35,25 @@ struct OpenRange {
   double to = std::numeric_limits<double>::infinity();  ///< upper end
 };
 
-/// The proof of a periodic motion of the sampled loop; a theorem where the outcome is `proved`. The
-/// loop has exactly one periodic motion with the orbit's contacts. This motion lies within the
-/// errors of the given states, and all its multipliers are within the bound. Every motion that
-/// begins in the ball has the orbit's contacts for ever and tends to the periodic motion.
+/// The proof of a periodic motion of the sampled loop. If the outcome is `proved`, these are
+/// theorems. The loop has exactly one periodic motion with the orbit's contacts. It differs from
+/// the given states by at most the error bounds. Its multipliers have moduli ≤ `multiplier_bound`.
+/// Every motion from the ball of attraction keeps the contacts for ever and tends to this one.
 struct OrbitProof {
-  OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< result of the proof
-  double multiplier_bound = std::numeric_limits<double>::infinity();  ///< bound of all |λ|, < 1
+  OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;  ///< result of the proof
+  /// Upper bound of the moduli of all multipliers; < 1 where proved.
+  double multiplier_bound = std::numeric_limits<double>::infinity();
   double displacement_error =
       std::numeric_limits<double>::infinity();  ///< error bound of z₁, z₂ (m)
   double velocity_error = std::numeric_limits<double>::infinity();  ///< error bound of ż₁, ż₂ (m/s)
-  /// The contact with the least ratio of distance from its switching surface to error; for
-  /// `near_surface` the undecided contact.
+  /// The contact decision with the least `decided_by`; for `near_surface` the one not proved.
   Border nearest;
   double decided_by = std::numeric_limits<double>::infinity();  ///< distance/error, > 1 if proved
-  /// Range of r₀ (m) for which the otherwise unchanged loop has the same motion. For an orbit that
-  /// stays inside its gap: the r₀ for which some position of the gap contains the orbit.
+  /// Range of backlash widths r₀ (m) for which the otherwise unchanged loop has the same motion.
+  /// For an orbit that stays in its gap: widths of a gap that can contain the orbit.
   OpenRange widths;
   /// Radius (m) of the ball of attraction about the first given state, in the norm and weights of
-  /// AttractionBall. If the orbit stays inside its gap, the ball has only motions in that gap. The
-  /// radius is ∞ without backlash.
+  /// AttractionBall; ∞ without backlash. If the orbit stays in its gap, so do motions in the ball.
   double radius = 0.0;
 };
 
@@ -68,7 +67,7 @@ inline void validate_ratio(const IdealLoop<double>& loop, const Rational& ratio)
   if (!(cycles * Enclosure(static_cast<double>(ratio.denominator)))
            .contains(static_cast<double>(ratio.numerator)))
     throw InvalidParameter("f tau", cycles.middle(), "",
-                           "equal to p/q of the orbit, f and tau taken as exact decimals");
+                           "equal to p/q of the orbit but for the rounding of f and tau");
 }
 
 /// Rejects an orbit whose length is no multiple of q, or a loop whose f τ is not the orbit's p/q.
@@ -76,17 +75,18 @@ inline void validate_proposal(const IdealLoop<double>& loop, const PeriodicOrbit
   const std::int64_t samples = orbit.period_samples(), q = orbit.ratio.denominator;
   const bool is_whole = samples > 0 && q > 0 && samples % q == 0;
   if (!is_whole || orbit.itinerary.size() != orbit.states.size() || orbit.multipliers.empty())
-    throw InvalidParameter("samples of the orbit", static_cast<double>(samples), "",
-                           "a multiple of q (f tau = p/q), with one contact each and multipliers");
+    throw InvalidParameter(
+        "samples of the orbit", static_cast<double>(samples), "",
+        "a multiple of q (f tau = p/q); the orbit must have a contact per sample and multipliers");
   validate_ratio(loop, orbit.ratio);
 }
 
-/// The proof of one orbit, step by step. States are in plant_scaling() units.
+/// The prover of one orbit. States are in plant_scaling() units.
 template <class Number>
 class OrbitProver {
  public:
   /// @param first, last  proposed states z̃_j of the orbit of the loop at either end of the segment
-  /// @param orbit        orbit of a loop in between
+  /// @param orbit        orbit of a loop between both ends
   OrbitProver(const SegmentOfLoops<Number>& loops, const PeriodicOrbit& orbit,
               const std::vector<Vector<double, 5>>& first,
               const std::vector<Vector<double, 5>>& last)
@@ -100,7 +100,7 @@ class OrbitProver {
                          (last[j] - first[j]).cwiseProduct(per_unit)});
   }
 
-  /// Proves that every loop has the orbit, and bounds the distance of the orbit from the proposal.
+  /// Proves that every loop of the segment has the orbit, and bounds the error of its states.
   OrbitProof prove(double largest_miss) {
     proof_.outcome = OrbitProofOutcome::not_contracting;
     norms_ = ContractingNorms<5>::of(loops_.ends(), orbit_.itinerary,
@@ -134,8 +134,8 @@ class OrbitProver {
     return static_cast<std::size_t>((sample % count + count) % count);
   }
 
-  /// The difference of a state's image from the next proposal, on the whole segment. It is
-  /// quadratic in the position s along the segment, since maps and states are linear in s.
+  /// The difference of a proposed state's image from the next proposed state, on the whole segment.
+  /// It is quadratic in the position s along the segment, since maps and states are linear in s.
   State missed_at(std::size_t sample) const {
     const auto& map = loops_.map(orbit_.itinerary[sample]);
     const auto addition = loops_.addition(sample);
@@ -152,8 +152,8 @@ class OrbitProver {
     return constant + linear * s + quadratic * square(s);
   }
 
-  /// Bounds the distance of the motion from the proposal, in the norms. The differences of images
-  /// from proposals are summed over a period, each contracted by the maps that follow.
+  /// Bounds the distance of the motion from the proposed states, in the norms. The differences of
+  /// images from proposed states are summed over a period, each contracted by the maps that follow.
   /// @return the largest of these differences, as a share of the states' extent
   double enclose() {
     const StateScale extent(orbit_.states);
@@ -205,7 +205,7 @@ class OrbitProver {
   }
   static Number around_zero(double error) { return {-error, error}; }
 
-  /// The value that a test requires to be positive, for given r₀; in m, for Δż in the unit of ż.
+  /// The value that a test requires to be positive, for a given r₀; in m, for Δż in the unit of ż.
   Number value_of(const SwitchingTest& test, const AlongSegment<Number>& width) const {
     const std::size_t here = wrapped(test.sample), entry = wrapped(test.entry);
     const Number sign(test.sign), widths(test.widths);
@@ -218,7 +218,7 @@ class OrbitProver {
            around_zero(errors_[entry].displacement);
   }
 
-  /// Keeps a contact if its ratio of distance to error is the least so far.
+  /// Stores a contact decision if its ratio of distance to error is the least so far.
   void note(const Number& value, SwitchingSurface surface, std::int64_t sample) {
     const double unit = surface == SwitchingSurface::reversal ? loops_.units()[1] : 1.0;
     const double decided_by = value.middle() / value.radius();
@@ -350,20 +350,21 @@ class OrbitProver {
 
 }  // namespace detail
 
-/// Proves a periodic motion of the sampled loop, or reports what remained undecided. The loop's
-/// numbers are the decimals nearest to the given doubles, and f τ is exactly p/q.
+/// Proves a periodic motion of the sampled loop; otherwise the outcome states why it is not proved.
+/// The proof is valid for all loops whose numbers round to the given doubles, with f τ exactly p/q.
 ///
-/// The maps of the samples and the force's contributions are enclosed. The maps are proved to
-/// contract along the sequence (ContractingNorms). Hence this affine sequence has one periodic
-/// motion, and the closure errors of the given states bound their distance from that motion. Each
-/// contact is then a strict inequality (SwitchingTest). For the ball of attraction, deviations are
-/// propagated, with all errors, until they are shorter than at the beginning.
+/// The maps of the sampling periods and the contributions of the force are enclosed in intervals.
+/// The maps of the orbit's contacts are proved to contract (ContractingNorms), so that they have
+/// one periodic motion. The given states differ from this motion by at most a bound, computed from
+/// their closure errors. Each contact is then proved by strict inequalities (SwitchingTest). For
+/// the ball of attraction, deviations are propagated until they are shorter than at the beginning.
 /// @param loop           the loop, its numbers in doubles
-/// @param orbit          the proposal: its states and contacts are used
-/// @param largest_miss   largest allowed difference of a given state's image from the next one, as
-///                       a share of the states' extent; beyond it the proposal is refused
-/// @throws InvalidParameter for a loop that is not admissible or an orbit of wrong p/q or length
-/// Work: about 30 µs per sample, and 20 µs per sample until the deviations have become shorter.
+/// @param orbit          the orbit to be proved: its states and contacts are used
+/// @param largest_miss   largest allowed difference of a given state, moved to the next sample,
+///                       from the next given state, as a share of the extent; else `not_closed`
+/// @throws InvalidParameter where the loop is not admissible, its f τ is not the orbit's p/q, or
+///         the orbit's number of samples is no multiple of q
+/// Work: about 30 µs per sample of the orbit, and 20 µs per sample of propagated deviations.
 template <class Scalar>
 OrbitProof prove_orbit(const IdealLoop<Scalar>& loop, const PeriodicOrbit& orbit,
                        double largest_miss = 1e-12) {

@@ -14,11 +14,11 @@
 
 namespace holdfast {
 
-/// A closed range of a parameter with the proof for all its loops.
+/// A closed range of a parameter, with one proof for all loops of the range.
 struct ProvedOrbitRange {
   double from;       ///< least value
   double to;         ///< largest value
-  OrbitProof proof;  ///< proof, without a ball; if `proved`, every loop of the range has the motion
+  OrbitProof proof;  ///< result for every loop of the range, without a ball (radius 0)
 };
 
 namespace detail {
@@ -33,7 +33,7 @@ inline OrbitProof joined(const OrbitProof& a, const OrbitProof& b) {
   return both;
 }
 
-/// Whether two loops differ in P, D, F_m and r₀ alone.
+/// Whether two loops differ at most in gains P and D, force amplitude F_m and backlash width r₀.
 inline bool differ_linearly(const IdealLoop<double>& a, const IdealLoop<double>& b) {
   const auto others = [](const IdealLoop<double>& loop) {
     const TwoMass<double>& plant = loop.plant;
@@ -45,7 +45,7 @@ inline bool differ_linearly(const IdealLoop<double>& a, const IdealLoop<double>&
   return others(a) == others(b) && a.hold == b.hold;
 }
 
-/// Proves the itinerary of an orbit for all loops whose parameter lies between two values.
+/// Proves an orbit with the given orbit's itinerary for every loop between two parameter values.
 template <class Scalar, class Family>
 OrbitProof proof_between(const Family& family, const PeriodicOrbit& orbit, Scalar from, Scalar to) {
   const auto solved = [&](const IdealLoop<Scalar>& loop) {
@@ -63,32 +63,32 @@ OrbitProof proof_between(const Family& family, const PeriodicOrbit& orbit, Scala
 
 }  // namespace detail
 
-/// Proves that a loop has an orbit for all values of a parameter, range by range. A range that is
+/// Proves, range by range, that a loop has an orbit for all values of a parameter. A range that is
 /// not proved is halved, down to the width `narrowest`.
 ///
-/// The proposed states are linear in the parameter between the ends of a range, as the maps are. So
-/// the states' error is quadratic in the length of the range, and ranges can be wide.
-/// @param family    parameter ↦ IdealLoop<double>, in which P, D, F_m and r₀ are linear and nothing
-///                  else differs
-/// @param orbit     orbit of a loop of the family; its itinerary is proved
+/// In a range the maps are linear in the parameter, and the states are interpolated linearly. The
+/// error of the states is therefore quadratic in the length of the range, and ranges can be wide.
+/// @param family    parameter ↦ IdealLoop<double>, in which the gains P and D, the force's
+///                  amplitude and the backlash width are linear, and nothing else differs
+/// @param orbit     orbit of a loop of the family; the proved orbits have the same itinerary
 /// @param from, to  ends of the parameter's range, finite, from < to
 /// @param narrowest least width of a range as a share of to − from, 10⁻⁹ … 1
-/// @return ranges in ascending order; neighbours of equal outcome are joined into one
-/// @throws InvalidParameter where an argument is not admissible or the loops differ in other data
+/// @return ranges in ascending order, proved or not; neighbours of equal outcome are joined
+/// @throws InvalidParameter where an argument is out of its range or the loops differ in other data
 template <class Family, class Scalar = double>
 std::vector<ProvedOrbitRange> prove_orbit_along(const Family& family, const PeriodicOrbit& orbit,
                                                 Scalar from, Scalar to, double narrowest = 1e-3) {
   require_finite("start of the range", from, "");
   require_finite("end of the range", to, "");
   require_positive("length of the range", to - from, "");
-  require_within("narrowest share", narrowest, "", 1e-9, 1.0);
+  require_within("narrowest range as a share of the whole", narrowest, "", 1e-9, 1.0);
   if (!detail::differ_linearly(family(from), family(to)))
     throw InvalidParameter(
         "range of the parameter", to - from, "",
-        "one in which only P, D, the force's amplitude and the backlash width change");
+        "one over which only P, D, the force's amplitude and the backlash width change");
   detail::validate_proposal(family(from), orbit);
   std::vector<ProvedOrbitRange> proved;
-  std::vector<Scalar> open{to};  // right ends of what is to be proved, the next one last
+  std::vector<Scalar> open{to};  // upper ends of the ranges still to be proved, the next one last
   for (Scalar left = from; !open.empty();) {
     const Scalar right = open.back(), middle = 0.5 * left + 0.5 * right;
     const OrbitProof proof = detail::proof_between<Scalar>(family, orbit, left, right);

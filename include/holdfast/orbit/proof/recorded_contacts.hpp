@@ -10,7 +10,7 @@
 
 namespace holdfast::detail {
 
-/// The contact mode of the drive and the last sign σ of Δż.
+/// The contact mode of the drive and the last sign σ of the relative velocity Δż.
 struct RecordedContact {
   ContactMode mode;
   double sign;
@@ -22,14 +22,14 @@ struct RecordedContact {
 
 /// A change of contact between two samples.
 struct RecordedSwitch {
-  double after;           ///< time since the sample (s)
-  int guard;              ///< guard of the ending mode that reached zero; −1: jump of the command
+  double after;  ///< time since the sample (s)
+  int guard;     ///< index of the ended mode's guard that fell to 0; −1: a jump of the command
   RecordedContact begun;  ///< contact that begins
 };
 
 /// One sample of a motion in doubles, with the changes of contact until the next sample.
 struct RecordedSample {
-  Vector<double, 6> state;  ///< [z₁, ż₁, z₂, ż₂, u_{j−1}, g], SI; g (FlowPlace) is 0 while engaged
+  Vector<double, 6> state;  ///< [z₁, ż₁, z₂, ż₂, u_{j−1}, g], SI; g: see FlowPlace, 0 if engaged
   RecordedContact before;                ///< contact before the sample
   RecordedContact from;                  ///< contact after the sample
   std::vector<RecordedSwitch> switches;  ///< changes before the next sample
@@ -39,9 +39,9 @@ struct RecordedSample {
 struct RecordedContacts {
   std::vector<RecordedSample> samples;  ///< the N samples of the period
   bool repeats = false;                 ///< whether the contact at the end equals that at the start
-  bool is_plain = false;  ///< whether every guard at 0 crosses 0, and no changes accumulate
+  bool is_plain = false;  ///< whether no guard touches 0 without crossing and no changes accumulate
 
-  /// Whether the drive changes its contact at all.
+  /// Whether the drive changes its contact in the period.
   bool switches() const {
     for (const RecordedSample& sample : samples)
       if (!sample.switches.empty() || !(sample.before == sample.from)) return true;
@@ -49,7 +49,7 @@ struct RecordedContacts {
   }
 };
 
-/// The observer of EventMotion::advance that notes the changes of contact in a sample.
+/// The observer of EventMotion::advance that records the changes of contact after a sample.
 template <class Contact>
 class ContactRecorder {
  public:
@@ -72,7 +72,7 @@ class ContactRecorder {
   double reached_ = 0.0;
 };
 
-/// Follows a motion of the two masses over one period and records it.
+/// Simulates a motion of the two masses over one period and records its states and contacts.
 /// @param point    state at which the period begins
 /// @param samples  number N of samples
 template <class Contact>

@@ -15,7 +15,7 @@
 
 namespace holdfast {
 
-/// The loop in enclosures: its numbers are the decimals nearest to the given doubles.
+/// The loop with each number as the interval of all decimals that round to the given double.
 /// @throws InvalidParameter where the loop is not admissible
 inline IdealLoop<Enclosure> enclosed(const IdealLoop<double>& loop) {
   validate(loop);
@@ -36,9 +36,9 @@ struct AlongSegment {
   Value centre, slope;
 };
 
-/// The segment between two loops that differ only in P, D, F_m and r₀, so that the maps of a sample
-/// are linear along the segment. The class holds the maps, forces and widths of these loops in
-/// plant_scaling() units. A single loop is a segment without length.
+/// The segment between two loops that differ only in the gains P and D, the force's amplitude F_m
+/// and the backlash width r₀, so that the maps of a sample are linear along it. The class has these
+/// maps, forces and widths in plant_scaling() units. A single loop is a segment of length 0.
 template <class Number>
 class SegmentOfLoops {
  public:
@@ -64,17 +64,17 @@ class SegmentOfLoops {
   const std::vector<std::array<Map, 2>>& ends() const { return ends_; }
   /// The map S of the engaged drive for `engaged` = 1, or the map S* in the backlash for 0.
   const AlongSegment<Map>& map(std::uint8_t engaged) const { return maps_.at(engaged); }
-  /// The contribution of the excitation to the state z̃ in sample number `sample`.
+  /// The contribution of the excitation to the state z̃ during sampling period number `sample`.
   AlongSegment<State> addition(std::size_t sample) const {
     return additions_[sample % additions_.size()];
   }
-  /// The width of the backlash r₀ (m).
+  /// The width of the backlash r₀ (m), as a linear function along the segment.
   const AlongSegment<Number>& width() const { return widths_; }
   /// Whether any of the loops has a backlash.
   bool has_backlash() const {
     return widths_.centre.upper() > 0.0 || widths_.slope.magnitude() > 0.0;
   }
-  /// The units of [z₁, ż₁, z₂, ż₂, u].
+  /// The units of [z₁, ż₁, z₂, ż₂, u] in which maps and states are scaled.
   const Vector<double, 5>& units() const { return units_; }
 
  private:

@@ -6,51 +6,51 @@
 
 namespace holdfast::detail {
 
-/// The set of states that motions from a ball have reached; y is where a motion began in the ball,
+/// The set of states w (FlowPlace) reached by motions from positions y in a ball,
 ///
 ///     w = centre + D y,   |y| ≤ radius,   D one of the matrices in `spread`
 ///
 /// The centre encloses the motion with y = 0. The spread encloses, on the whole ball, the
-/// derivative by y of the point where a motion meets a surface (mean value theorem). If the motions
-/// meet the surface at different instants, `at_once` is the derivative at one later instant,
-/// transported back by the flow to the instant where the centre meets it. This derivative includes
+/// derivative with respect to y of the point where a motion reaches a surface (mean value theorem).
+/// If the motions reach the surface at different instants, `at_once` is the derivative at one later
+/// instant, transported back by the flow to the instant at which the centre reaches it. It includes
 /// the saltation matrix, but not the large displacement along the flow, which cancels.
 template <class Number>
 struct SetOfStates {
   using State = Vector<Number, FlowPlace::size>;      ///< state w (FlowPlace)
   using Spread = Matrix<Number, FlowPlace::size, 6>;  ///< matrix D
-  using Row = FlowRow<Number>;                        ///< row of a functional of w
+  using Row = FlowRow<Number>;                        ///< linear function of w
 
   State centre = State::Zero();     ///< state for y = 0
   Spread spread = Spread::Zero();   ///< matrix D
   Spread at_once = Spread::Zero();  ///< derivative at one instant, used where `is_apart`
-  bool is_apart = false;            ///< whether the motions met the surface at different instants
-  double radius = 0.0;              ///< radius of the ball
+  bool is_apart = false;  ///< whether the motions reached the surface at different instants
+  double radius = 0.0;    ///< radius of the ball
 
   /// The derivative of w with respect to y at one instant that is common to all motions.
   const Spread& together() const { return is_apart ? at_once : spread; }
 
-  /// The value of a functional of w at the centre.
+  /// The value of a linear function of w at the centre.
   Number at_centre(const Row& row) const { return product(row, centre); }
-  /// An upper bound of the deviation of a functional on the ball from its value at the centre.
+  /// An upper bound of a linear function's deviation, on the ball, from its value at the centre.
   Number deviation(const Row& row) const {
     if (radius == 0.0) return {};
     Number sum;
     for (Eigen::Index k = 0; k < spread.cols(); ++k) sum += square(product(row, spread.col(k)));
     return sqrt(sum) * Number(radius);
   }
-  /// An enclosure of the values of a functional of w on the whole ball.
+  /// An interval that contains the values of a linear function of w on the whole ball.
   Number range(const Row& row) const {
     const double most = deviation(row).upper();
     return at_centre(row) + Number(-most, most);
   }
 
-  /// Sets a coordinate of w to a functional of w, for every motion, on the surface and afterwards.
+  /// Sets a coordinate of w to a linear function of w, for every motion, on the surface and later.
   void assign(Eigen::Index coordinate, const Row& row) {
     assign_where_met(coordinate, row);
     if (is_apart) at_once.row(coordinate) = (row * at_once).eval();
   }
-  /// Sets a coordinate of w to a functional of w at the points where the motions met the surface.
+  /// Sets a coordinate of w to a linear function of w where the motions reach the surface.
   void assign_where_met(Eigen::Index coordinate, const Row& row) {
     const Number value = at_centre(row);
     const RowVector<Number, 6> change = row * spread;

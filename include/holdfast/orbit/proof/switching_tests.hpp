@@ -8,19 +8,19 @@
 
 namespace holdfast {
 
-/// A strict inequality on which the contact at sample j rests,
+/// A strict inequality that must be true for the contact at sample j to be as assumed,
 ///
 ///     sign · Δż_j > 0   or   sign · (Δz_j − Δz_k) + widths · r₀ > 0,
 ///
 /// where k is the sample at which the drive entered the gap that it is in at sample j.
 struct SwitchingTest {
   std::int64_t sample;       ///< sample j, counted from the first sample of the period
-  std::int64_t entry;        ///< sample k, negative in the previous period; unused for a reversal
+  std::int64_t entry;        ///< sample k, < 0 in the previous period; unused for a reversal
   SwitchingSurface surface;  ///< switching surface whose distance is tested
   int sign;                  ///< sign of the inequality: 1 or −1
   int widths;                ///< coefficient of r₀: −1, 0 or 1
 
-  /// Whether the inequality concerns Δż.
+  /// Whether the inequality is one of Δż, not of Δz.
   bool is_of_velocity() const { return surface == SwitchingSurface::reversal; }
 };
 
@@ -41,8 +41,8 @@ inline void append_gap_tests(const ContactDecision& decision, std::int64_t sampl
 
 }  // namespace detail
 
-/// Whether, at every sample before which the drive is engaged, the drive enters a gap exactly if Δż
-/// has changed its sign since the previous sample.
+/// Whether the pattern obeys the reversal rule: an engaged drive enters a gap at a sample if and
+/// only if Δż has changed its sign since the previous sample.
 inline bool enters_at_reversals(const SwitchingPattern& pattern) {
   const auto& all = pattern.decisions;
   for (std::size_t j = 0; j < all.size(); ++j) {
@@ -53,15 +53,15 @@ inline bool enters_at_reversals(const SwitchingPattern& pattern) {
   return true;
 }
 
-/// The inequalities of one period in the order of the samples. If all are true, a periodic motion
-/// with these Δz and Δż has the pattern's contacts for ever.
-/// @param pattern  pattern that repeats, does not stay in the gap, and enters_at_reversals()
+/// The inequalities for the contacts of one period, in the order of the samples. If all are true, a
+/// periodic motion with these Δz and Δż has the pattern's contacts for ever.
+/// @param pattern  pattern with `repeats`, not stays_inside(), and with enters_at_reversals()
 inline std::vector<SwitchingTest> switching_tests(const SwitchingPattern& pattern) {
   std::vector<SwitchingTest> tests;
   const auto samples = static_cast<std::int64_t>(pattern.decisions.size());
   std::int64_t entry = 0;
   bool from_positive = false;
-  // The first turn finds the gap that the drive is in at the start.
+  // The first turn finds the gap in which the drive begins.
   for (std::int64_t j = -samples; j < samples; ++j) {
     const ContactDecision& decision =
         pattern.decisions[static_cast<std::size_t>((j + samples) % samples)];

@@ -10,15 +10,15 @@
 
 namespace holdfast {
 
-/// The absorber with its computer as a device on a span.
+/// A device on a span that consists of an absorber with its drive and its computer.
 struct ActiveAbsorber {
   Absorber<double> absorber;   ///< absorber with its clamp
-  Sampling<double> sampling;   ///< sampling period τ and processing delay δ
-  PdGains<double> gains;       ///< gains P and D
+  Sampling<double> sampling;   ///< sampling period τ (s) and processing delay δ (s)
+  PdGains<double> gains;       ///< gains P (N/m) and D (N s/m)
   LoopHardware hardware = {};  ///< measurement filter and drive
 };
 
-/// The impedance Z(s) (N s/m) of an active absorber, by `absorber_impedance`.
+/// The impedance Z(s) (N s/m) by `absorber_impedance`, force over velocity of the conductor.
 /// @param device  absorber with its computer (unchecked)
 /// @param s       complex frequency (1/s), ≠ 0
 inline std::complex<double> impedance(const ActiveAbsorber& device, const std::complex<double>& s) {

@@ -8,13 +8,13 @@
 
 namespace holdfast {
 
-/// The dynamic stiffness of a device, K = s Z (N/m), with its derivative by s.
+/// The dynamic stiffness of a device, K = s Z with the impedance Z(s), and its derivative by s.
 struct DynamicStiffness {
   std::complex<double> value;  ///< dynamic stiffness K (N/m)
   std::complex<double> slope;  ///< derivative dK/ds (N s/m)
 };
 
-/// Dynamic stiffness K and dK/ds at s (1/s) of a device of masses, springs, dashpots and inerters.
+/// The dynamic stiffness K of a lumped device and dK/ds, at the complex frequency s (1/s).
 inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
                                           const std::complex<double>& s) {
   DynamicStiffness sum{device.clamp_mass * s * s, 2.0 * device.clamp_mass * s};
@@ -36,7 +36,8 @@ inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
   return sum;
 }
 
-/// Nonzero eigenvalues (1/s) of a device on a fixed clamp, one of each conjugate pair.
+/// The eigenvalues (1/s) of a device whose clamp is held fixed: the nonzero ones, and one of each
+/// conjugate pair, that with Im s > 0.
 inline std::vector<std::complex<double>> own_motions(const LumpedDevice& device) {
   std::vector<std::complex<double>> motions;
   for (const DeviceBranch& branch : device.branches) {
@@ -49,7 +50,7 @@ inline std::vector<std::complex<double>> own_motions(const LumpedDevice& device)
     }
     const double larger = decay + std::sqrt(square);
     if (larger > 0.0) motions.emplace_back(-larger, 0.0);
-    // A weight on a dashpot alone is brought back by nothing.
+    // A mass on a dashpot alone has no restoring force.
     if (larger > 0.0 && branch.stiffness != 0.0)
       motions.emplace_back(-branch.stiffness / mass / larger, 0.0);
   }

@@ -11,12 +11,13 @@
 
 namespace holdfast {
 
-/// A dashpot, a spring and an inerter in parallel between the conductor and a mass or the ground.
+/// A branch of a device: a dashpot, a spring and an inerter in parallel, which connect the
+/// conductor to a mass or to the ground.
 struct DeviceBranch {
   double damping = 0.0;    ///< dashpot coefficient c (N s/m), ≥ 0
   double stiffness = 0.0;  ///< spring stiffness k (N/m), of either sign
-  double inertance = 0.0;  ///< inertance b (kg), ≥ 0: force over the difference of accelerations
-  /// The mass m (kg), > 0, at the branch's end away from the conductor; infinity: the ground.
+  double inertance = 0.0;  ///< inertance b (kg), ≥ 0: force over relative acceleration of the ends
+  /// The mass m (kg), > 0, to which the branch connects the conductor; infinity for the ground.
   double mass = std::numeric_limits<double>::infinity();
 };
 
@@ -31,8 +32,8 @@ inline std::complex<double> impedance(const DeviceBranch& branch, const std::com
   return link * inertia / (link + inertia);
 }
 
-/// A device of masses, springs, dashpots and inerters clamped on a conductor: parallel branches and
-/// the mass of the clamp, with the impedance
+/// A device of masses, springs, dashpots and inerters that is clamped on a conductor. Its
+/// impedance, the sum over the clamp and all branches, is
 ///
 ///     Z(s) = M_c s + Σ 1/(1/(b s + c + k/s) + 1/(m s))
 struct LumpedDevice {
@@ -40,7 +41,7 @@ struct LumpedDevice {
   double clamp_mass = 0.0;             ///< clamp mass M_c (kg), ≥ 0
 };
 
-/// The impedance Z(s) of the device (N s/m).
+/// The impedance Z(s) of the device (N s/m), force over velocity of the conductor.
 /// @param device  lumped device (unchecked)
 /// @param s       complex frequency (1/s), ≠ 0
 inline std::complex<double> impedance(const LumpedDevice& device, const std::complex<double>& s) {
@@ -61,8 +62,8 @@ inline void validate(const LumpedDevice& device) {
   }
 }
 
-/// A branch of a mass on a spring and a dashpot, given by its natural frequency and damping ratio
-/// on a fixed clamp.
+/// A branch with a mass on a spring and a dashpot, from the natural frequency and the damping ratio
+/// that the mass has while the clamp is fixed. The arguments are not checked.
 /// @param mass           mass m (kg), > 0
 /// @param frequency      natural frequency f (Hz), > 0
 /// @param damping_ratio  damping ratio ζ ≥ 0
@@ -71,22 +72,22 @@ inline DeviceBranch tuned_branch(double mass, double frequency, double damping_r
   return {2.0 * damping_ratio * mass * omega, mass * omega * omega, 0.0, mass};
 }
 
-/// The data of a Stockbridge damper: two weights on a messenger wire. Seen from its clamp, the
-/// damper has two resonances.
+/// The data of a Stockbridge damper: two weights on a messenger wire, with two resonances while the
+/// clamp is fixed.
 struct StockbridgeData {
   double mass;                           ///< mass of both weights together (kg), > 0
-  std::array<double, 2> frequencies;     ///< resonances on a fixed clamp (Hz), ascending
+  std::array<double, 2> frequencies;     ///< resonances (Hz), > 0, the lower one first
   std::array<double, 2> damping_ratios;  ///< damping ratios ζ of these resonances, > 0
-  double mass_share = 0.5;               ///< share of the mass in the lower resonance, 0 … 1
+  double mass_share = 0.5;               ///< fraction of `mass` in the lower resonance, 0 … 1
   double clamp_mass = 0.0;               ///< mass of the clamp (kg), ≥ 0
 };
 
-/// A Stockbridge damper by its two resonances, as two parallel branches of a mass on a spring and a
-/// dashpot, one per resonance. The two masses add up to the mass of the weights.
-/// @throws InvalidParameter where the data are not admissible
+/// A Stockbridge damper as a lumped device with two parallel branches, one for each resonance. A
+/// branch is a mass on a spring and a dashpot; both masses together are the mass of the weights.
+/// @throws InvalidParameter where the data are not admissible; their order is not checked
 inline LumpedDevice stockbridge(const StockbridgeData& data) {
-  require_positive("mass of a Stockbridge damper", data.mass, "kg");
-  require_within("share of its mass that swings at the lower frequency", data.mass_share, "", 0, 1);
+  require_positive("mass of both weights of a Stockbridge damper", data.mass, "kg");
+  require_within("mass share of a Stockbridge damper's lower resonance", data.mass_share, "", 0, 1);
   require_positive("lower frequency of a Stockbridge damper", data.frequencies[0], "Hz");
   require_positive("higher frequency of a Stockbridge damper", data.frequencies[1], "Hz");
   for (const double ratio : data.damping_ratios)

@@ -11,32 +11,32 @@
 
 namespace holdfast {
 
-/// The impedance of a device measured on a shaker: force over velocity of its clamp at ascending
-/// frequencies.
+/// A device's impedance measured on a shaker: force over clamp velocity at ascending frequencies.
 ///
-/// Real and imaginary part are interpolated linearly: if no row supplies power, no value between
-/// two rows does. Outside the measured range the result is NaN.
+/// Real and imaginary part are interpolated linearly between rows. As Re Z ≥ 0 in every row, no
+/// interpolated value supplies power. Outside the measured range the result is NaN.
 class MeasuredImpedance {
  public:
-  /// A row of the measurement.
+  /// One row of the measurement: a frequency and the impedance at this frequency.
   struct Row {
     double angular_frequency;        ///< angular frequency ω (rad/s), > 0
-    std::complex<double> impedance;  ///< impedance Z (N s/m), Re Z ≥ 0
+    std::complex<double> impedance;  ///< impedance Z (N s/m), Re Z ≥ −10⁻⁹ |Z|
   };
 
-  /// @param rows  at least two rows with ascending ω
-  /// @throws InvalidParameter for one row or none, ω not ascending, Re Z < 0, or values not finite
+  /// @param rows  2 … 10⁷ rows with ascending ω
+  /// @throws InvalidParameter for another number of rows, or values outside the ranges of `Row`
   explicit MeasuredImpedance(std::vector<Row> rows) : rows_(std::move(rows)) {
-    require_within("rows of a measured impedance", static_cast<double>(rows_.size()), "", 2, 1e7);
+    require_within("number of rows of a measured impedance", static_cast<double>(rows_.size()), "",
+                   2, 1e7);
     double before = 0.0;
     for (const Row& row : rows_) {
       require_finite("measured impedance", std::abs(row.impedance), "N s/m");
       if (!(std::isfinite(row.angular_frequency) && row.angular_frequency > before))
         throw InvalidParameter("angular frequency of a measured impedance", row.angular_frequency,
-                               "rad/s", "above that of the row before");
+                               "rad/s", "above the angular frequency of the previous row");
       if (!(row.impedance.real() >= -giving * std::abs(row.impedance)))
         throw InvalidParameter("real part of a measured impedance", row.impedance.real(), "N s/m",
-                               ">= 0: a passive device gives no power");
+                               ">= 0 in every row, as a passive device supplies no power");
       before = row.angular_frequency;
     }
   }
@@ -64,9 +64,9 @@ class MeasuredImpedance {
   std::vector<Row> rows_;
 };
 
-/// Impedance Z (N s/m) of a measured device at s = iω; at any other s the value for ω = |s|, an
-/// approximation for modes that decay by a few per cent per cycle.
-/// @return NaN outside the measured range
+/// The impedance Z (N s/m) of a measured device at the complex frequency s (1/s), taken at ω = |s|.
+/// It is exact for s = iω, and an approximation for modes that decay by a few per cent per cycle.
+/// @return Z, conjugate where Im s < 0; NaN outside the measured range
 inline std::complex<double> impedance(const MeasuredImpedance& device,
                                       const std::complex<double>& s) {
   const std::complex<double> z = device.at(std::abs(s));

@@ -16,7 +16,7 @@ namespace holdfast {
 /// A device clamped on a span.
 struct SpanDevice {
   double position;  ///< distance (m) from the left support, inside the span
-  std::variant<LumpedDevice, MeasuredImpedance, ActiveAbsorber> device;  ///< data of the device
+  std::variant<LumpedDevice, MeasuredImpedance, ActiveAbsorber> device;  ///< the device itself
 
   /// The impedance Z(s), force over velocity of the conductor (N s/m).
   /// @param s  complex frequency (1/s), ≠ 0
@@ -25,8 +25,10 @@ struct SpanDevice {
   }
 };
 
-/// The devices sorted by their positions.
-/// @throws InvalidParameter where a device is not inside the span (m)
+/// The devices sorted by their positions, from the left support.
+/// @param devices  devices in any order
+/// @param span     span L (m)
+/// @throws InvalidParameter unless 0 < position < L for every device
 inline std::vector<SpanDevice> in_order(std::vector<SpanDevice> devices, double span) {
   for (const SpanDevice& device : devices) require_inside_span(device.position, span);
   std::stable_sort(devices.begin(), devices.end(), [](const SpanDevice& a, const SpanDevice& b) {

@@ -7,10 +7,10 @@
 namespace holdfast {
 
 /// A conductor at a clamp, as a beam under tension whose wires bend individually (Poffenberger &
-/// Swart, IEEE Trans. PAS 84 (1965)). At x from the clamp its deflection is
-/// y = θ (x − (1 − e^{−px})/p), p = √(T/EI), with the slope θ far from the clamp.
+/// Swart, IEEE Trans. PAS 84 (1965)). At the distance x from the clamp the deflection is
+/// y = θ (x − (1 − e^{−px})/p) with p = √(T/EI), where θ is the slope far from the clamp.
 ///
-/// Stress and strain are those of the outermost wire, zero to peak.
+/// Stress and strain are amplitudes, zero to peak, in an outer wire at the clamp.
 struct ClampBending {
   double tension;              ///< tension T (N), > 0
   double bending_stiffness;    ///< least bending stiffness EI (N m²), the sum over all wires, > 0
@@ -20,12 +20,12 @@ struct ClampBending {
   /// Decay constant p = √(T/EI) (1/m) of the bending near the clamp.
   double decay() const { return std::sqrt(tension / bending_stiffness); }
 
-  /// Strain ε = ½ d_a p θ at the clamp for a slope θ (rad) far from the clamp.
+  /// Strain amplitude ε = ½ d_a p θ for a slope amplitude θ (rad) far from the clamp.
   double strain_of_angle(double angle) const { return 0.5 * outer_wire_diameter * decay() * angle; }
 
-  /// The stress σ (Pa) from the bending amplitude: σ = E_a d_a p² Y_b/(4 (e^{−ps} − 1 + ps)).
-  /// @param bending_amplitude  amplitude Y_b (m), peak-to-peak, relative to the clamp
-  /// @param place              distance s (m) from the last point of contact; usually 89 mm
+  /// The stress amplitude σ = E_a d_a p² Y_b/(4 (e^{−ps} − 1 + ps)) (Pa).
+  /// @param bending_amplitude  displacement Y_b (m) at `place` relative to the clamp, peak to peak
+  /// @param place              distance s (m) from the last contact of conductor and clamp
   double stress_of_bending_amplitude(double bending_amplitude, double place = 0.089) const {
     const double p = decay();
     return outer_wire_modulus * outer_wire_diameter * p * p * bending_amplitude /

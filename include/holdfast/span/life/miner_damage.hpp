@@ -7,14 +7,15 @@
 
 namespace holdfast {
 
-/// The hours per year of a wind speed.
+/// The hours per year during which the wind has a certain speed.
 struct WindHours {
   double speed;  ///< wind speed U (m/s), > 0
   double hours;  ///< hours per year, ≥ 0
 };
 
-/// The hours per year of wind speeds U with the Weibull distribution P(U > u) = e^{−(u/A)^k}. The
-/// range from `lowest` to `highest` is divided into equal steps, with a row for each middle speed.
+/// The hours per year of each wind speed U, from the Weibull distribution P(U > u) = e^{−(u/A)^k}.
+/// The range from `lowest` to `highest` is divided into equal steps. An entry has the middle speed
+/// of one step and the hours with speeds in this step; a year has 8766 hours.
 /// @param scale    scale A (m/s), > 0
 /// @param shape    shape exponent k, > 0
 /// @param lowest   lowest wind speed (m/s), ≥ 0
@@ -23,12 +24,12 @@ struct WindHours {
 /// @throws InvalidParameter where an argument is outside its range
 inline std::vector<WindHours> weibull_hours(double scale, double shape, double lowest,
                                             double highest, int steps) {
-  require_positive("scale of the wind's distribution", scale, "m/s");
-  require_positive("shape of the wind's distribution", shape, "");
+  require_positive("scale of the wind's Weibull distribution", scale, "m/s");
+  require_positive("shape of the wind's Weibull distribution", shape, "");
   require_non_negative("lowest wind speed", lowest, "m/s");
-  require_within("steps of wind speed", steps, "", 1, 1e6);
+  require_within("number of steps of the wind speed", steps, "", 1, 1e6);
   if (!(highest > lowest && std::isfinite(highest)))
-    throw InvalidParameter("highest wind speed", highest, "m/s", "above the lowest one");
+    throw InvalidParameter("highest wind speed", highest, "m/s", "above the lowest wind speed");
   constexpr double hours_of_year = 8766.0;
   const auto beyond = [&](double speed) { return std::exp(-std::pow(speed / scale, shape)); };
   std::vector<WindHours> rows;
@@ -40,15 +41,15 @@ inline std::vector<WindHours> weibull_hours(double scale, double shape, double l
   return rows;
 }
 
-/// A stress of a conductor with its number of cycles per year.
+/// A stress amplitude of a conductor and the number of its cycles per year.
 struct StressCycles {
   double stress;  ///< stress σ (Pa), zero to peak
-  double cycles;  ///< number n of cycles per year
+  double cycles;  ///< number n of cycles per year; none if ≤ 0
 };
 
-/// The damage per year by Miner's rule, Σ n/N(σ). Its inverse is the number of years to the first
-/// broken wire according to the fatigue line N(σ).
-/// @tparam LifeLine  type with `cycles(stress)`, the number N of cycles to failure
+/// The damage per year by Miner's rule, Σ n/N(σ), for the fatigue line N(σ). Its inverse is the
+/// number of years to failure, the first broken wire.
+/// @tparam LifeLine  type with `cycles(stress)`, the number N of cycles to failure at σ (Pa)
 template <class LifeLine>
 double miner_damage(const std::vector<StressCycles>& year, const LifeLine& line) {
   double damage = 0.0;

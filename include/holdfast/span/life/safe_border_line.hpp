@@ -13,16 +13,16 @@ namespace holdfast {
 ///
 ///     σ = A N^{−α} up to N₀ cycles,  σ = B N^{−β} beyond     (σ in MPa, zero to peak)
 ///
-/// At N₀ the two branches have different stresses. For a stress between these two, N is the smaller
-/// of the numbers of cycles that the two branches give.
+/// The stress jumps from A N₀^{−α} down to B N₀^{−β} at N₀. For a stress between these two values N
+/// is the smaller of (A/σ)^{1/α} and (B/σ)^{1/β}.
 struct SafeBorderLine {
   double steep_stress;     ///< factor A (MPa) of the steep branch
   double steep_exponent;   ///< exponent α of the steep branch
   double flat_stress;      ///< factor B (MPa) of the flat branch
   double flat_exponent;    ///< exponent β of the flat branch
-  double change_of_slope;  ///< number N₀ of cycles where the steep branch ends
+  double change_of_slope;  ///< number N₀ of cycles at which the flat branch begins
 
-  /// The number of cycles N that a stress σ (Pa) allows; infinity without stress.
+  /// The number of cycles N that a stress σ (Pa) allows; infinity for σ = 0, NaN for σ < 0.
   double cycles(double stress) const {
     const double megapascal = stress / 1e6;
     if (!(megapascal > 0.0))
@@ -36,7 +36,7 @@ struct SafeBorderLine {
 
 /// The safe border line of conductors with several layers of aluminium.
 inline constexpr SafeBorderLine several_layers{450.0, 0.20, 263.0, 0.17, 1.56e7};
-/// The safe border line of conductors with a single layer.
+/// The safe border line of conductors with a single layer of aluminium.
 inline constexpr SafeBorderLine single_layer{730.0, 0.20, 430.0, 0.17, 2.0e7};
 
 }  // namespace holdfast

@@ -6,32 +6,32 @@
 
 namespace holdfast {
 
-/// Relation of the balanced amplitude to the range of the wind's law.
+/// Position of the balanced amplitude relative to the amplitude range of the wind power law.
 enum class BalanceRange {
-  within,  ///< within the law's range
-  below,   ///< below the law's smallest amplitude, which is returned
-  above    ///< above the law's largest amplitude, which is returned
+  within,  ///< within the range of the law
+  below,   ///< below the smallest amplitude of the law, which is returned
+  above    ///< above the largest amplitude of the law, which is returned
 };
 
-/// The amplitude at which the wind's power equals the power losses.
+/// The amplitude at which the power of the wind equals the power losses of the span.
 struct BalancedAmplitude {
-  double amplitude;    ///< amplitude y (m), half the peak-to-peak, at the antinodes
+  double amplitude;    ///< amplitude y (m), zero to peak, at the antinodes
   BalanceRange range;  ///< whether y is the balanced amplitude or only a bound
 };
 
-/// The amplitude of aeolian vibration at one frequency by the energy balance: the largest amplitude
-/// at which the wind's power is not less than the losses,
+/// The amplitude y of aeolian vibration at one frequency, where wind power and losses p are equal:
 ///
 ///     f³ d⁴ F(y/d) = p(y)
 ///
-/// At larger amplitudes the losses exceed the wind's power, so that this vibration is stable. Its
-/// amplitude is found by bisection between the points of a grid, to a relative 10⁻¹².
-/// @param law        law of the wind's power
+/// The largest solution is returned. At larger amplitudes the losses exceed the wind's power, so
+/// that this vibration is stable. A grid of 61 amplitudes brackets y, and bisection finds it to a
+/// relative 10⁻¹². Two solutions between neighbouring points of the grid are missed.
+/// @param law        wind power law with the function F and its range
 /// @param frequency  frequency f (Hz), > 0
 /// @param diameter   conductor's diameter d (m), > 0
-/// @param loss       function p from an amplitude (m) to the total loss per length (W/m), mean over
-///                   the span; NaN makes the result NaN
-/// @throws the exceptions of `loss`
+/// @param loss       function p of the amplitude (m): the total loss per length (W/m), mean over
+///                   the span. If p is NaN at the largest amplitude of the law, the result is NaN
+/// @throws whatever `loss` throws
 template <class Loss>
 BalancedAmplitude balanced_amplitude(const WindPowerLaw& law, double frequency, double diameter,
                                      const Loss& loss) {

@@ -9,7 +9,7 @@
 
 namespace holdfast {
 
-/// The data of a stranded conductor that its self-damping depends on.
+/// The data of a stranded conductor on which its self-damping depends.
 struct StrandedConductor {
   double mass_per_length;  ///< mass per length μ (kg/m), > 0
   double diameter;         ///< diameter d (m), > 0
@@ -28,19 +28,18 @@ inline void validate(const StrandedConductor& conductor) {
     throw InvalidParameter("tension", conductor.tension, "N", "below the rated strength");
 }
 
-/// The law of self-damping of a stranded conductor by friction of its wires, as power per length:
+/// A law of the power per length that a stranded conductor loses by friction of its wires:
 ///
 ///     P_self = k (y/d)^l f^m/T^n  (mW/m),   k = d/√(RTS μ)
 ///
-/// with the d of k in mm, RTS and T in kN, μ in kg/m and f in Hz, the units of the fits. The
-/// amplitude y is half the peak-to-peak.
+/// RTS and T are in kN, μ in kg/m, f in Hz and, in k, d in mm; y is zero to peak at the antinodes.
 struct SelfDampingLaw {
   std::string_view name;      ///< name of the law's authors
   double amplitude_exponent;  ///< exponent l of the relative amplitude y/d
   double frequency_exponent;  ///< exponent m of the frequency f
   double tension_exponent;    ///< exponent n of the tension T
 
-  /// The power P_self per length (W/m) at a frequency (Hz) and an amplitude y (m).
+  /// The power P_self per length (W/m) at a frequency f (Hz) and an antinode amplitude y (m).
   double power(const StrandedConductor& conductor, double frequency, double amplitude) const {
     constexpr double milli = 1e-3;
     const double strength = milli * conductor.rated_strength, tension = milli * conductor.tension;
@@ -50,13 +49,13 @@ struct SelfDampingLaw {
   }
 };
 
-/// Self-damping laws of three groups of authors, collected by CIGRE Study Committee 22, Working
-/// Group 11. Extrapolated from different spans and tensions, the laws differ threefold at 20 Hz.
+/// Self-damping laws by three groups of authors, collected by CIGRE Study Committee 22, Working
+/// Group 11. They extrapolate different measurements; their powers differ threefold at 20 Hz.
 inline constexpr std::array<SelfDampingLaw, 3> self_damping_laws = {
     SelfDampingLaw{"noiseux", 2.44, 5.63, 2.76}, SelfDampingLaw{"kraus_hagedorn", 2.47, 5.38, 2.80},
     SelfDampingLaw{"seppa", 2.5, 5.75, 2.8}};
 
-/// The power per length dissipated by a mode's damping ratio ζ: ½ ζ μ ω³ y² (W/m).
+/// The mean power per length ½ ζ μ ω³ y² (W/m) lost by a vibration in a mode of damping ratio ζ.
 /// @param mass_per_length    mass per length μ (kg/m)
 /// @param damping_ratio      damping ratio ζ
 /// @param angular_frequency  angular frequency ω (rad/s)

@@ -9,19 +9,19 @@
 
 namespace holdfast {
 
-/// The power per length (W/m) of a steady wind on a cylinder that vibrates across it at the
-/// shedding frequency, measured in a wind tunnel:
+/// The power per length (W/m) that a steady wind supplies to a cylinder, measured in a wind tunnel.
+/// The cylinder vibrates across the wind at the frequency of the vortex shedding:
 ///
 ///     P_wind = f³ d⁴ F(y/d),   F(x) = x Σ a_k x^k,   k = 0 … 7
 ///
-/// f (Hz) is the frequency, d (m) the diameter and y (m) the amplitude, half the peak-to-peak.
+/// f (Hz) is the frequency, d (m) the diameter and y (m) the amplitude, zero to peak.
 struct WindPowerLaw {
   std::string_view name;               ///< name of the law's authors
   std::array<double, 8> coefficients;  ///< coefficients a_k (W s³/m⁵) of F
-  double lowest;                       ///< least relative amplitude x = y/d of the fit
+  double lowest;                       ///< smallest relative amplitude x = y/d of the fit
   double highest;                      ///< largest relative amplitude x = y/d of the fit
 
-  /// The value of F at x = y/d; NaN outside the range of the fit.
+  /// The value of F (W s³/m⁵) at x = y/d; NaN outside the range of the fit.
   double at(double x) const {
     if (!(x >= lowest && x <= highest)) return std::nan("");
     double sum = 0.0;
@@ -29,8 +29,8 @@ struct WindPowerLaw {
     return x * sum;
   }
 
-  /// Power P_wind (W/m) at a frequency f (Hz), diameter d (m) and amplitude y (m); NaN for y/d
-  /// outside the range of the fit, the ends of which include round-off.
+  /// The power P_wind (W/m) at a frequency f (Hz), diameter d (m) and amplitude y (m). NaN where
+  /// y/d is outside the range of the fit by more than round-off.
   double power(double frequency, double diameter, double amplitude) const {
     double x = amplitude / diameter;
     for (const double end : {lowest, highest})
@@ -39,9 +39,9 @@ struct WindPowerLaw {
   }
 };
 
-/// Two wind power laws, fitted to printed curves of measurements. Their powers differ by factors
-/// 1.5 … 2.1. Rigid cylinders in laminar flow: Diana & Falco, Meccanica 6 (1971). Cylinder with
-/// free ends in a turbulence below 0.5 %: Brika & Laneville, J. Fluid Mech. 250 (1993).
+/// Two wind power laws, fitted to printed curves of measurements; their powers differ by factors of
+/// 1.5 … 2.1. Diana & Falco, Meccanica 6 (1971): rigid cylinders in laminar flow. Brika &
+/// Laneville, J. Fluid Mech. 250 (1993): a cylinder with free ends, turbulence below 0.5 %.
 inline constexpr std::array<WindPowerLaw, 2> wind_power_laws = {
     WindPowerLaw{
         "diana_falco",

@@ -17,19 +17,19 @@ namespace holdfast {
 
 namespace detail {
 
-/// Point of a curve of root pairs: the curve's parameter and the gains P and D at this parameter.
+/// Point of a curve of root pairs: the curve's parameter and the gains P and D there.
 template <class Scalar>
 struct CurvePlace {
   Scalar parameter;
   PdGains<Scalar> gains;  // not finite at a pole
 };
 
-/// Tracer of a curve of root pairs over a range of P, with points as dense as a plot needs.
+/// Tracer of a curve of root pairs over a range of P; it finds points as dense as a plot needs.
 ///
 /// A piece of the curve is halved until its chord spans at most 1/50 of the range and three inner
 /// points are within 0.001 of the chord (`distance`). Pieces outside the range are left out.
-/// @tparam Curve  `BoundaryCurves` or `CircleBoundary`: `gains`, `between` and `angle` as functions
-///                of a parameter, and `pair_kind`
+/// @tparam Curve  `BoundaryCurves` or `CircleBoundary`, with functions `gains`, `between` and
+///                `angle` of the curve's parameter, and `pair_kind`
 template <class Scalar, class Curve>
 class CurveTracer {
  public:
@@ -43,7 +43,7 @@ class CurveTracer {
 
   Place at(const Scalar& parameter) const { return {parameter, curve_.gains(parameter)}; }
 
-  /// Appends the curve's points from the first to the last of `places`, whose parameters ascend.
+  /// Appends the curve's points in range, from the first to the last of `places` (ascending).
   void trace(const std::vector<Place>& places, Points& points) const {
     for (std::size_t k = 0; k + 1 < places.size(); ++k) {
       append(places[k], points);
@@ -70,7 +70,7 @@ class CurveTracer {
   }
 
   bool worth_splitting(const Place& start, const Place& middle, const Place& end) const {
-    // Beside a pole at which P is finite D grows without end.
+    // Beside a pole at which P is finite, D grows without bound.
     if (!(end.parameter - start.parameter > Scalar(1e-6) * end.parameter)) return false;
     const Scalar step = std::abs(end.gains.proportional - start.gains.proportional);
     if (!(step <= Scalar(0.02) * width())) return true;
@@ -84,8 +84,8 @@ class CurveTracer {
 
   Scalar width() const { return Scalar(range_.upper) - Scalar(range_.lower); }
 
-  /// The distance of a point from the chord between `start` and `end`. P is in units of the range;
-  /// D is in units of |D| at `start` plus |D| at `end`, since a plot's range of D is unknown here.
+  /// The distance of a point from the chord between `start` and `end`. P is divided by the range's
+  /// width. D is divided by the sum of |D| at both ends, as a plot's range of D is unknown here.
   Scalar distance(const PdGains<Scalar>& point, const PdGains<Scalar>& start,
                   const PdGains<Scalar>& end) const {
     const Scalar size = std::abs(start.differential) + std::abs(end.differential);
@@ -100,7 +100,7 @@ class CurveTracer {
     return std::abs(p(end) * d(point) - d(end) * p(point)) / length;
   }
 
-  /// Appends a place with P in the range, finite D, and a larger angle than the curve's last point.
+  /// Appends a place if P is in range, D finite and the angle larger than at the last point.
   void append(const Place& place, Points& points) const {
     if (!std::isfinite(place.gains.differential) || !in_range(place)) return;
     const Scalar angle = curve_.angle(place.parameter);
@@ -116,10 +116,9 @@ class CurveTracer {
   int deepest_;
 };
 
-/// Parameters Y (`RootPairCurve`) that divide the curve into parts on which P and D are monotone,
-/// so that no branch is missed: the Y where P is at an end of its range, the poles, and the Y where
-/// P or D is stationary. The first is Y = 10⁻¹²; the last is Y = 10¹², or θ = π − 2·10⁻⁶ in the
-/// sampled loop.
+/// Parameters Y (`RootPairCurve`), ascending, that divide the curve into parts with monotone P and
+/// D, so that no branch is missed. They are the poles and the Y where P is at an end of its range
+/// or P or D is stationary. Y ranges over 10⁻¹² … 10¹², up to θ = π − 2·10⁻⁶ in the sampled loop.
 template <class Scalar, int Degree>
 std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>& curves,
                                            const Interval<double>& range) {
@@ -150,14 +149,15 @@ std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>&
 
 }  // namespace detail
 
-/// Points of the boundary of stability over a range of P: first the two ends of each line, then the
-/// curve of root pairs by ascending angle, as dense as its curvature requires. Points at the ends
-/// of the range are exact.
+/// Points of the stability boundary in the plane of P and D over a range of P: first the two ends
+/// of each straight line, then the curve of root pairs by ascending angle. Points of the curve are
+/// denser where it bends. The curve has points exactly at both ends of the range.
 ///
-/// Roots on the boundary: λ = +1, λ = −1 and λ = e^{±iθ} (sampled loop, degree 5), s = 0 and s =
-/// ±iω (continuous loop, degree 4). A line is absent where no gain moves its root. The lines of λ =
-/// +1 and s = 0 are absent for two masses, whose control force does not move the equilibrium.
-/// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
+/// The sampled loop (degree 5) has lines with a root λ = +1 or −1 and a curve of pairs e^{±iθ}. The
+/// continuous loop (degree 4) has a line s = 0 and a curve of pairs ±iω. A line is absent if no
+/// gain moves its root. For two masses λ = +1 and s = 0 are absent, since a
+/// constant force u between the masses does not move the conductor.
+/// @param polynomial  `characteristic_polynomial` of the sampled or the continuous loop
 /// @param range       range of P (N/m), its ends included
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
 template <class Scalar, int Degree>

@@ -14,26 +14,27 @@
 
 namespace holdfast {
 
-/// Straight line of the stability boundary, with a real root λ = ±1 (continuous loop: s = 0):
+/// Straight line of the stability boundary in the plane of the gains P and D. On it λ = +1 or −1 is
+/// a root of the sampled loop, or s = 0 of the continuous loop:
 ///
 ///     constant + P · proportional + D · differential = 0
 template <class Scalar>
 struct BoundaryLine {
-  BoundaryCurve curve;  ///< `plus_one`, `minus_one` or `zero`
+  BoundaryCurve curve;  ///< kind of the line: `plus_one`, `minus_one` or `zero`
   Scalar angle;         ///< θ of the root, 0 or π (rad); for the continuous loop ω = 0 (rad/s)
-  Scalar constant;      ///< value of the characteristic polynomial without control, at the root
-  Scalar proportional;  ///< change of `constant` per N/m of P; 0 where P does not move the root
-  Scalar differential;  ///< change of `constant` per N s/m of D; 0 where D does not move the root
+  Scalar constant;      ///< characteristic polynomial at the root, without control (P = D = 0)
+  Scalar proportional;  ///< its derivative by P, per N/m; 0 if P does not change it
+  Scalar differential;  ///< its derivative by D, per N s/m; 0 if D does not change it
 
-  /// Whether the line has constant P, because D does not move its root.
+  /// Whether P is constant along the line, that is, `differential` is 0.
   bool is_vertical() const { return differential == Scalar(0); }
 
-  /// The P (N/m) of the line at D (N s/m); infinite where P does not move the root.
+  /// The P (N/m) on the line at a given D (N s/m); not finite where `proportional` is 0.
   Scalar proportional_at(const Scalar& differential_gain) const {
     return -(constant + differential_gain * differential) / proportional;
   }
 
-  /// The D (N s/m) of the line at P (N/m); infinite where the line is vertical.
+  /// The D (N s/m) on the line at a given P (N/m); not finite where the line is vertical.
   Scalar differential_at(const Scalar& proportional_gain) const {
     return -(constant + proportional_gain * proportional) / differential;
   }
@@ -41,7 +42,7 @@ struct BoundaryLine {
 
 namespace detail {
 
-/// Appends the two ends of a line within a range of P; a vertical line ends at D = ∓∞.
+/// Appends the two ends of a line within a range of P; a vertical line has its ends at D = ∓∞.
 template <class Scalar>
 void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<Scalar>& line,
                  const Interval<double>& range) {
@@ -61,19 +62,19 @@ void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<
 
 }  // namespace detail
 
-/// All curves of the gain plane on which a characteristic root is on the boundary of stability: the
-/// curve of root pairs, with its parameter Y (`RootPairCurve`), and at most two lines.
+/// All curves in the plane of P and D on which a characteristic root is on the stability boundary:
+/// the curve of root pairs with parameter Y (`RootPairCurve`), and at most two straight lines.
 ///
-/// In the sampled loop (degree 5) the variable is w, λ = (1 + w)/(1 − w), and roots e^{±iθ} have Y
-/// = tan²(θ/2). In the continuous loop (degree 4) it is s, and roots ±iω have Y = ω². Y is in units
-/// of `RootPairCurve::unit()` squared. A line is left out where no gain moves its root.
+/// In the sampled loop (degree 5) the polynomial's variable is w with λ = (1 + w)/(1 − w); roots
+/// e^{±iθ} have Y = tan²(θ/2)/unit². In the continuous loop (degree 4) the variable is s; roots ±iω
+/// have Y = ω²/unit², with `RootPairCurve::unit()`. A line is absent if no gain moves its root.
 template <class Scalar, int Degree>
 class BoundaryCurves {
  public:
   /// True for the sampled loop (degree 5), false for the continuous one (degree 4).
   static constexpr bool sampled = Degree == 5;
 
-  /// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
+  /// @param polynomial  `characteristic_polynomial` of the sampled or the continuous loop
   explicit BoundaryCurves(const AffinePolynomial<Scalar, Degree>& polynomial)
       : polynomial_(in_half_plane(polynomial)), pairs_(polynomial_) {
     add_line(polynomial, sampled ? BoundaryCurve::plus_one : BoundaryCurve::zero, Scalar(0),
@@ -85,32 +86,32 @@ class BoundaryCurves {
   /// The characteristic polynomial in the variable w or s, whose stable half-plane is Re < 0.
   const HalfPlanePolynomial<Scalar, Degree>& polynomial() const { return polynomial_; }
 
-  /// The curve of root pairs with its parameter Y, see `RootPairCurve`.
+  /// The curve of root pairs, with P and D as functions of its parameter Y.
   const RootPairCurve<Scalar>& pairs() const { return pairs_; }
-  /// The lines of the boundary (none, one or two): λ = +1 (s = 0) before λ = −1.
+  /// The straight lines of the boundary, at most two: first λ = +1 (or s = 0), then λ = −1.
   const std::vector<BoundaryLine<Scalar>>& lines() const { return lines_; }
 
-  /// The kind of pair on `pairs()`: `complex_pair`, or `imaginary_pair` in the continuous loop.
+  /// The kind of the root pairs: `complex_pair`, or `imaginary_pair` in the continuous loop.
   BoundaryCurve pair_kind() const {
     return sampled ? BoundaryCurve::complex_pair : BoundaryCurve::imaginary_pair;
   }
 
-  /// The gains at the parameter Y of the curve of root pairs; infinite at a pole of the curve.
+  /// The gains P and D of the curve of root pairs at the parameter Y; not finite at a pole.
   PdGains<Scalar> gains(const Scalar& square) const { return pairs_.gains(square); }
 
-  /// A parameter between two parameters Y: their geometric mean.
+  /// A parameter Y between two positive ones: their geometric mean.
   static Scalar between(const Scalar& lower, const Scalar& upper) {
     return std::sqrt(lower) * std::sqrt(upper);
   }
 
-  /// The angle θ (rad) of the root pair λ = e^{±iθ} at parameter Y, or ω (rad/s) of s = ±iω.
+  /// The angle θ (rad) of the pair e^{±iθ} at Y, or ω (rad/s) of ±iω in the continuous loop.
   Scalar angle(const Scalar& square) const {
     const Scalar y = pairs_.root(square);
     return sampled ? Scalar(2) * std::atan(y) : y;
   }
 
  private:
-  /// Half of Fujiwara's bound on the moduli of the roots of the polynomial without control.
+  /// Half of a bound on the moduli of the roots of the polynomial without control.
   static Scalar root_bound(const Polynomial<Scalar, Degree>& base) {
     Scalar largest(0);
     for (int k = 0; k < Degree; ++k) {
@@ -120,9 +121,9 @@ class BoundaryCurves {
     return largest;
   }
 
-  /// Adds the line of gains with the root x. A gain is taken not to move this root if its part of
-  /// the polynomial is round-off at x: at λ = ±1 below 1e−9 of the part's largest coefficient, the
-  /// error of the matrix exponential; at s = 0 below 1e−13, with s in units of `root_bound`.
+  /// Adds the line of gains with the root x. A gain counts as not moving this root if its part of
+  /// the polynomial is round-off at x: at λ = ±1 below 1e−9 of the part's largest coefficient
+  /// (error of the matrix exponential), at s = 0 below 1e−13 with s in units of `root_bound`.
   void add_line(const AffinePolynomial<Scalar, Degree>& polynomial, BoundaryCurve curve,
                 const Scalar& angle, const Scalar& x) {
     const Scalar unit = sampled ? Scalar(1) : root_bound(polynomial.base);

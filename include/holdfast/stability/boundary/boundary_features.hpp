@@ -19,18 +19,18 @@
 
 namespace holdfast {
 
-/// Double Neimark–Sacker point: gains with two root pairs on the boundary (the curve meets itself).
+/// Double Neimark–Sacker point: gains at which two root pairs are on the stability boundary.
 template <class Scalar>
 struct DoubleNeimarkSacker {
-  PdGains<Scalar> gains;  ///< gains P (N/m) and D (N s/m) with both pairs
-  Scalar lower_square;    ///< parameter Y (`RootPairCurve`) of the slower pair
-  Scalar upper_square;    ///< parameter Y of the faster pair
+  PdGains<Scalar> gains;  ///< gains P (N/m) and D (N s/m) at which both pairs are on the boundary
+  Scalar lower_square;    ///< parameter Y (`RootPairCurve`) of the pair with the smaller angle
+  Scalar upper_square;    ///< parameter Y of the pair with the larger angle
 };
 
 namespace detail {
 
 /// Two 3 × 3 matrices that map (1, P, D) to the coefficients of Y⁰, Y¹, Y² of the polynomial's even
-/// and odd part. Rows and columns are scaled to similar size; `column` holds the columns' factors.
+/// and odd part. Rows and columns are scaled to similar size; `column` has the columns' factors.
 template <class Scalar>
 struct ParityPencil {
   Matrix<Scalar, 3> even, odd;
@@ -69,7 +69,7 @@ struct ParityPencil {
     return {-mixed(0), mixed(1) + mixed(2) + mixed(4), -mixed(3) - mixed(5) - mixed(6), mixed(7)};
   }
 
-  /// The gains at which the odd part is ν times the even part; not finite if no such gains exist.
+  /// The gains at which the odd part is ν times the even part; not finite if there are none.
   PdGains<Scalar> gains(const Scalar& ratio) const {
     const Matrix<Scalar, 3> matrix = at(ratio);
     Vector<Scalar, 3> null = Vector<Scalar, 3>::Zero();
@@ -78,16 +78,16 @@ struct ParityPencil {
       const Vector<Scalar, 3> normal = first.cross(second);
       if (normal.norm() > null.norm()) null = normal;
     }
-    // A solution at infinity leaves round-off in place of its first entry.
+    // For a solution at infinity the first entry is only round-off.
     if (std::abs(null[0]) <= Scalar(1e-11) * null.norm()) null[0] = Scalar(0);
     const Vector<Scalar, 3> solution = column.cwiseProduct(null);
     return {solution[1] / solution[0], solution[2] / solution[0]};
   }
 };
 
-/// The double point at given gains. Its two Y are the roots of the even or the odd part, whichever
-/// has larger coefficients. `nullopt` unless both are positive, finite and differ by more than 1e−5
-/// of their sum: closer roots form a cusp; a root 0 or ∞ (by round-off) is an `end`, or no pair.
+/// The double point at given gains. Its two Y are roots of the even or the odd part, whichever has
+/// larger coefficients. `nullopt` unless both are positive, finite and over 1e−5 of their sum
+/// apart: closer roots form a cusp; a root 0 or ∞ is an `end`, or no pair.
 template <class Scalar>
 std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scalar>& curve,
                                                         const PdGains<Scalar>& gains) {
@@ -104,7 +104,7 @@ std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scal
   const Vector<Scalar, 3>& c = even.squaredNorm() > odd.squaredNorm() ? even : odd;
   const Scalar discriminant = c[1] * c[1] - Scalar(4) * c[0] * c[2];
   if (!(discriminant > Scalar(1e-10) * c[1] * c[1])) return std::nullopt;
-  // Equal signs are added: −c₁ and the square root never cancel.
+  // Terms of equal sign are added, so that −c₁ and the square root do not cancel.
   const Scalar sum =
       -c[1] + (c[1] < Scalar(0) ? std::sqrt(discriminant) : -std::sqrt(discriminant));
   const Scalar first = sum / (Scalar(2) * c[2]), second = Scalar(2) * c[0] / sum;
@@ -116,17 +116,17 @@ std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scal
 
 }  // namespace detail
 
-/// All points at which the curve of root pairs intersects itself: at most three.
+/// All points at which the curve of root pairs crosses itself: at most three.
 ///
-/// Beside two pairs ±iy₁, ±iy₂ there is one further root (none for degree 4), so that the
-/// polynomial is (1 + νw) e(−w²) with e(Y) ∝ (Y − Y₁)(Y − Y₂). Its odd part is ν times its even
-/// part, coefficient by coefficient. Since both parts are linear in (1, P, D), this is a
-/// generalised eigenvalue problem of order 3,
+/// At the gains of such a point the loop has two pairs ±iy₁, ±iy₂ and, for degree 5, a real root.
+/// The polynomial is then (1 + νw) e(−w²) with e(Y) ∝ (Y − Y₁)(Y − Y₂), so that its odd part is ν
+/// times its even part. With the coefficients of the odd part O (1, P, D)ᵀ and of the even part E
+/// (1, P, D)ᵀ, the number ν is an eigenvalue of a 3 × 3 pencil:
 ///
 ///     (ν E − O) (1, P, D)ᵀ = 0,   det(ν E − O) = 0
 ///
-/// The determinant has degree 3 in ν, so that no point is missed. Without damping each pair passes
-/// along the whole curve D = 0: double points are not isolated, and the result is empty.
+/// All three eigenvalues are examined, so that no point is missed. Without damping two pairs are on
+/// the boundary at every point of the line D = 0; the result is then empty.
 template <class Scalar>
 std::vector<DoubleNeimarkSacker<Scalar>> double_neimark_sacker_points(
     const RootPairCurve<Scalar>& curve) {
@@ -142,7 +142,7 @@ std::vector<DoubleNeimarkSacker<Scalar>> double_neimark_sacker_points(
 
 namespace detail {
 
-/// Finder of all special points (tangents, cusps, crossings, ends) of a set of boundary curves.
+/// Finder of all special points of the boundary curves: tangents, cusps, crossings and ends.
 template <class Scalar, int Degree>
 class FeatureFinder {
  public:
@@ -180,7 +180,7 @@ class FeatureFinder {
     add(kind, pair, pair, gains);
   }
 
-  /// Marks vertical and horizontal tangents as near cusps where their root angles agree to 1/1000.
+  /// Marks vertical and horizontal tangents as near cusps where their angles agree to 1/1000.
   void mark_near_cusps() {
     constexpr double near = 1e-3;
     const auto is_near = [](const BoundaryFeature<Scalar>& one,
@@ -197,8 +197,8 @@ class FeatureFinder {
     }
   }
 
-  /// Adds tangents and cusps. P and D of a cusp are stationary at the same Y, to 1e−9 of it.
-  /// Without damping one gain is zero on the whole curve; each extreme of the other gain is a cusp.
+  /// Adds tangents and cusps. At a cusp P and D are stationary at the same Y, to 1e−9 of Y. Without
+  /// damping one gain is 0 on the whole curve; each extreme of the other gain is a cusp.
   void add_tangents() {
     const std::vector<Scalar> vertical = pairs_.proportional_extremes();
     std::vector<Scalar> horizontal = pairs_.differential_extremes();
@@ -217,8 +217,8 @@ class FeatureFinder {
     }
   }
 
-  /// Adds the points where the curve P = n_P/Δ, D = n_D/Δ meets a line c + P p + D d = 0: roots Y
-  /// of c Δ + p n_P + d n_D. One outer coefficient is 0, as the curve begins or ends on the line.
+  /// Adds the crossings of the curve P = n_P/Δ, D = n_D/Δ with a line c + P p + D d = 0: roots Y of
+  /// c Δ + p n_P + d n_D. One outer coefficient is 0, as the curve begins or ends on the line.
   void add_meetings(const BoundaryLine<Scalar>& line) {
     const bool at_infinity = line.curve == BoundaryCurve::minus_one;
     Polynomial<Scalar, 4> on_line = line.constant * pairs_.denominator() +
@@ -239,7 +239,7 @@ class FeatureFinder {
         end);
   }
 
-  /// A root Y refined by up to three Newton steps on c + P(Y) p + D(Y) d, which loses fewer digits
+  /// A root Y refined by up to three Newton steps on c + P(Y) p + D(Y) d. This loses fewer digits
   /// than the polynomial where line and curve almost coincide. The slope is a difference quotient.
   Scalar polished(const BoundaryLine<Scalar>& line, Scalar square) const {
     const auto value = [&](const Scalar& y2) {
@@ -293,14 +293,15 @@ class FeatureFinder {
 
 }  // namespace detail
 
-/// The special points of the boundary in a window of gains: tangents, cusps, crossings, ends.
+/// The special points of the stability boundary in a window: tangents, cusps, crossings and ends.
 ///
-/// All special points are roots of polynomials of degree at most six, so that none is missed. A
-/// gain n/Δ is stationary where n′ Δ = n Δ′. The curve of pairs crosses a line at roots of a
-/// polynomial of degree four in Y, and itself at those of a cubic (`double_neimark_sacker_points`).
-/// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
+/// Each special point is computed from the roots of a polynomial of degree at most six, so that
+/// none is missed. The polynomials are of degree six for tangents and cusps, of degree four for
+/// crossings of the curve of root pairs with a line, and of degree three for crossings of this
+/// curve with itself (`double_neimark_sacker_points`).
+/// @param polynomial  `characteristic_polynomial` of the sampled or the continuous loop
 /// @param window      window of P (N/m) and D (N s/m), its edges included
-/// @throws InvalidParameter unless the window's ranges are finite and not empty
+/// @throws InvalidParameter unless both ranges of the window are finite with lower < upper
 template <class Scalar, int Degree>
 std::vector<BoundaryFeature<Scalar>> boundary_features(
     const AffinePolynomial<Scalar, Degree>& polynomial, const GainWindow& window) {

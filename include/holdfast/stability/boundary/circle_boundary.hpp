@@ -9,7 +9,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// Stability boundary of a loop of any order, angle by angle, by G_z and G_v of `ModalResponse`.
+/// Stability boundary of a loop of any order, angle by angle, from its `ModalResponse` G_z, G_v.
 template <class Scalar>
 class CircleBoundary {
  public:
@@ -32,7 +32,7 @@ class CircleBoundary {
   static Scalar angle(const Scalar& angle) { return angle; }
   static BoundaryCurve pair_kind() { return BoundaryCurve::complex_pair; }
 
-  /// Appends the two ends of the line of gains with the root λ = 1 or −1, cut at the range of P.
+  /// Appends the two ends, within the range of P, of the line of gains with the root λ = 1 or −1.
   void append_line(BoundaryCurve curve, std::vector<BoundaryPoint<Scalar>>& points) const {
     const Scalar angle = curve == BoundaryCurve::plus_one ? Scalar(0) : pi<Scalar>;
     const CommandResponse<Scalar> g = response_.at_angle(angle);
@@ -52,7 +52,7 @@ class CircleBoundary {
   }
 
  private:
-  /// The largest |G_v| of those at θ = π/2 and at the poles' angles; 1e−9 of it is round-off.
+  /// The largest |G_v| at θ = π/2 and at the poles' angles; 1e−9 of it counts as round-off.
   Scalar response_size() const {
     Scalar largest = std::abs(response_.at_angle(pi<Scalar> / Scalar(2)).velocity);
     for (const Scalar& angle : pole_angles_)
@@ -79,13 +79,12 @@ class CircleBoundary {
 
 }  // namespace detail
 
-/// Points of the stability boundary of a loop of any order over a range of P: the two ends of each
-/// line (root 1 or −1), then the curve of root pairs e^{±iθ} by ascending angle.
-///
-/// With G_z and G_v of `ModalResponse` the equation 1 − P G_z(λ) − D G_v(λ) = 0 at λ = e^{iθ} is
-/// two real linear equations in P and D. The points are as dense as the curvature requires. The
-/// crossings with a line of constant P or D are found by `circle_crossings`.
-/// @param response  response of the loop
+/// Points of the stability boundary of a loop of any order, over a range of P: first the two ends
+/// of each straight line (root λ = 1 or −1), then the curve of root pairs e^{±iθ} by ascending
+/// angle. At λ = e^{iθ} the characteristic equation 1 − P G_z(λ) − D G_v(λ) = 0 consists of two
+/// real linear equations for P and D. Points of the curve are denser where it bends. Use
+/// `circle_crossings` for crossings of the boundary with a line of constant P or D.
+/// @param response  responses G_z and G_v of the loop
 /// @param range     range of P (N/m), its ends included
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
 template <class Scalar>

@@ -19,7 +19,7 @@
 
 namespace holdfast {
 
-/// A value of a gain at which a root of the loop lies on the unit circle.
+/// A value of P or D at which a characteristic root of the loop is on the unit circle.
 struct GainCrossing {
   double gain;   ///< P (N/m) or D (N s/m), finite
   double angle;  ///< θ (rad) of the root e^{±iθ}, 0 … π
@@ -27,14 +27,14 @@ struct GainCrossing {
 
 namespace detail {
 
-/// Free gain x = (1 − y G_held)/G_free of a root e^{iθ}, y being the fixed gain; G: `LoopResponse`.
+/// Free gain x(θ) = (1 − y G_fixed)/G_free with the root e^{iθ}; fixed gain y, G of `LoopResponse`.
 template <class Scalar>
 class FreeGainOnCircle {
  public:
   FreeGainOnCircle(const LoopMap<Scalar>& map, FreeGain free, const PdGains<Scalar>& gains)
       : response_(map), free_(free), gains_(gains) {}
 
-  /// The value x(θ); its imaginary part vanishes at a crossing.
+  /// The complex value x(θ); its imaginary part is 0 at a crossing.
   std::complex<Scalar> at(const Scalar& angle) const {
     const CommandResponse<Scalar> g = response_.at_angle(angle);
     return free_ == FreeGain::differential
@@ -42,8 +42,7 @@ class FreeGainOnCircle {
                : (Scalar(1) - gains_.differential * g.velocity) / g.displacement;
   }
 
-  /// The zero of Im x near an approximate angle, by the secant method; the given angle where the
-  /// method diverges.
+  /// The zero of Im x near an approximate angle by the secant method, or that angle if it diverges.
   Scalar polished(const Scalar& angle) const {
     Scalar before = angle * (Scalar(1) - Scalar(1e-7)), here = angle;
     Scalar value_before = at(before).imag(), value = at(here).imag();
@@ -64,11 +63,11 @@ class FreeGainOnCircle {
   PdGains<Scalar> gains_;
 };
 
-/// The angles θ > 0 of the eigenvalues of a pencil M − λ L that lie on the unit circle. Eigenvalues
+/// Angles θ, 0 < θ < π, of the eigenvalues of a pencil M − λ L on the unit circle. Eigenvalues
 /// within 10⁻⁴ of the circle in the variable w of λ = (w + a)/(1 + a w) are included.
 ///
-/// The change of variable preserves the circle and turns the pencil into the matrix (L − a M)⁻¹(M −
-/// a L) with the eigenvalues w. Eigenvalues 0 and ∞ become −a and −1/a, both finite. With a near 1
+/// The variable w preserves the circle and turns the pencil into the matrix (L − a M)⁻¹(M − a L)
+/// with the eigenvalues w. Eigenvalues λ = 0 and ∞ become −a and −1/a, both finite. With a near 1
 /// the eigenvalues near λ = 1 are moved apart.
 /// @param spread  (1 − a)/(1 + a), 0 … 1
 template <class Scalar>
@@ -85,7 +84,7 @@ std::vector<Scalar> angles_on_circle(const Matrix<Scalar, Eigen::Dynamic>& m,
   return angles;
 }
 
-/// The pencil M − λ L; its eigenvalues on the unit circle are the loop's roots at the crossings.
+/// The pencil M − λ L; the loop's roots at crossings are its eigenvalues on the unit circle.
 /// @param s, b, h  map, command column and reading row of the balanced loop; b and h in any unit
 template <class Scalar>
 std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossing_pencil(
@@ -109,19 +108,22 @@ std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossi
 
 }  // namespace detail
 
-/// All values of one gain, for a fixed value of the other, at which a loop of any order has a root
-/// on the unit circle; ascending.
+/// All finite values of one gain, for a fixed value of the other, at which a loop of any order has
+/// a root on the unit circle; ascending.
 ///
-/// Let S = S₀ + s K_held contain the fixed gain, and let the free gain x multiply the reading h.
-/// Then λ is a root if x g(λ) = 1, g = h (λI − S)⁻¹ s. On the circle x is real where g(λ) = g(1/λ).
-/// These λ are eigenvalues of a pencil with vectors (y₁, y₂, w), of size 2n + 1 for S of size n:
+/// The n × n map S of the loop with the fixed gain alone, the input column s and the row h of the
+/// free gain x are from `LoopMap`. λ is a root if x g(λ) = 1, where g = h (λI − S)⁻¹ s. On the unit
+/// circle x is real if g(λ) = g(1/λ). Each such λ is an eigenvalue, with the eigenvector (y₁, y₂,
+/// w), of a pencil of size 2n + 1:
 ///
 ///     λ y₁ = S y₁ + s w,   y₂ = λ (S y₂ + s w),   h (y₁ − y₂) = 0
 ///
-/// No crossing is missed. Round-off ε moves a double eigenvalue off the circle by about √ε; so
-/// eigenvalues near the circle are included, and the angle of each is refined. A false crossing is
-/// harmless: it only divides an interval. λ = ±1 are always solutions. Cost: the eigenvalues of one
-/// matrix, about 10 (2n + 1)³ multiply-adds.
+/// No crossing is missed. Eigenvalues near the circle are included, since round-off ε moves a
+/// double eigenvalue off the circle by about √ε. The result may therefore have values without a
+/// root on the circle; `stable_gains` is not affected. Cost: about 10 (2n + 1)³ multiply-adds.
+/// @param map    the loop
+/// @param free   the gain that varies
+/// @param gains  the fixed gain, finite (unchecked); the value of the free gain is not used
 template <class Scalar>
 std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain free,
                                            const PdGains<Scalar>& gains) {
@@ -151,11 +153,11 @@ std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain 
 
 /// The open intervals of one gain, for a fixed value of the other, in which a loop is stable.
 ///
-/// The eigenvalues of the map at the middle of each gap between neighbouring crossings decide the
-/// gap. Adjacent stable gaps are joined where the loop is stable at their common end too.
+/// The crossings divide the gains into intervals. One gain in each interval is tested by the
+/// spectral radius. Adjacent stable intervals are joined if the loop is stable at their common end.
 /// @param map    the loop, of any order
 /// @param free   the gain that varies
-/// @param gains  the fixed gain; the value of the free one is not used
+/// @param gains  the fixed gain; the value of the free gain is not used
 /// @throws InvalidParameter where the fixed gain is not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_gains(const LoopMap<Scalar>& map, FreeGain free,

@@ -11,33 +11,33 @@
 
 namespace holdfast {
 
-/// End of an arc: its parameter Y, and n and Δ of P = n/Δ there (`RootPairCurve`). At Y = 0 (∞), n
-/// and Δ are the coefficients of the lowest (highest) power of Y at which not both vanish.
+/// End of an arc of the `RootPairCurve`: Y, and n and Δ of P = n/Δ there. At Y = 0 n and Δ are the
+/// coefficients of the lowest power of Y for which not both are 0, at Y = ∞ of the highest.
 template <class Scalar>
 struct ArcEnd {
   Scalar square;       ///< parameter Y, 0 … ∞
-  Scalar numerator;    ///< numerator n of P; at a pole with finite P, divided by |Y − pole|
-  Scalar denominator;  ///< denominator Δ of P, divided in the same way; 0 at any other pole
+  Scalar numerator;    ///< numerator n of P; n/|Y − pole| at a pole where P is finite
+  Scalar denominator;  ///< Δ, at such a pole Δ/|Y − pole|; 0 at a pole where P is infinite
 
-  /// The residual n − P Δ at a given P (N/m); its sign changes along an arc that takes this P.
+  /// The residual n − P Δ at a given P (N/m). If P occurs on an arc, the signs at its ends differ.
   Scalar residual(const Scalar& proportional_gain) const {
     return numerator - proportional_gain * denominator;
   }
 };
 
-/// A part of the curve of root pairs on which P is monotone and finite.
+/// An arc, a part of the curve of root pairs on which P is monotone and finite.
 template <class Scalar>
 struct MonotoneArc {
   ArcEnd<Scalar> start;  ///< end at the lower Y ≥ 0
   ArcEnd<Scalar> end;    ///< end at the upper Y ≤ ∞
 
-  /// Whether P on the arc takes the given value (N/m); it does so at most once.
+  /// Whether P has the given value (N/m) somewhere on the arc.
   bool passes(const Scalar& proportional_gain) const {
     return (start.residual(proportional_gain) < Scalar(0)) !=
            (end.residual(proportional_gain) < Scalar(0));
   }
 
-  /// A parameter Y inside the arc: the geometric mean of the ends where these are finite and not 0.
+  /// A parameter Y inside the arc: the geometric mean of both ends, if they are finite and not 0.
   Scalar inside() const {
     if (std::isinf(end.square)) return start.square > 0 ? Scalar(2) * start.square : Scalar(1);
     if (!(start.square > Scalar(0))) return end.square / Scalar(2);
@@ -45,28 +45,29 @@ struct MonotoneArc {
   }
 };
 
-/// Crossing of a line P = const with the boundary of stability.
+/// Crossing of a line of constant P with the stability boundary in the plane of P and D.
 template <class Scalar>
 struct RowCrossing {
   Scalar differential;  ///< D of the crossing (N s/m)
   Scalar uncertainty;   ///< bound of the round-off error of D (N s/m)
 };
 
-/// Curve of the gains at which the loop has a pair of roots w = ±iy on the imaginary axis, with P
-/// and D as rational functions of the parameter Y = y².
+/// Curve of the gains P and D at which the loop has a root pair w = ±iy on the imaginary axis. P
+/// and D are rational functions of the parameter Y = (y/unit)² with the scale `unit()` of w. In the
+/// sampled loop y = tan(θ/2) for roots λ = e^{±iθ}; in the continuous loop y = ω.
 ///
-/// With even and odd parts a(iy) = a_e(Y) + iy a_o(Y) of base b, proportional p and differential d,
+/// The characteristic polynomial is b + P p + D d. Each polynomial a = b, p or d is divided into an
+/// even and an odd part, a(iy) = a_e(Y) + iy a_o(Y), with y in units of `unit()`. Then
 ///
 ///     P(Y) = (b_o d_e − b_e d_o) / Δ,   D(Y) = (b_e p_o − b_o p_e) / Δ,   Δ(Y) = p_e d_o − p_o d_e
 ///
-/// Numerators and Δ are of degree ≤ 4 in Y, in units of `unit()` squared. Coefficients of p and d
-/// that are round-off beside the largest are set to zero. In the sampled loop w = i tan(θ/2) is the
-/// pair λ = e^{±iθ}; in the continuous loop w = iω.
+/// Both numerators and Δ have a degree of at most 4. Coefficients of p and d that are only
+/// round-off of larger ones are set to zero.
 template <class Scalar>
 class RootPairCurve {
  public:
-  /// @param polynomial  `characteristic_polynomial(plant)`, or that of the sampled loop transformed
-  ///                    by `in_half_plane`
+  /// @param polynomial  characteristic polynomial whose stable roots have Re < 0, from
+  ///                    `in_half_plane` for the sampled loop
   template <int Degree>
   explicit RootPairCurve(const HalfPlanePolynomial<Scalar, Degree>& polynomial)
       : unit_(detail::mean_root_modulus(polynomial.base)),
@@ -77,38 +78,37 @@ class RootPairCurve {
         proportional_numerator_(cross(differential_, base_)),
         differential_numerator_(cross(base_, proportional_)) {}
 
-  /// The mean root modulus without control, the unit of w: y = unit · √Y.
+  /// The unit of w in y = unit · √Y: the geometric mean of the moduli of the roots without control.
   const Scalar& unit() const { return unit_; }
 
-  /// The imaginary part y = Im w of the root pair at the parameter Y.
+  /// The imaginary part y = unit · √Y of the root w at the parameter Y.
   Scalar root(const Scalar& square) const { return unit_ * std::sqrt(square); }
 
-  /// The gains P and D at the parameter Y; infinite at a pole of the curve.
+  /// The gains P and D at the parameter Y; not finite at a pole of the curve.
   PdGains<Scalar> gains(const Scalar& square) const {
     const Scalar denominator = evaluate(denominator_, square);
     return {evaluate(proportional_numerator_, square) / denominator,
             evaluate(differential_numerator_, square) / denominator};
   }
 
-  /// The numerator of P(Y), of degree 4.
+  /// The numerator of P(Y), of degree ≤ 4.
   const Polynomial<Scalar, 4>& proportional_numerator() const { return proportional_numerator_; }
-  /// The numerator of D(Y), of degree 4.
+  /// The numerator of D(Y), of degree ≤ 4.
   const Polynomial<Scalar, 4>& differential_numerator() const { return differential_numerator_; }
-  /// The common denominator Δ(Y) of P and D, of degree 4.
+  /// The common denominator Δ(Y) of P and D, of degree ≤ 4.
   const Polynomial<Scalar, 4>& denominator() const { return denominator_; }
 
-  /// Place on the curve at which P has a given value.
+  /// Point of the curve at which P has a given value.
   struct Place {
     Scalar square;           ///< parameter Y
     Scalar square_per_gain;  ///< derivative dY/dP (m/N)
   };
 
-  /// The place at which P on an arc has the given value (N/m); the arc must reach this P
-  /// (`passes`). Newton's method on n − P Δ, n being the numerator of P, finds it to round-off.
-  /// Where Newton steps leave the arc or do not shrink, the rest of the arc is halved.
+  /// The point of an arc at which P has a given value, by Newton's method on n − P Δ with the
+  /// numerator n of P. Where a step leaves the arc or does not shrink, the arc is halved instead.
   /// @param arc                arc of this curve
-  /// @param proportional_gain  P (N/m)
-  /// @param guess              initial Y; any number, NaN too
+  /// @param proportional_gain  P (N/m), which must occur on the arc (`MonotoneArc::passes`)
+  /// @param guess              initial Y; any number, also NaN
   Place place(const MonotoneArc<Scalar>& arc, const Scalar& proportional_gain,
               const Scalar& guess) const {
     MonotoneArc<Scalar> bracket = arc;
@@ -131,8 +131,8 @@ class RootPairCurve {
     return {square, at.denominator / at.slope};
   }
 
-  /// The parameter Y of an arc at a given P (N/m), or of the nearer end where the arc does not
-  /// reach P. Y = 0 and ∞ are replaced by values at which all powers of Y are finite.
+  /// The parameter Y at which P has the given value (N/m) on an arc. If P does not occur on the
+  /// arc, Y of the end with the nearer P is returned, which is then positive and finite.
   Scalar square(MonotoneArc<Scalar> arc, const Scalar& proportional_gain) const {
     const Scalar largest = std::pow(std::numeric_limits<Scalar>::max(), Scalar(0.125));
     arc.start.square = std::max(arc.start.square, Scalar(1) / largest);
@@ -144,7 +144,7 @@ class RootPairCurve {
     return distance(arc.start) < distance(arc.end) ? arc.start.square : arc.end.square;
   }
 
-  /// The crossing at P (N/m) and Y: D = −(b + P p)/d by the more accurate part, even or odd.
+  /// The crossing at P (N/m) and Y = `square`, with the smaller round-off of D = −(b + P p)/d.
   RowCrossing<Scalar> crossing(const Scalar& proportional_gain, const Scalar& square) const {
     const Scalar even_slope = evaluate(differential_.even, square);
     const Scalar odd_slope = evaluate(differential_.odd, square);
@@ -158,24 +158,24 @@ class RootPairCurve {
     return {-evaluate(sum, square) / slope, rounding * evaluate(sizes, square) / std::abs(slope)};
   }
 
-  /// The round-off of a sum, as a share of the sum of the moduli of its terms.
+  /// Bound of the round-off error of a polynomial's value, relative to Σ |its terms|.
   static constexpr Scalar rounding = Scalar(32) * std::numeric_limits<Scalar>::epsilon();
 
-  /// Even and odd part of the polynomial without control, w in units of `unit()`.
+  /// Even and odd part of b, the polynomial at P = D = 0, with w in units of `unit()`.
   const ParityParts<Scalar>& base() const { return base_; }
-  /// Even and odd part of the polynomial's change per N/m of P.
+  /// Even and odd part of p, the polynomial's derivative by P, per N/m.
   const ParityParts<Scalar>& proportional() const { return proportional_; }
-  /// Even and odd part of the polynomial's change per N s/m of D.
+  /// Even and odd part of d, the polynomial's derivative by D, per N s/m.
   const ParityParts<Scalar>& differential() const { return differential_; }
 
-  /// Coefficients of the even or odd part at given gains, with a measure of their round-off.
+  /// Coefficients of the even or the odd part of the polynomial at given gains P and D.
   struct Terms {
     Vector<Scalar, 3> sum,  ///< coefficients b + P p + D d
-        size;               ///< sums of moduli |b| + |P p| + |D d|
+        size;               ///< |b| + |P p| + |D d|, to which round-off is proportional
   };
 
-  /// The coefficients of the even or odd part at given gains.
-  /// @param part   `&ParityParts<Scalar>::even` or `odd`
+  /// The coefficients of the even or the odd part of the polynomial at given gains.
+  /// @param part   pointer to member, `&ParityParts<Scalar>::even` or `odd`
   /// @param gains  P (N/m) and D (N s/m)
   Terms terms(Vector<Scalar, 3> ParityParts<Scalar>::*part, const PdGains<Scalar>& gains) const {
     const Vector<Scalar, 3>& b = base_.*part;
@@ -184,20 +184,20 @@ class RootPairCurve {
     return {b + p + d, b.cwiseAbs() + p.cwiseAbs() + d.cwiseAbs()};
   }
 
-  /// The poles of the curve: values Y > 0 at which the gains are infinite, ascending.
+  /// The poles of the curve, ascending: values Y > 0 at which P or D is infinite.
   std::vector<Scalar> poles() const { return positive_roots(denominator_); }
 
-  /// The Y > 0 at which P is stationary, ascending; there the curve is parallel to the D axis.
+  /// The Y > 0 at which dP/dY = 0, ascending; the curve has a tangent parallel to the D axis there.
   std::vector<Scalar> proportional_extremes() const {
     return positive_roots(slope(reduced(proportional_numerator_, differential_)));
   }
 
-  /// The Y > 0 at which D is stationary, ascending; there the curve is parallel to the P axis.
+  /// The Y > 0 at which dD/dY = 0, ascending; the curve has a tangent parallel to the P axis there.
   std::vector<Scalar> differential_extremes() const {
     return positive_roots(slope(reduced(differential_numerator_, proportional_)));
   }
 
-  /// The arcs of the whole curve, 0 < Y < ∞, cut at its poles and at the extremes of P.
+  /// All arcs of the curve, by ascending Y: 0 < Y < ∞ divided at the poles and where dP/dY = 0.
   std::vector<MonotoneArc<Scalar>> arcs() const {
     const ArcEnd<Scalar> first = outer_end(Scalar(0), 0, 4),
                          last = outer_end(std::numeric_limits<Scalar>::infinity(), 4, 0);
@@ -219,7 +219,7 @@ class RootPairCurve {
   }
 
  private:
-  /// The value n − P Δ, n being the numerator of P, with its derivative by Y, and Δ.
+  /// The value n − P Δ and its derivative by Y, with n and Δ the numerator and denominator of P.
   struct Residual {
     Scalar value, slope, denominator;
   };
@@ -235,7 +235,7 @@ class RootPairCurve {
     return {value, slope, denominator};
   }
 
-  /// The difference of two polynomials, with zeros for coefficients that are mere round-off.
+  /// The difference a − c of two polynomials, with coefficients that are only round-off set to 0.
   template <int Size>
   static Vector<Scalar, Size> difference(const Vector<Scalar, Size>& a,
                                          const Vector<Scalar, Size>& c) {
@@ -247,13 +247,13 @@ class RootPairCurve {
     return result;
   }
 
-  /// The polynomial Im(ā c)/y = a_e c_o − a_o c_e for a(iy) and c(iy), of degree 4 in Y.
+  /// The polynomial a_e c_o − a_o c_e in Y, of degree ≤ 4; it is Im(ā c)/y for a(iy) and c(iy).
   static Polynomial<Scalar, 4> cross(const ParityParts<Scalar>& a, const ParityParts<Scalar>& c) {
     return difference<5>(multiply<Scalar, 3, 3>(a.even, c.odd),
                          multiply<Scalar, 3, 3>(a.odd, c.even));
   }
 
-  /// Cut of the curve at one Y: end of the arc with smaller Y and start of the arc with larger Y.
+  /// Cut of the curve at one Y: `below` ends the arc of smaller Y, `above` starts that of larger Y.
   struct Cut {
     ArcEnd<Scalar> below, above;
   };
@@ -262,8 +262,8 @@ class RootPairCurve {
     Polynomial<Scalar, 4> numerator, denominator;
   };
 
-  /// The fraction numerator / Δ without common zeros, the poles at which `factor` is 0: d(iy) for
-  /// P, p(iy) for D. Without damping d has such zeros, at which only D is infinite.
+  /// The fraction numerator/Δ of P or D, without the zeros that numerator and Δ have in common.
+  /// Both are 0 at a pole where `factor` is 0, which is d(iy) for P and p(iy) for D.
   Fraction reduced(const Polynomial<Scalar, 4>& numerator,
                    const ParityParts<Scalar>& factor) const {
     Fraction result{numerator, denominator_};
@@ -275,7 +275,7 @@ class RootPairCurve {
     return result;
   }
 
-  /// Whether the even and the odd part are both zero at Y up to round-off.
+  /// Whether a polynomial's even and odd part are both zero at Y, up to round-off.
   static bool vanishes(const ParityParts<Scalar>& factor, const Scalar& square) {
     const Scalar even = evaluate(factor.even, square), odd = evaluate(factor.odd, square);
     const Scalar size =
@@ -283,7 +283,7 @@ class RootPairCurve {
     return std::abs(even) + std::sqrt(square) * std::abs(odd) <= Scalar(1e-12) * size;
   }
 
-  /// The ends of the two arcs at a pole; if P is finite there, n and Δ are divided by |Y − pole|.
+  /// The ends of the two arcs that meet at a pole, with n and Δ as stated at `ArcEnd`.
   Cut cut_at_pole(const Scalar& pole) const {
     const Polynomial<Scalar, 4>& numerator = proportional_numerator_;
     if (!vanishes(differential_, pole)) {
@@ -295,7 +295,7 @@ class RootPairCurve {
     return {{pole, -above, -denominator}, {pole, above, denominator}};
   }
 
-  /// The polynomial numerator′ Δ − numerator Δ′; leading terms cancel, the degree is at most 6.
+  /// The polynomial n′ Δ − n Δ′ of a fraction n/Δ. Its leading terms cancel: the degree is ≤ 6.
   static Polynomial<Scalar, 6> slope(const Fraction& fraction) {
     const auto& [n, d] = fraction;
     return difference<8>(multiply<Scalar, 4, 5>(derivative<Scalar, 5>(n), d),
@@ -303,7 +303,8 @@ class RootPairCurve {
         .template head<7>();
   }
 
-  /// The end of an arc at Y = 0 or ∞: coefficients of the first power, `from` … `last`, not 0.
+  /// The end of an arc at Y = 0 or ∞, with the coefficients of the first power of Y, in the order
+  /// `from` … `last`, for which n or Δ is not 0.
   ArcEnd<Scalar> outer_end(const Scalar& square, int from, int last) const {
     int order = from;
     while (order != last && proportional_numerator_[order] == Scalar(0) &&

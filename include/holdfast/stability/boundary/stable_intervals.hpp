@@ -13,15 +13,15 @@
 
 namespace holdfast {
 
-/// The values x at which a(w) + x d(w) has a root on the imaginary axis or at infinity, ascending.
+/// Values x, ascending, at which a(w) + x d(w) has a root on the imaginary axis or at infinity.
 ///
-/// A root w = 0 needs a₀ + x d₀ = 0, w = ∞ needs a_n + x d_n = 0. For w = iy the even and the odd
-/// part vanish together; eliminating x leaves a polynomial in Y = y² of degree at most 4,
+/// A root w = 0 needs a₀ + x d₀ = 0; a root w = ∞ needs a_n + x d_n = 0. At a root w = iy the even
+/// part (e) and the odd part (o) are both 0. Without x they give a polynomial in Y = y²:
 ///
 ///     a_e(Y) d_o(Y) − a_o(Y) d_e(Y) = 0,   x = −a_e / d_e = −a_o / d_o
 ///
-/// so that no x is missed. w is in units of the mean root modulus of a. Where d(w) is below 1e−12
-/// of its largest coefficient, x is infinite and left out.
+/// All its positive roots are found. An x is left out if its denominator is below 1e−12 of the
+/// largest coefficient of d; w is first scaled by the mean root modulus of a.
 template <class Scalar, int Size>
 std::vector<Scalar> boundary_crossings(const Vector<Scalar, Size>& constant_part,
                                        const Vector<Scalar, Size>& slope_part) {
@@ -56,8 +56,8 @@ namespace detail {
 
 /// The gaps between ascending `ends` in which the loop is stable; the first and the last gap are
 /// unbounded. Adjacent stable gaps are joined where the loop is stable at their common end too.
-/// @param inside     map from a gap to a point in it
-/// @param stable_at  test of the loop's stability at a point
+/// @param inside     function from a gap to a point in the gap
+/// @param stable_at  function from a point to whether the loop is stable there
 template <class Scalar, class Inside, class StableAt>
 std::vector<Interval<Scalar>> stable_gaps(const std::vector<Scalar>& ends, const Inside& inside,
                                           const StableAt& stable_at) {
@@ -78,11 +78,11 @@ std::vector<Interval<Scalar>> stable_gaps(const std::vector<Scalar>& ends, const
 
 }  // namespace detail
 
-/// The open intervals of x in which all roots w of a(w) + x d(w) have Re w < 0.
+/// The open intervals of x, ascending, in which all roots w of a(w) + x d(w) have Re w < 0.
 ///
 /// One Hurwitz test decides each gap between neighbouring values of `boundary_crossings`. Adjacent
-/// stable gaps are joined unless a root is on the imaginary axis at the value between them. The
-/// leading coefficient may change sign along x.
+/// stable gaps are joined if the polynomial is stable at the value between them. The leading
+/// coefficient may change sign along x.
 template <class Scalar, int Size>
 std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
                                                const Vector<Scalar, Size>& d) {
@@ -93,7 +93,7 @@ std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
 
 namespace detail {
 
-/// The intervals of stable_differential_gains() without validation of the arguments.
+/// The intervals of stable_differential_gains(), without validation of the arguments.
 template <class Scalar, int Degree>
 std::vector<Interval<Scalar>> differential_intervals(
     const AffinePolynomial<Scalar, Degree>& polynomial, const Scalar& proportional_gain) {
@@ -104,8 +104,8 @@ std::vector<Interval<Scalar>> differential_intervals(
 
 }  // namespace detail
 
-/// The stable intervals of D (N s/m) for a given proportional gain P (N/m).
-/// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
+/// The open intervals of D (N s/m), ascending, in which the loop is stable at a given P (N/m).
+/// @param polynomial  `characteristic_polynomial` of the sampled or the continuous loop
 /// @param proportional_gain  P (N/m), finite
 /// @throws InvalidParameter where an argument is not finite
 template <class Scalar, int Degree>
@@ -116,8 +116,8 @@ std::vector<Interval<Scalar>> stable_differential_gains(
   return detail::differential_intervals(polynomial, proportional_gain);
 }
 
-/// The stable intervals of P (N/m) for a given differential gain D (N s/m).
-/// @param polynomial         see `stable_differential_gains`
+/// The open intervals of P (N/m), ascending, in which the loop is stable at a given D (N s/m).
+/// @param polynomial         `characteristic_polynomial` of the sampled or the continuous loop
 /// @param differential_gain  D (N s/m), finite
 /// @throws InvalidParameter where an argument is not finite
 template <class Scalar, int Degree>

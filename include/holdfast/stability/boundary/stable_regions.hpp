@@ -18,55 +18,54 @@
 
 namespace holdfast {
 
-/// A connected part of a window of gains with no boundary in it, so that the loop has a constant
-/// number of unstable roots.
+/// Connected part of a window in the plane of P and D. No stability boundary crosses it, so that
+/// all its loops have the same number of unstable roots.
 template <class Scalar>
 struct GainRegion {
-  int unstable_roots;      ///< roots with |λ| > 1 (continuous: Re s > 0); 0: asymptotically stable
-  Scalar area;             ///< ∬ dP dD within the window, N²s/m²
-  PdGains<Scalar> inside;  ///< gains in the middle of the region's largest cell
+  int unstable_roots;      ///< number of roots with |λ| > 1 (continuous loop: Re s > 0); 0: stable
+  Scalar area;             ///< area in the plane of P and D (N²·s/m²)
+  PdGains<Scalar> inside;  ///< gains of a point inside the region, away from its boundary
   Interval<Scalar> proportional;  ///< least and largest P of the region (N/m)
   Interval<Scalar> differential;  ///< least and largest D of the region (N s/m)
-  bool at_edge;  ///< whether the region touches the window's edge and may go beyond
+  bool at_edge;  ///< whether the region touches the window's edge and may extend beyond
 };
 
 namespace detail {
 
-/// A part of the boundary on which D is a function of P: an arc or a line that is not vertical.
+/// Part of the boundary on which D is a function of P: an arc, or a line that is not vertical.
 template <class Scalar>
 struct BoundaryBranch {
-  const RootPairCurve<Scalar>* curve;  ///< curve of the arc, to outlive the branch; null for a line
+  const RootPairCurve<Scalar>* curve;  ///< arc's curve, must outlive the branch; null for a line
   MonotoneArc<Scalar> arc;             ///< the arc, unless `curve` is null
   BoundaryLine<Scalar> line;           ///< the line, if `curve` is null
 
-  /// Whether the branch has a D at P (N/m): an arc has one within its range, a line everywhere.
+  /// Whether the branch has a D at P (N/m): an arc only within its range of P, a line at every P.
   bool passes(const Scalar& proportional_gain) const {
     return curve == nullptr || arc.passes(proportional_gain);
   }
 
-  /// The D (N s/m) of the branch at P (N/m); that of the nearer end if an arc does not reach P.
+  /// The D (N s/m) of the branch at P (N/m), or of the nearer end if an arc does not reach P.
   Scalar differential(const Scalar& proportional_gain) const {
     if (curve == nullptr) return line.differential_at(proportional_gain);
     return curve->crossing(proportional_gain, curve->square(arc, proportional_gain)).differential;
   }
 };
 
-/// A range of P in a window over which the boundary has a constant shape: the same branches cross
-/// the window, in the same order, each of them monotone.
+/// Range of P in a window over which the same monotone branches cross the window in the same order.
 template <class Scalar>
 struct GainSlab {
   Scalar lower;                                  ///< lower end in P (N/m)
   Scalar upper;                                  ///< upper end in P (N/m)
-  bool wall_below;                               ///< whether a vertical boundary line is at `lower`
+  bool wall_below;                               ///< whether a vertical line is at P = `lower`
   std::vector<BoundaryBranch<Scalar>> branches;  ///< branches in the slab, ascending in D
 };
 
-/// Division of a window of the gain plane into slabs, at every P where the boundary changes its
-/// shape: at special points (`boundary_features`), at vertical lines and at the window's edges. The
-/// cells of neighbouring slabs are joined into regions.
+/// Division of a window of the gain plane into slabs. Slabs end at every P where the boundary
+/// changes its shape: at special points (`boundary_features`), vertical lines and the window's
+/// edges. The cells of neighbouring slabs are joined into regions.
 ///
-/// A curve of root pairs that coincides with a line P = const would be missed. No plant has such a
-/// curve. With P and D exchanged the undamped continuous loop would have one, the line D = 0.
+/// A curve of root pairs on a line P = const would be missed. No plant has such a curve. With P and
+/// D exchanged the undamped continuous loop would have one, on the line D = 0.
 template <class Scalar, int Degree>
 class RegionBuilder {
  public:
@@ -87,10 +86,10 @@ class RegionBuilder {
     }
   }
 
-  /// The slabs of the window, ascending in P, without gaps.
+  /// The slabs of the window, ascending in P and without gaps between them.
   const std::vector<GainSlab<Scalar>>& slabs() const { return slabs_; }
 
-  /// The regions by ascending number of unstable roots and, for equal numbers, by descending area.
+  /// The regions, by ascending number of unstable roots and, for equal numbers, by descending area.
   std::vector<GainRegion<Scalar>> regions() {
     std::vector<GainRegion<Scalar>> result;
     for (std::size_t k = 0; k < cells_.size(); ++k) {
@@ -117,7 +116,7 @@ class RegionBuilder {
     if (window_.contains(gains)) events_.push_back({gains.proportional, is_wall});
   }
 
-  /// Adds the P at which the boundary crosses D = `differential` (N s/m).
+  /// Adds each P at which the boundary crosses the line D = `differential` (N s/m).
   void add_edge(const Scalar& differential) {
     const RootPairCurve<Scalar>& pairs = curves_.pairs();
     for (const Scalar& square :
@@ -178,12 +177,12 @@ class RegionBuilder {
   using Levels = std::vector<Scalar>;
   static constexpr double negligible_ = 1e-12;  // of the window
 
-  /// The part of a region in one slab.
+  /// Part of a region in one slab. `absorb` adds a region's other cells to its root cell.
   struct Cell {
     std::size_t parent;
     GainRegion<Scalar> region;
     Interval<Scalar> left, right;  // in D, at the slab's two ends
-    Scalar largest;                // area of the cell that gave the point inside
+    Scalar largest;                // area of the cell whose middle is `region.inside`
   };
 
   /// The D of the window's lower edge, of each branch at P, and of the upper edge, ascending.
@@ -237,7 +236,7 @@ class RegionBuilder {
     }
   }
 
-  /// Joins cells of neighbouring slabs that share a piece of their common edge into one region.
+  /// Joins cells of neighbouring slabs into one region if they share a part of their common edge.
   void join(std::size_t previous, std::size_t first) {
     const Scalar slack(1e-9 * window_.height());
     for (std::size_t i = previous; i < first; ++i) {
@@ -280,14 +279,13 @@ class RegionBuilder {
 
 }  // namespace detail
 
-/// The regions into which the boundary divides a window of gains, with their exact areas.
-///
-/// Each slab is a range of P over which the boundary has a constant shape. In it the gap between
-/// two crossings D₁(P) < D₂(P) < … is a cell with a constant number of unstable roots, counted at
-/// the cell's middle; its area is ∫ (D_{k+1} − D_k) dP. Cells of neighbouring slabs that touch
-/// without a boundary between them are one region. Areas are accurate to 1e−10 of the window's
-/// area. Cells connected only by a neck narrower than 1e−9 of the window's height are not joined.
-/// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
+/// The regions into which the stability boundary divides a window of gains, with their areas.
+/// The window is cut into slabs, ranges of P in which the same boundary curves D₁(P) < D₂(P) < …
+/// cross it. Between two neighbouring curves a slab has a cell of the area ∫ (D_{k+1} − D_k) dP.
+/// The unstable roots are counted at the middle of each cell. Cells of neighbouring slabs form one
+/// region if they share more than 1e−9 of the window's range of D and no boundary lies between.
+/// Areas are accurate to 1e−10 of the window's area; regions below 1e−12 of it are left out.
+/// @param polynomial  `characteristic_polynomial` of the sampled or the continuous loop
 /// @param window      window of P (N/m) and D (N s/m), its edges included
 /// @return regions by ascending number of unstable roots and, for equal numbers, descending area
 /// @throws InvalidParameter unless the window's ranges are finite and not empty

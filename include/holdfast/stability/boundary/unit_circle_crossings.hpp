@@ -24,36 +24,35 @@ template <class Scalar>
 struct GainPassage {
   Scalar gain;   ///< P (N/m) or D (N s/m), finite
   Scalar angle;  ///< θ (rad) of the roots e^{±iθ}, 0 … π
-  int leaving;   ///< number of roots leaving the circle as the gain grows: ±2, or ±1 at λ = ±1
+  int leaving;   ///< number (1 or 2) of roots that leave the circle as the gain grows; < 0: enter
 };
 
-/// Crossings of the unit circle by roots of a loop of any order, from its response G_z, G_v
-/// (`ModalResponse`) at angles so dense that the response is smooth between them. An angle step is
-/// at most 0.12 of the distance to the nearest pole and 0.4 rad of the delay's phase. The winding
-/// of p gives the number n_out of roots outside; n_plant is this number without control:
+/// Crossings of the unit circle by roots of a loop of any order, from the transfer functions G_z
+/// and G_v (`ModalResponse`) at stored angles θ. The winding of p about 0 gives the number n_out of
+/// roots outside the circle; n_plant is this number without control:
 ///
 ///     p(λ) = 1 − P G_z(λ) − D G_v(λ),   n_out = n_plant − (1/π) [arg p(e^{iθ})] from 0 to π
 ///
-/// A free gain x has a crossing where X(θ) = (1 − y G_held)/G_free is real, y being the fixed gain.
-/// As x grows, roots leave the circle where Im X rises through zero, since dλ/dx = 1/X′(λ). The
-/// winding of p gives n_out in one interval of x, the crossings give it in the others. As a check
-/// the winding is computed in all intervals if they are at most twelve, else in those with at most
-/// four roots outside. If a check disagrees, the winding decides every interval. Work: about 30
-/// angles per pole once; for each gain x, 10 operations per angle and 10 values of G per crossing.
+/// If y is the fixed gain, p(e^{iθ}) = 0 at the free gain X(θ) = (1 − y G_fixed)/G_free. Roots
+/// cross where X is real. As the free gain grows, they leave the circle if Im X rises with θ. The
+/// winding gives n_out in one interval between crossings; the crossings give it in the others. The
+/// winding is a check in all intervals if these are at most twelve, else in those with few roots
+/// outside. If a check disagrees, the winding decides every interval. About 30 angles per pole are
+/// stored. Each fixed gain takes 10 operations per angle and 10 values of G per crossing.
 template <class Scalar>
 class UnitCircleCrossings {
  public:
-  /// Response G of the loop at one angle on the unit circle.
+  /// Transfer functions from the command to the readings at one angle on the unit circle.
   struct Place {
     Scalar angle;               ///< θ (rad)
-    CommandResponse<Scalar> g;  ///< responses G_z and G_v
+    CommandResponse<Scalar> g;  ///< transfer functions G_z and G_v at e^{iθ}
   };
 
-  /// @param response  response of the loop; it is stored
+  /// @param response  response of the loop; a copy is stored
   explicit UnitCircleCrossings(ModalResponse<Scalar> response) : response_(std::move(response)) {
     using Nearby = typename ModalResponse<Scalar>::Nearby;
     const Scalar close(0.12);
-    // Nearer to the real axis than that Im X is round-off.
+    // At smaller angles Im X is only round-off.
     const auto from = [&](const std::complex<Scalar>& end) {
       return Scalar(1e-4) * Nearby(response_, end).nearest(end);
     };
@@ -64,7 +63,7 @@ class UnitCircleCrossings {
       const std::complex<Scalar> mu = circle_increment(angle);
       if (!nearby || !nearby->holds(mu)) nearby.emplace(response_, mu);
       const Scalar to_ends = std::min(angle, pi<Scalar> - angle), to_pole = nearby->nearest(mu);
-      // Next to the real axis no digit of Im X is to spare.
+      // Near the real axis Im X needs full accuracy.
       const bool at_end = to_ends < Scalar(0.1) * to_pole;
       places_.push_back({angle, at_end ? response_.at_angle(angle) : nearby->at(mu)});
       const Scalar step = close * std::min(to_pole, to_ends);
@@ -78,14 +77,14 @@ class UnitCircleCrossings {
     }
   }
 
-  /// The loop's response, from which all crossings are computed.
+  /// The response of the loop, from which all crossings are computed.
   const ModalResponse<Scalar>& response() const { return response_; }
 
-  /// The places on the unit circle at which the response is stored, by ascending angle.
+  /// The angles at which G_z and G_v are stored, ascending, with their values.
   const std::vector<Place>& places() const { return places_; }
 
-  /// The number of roots of the loop outside the unit circle; −1 where round-off hides it: a root
-  /// is on the circle, or the gains are not finite or so large that p is mere round-off.
+  /// The number of the loop's roots outside the unit circle; −1 where it cannot be determined: a
+  /// root is on the circle, or the gains are not finite or so large that p is only round-off.
   int roots_outside(const PdGains<Scalar>& gains) const {
     Turn turn{gains, static_cast<std::int64_t>(20 * places_.size())};
     std::vector<std::complex<Scalar>> p;
@@ -101,8 +100,8 @@ class UnitCircleCrossings {
     return response_.unstable_poles() - static_cast<int>(std::lround(half_turns));
   }
 
-  /// The offsets λ − 1 of roots near the unit circle, nearest root first: one Newton step from each
-  /// minimum of |p| on the circle. They replace the roots where `loop_roots` does not converge.
+  /// Estimates of the offsets λ − 1 of roots near the unit circle, nearest first: one Newton step
+  /// from each minimum of |p| on the circle. Serves where `loop_roots` does not converge.
   std::vector<std::complex<Scalar>> roots_nearby(const PdGains<Scalar>& gains) const {
     std::vector<std::pair<Scalar, std::complex<Scalar>>> found;
     const auto size = [&](std::size_t i) { return std::abs(characteristic(places_[i].g, gains)); };
@@ -125,13 +124,13 @@ class UnitCircleCrossings {
     return roots;
   }
 
-  /// All values of one gain, with the other gain fixed, at which roots cross the circle; ascending.
+  /// Values of one gain, the other gain fixed, at which roots cross the unit circle; ascending.
   /// @param free   the gain that varies
-  /// @param gains  the fixed gain; the value of the free one is not used
+  /// @param gains  the fixed gain; the value of the free gain is not used
   std::vector<GainPassage<Scalar>> passages(FreeGain free, const PdGains<Scalar>& gains) const {
     const Line line{free, gains};
     std::vector<GainPassage<Scalar>> found;
-    // Not at the last place, π, where Im X is round-off.
+    // The last place, θ = π, is left out: Im X is round-off there.
     std::vector<Scalar> values;
     for (std::size_t i = 0; i + 1 < places_.size(); ++i)
       values.push_back(line.imaginary(places_[i].g));
@@ -151,7 +150,7 @@ class UnitCircleCrossings {
 
   /// The open intervals of one gain, for a fixed value of the other, in which the loop is stable.
   /// @param free   the gain that varies
-  /// @param gains  the fixed gain; the value of the free one is not used
+  /// @param gains  the fixed gain; the value of the free gain is not used
   /// @throws InvalidParameter where the fixed gain is not finite
   std::vector<Interval<Scalar>> stable_gains(FreeGain free, const PdGains<Scalar>& gains) const {
     detail::require_held(gains, free);
@@ -164,7 +163,7 @@ class UnitCircleCrossings {
   }
 
  private:
-  /// The line in the gain plane along which one gain is free.
+  /// Line in the plane of P and D along which one gain varies.
   struct Line {
     FreeGain free;
     PdGains<Scalar> gains;
@@ -176,7 +175,7 @@ class UnitCircleCrossings {
       return Scalar(1) - (free == FreeGain::differential ? gains.proportional * g.displacement
                                                          : gains.differential * g.velocity);
     }
-    /// A smooth function with the sign of Im X, X as in the class comment.
+    /// A smooth function with the sign of Im X (X: see the class).
     Scalar imaginary(const CommandResponse<Scalar>& g) const {
       const std::complex<Scalar> a = rest(g), b = of_free(g);
       return a.imag() * b.real() - a.real() * b.imag();
@@ -190,14 +189,14 @@ class UnitCircleCrossings {
     return Scalar(1) - gains.proportional * g.displacement - gains.differential * g.velocity;
   }
 
-  /// Winding of p along the circle, as the number of its crossings of the negative real axis.
+  /// Winding of p about 0 along the circle: how often p crosses the negative real axis.
   struct Turn {
     PdGains<Scalar> gains;
-    std::int64_t budget;  ///< values of G that may still be computed
+    std::int64_t budget;  ///< number of values of G that may still be computed
     int crossings = 0;    ///< counterclockwise crossings minus clockwise ones
 
-    /// Whether arg p changes as along the chord from a to b: p turns by at most 45° or the chord
-    /// keeps `distance` from 0. If so, the chord's crossing of the negative real axis is counted.
+    /// Whether arg p can be followed along the chord from a to b: these are at most 45° apart, or
+    /// the chord keeps `distance` from 0. If so, its crossing of the negative real axis is counted.
     bool takes(const std::complex<Scalar>& a, const std::complex<Scalar>& b,
                const Scalar& distance = std::numeric_limits<Scalar>::infinity()) {
       const Scalar along = a.real() * b.real() + a.imag() * b.imag();
@@ -211,7 +210,7 @@ class UnitCircleCrossings {
     }
   };
 
-  /// The estimated distance of p from the chord between places i − 1 and i, by second differences.
+  /// Estimated distance of p from the chord between places i − 1 and i; ∞ at both ends.
   Scalar bend_of(const std::vector<std::complex<Scalar>>& p, std::size_t i) const {
     if (i < 2 || i + 1 == p.size()) return std::numeric_limits<Scalar>::infinity();
     const Scalar step = places_[i].angle - places_[i - 1].angle;
@@ -223,8 +222,8 @@ class UnitCircleCrossings {
     return std::max(from(i - 1), from(i + 1));
   }
 
-  /// Adds the winding of p between two angles, half by half. p is about `bend` from the whole chord
-  /// and `bend`/4 from a half's chord; it turns like a half's chord beyond `bend` from 0.
+  /// Adds the winding of p between two angles, by halving. `bend` is the distance of p from the
+  /// chord at the middle. A half counts like its chord if this chord is farther than `bend` from 0.
   void halve(Turn& turn, const std::pair<Scalar, std::complex<Scalar>>& from,
              const std::pair<Scalar, std::complex<Scalar>>& to) const {
     const Scalar middle = (from.first + to.first) / Scalar(2);
@@ -247,8 +246,8 @@ class UnitCircleCrossings {
          line, found);
   }
 
-  /// Adds a crossing unless the gain hardly moves its root, so that the gain's value is round-off.
-  /// This is so for both gains at λ = 1 if the drive acts between absorber and conductor.
+  /// Adds a crossing unless the gain hardly moves its root, so that the gain is only round-off.
+  /// Both gains hardly move the root λ = 1 if the drive acts between absorber and conductor.
   void keep(const GainPassage<Scalar>& passage, const Line& line,
             std::vector<GainPassage<Scalar>>& found) const {
     const Scalar size = line.free == FreeGain::differential ? size_of_v_ : size_of_z_;
@@ -256,18 +255,18 @@ class UnitCircleCrossings {
   }
 
   /// Adds the crossing of a real root at λ = 1 or −1.
-  /// @param rising  any number with the sign of the slope of Im X at the place
+  /// @param rising  any number with the sign of d(Im X)/dθ at the place
   void add_real_root(const Line& line, const Place& place, const Scalar& rising,
                      std::vector<GainPassage<Scalar>>& found) const {
     const Scalar end = place.angle < Scalar(1) ? Scalar(0) : pi<Scalar>;
-    // G is real there but for round-off.
+    // G is real at θ = 0 and π except for round-off.
     const CommandResponse<Scalar> g = response_.at_angle(end);
     keep({line.rest(g).real() / line.of_free(g).real(), end, rising > Scalar(0) ? 1 : -1}, line,
          found);
   }
 
-  /// Adds two crossings so close that Im X has no change of sign at the stored angles. They are
-  /// sought where |Im X| is least at the middle one of three places.
+  /// Adds two crossings between which no angle is stored, so that the stored Im X keep their sign.
+  /// They are sought where |Im X| is less at place i than at both neighbouring places.
   /// @param at  pointer to Im X at place i, in the array of Im X at all places
   void add_close_pairs(const Line& line, std::size_t i, const Scalar* at,
                        std::vector<GainPassage<Scalar>>& found) const {
@@ -277,7 +276,7 @@ class UnitCircleCrossings {
       return;
     const Scalar sign = here > Scalar(0) ? Scalar(1) : Scalar(-1);
     Scalar lower = places_[i - 1].angle, upper = places_[i + 1].angle;
-    // A parabola through the three that stays well away from zero says enough.
+    // Two crossings are excluded by a parabola through the three values far from zero.
     const Scalar way = places_[i].angle - lower, on = upper - places_[i].angle;
     const Scalar curvature = ((after - here) / on - (here - before) / way) / (way + on);
     const Scalar at_here = (here - before) / way + curvature * way;
@@ -300,14 +299,14 @@ class UnitCircleCrossings {
     }
   }
 
-  /// The gaps between crossings of the free gain with no root outside the circle, if decided.
+  /// The intervals between crossings with no root outside the circle; undecided ones are left out.
   template <class Outside>
   static std::vector<Interval<Scalar>> without_roots_outside(
       const std::vector<GainPassage<Scalar>>& found, const Outside& outside) {
     std::vector<Interval<Scalar>> gaps(found.size() + 1);  // unbounded at first
     for (std::size_t k = 0; k < found.size(); ++k)
       gaps[k].upper = gaps[k + 1].lower = found[k].gain;
-    // The count begins in the gap that is widest beside its ends: round-off turns a huge p.
+    // The count begins in the relatively widest gap, since p of huge gains has much round-off.
     const auto width = [](const Interval<Scalar>& gap) {
       return (gap.upper - gap.lower) / (std::abs(gap.lower) + std::abs(gap.upper));
     };
@@ -340,11 +339,11 @@ class UnitCircleCrossings {
   Scalar size_of_z_{0}, size_of_v_{0};  // max |G_z| and |G_v| over them
 };
 
-/// The excess ρ − 1 of a loop, ρ being the largest modulus of its roots: from `loop_roots` or, if
-/// that does not converge, by bisection over circles with counted roots outside, to ten digits.
+/// The excess ρ − 1 of a loop with spectral radius ρ. If `loop_roots` does not converge, the excess
+/// is found to ten digits: roots outside circles are counted, and the radius is bisected.
 /// @param response  response of the plant given by its poles
-/// @param gains     gains P and D
-/// @return NaN where the response has no sum over poles
+/// @param gains     gains P (N/m) and D (N s/m)
+/// @return the excess; NaN if `loop_roots` fails and the response is not a sum over poles
 template <class Scalar>
 Scalar loop_excess_or_turn(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains) {
   const Scalar excess = loop_excess(response, gains);

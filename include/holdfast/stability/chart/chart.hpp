@@ -15,17 +15,17 @@
 
 namespace holdfast {
 
-/// A rectangular grid of gains; its cells are in the order P slowest, D fastest.
+/// Rectangular grid of the gains P and D. Its cells are ordered row by row: one P per row.
 struct GainGrid {
-  Axis proportional;  ///< values of P (N/m)
-  Axis differential;  ///< values of D (N s/m)
+  Axis proportional;  ///< values of the proportional gain P (N/m), one per row
+  Axis differential;  ///< values of the differential gain D (N s/m), one per column
 
-  /// The gains of a cell; each index is from 0 to the count of its axis minus one.
+  /// The gains P and D of a cell; each index is from 0 to the count of its axis minus one.
   PdGains<double> at(std::int64_t p_index, std::int64_t d_index) const {
     return {proportional.at(p_index), differential.at(d_index)};
   }
 
-  /// The number of cells: values of P times values of D.
+  /// The number of cells: number of values of P times number of values of D.
   /// @throws InvalidParameter unless the number is 1 … 10¹⁵
   std::int64_t cells() const {
     require_within(
@@ -36,30 +36,30 @@ struct GainGrid {
   }
 };
 
-/// Validates a grid. @throws InvalidParameter unless both axes are finite, ascend and have at least
-/// one value, and the grid has at most 10¹⁵ cells
+/// Validates a grid. @throws InvalidParameter unless each axis has finite ends with min ≤ max and
+/// at least one value, and the grid has at most 10¹⁵ cells
 inline void validate(const GainGrid& grid) {
   validate(grid.proportional, "proportional gain P", "N/m");
   validate(grid.differential, "differential gain D", "N s/m");
   grid.cells();
 }
 
-/// The rows of a chart of stable gains, each for one value of P.
+/// Stability chart in the plane of P and D, computed row by row; a row has one value of P.
 ///
-/// Along a row stability changes only at the boundary; one Hurwitz test decides each gap. A cell
-/// within round-off of the boundary counts as not stable. On each arc of `RootPairCurve` that
-/// reaches P, Newton's method starts from the crossing of the previous row; one or two steps
-/// suffice where rows are close. Roots w = 0 and w = ∞ give linear equations in D. For rows of
-/// constant D, P and D are exchanged in the polynomial.
+/// Stability changes along a row only where the row crosses the stability boundary. One Hurwitz
+/// test decides all cells between two crossings. A cell within round-off of the boundary counts as
+/// not stable. Newton's method finds the crossing with each monotone arc of `RootPairCurve`,
+/// starting from the crossing of the previous row. The boundaries with a root 0 or ∞ give linear
+/// equations in D. If each row has one D instead of one P, exchange P and D in the polynomial.
 ///
-/// Work per row: about 40 multiply-adds for each arc of the boundary and 60 for each gap,
+/// Work per row: about 40 multiply-adds for each arc and 60 for each interval between crossings,
 /// independent of the number of cells.
 template <int Degree>
 class StabilityRows {
  public:
-  /// @param polynomial    `characteristic_polynomial(plant)` for the continuous loop, or that of
-  ///                    the sampled loop transformed by `in_half_plane`
-  /// @param differential  values of D in a row
+  /// @param polynomial    characteristic polynomial with the stable half-plane Re < 0: of the
+  ///                      continuous loop, or of the sampled loop after `in_half_plane`
+  /// @param differential  values of D (N s/m) in a row
   StabilityRows(const HalfPlanePolynomial<double, Degree>& polynomial, const Axis& differential)
       : polynomial_(polynomial), differential_(differential), curve_(polynomial) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -67,7 +67,7 @@ class StabilityRows {
       branches_.push_back({arc, {unknown, 0.0}, 0.0});
   }
 
-  /// Writes 1 (stable) or 0 (not stable) for every cell of the row.
+  /// Writes 1 (stable) or 0 (not stable) for each cell of the row at one P, in the order of D.
   /// @param proportional_gain  P (N/m), finite
   /// @param stable             array with one entry for each cell of the row
   void fill(double proportional_gain, std::uint8_t* stable) {
@@ -92,11 +92,11 @@ class StabilityRows {
 
   struct Branch {
     MonotoneArc<double> arc;
-    RootPairCurve<double>::Place place;  // in the row before
-    double proportional_gain;            // P of that row
+    RootPairCurve<double>::Place place;  // on the previous row
+    double proportional_gain;            // P (N/m) of the previous row
   };
 
-  /// Finds a row's crossings, ascending in D: at most one for each arc and each boundary line.
+  /// Finds a row's crossings with the boundary, ascending in D: at most one per arc and per line.
   void find_crossings(double proportional_gain) {
     crossings_.clear();
     add_line(proportional_gain, &ParityParts<double>::even, 0);
@@ -115,12 +115,12 @@ class StabilityRows {
               [](const auto& a, const auto& b) { return a.differential < b.differential; });
   }
 
-  /// Adds a crossing unless it is at infinity.
+  /// Adds a crossing if its D is finite.
   void add(const RowCrossing<double>& crossing) {
     if (std::isfinite(crossing.differential)) crossings_.push_back(crossing);
   }
 
-  /// Adds the crossing at which coefficient k of a part is 0, if the coefficient depends on D.
+  /// Adds the D at which coefficient k of the even or odd part is 0, if it depends on D.
   void add_line(double proportional_gain, Part part, int k) {
     const double slope = (curve_.differential().*part)[k];
     if (slope == 0.0) return;
@@ -130,7 +130,7 @@ class StabilityRows {
          curve_.rounding * (std::abs(base) + std::abs(term)) / std::abs(slope)});
   }
 
-  /// Fills cells without a boundary between them; a test of the middle cell decides for all.
+  /// Fills the cells between two crossings; a Hurwitz test of the middle cell decides for all.
   void fill_gap(const Polynomial<double, Degree>& row, std::int64_t first, std::int64_t last,
                 std::uint8_t* stable) const {
     if (first >= last) return;
@@ -146,11 +146,11 @@ class StabilityRows {
   std::vector<RowCrossing<double>> crossings_;
 };
 
-/// The stability chart of a grid: 1 (stable) or 0 (not stable) for every cell, P slowest.
-/// @param polynomial  `characteristic_polynomial` of the continuous or of the sampled loop, also
-///                    after `in_half_plane`; a polynomial about another centre does not compile
+/// The stability chart of a grid: 1 (stable) or 0 (not stable) for each cell, row by row.
+/// @param polynomial  `characteristic_polynomial` of the continuous or the sampled loop, with or
+///                    without `in_half_plane`; not `PolynomialVariable::about_centre`
 /// @param grid        grid of gains
-/// @throws InvalidParameter where an argument is not finite or the grid is not admissible
+/// @throws InvalidParameter where a coefficient is not finite or the grid is not admissible
 template <int Degree, PolynomialVariable Variable,
           class = decltype(in_half_plane(
               std::declval<const AffinePolynomial<double, Degree, Variable>&>()))>

@@ -15,31 +15,31 @@
 
 namespace holdfast {
 
-/// The upper half of a circle |λ| = r, divided into arcs. On each arc the characteristic function
+/// Upper half of the circle |λ| = r, divided into arcs. On each arc the characteristic function
 ///
-///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ)
+///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ)   (k delayed commands; F_z and F_v of `EnclosedResponse`)
 ///
-/// of `EnclosedResponse` is known to first order in the angle with a bound of the remainder. The
-/// class finds the arcs on which a loop with gains in a box may have a root, and counts the roots
-/// outside a circle without roots on it. Arcs are halved where needed; the halves are stored.
+/// of a loop is enclosed by a linear function of the angle plus an error bound. The class finds the
+/// arcs on which a loop with gains in a box may have a root, and counts the roots outside the
+/// circle. Arcs are halved where needed; the halves are stored.
 class CircleArcs {
  public:
-  /// List of arcs, each given by its number.
+  /// List of arcs, each given by its index in this object.
   using Arcs = std::vector<std::size_t>;
 
-  /// @param response  response of the loop
-  /// @param radius    radius r > 0, taken as exactly this double
+  /// @param response  enclosed response of the loop
+  /// @param radius    radius r > 0 of the circle, taken as exactly this double
   explicit CircleArcs(EnclosedResponse response, double radius = 1.0)
       : response_(std::move(response)), radius_(radius) {
-    // To π, or just beyond it: what is there is the conjugate of what was before.
+    // The arc ends at π or just beyond; q beyond π is the conjugate of q before π.
     arcs_.push_back(arc(0.0, 0x1.921fb54442d19p1));
   }
 
-  /// The undivided half circle as the only arc.
+  /// The list with one arc, the undivided half circle.
   Arcs all() const { return {0}; }
 
-  /// The parts of the given arcs on which a loop with gains in the box may have a root. On the rest
-  /// all loops are proved to have no root. Arcs are divided as finely as the box requires.
+  /// The parts of the arcs `among` on which a loop with gains in the box may have a root. All other
+  /// parts are proved to contain no root. Arcs are halved while this sharpens the result.
   Arcs meeting(const GainBox& box, const Arcs& among) {
     const Gains gains(box);
     if (!gains.are_finite()) return among;
@@ -54,17 +54,17 @@ class CircleArcs {
     return met;
   }
 
-  /// The proved number of roots of a loop outside the circle; `nullopt` where a root may lie on it.
+  /// The proved number of a loop's roots outside the circle; `nullopt` if the proof fails.
   ///
-  /// On each arc, halved where necessary, the real or the imaginary part of q has a constant sign,
-  /// so q is in a half-plane. From arc to arc this half-plane stays or turns by a quarter. At θ = 0
-  /// and π q is real, so that the quarters sum to w half turns, and q turns w times along the whole
-  /// circle. F has the plant's poles, n_plant of them outside; with k delayed commands
+  /// On each arc, halved where necessary, q lies in one half-plane: Re q or Im q has a constant
+  /// sign. From arc to arc this half-plane stays or turns by 90°. As q is real at both ends of the
+  /// half circle, these turns add up to w · 180°, and q winds w times about 0 along the whole
+  /// circle. With n_plant plant poles outside and k delayed commands, the number sought is
   ///
   ///     n_out = n_plant + k − w
   ///
   /// @param gains       gains P (N/m) and D (N s/m), taken as exactly these doubles
-  /// @param most_arcs   largest number of arcs; the result is `nullopt` if more are needed
+  /// @param most_arcs   largest number of arcs examined; the result is `nullopt` if more are needed
   std::optional<int> roots_outside(const PdGains<double>& gains, std::size_t most_arcs = 20000) {
     const auto own = response_.poles_outside(radius_);
     const Gains box(
@@ -87,15 +87,15 @@ class CircleArcs {
     }
     if (quarters % 2 != 0) return std::nullopt;
     const int outside = *own + response_.held_commands() - quarters / 2;
-    if (outside < 0) return std::nullopt;  // a premiss is wrong
+    if (outside < 0) return std::nullopt;  // contradicts the argument principle
     return outside;
   }
 
  private:
   using Complex = std::complex<double>;
 
-  /// Linear enclosure of a function of t, −1 ≤ t ≤ 1: value + slope t + r, |r| ≤ rest + haze. A
-  /// shorter arc has a smaller rest but the same haze, which is due to uncertain parameters.
+  /// Linear enclosure of a function of t, −1 ≤ t ≤ 1: value + slope t + r, |r| ≤ rest + haze.
+  /// Halving an arc reduces the rest but not the haze, which is due to uncertain parameters.
   struct Line {
     Complex value, slope;
     double rest, haze;
@@ -103,10 +103,10 @@ class CircleArcs {
   struct Arc {
     double from, to;  // rad
     Line power, displacement, velocity;
-    std::size_t first_half = 0;  // the second one follows it; 0: not halved
+    std::size_t first_half = 0;  // index of the first half, the second follows; 0: undivided
   };
 
-  /// The gains P₀ ± ΔP, D₀ ± ΔD of a box.
+  /// The gains P₀ ± ΔP, D₀ ± ΔD of a box: its centre and half-widths.
   struct Gains {
     double p, d, p_radius, d_radius;
 
@@ -123,9 +123,9 @@ class CircleArcs {
     }
   };
 
-  /// The set of values of q on an arc, −1 ≤ t ≤ 1, for the gains P₀ + δP, D₀ + δD of a box:
+  /// Enclosure of q on an arc, −1 ≤ t ≤ 1, for the gains P₀ + p, D₀ + d of a box:
   ///
-  ///     q = c + a t + F_z δP + F_v δD + r,   |r| ≤ rest + haze
+  ///     q = c + a t − F_z p − F_v d + e,   |e| ≤ `rest_` + `haze_` (see `Line`)
   ///
   /// The computed c, a, F_z and F_v are in error by at most 10⁻¹⁴ of the sum of their terms'
   /// moduli, as each takes fewer than 30 roundings of 1.2·10⁻¹⁶.
@@ -150,15 +150,15 @@ class CircleArcs {
                   rest_ + haze_;
     }
 
-    /// Whether q ≠ 0 is proved, by a line that separates the set from 0. The lines tried are
-    /// perpendicular to c, or parallel to a, F_z or F_v.
+    /// Whether q ≠ 0 is proved: all values of q are on one side of some straight line through 0.
+    /// The lines tried are perpendicular to c, or parallel to a, F_z or F_v.
     bool avoids_zero() const {
       if (!std::isfinite(rounding_)) return false;
       return is_ahead(centre_) || is_ahead(across(along_)) || is_ahead(across(by_p_)) ||
              is_ahead(across(by_d_));
     }
 
-    /// The half-plane proved to hold q: 0, 1, 2, 3 for Re > 0, Im > 0, Re < 0, Im < 0; −1 for none.
+    /// Half-plane of q, if proved. 0: Re q > 0, 1: Im q > 0, 2: Re q < 0, 3: Im q < 0; −1: unknown.
     int half_plane() const {
       if (!std::isfinite(rounding_)) return -1;
       for (const bool imaginary : {false, true}) {
@@ -170,7 +170,7 @@ class CircleArcs {
       return -1;
     }
 
-    /// Whether halving the arc would hardly make the set of q smaller for this box.
+    /// Whether halving the arc would reduce the set of values of q only slightly for this box.
     bool is_short_enough() const {
       constexpr double share = 0.1;
       return rest_ <= share * (size(by_p_) + size(by_d_) + haze_);
@@ -183,7 +183,7 @@ class CircleArcs {
       return normal.real() * z.real() + normal.imag() * z.imag();
     }
 
-    /// Whether all of q is on one side of the line through 0 perpendicular to a given normal.
+    /// Whether all values of q lie on one side of the line through 0 perpendicular to `normal`.
     bool is_ahead(const Complex& normal) const {
       const double distance = std::abs(along(normal, centre_));
       const double spread = std::abs(along(normal, along_)) + std::abs(along(normal, by_p_)) +
@@ -196,8 +196,8 @@ class CircleArcs {
     double rest_, haze_, rounding_;
   };
 
-  /// The `Line`, on the arc θ = θ₀ + h t, of an expansion about λ₀ = r e^{iθ₀}: λ is λ₀ (1 + i h t)
-  /// plus a remainder of at most r h²/2.
+  /// Linear enclosure of a function, expanded about λ₀ = r e^{iθ₀}, on the arc θ = θ₀ + h t. There
+  /// λ = λ₀ (1 + i h t) plus an error of at most r h²/2.
   static Line line_of(const EnclosedExpansion& expansion, const ComplexEnclosure& centre,
                       const Enclosure& half_width) {
     const ComplexEnclosure slope = expansion.slope * centre.times_i() * half_width;
@@ -220,7 +220,7 @@ class CircleArcs {
   }
 
   /// Appends the two halves of an arc to a list, the second half before the first.
-  /// @return whether the arc can be halved
+  /// @return false if the arc is too short to be halved
   bool add_halves(std::size_t index, Arcs& list) {
     if (arcs_[index].first_half == 0) {
       const double from = arcs_[index].from, to = arcs_[index].to;

@@ -9,11 +9,11 @@
 
 namespace holdfast {
 
-/// Fills a row of the stability chart of a loop of any order: 1 (stable) or 0 (not stable).
-/// @param circle        response of the loop on the unit circle
+/// Fills one row of the stability chart of a loop of any order: 1 (stable) or 0 (not stable).
+/// @param circle        crossings of the unit circle by the loop's roots
 /// @param proportional  P (N/m) of the row
 /// @param differential  values of D (N s/m) along the row
-/// @param stable        array with one entry for each cell, which is filled
+/// @param stable        array with one entry for each value of D, filled by the function
 template <class Scalar>
 void fill_stability_row(const UnitCircleCrossings<Scalar>& circle, const Scalar& proportional,
                         const Axis& differential, std::uint8_t* stable) {
@@ -26,11 +26,10 @@ void fill_stability_row(const UnitCircleCrossings<Scalar>& circle, const Scalar&
   }
 }
 
-/// The stability chart of a loop of any order: 1 (stable) or 0 for every cell of a grid, P slowest.
-///
-/// Rows are filled from the stable intervals of D by `UnitCircleCrossings`. For two masses the
-/// `stability_chart` of the characteristic polynomial is a hundred times as fast.
-/// @param circle  response of the loop on the unit circle
+/// The stability chart of a loop of any order: 1 (stable) or 0 (not stable) for each cell, by rows.
+/// A row has one value of P; its stable intervals of D come from `UnitCircleCrossings`. For two
+/// masses, `stability_chart` from the characteristic polynomial is about a hundred times faster.
+/// @param circle  crossings of the unit circle by the loop's roots
 /// @param grid    grid of gains
 /// @throws InvalidParameter where the grid is not admissible
 template <class Scalar>

@@ -12,34 +12,34 @@
 
 namespace holdfast {
 
-/// All parameters of a sampled loop that its stability depends on.
+/// Plant, sampling and gains of a sampled loop: all parameters on which its stability depends.
 struct OperatingPoint {
-  TwoMass<double> plant;      ///< m (kg), k (N/m) and c (N s/m) of both masses
-  Sampling<double> sampling;  ///< τ (s) and δ (s)
-  PdGains<double> gains;      ///< P (N/m) and D (N s/m)
+  TwoMass<double> plant;      ///< masses m (kg), stiffnesses k (N/m) and dampings c (N s/m)
+  Sampling<double> sampling;  ///< sampling period τ (s) and processing delay δ (s)
+  PdGains<double> gains;      ///< gains P (N/m) and D (N s/m)
 };
 
-/// One parameter of a loop: varied along an axis of a chart, or the variable of a sensitivity.
+/// One parameter of a sampled loop, as the axis of a chart or the variable of a sensitivity.
 enum class LoopParameter {
-  conductor_mass,       ///< m₁ (kg), > 0
-  conductor_stiffness,  ///< k₁ (N/m), > 0
-  conductor_damping,    ///< c₁ (N s/m), ≥ 0
-  absorber_mass,        ///< m₂ (kg), > 0
-  absorber_stiffness,   ///< k₂ (N/m), > 0
-  absorber_damping,     ///< c₂ (N s/m), ≥ 0
-  sampling_period,      ///< τ (s), > 0
-  processing_delay,     ///< δ (s), 0 … τ
-  proportional_gain,    ///< P (N/m)
-  differential_gain,    ///< D (N s/m)
+  conductor_mass,       ///< conductor's mass m₁ (kg), > 0
+  conductor_stiffness,  ///< conductor's stiffness k₁ (N/m), > 0
+  conductor_damping,    ///< conductor's damping c₁ (N s/m), ≥ 0
+  absorber_mass,        ///< absorber's mass m₂ (kg), > 0
+  absorber_stiffness,   ///< absorber's stiffness k₂ (N/m), > 0
+  absorber_damping,     ///< absorber's damping c₂ (N s/m), ≥ 0
+  sampling_period,      ///< sampling period τ (s), > 0
+  processing_delay,     ///< processing delay δ (s), 0 … τ
+  proportional_gain,    ///< proportional gain P (N/m)
+  differential_gain,    ///< differential gain D (N s/m)
 };
 
-/// Whether a parameter is P or D, in which the characteristic polynomial is affine; any other one
-/// needs a matrix exponential for each of its values.
+/// Whether a parameter is a gain, P or D. The characteristic polynomial is affine in the gains;
+/// each value of any other parameter needs a matrix exponential.
 constexpr bool is_gain(LoopParameter parameter) {
   return parameter >= LoopParameter::proportional_gain;
 }
 
-/// The value of a parameter of a loop, by reference.
+/// Reference to the value of a parameter in a loop, to read or to change it.
 inline double& value_of(OperatingPoint& point, LoopParameter parameter) {
   auto& [plant, sampling, gains] = point;
   double* const all[] = {&plant.conductor_mass,     &plant.conductor_stiffness,
@@ -50,8 +50,8 @@ inline double& value_of(OperatingPoint& point, LoopParameter parameter) {
   return *all[static_cast<int>(parameter)];
 }
 
-/// Sets a parameter of a loop. Setting τ changes the processing delay δ in proportion, but does not
-/// round δ to a value above τ.
+/// Sets a parameter of a loop. A new period τ also changes the delay δ, so that δ/τ stays the same.
+/// If δ = τ, both get exactly the same value.
 inline void set(OperatingPoint& point, LoopParameter parameter, double value) {
   if (parameter == LoopParameter::sampling_period) {
     const double fraction = point.sampling.processing_delay / point.sampling.period;
@@ -60,43 +60,43 @@ inline void set(OperatingPoint& point, LoopParameter parameter, double value) {
   value_of(point, parameter) = value;
 }
 
-/// An axis of a chart: a parameter of the loop and its values.
+/// An axis of a chart: a parameter of the loop and the values that it takes.
 struct LoopAxis {
   LoopParameter parameter;  ///< parameter that varies
   Axis values;              ///< values of the parameter, in its SI unit
 };
 
-/// A chart of the sampled loop over any two of its parameters; all others are those of `point`.
+/// Chart of a sampled loop over any two of its parameters; all others are those of `point`.
 struct LoopChart {
-  /// The loop whose two axis parameters are replaced in each cell. Where an axis replaces τ and
-  /// none replaces δ, δ changes in proportion to τ.
+  /// The loop whose two axis parameters each cell replaces. A δ on no axis stays proportional to τ.
   OperatingPoint point;
   LoopAxis slow;  ///< axis with one value for each row
   LoopAxis fast;  ///< axis with one value for each column
 
-  /// The loop of a row, whose fast parameter keeps its value in `point`.
+  /// The loop of row `index` ≥ 0; the parameter of the axis `fast` keeps its value from `point`.
   OperatingPoint row(std::int64_t index) const {
     OperatingPoint result = point;
     set(result, slow.parameter, slow.values.at(index));
     return result;
   }
 
-  /// The loop of a cell.
+  /// The loop of a cell, given by its row and column, both from 0.
   OperatingPoint cell(std::int64_t row_index, std::int64_t column) const {
     OperatingPoint result = row(row_index);
     set(result, fast.parameter, fast.values.at(column));
-    // A delay that the chart gives does not scale with the period that it gives as well.
+    // A δ on the axis `slow` keeps its given value although setting τ scales δ.
     if (slow.parameter == LoopParameter::processing_delay)
       set(result, slow.parameter, slow.values.at(row_index));
     return result;
   }
 };
 
-/// Validates a chart. @throws InvalidParameter where both axes vary the same parameter, one does
-/// not ascend, or a corner of the chart is not an admissible loop
+/// Validates a chart. @throws InvalidParameter where both axes vary the same parameter, an axis has
+/// max < min or no value, or a corner of the chart is not an admissible loop
 inline void validate(const LoopChart& chart) {
   if (chart.slow.parameter == chart.fast.parameter) {
-    throw InvalidParameter("second axis", 0.0, "", "another parameter than the first axis");
+    throw InvalidParameter("difference between the axes' parameters", 0.0, "",
+                           "non-zero (choose two different parameters)");
   }
   validate(chart.slow.values, "value along the first axis", "");
   validate(chart.fast.values, "value along the second axis", "");
@@ -110,14 +110,14 @@ inline void validate(const LoopChart& chart) {
   }
 }
 
-/// A polynomial that is affine in one gain x: constant + x · slope.
+/// A polynomial that is affine in one gain x, P or D: constant + x · slope.
 template <int Degree>
 struct AffineLine {
   Polynomial<double, Degree> constant;  ///< polynomial at x = 0, constant coefficient first
-  Polynomial<double, Degree> slope;     ///< change per unit of x, N/m of P or N s/m of D
+  Polynomial<double, Degree> slope;     ///< derivative by x, per N/m of P or per N s/m of D
 };
 
-/// The characteristic polynomial as a function of one gain, for the fixed value of the other.
+/// The characteristic polynomial as a function of `gain`; the other gain has its value in `gains`.
 template <int Degree, PolynomialVariable Variable>
 AffineLine<Degree> along(LoopParameter gain,
                          const AffinePolynomial<double, Degree, Variable>& polynomial,
@@ -129,18 +129,18 @@ AffineLine<Degree> along(LoopParameter gain,
   return {polynomial.base + gains.proportional * polynomial.proportional, polynomial.differential};
 }
 
-/// The characteristic polynomials of the cells of a chart, with as few matrix exponentials as the
-/// axes allow: one in all where both axes are gains; one per row or column where one axis is a
-/// gain; one per cell where neither is.
+/// The characteristic polynomials of the cells of a chart, computed with few matrix exponentials.
+/// One exponential suffices if both axes are gains. One per row or column is needed if one axis is
+/// a gain, and one per cell if neither is.
 template <int Degree, PolynomialVariable Variable>
 class ChartPolynomials {
  public:
-  /// The characteristic polynomial for any gains, from which the chart is computed.
+  /// Type of the characteristic polynomial, affine in P and D.
   using Affine = AffinePolynomial<double, Degree, Variable>;
-  /// A function that computes the characteristic polynomial of a loop.
+  /// Function that computes the characteristic polynomial of a loop, affine in P and D.
   using PolynomialOf = Affine (*)(const OperatingPoint&);
 
-  /// The polynomials of a row: columns × (Degree + 1), constant coefficients first.
+  /// Polynomials of the cells of a row, one in each matrix row, constant coefficient first.
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Degree + 1>;
 
   /// @param chart          the chart, which is copied
@@ -163,25 +163,25 @@ class ChartPolynomials {
     }
   }
 
-  /// The number of cells in a row: values of the fast parameter.
+  /// The number of cells in a row, one for each value of the axis `fast`.
   std::int64_t columns() const { return chart_.fast.values.count; }
-  /// The chart: its two axes and the loop that they vary.
+  /// The chart whose polynomials are computed.
   const LoopChart& chart() const { return chart_; }
 
-  /// The polynomial that all cells share, affine in the gains; only for charts over two gains.
+  /// The polynomial of all cells, affine in P and D; defined only if both axes are gains.
   const Affine& common() const { return common_; }
 
-  /// Whether the polynomial is affine in the fast parameter; if so, use `line`, otherwise `table`.
+  /// Whether the axis `fast` is a gain: then use `line` for a row's polynomials, otherwise `table`.
   bool affine_along_rows() const { return is_gain(chart_.fast.parameter); }
 
-  /// The polynomials of a row as a function of the fast gain.
+  /// The polynomials of a row, affine in the gain on the axis `fast`; only if `affine_along_rows`.
   AffineLine<Degree> line(std::int64_t row) const {
     const OperatingPoint point = chart_.row(row);
     return along(chart_.fast.parameter,
                  is_gain(chart_.slow.parameter) ? common_ : polynomial_of_(point), point.gains);
   }
 
-  /// The polynomials of every cell of a row.
+  /// The polynomials of a row's cells as a matrix; only if the axis `fast` is not a gain.
   Table table(std::int64_t row) const {
     if (is_gain(chart_.slow.parameter)) {
       return column_constants_ + chart_.slow.values.at(row) * column_slopes_;

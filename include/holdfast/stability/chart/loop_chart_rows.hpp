@@ -22,19 +22,18 @@
 
 namespace holdfast {
 
-/// Tests the stability of each cell in a row, as many at a time as the number type has lanes.
-///
-/// Work per cell: the polynomial (Degree + 1 multiply-adds where it is affine along the row) and
-/// `lienard_chipart_stable`: 17 multiply-adds and 5 comparisons for the sampled loop. No product
-/// overflows as long as the coefficients are between 1e−75 and 1e75.
+/// Tests the stability of each cell in a row; SIMD lanes test several cells at a time. Work per
+/// cell of the sampled loop: 17 multiply-adds, of which 6 compute a polynomial that is affine along
+/// the row, and 5 comparisons (`lienard_chipart_stable`). No product overflows or underflows if the
+/// moduli of the coefficients are between 1e−75 and 1e75.
 /// @tparam Scalar        a SIMD pack, or double
 /// @param columns        number of cells, ≥ 0
-/// @param polynomial_at  (column, Number{}) → Polynomial<Number, Degree> of as many cells as Number
-///                       has lanes, the first one at `column`, for Number = Scalar and double; its
-///                       stable half-plane is Re < 0. It is passed by value: so the compiler knows
-///                       that writing through `stable` leaves the captured data unchanged, and
-///                       reads each coefficient once, not once for every pack.
-/// @param stable         array with `columns` entries: 1 stable, 0 not
+/// @param polynomial_at  function (column, Number{}) → Polynomial<Number, Degree> with the stable
+///                       half-plane Re < 0. It returns the polynomials of as many cells as Number
+///                       has lanes, from `column` on; Number is Scalar or double. It is a copy, so
+///                       that the compiler need not read the coefficients again after each
+///                       write to `stable`.
+/// @param stable         array with `columns` entries, filled with 1 (stable) or 0 (not stable)
 template <class Scalar, class PolynomialAt>
 void hurwitz_row(std::int64_t columns, PolynomialAt polynomial_at, std::uint8_t* stable) {
   constexpr auto lanes = static_cast<std::int64_t>(Lanes<Scalar>::count);
@@ -53,7 +52,7 @@ void hurwitz_row(std::int64_t columns, PolynomialAt polynomial_at, std::uint8_t*
   }
 }
 
-/// The vector c + x s, with number x and vectors c and s.
+/// The vector c + x s for a number x and vectors c and s of equal size.
 template <int Size, class Scalar>
 Vector<Scalar, Size> affine(const Vector<Scalar, Size>& c, const Scalar& x,
                             const Vector<Scalar, Size>& s) {
@@ -62,14 +61,13 @@ Vector<Scalar, Size> affine(const Vector<Scalar, Size>& c, const Scalar& x,
   return result;
 }
 
-/// Tests a row of polynomials constant + x slope, one for each value x, for stability.
-///
-/// The polynomials are scaled by a common factor so that no product overflows. Where the values
-/// span so many decades that the smallest would underflow, each polynomial is scaled individually.
-/// @param constant  the polynomial at x = 0, in a variable whose stable half-plane is Re < 0
+/// Tests the polynomials constant + x slope for stability, one polynomial for each value x. All are
+/// divided by one upper bound of their coefficients, so that no product overflows. If `constant` is
+/// below 1e−60 of this bound and might underflow, each polynomial is scaled individually.
+/// @param constant  polynomial at x = 0, in a variable whose stable half-plane is Re < 0
 /// @param slope     change of the polynomial per unit of x
 /// @param values    x of each cell, ascending; at least one
-/// @param stable    array with one entry for each value: 1 stable, 0 not
+/// @param stable    array with one entry for each value, filled with 1 (stable) or 0 (not stable)
 template <class Scalar, int Size>
 void hurwitz_row(const Vector<double, Size>& constant, const Vector<double, Size>& slope,
                  const std::vector<double>& values, std::uint8_t* stable) {
@@ -100,8 +98,8 @@ void hurwitz_row(const Vector<double, Size>& constant, const Vector<double, Size
       stable);
 }
 
-/// Tests a row of polynomials in a table, columns × (Degree + 1), for stability. Each polynomial is
-/// scaled by its largest coefficient.
+/// Tests the polynomials in the rows of `table` for stability: 1 (stable) or 0 (not stable). Each
+/// polynomial is first divided by its largest coefficient.
 template <class Scalar, int Size>
 void hurwitz_row(const Eigen::Matrix<double, Eigen::Dynamic, Size>& table, std::uint8_t* stable) {
   const Eigen::Matrix<double, Eigen::Dynamic, Size> scaled =
@@ -121,10 +119,9 @@ void hurwitz_row(const Eigen::Matrix<double, Eigen::Dynamic, Size>& table, std::
 
 namespace detail {
 
-/// The characteristic polynomial in powers of λ − 1, for any gains, of a point's sampled loop.
-///
-/// All called functions are inlined into this one, whose name contains the type of the pack. So the
-/// matrix exponential of a row is compiled for the pack's instruction set as well.
+/// The characteristic polynomial of a point's sampled loop in powers of λ − 1, affine in P and D.
+/// All called functions are inlined. As this function's name contains the type of the pack, the
+/// matrix exponential of a row is compiled for the pack's instruction set too.
 template <class Scalar>
 [[gnu::flatten, gnu::noinline]] AffinePolynomial<double, 5> polynomial_of(
     const OperatingPoint& point) {
@@ -133,33 +130,32 @@ template <class Scalar>
 
 }  // namespace detail
 
-/// A stability chart over any two parameters of the sampled loop, computed row by row.
-///
-/// Where both axes are gains, rows are filled from their crossings of the stability boundary
-/// (`StabilityRows`); else cells are tested (`hurwitz_row`), as many at once as `Scalar` has lanes.
+/// Stability chart over any two parameters of the sampled loop, computed row by row.
+/// If both axes are gains, rows are filled from their crossings of the stability boundary.
+/// Otherwise each cell is tested, as many at once as `Scalar` (SIMD pack or double) has lanes.
 template <class Scalar = double>
 class StabilityChartRows {
  public:
-  /// The polynomial of a loop in a variable whose stable half-plane is Re < 0.
+  /// The characteristic polynomial of a loop in a variable whose stable half-plane is Re < 0.
   static HalfPlanePolynomial<double, 5> polynomial_of(const OperatingPoint& point) {
     return in_half_plane(detail::polynomial_of<Scalar>(point));
   }
 
-  /// Creates the rows of a chart. @throws InvalidParameter where the chart is not admissible
+  /// Prepares the rows of a chart. @throws InvalidParameter where the chart is not admissible
   explicit StabilityChartRows(const LoopChart& chart) : polynomials_(chart, polynomial_of) {
     for (std::int64_t column = 0; column < polynomials_.columns(); ++column) {
       values_.push_back(chart.fast.values.at(column));
     }
     if (is_gain(chart.slow.parameter) && is_gain(chart.fast.parameter)) {
       HalfPlanePolynomial<double, 5> p = polynomials_.common();
-      // The gain that is constant along a row in the place of P.
+      // The gain that is constant along a row takes the place of P.
       if (chart.slow.parameter == LoopParameter::differential_gain)
         std::swap(p.proportional, p.differential);
       crossing_rows_.emplace(p, chart.fast.values);
     }
   }
 
-  /// Writes 1 (stable) or 0 for each cell of `count` ≥ 0 rows, one row after the other.
+  /// Writes 1 (stable) or 0 (not stable) for each cell of `count` ≥ 0 rows from row `first` on.
   [[gnu::flatten]] void fill(std::int64_t first, std::int64_t count, std::uint8_t* stable) {
     for (std::int64_t row = first; row < first + count; ++row, stable += polynomials_.columns()) {
       if (crossing_rows_) {
@@ -179,12 +175,11 @@ class StabilityChartRows {
   std::optional<StabilityRows<5>> crossing_rows_;
 };
 
-/// A chart of the spectral radius over any two parameters of the sampled loop. Several rows are
-/// computed at once, one per lane, each by continuation from its first cell (`DominantFactor`).
-///
-/// Two packs of rows are computed together, since one can be worked on while a division of the
-/// other is pending. The factors of first cells start from those of the previous batch of rows.
-/// @tparam Degree  5 where every loop of the chart has δ = 0, 6 otherwise (see `DominantFactor`)
+/// Chart of the spectral radius over any two parameters of the sampled loop. SIMD lanes compute
+/// several rows at once. In a row, the dominant roots of a cell start the search in the next cell
+/// (`DominantFactor`); the first cell starts from the first cell of a previous row. Two packs of
+/// rows alternate, so that one is computed while a division of the other is pending.
+/// @tparam Degree  5 if every loop of the chart has δ = 0, otherwise 6 (see `DominantFactor`)
 template <class Scalar, int Degree>
 class RadiusChartRows {
   using Pack = Polynomial<Scalar, Degree>;
@@ -193,19 +188,19 @@ class RadiusChartRows {
   static constexpr std::size_t packs_ = 2;
 
  public:
-  /// The number of rows computed at once, one in each lane of two packs.
+  /// The number of rows computed at once: one in each lane of two packs.
   static constexpr auto most_rows = static_cast<std::int64_t>(packs_ * lanes_);
 
-  /// The polynomial of a loop in powers of λ − 1; its root λ = 0 is added where Degree is 6.
+  /// The characteristic polynomial of a loop in powers of λ − 1, times λ if Degree is 6.
   static AffinePolynomial<double, Degree> polynomial_of(const OperatingPoint& point) {
     const AffinePolynomial<double, 5> p = detail::polynomial_of<Scalar>(point);
     return {root_added(p.base), root_added(p.proportional), root_added(p.differential)};
   }
 
-  /// Creates the rows of a chart. @throws InvalidParameter where the chart is not admissible
+  /// Prepares the rows of a chart. @throws InvalidParameter where the chart is not admissible
   explicit RadiusChartRows(const LoopChart& chart) : polynomials_(chart, polynomial_of) {}
 
-  /// Writes the spectral radius ρ of `count` ≥ 0 rows, one after the other.
+  /// Writes the spectral radius ρ of each cell of `count` ≥ 0 rows from row `first` on.
   void fill(std::int64_t first, std::int64_t count, double* radius) {
     for (std::int64_t row = 0; row < count; row += most_rows) {
       const std::int64_t some = std::min(most_rows, count - row);
@@ -258,8 +253,8 @@ class RadiusChartRows {
         radius);
   }
 
-  /// Writes the spectral radii of up to `most_rows` rows; results of surplus lanes are dropped.
-  /// @param polynomial_at  (pack, column) → Pack
+  /// Writes the spectral radii of up to `most_rows` rows; results of unused lanes are dropped.
+  /// @param polynomial_at  function (pack, column) → Pack
   template <class PolynomialAt>
   void follow(std::int64_t rows, std::int64_t columns, const PolynomialAt& polynomial_at,
               double* radius) {
@@ -277,7 +272,7 @@ class RadiusChartRows {
     }
   }
 
-  /// The polynomials of one pack of rows, one in each lane; surplus lanes repeat the last row.
+  /// The polynomials of one pack of rows, one in each lane; unused lanes repeat the last row.
   template <class PolynomialOfRow>
   static Pack gathered(std::size_t pack, std::int64_t count, const PolynomialOfRow& of_row) {
     const auto last = static_cast<std::size_t>(count - 1);
@@ -295,7 +290,7 @@ class RadiusChartRows {
   std::array<Follower, packs_> first_cells_;
 };
 
-/// Whether a loop of the chart has a processing delay; its polynomial then has no root λ = 0.
+/// Whether some loop of the chart has δ > 0; the polynomial of such a loop has no root λ = 0.
 inline bool has_processing_delay(const LoopChart& chart) {
   return chart.cell(0, 0).sampling.processing_delay > 0.0 ||
          chart.cell(chart.slow.values.count - 1, chart.fast.values.count - 1)

@@ -22,19 +22,19 @@
 
 namespace holdfast {
 
-/// The verdict proved for all gains in a box.
+/// Stability proved for all loops with gains in a box.
 enum class ProvedStability {
-  stable,    ///< every loop is asymptotically stable
-  unstable,  ///< every loop has a root outside the unit circle, or right of the imaginary axis
-  undecided,
+  stable,     ///< every loop is asymptotically stable
+  unstable,   ///< every loop has a root with |λ| > 1, or Re s > 0 in the continuous loop
+  undecided,  ///< neither is proved
 };
 
-/// A closed box in the plane of the gains; it may be as small as a segment or a point.
+/// Closed rectangle (box) of gains P and D; it may be as small as a segment or a point.
 struct GainBox {
-  double proportional_from;  ///< the least P (N/m)
-  double proportional_to;    ///< the largest P (N/m)
-  double differential_from;  ///< the least D (N s/m)
-  double differential_to;    ///< the largest D (N s/m)
+  double proportional_from;  ///< lower end of P (N/m)
+  double proportional_to;    ///< upper end of P (N/m)
+  double differential_from;  ///< lower end of D (N s/m)
+  double differential_to;    ///< upper end of D (N s/m)
 
   /// The area of the box in the plane of P and D (N²·s/m²).
   double area() const {
@@ -42,24 +42,24 @@ struct GainBox {
   }
 };
 
-/// A box with the verdict proved for it.
+/// A box of gains with the stability proved for it.
 struct ProvedBox {
-  GainBox gains;              ///< the box
-  ProvedStability stability;  ///< verdict on all loops with gains in the box
+  GainBox gains;              ///< gains P and D of the loops
+  ProvedStability stability;  ///< stability of all loops with gains in the box
 };
 
-/// Chart of proved stability: boxes with verdicts, which cover the grid without overlap. Each box
-/// is a cell of the grid or a part of a cell. Boxes ascend in P and, for equal P, in D.
+/// Chart of proved stability: boxes that cover the grid without overlap, each with its verdict. A
+/// box is a cell of the grid or a part of a cell. Boxes ascend in P and, for equal P, in D.
 struct ProvedChart {
   std::vector<ProvedBox> boxes;  ///< boxes of the chart, at least one
 
-  /// The area of all boxes (N²·s/m²).
+  /// The total area of the boxes in the plane of P and D (N²·s/m²).
   double area() const {
     double sum = 0.0;
     for (const ProvedBox& box : boxes) sum += box.gains.area();
     return sum;
   }
-  /// The share of the chart's area with a given verdict, 0 … 1.
+  /// The share of the chart's area that has the verdict `stability`, 0 … 1.
   double share(ProvedStability stability) const {
     double sum = 0.0;
     for (const ProvedBox& box : boxes)
@@ -70,9 +70,9 @@ struct ProvedChart {
 
 namespace detail {
 
-/// Hurwitz's conditions on a polynomial of degree n = 4 or 5, constant coefficient first. These
-/// numbers are all positive if all roots have Re < 0, and all non-negative if all roots have Re ≤
-/// 0. For Re < 0 the first `sufficing` numbers are sufficient, by Liénard and Chipart.
+/// Hurwitz's conditions on a polynomial a of degree n = 4 or 5, constant coefficient first. These
+/// numbers are all > 0 if all roots have Re < 0, and all ≥ 0 if all roots have Re ≤ 0. By Liénard
+/// and Chipart, Re < 0 follows if the first `sufficing` are > 0. H_k: Hurwitz determinants.
 ///
 ///     a_n a_0,  a_n a_2,  a_n a_{n−1},  H₃ a_n (n = 4) or H₂ and H₄ (n = 5);  then all others
 ///
@@ -102,19 +102,20 @@ struct HurwitzConditions {
 
 }  // namespace detail
 
-/// Proof of Hurwitz's conditions f > 0 over boxes of gains, by the mean value form about P₀, D₀:
+/// Proof of stability over boxes of gains. For each of Hurwitz's conditions f > 0, the range of f
+/// over a box with the centre (P₀, D₀) is enclosed by the mean value form:
 ///
 ///     f(P, D) ∈ f(P₀, D₀) + ∂f/∂P [box] (P − P₀) + ∂f/∂D [box] (D − D₀)
 ///
-/// evaluated in enclosures. The form exceeds f's range by an amount quadratic in the box's size.
+/// with ∂f/∂P and ∂f/∂D over the whole box. The excess width is quadratic in the size of the box.
 template <int Degree>
 class GainBoxProof {
  public:
-  /// @param polynomial  enclosure of the loop's polynomial, whose stable half-plane is Re < 0
+  /// @param polynomial  enclosed characteristic polynomial; its stable half-plane is Re < 0
   explicit GainBoxProof(HalfPlanePolynomial<Enclosure, Degree> polynomial)
       : polynomial_(std::move(polynomial)) {}
 
-  /// The verdict proved for all loops with gains in a box.
+  /// The stability proved for all loops with gains in a box; `undecided` without a proof.
   ProvedStability operator()(const GainBox& box) const {
     const Enclosure p(box.proportional_from, box.proportional_to);
     const Enclosure d(box.differential_from, box.differential_to);
@@ -157,7 +158,7 @@ inline PdGains<double> middle_of(const GainBox& box) {
           Enclosure(box.differential_from, box.differential_to).middle()};
 }
 
-/// The boxes between neighbouring points of a grid.
+/// The cells of a grid: the boxes between neighbouring grid points.
 inline std::vector<GainBox> cells_of(const GainGrid& grid) {
   std::vector<GainBox> cells;
   for (std::int64_t i = 0; i + 1 < grid.proportional.count; ++i)
@@ -167,20 +168,20 @@ inline std::vector<GainBox> cells_of(const GainGrid& grid) {
   return cells;
 }
 
-/// Rejects a grid without cells or with cells as narrow as round-off, or a share not in 0 … 1.
+/// Rejects a grid without cells or with cells as narrow as round-off, or a share outside 0 … 1.
 inline void validate_proved(const GainGrid& grid, double undecided) {
   validate(grid);
   for (const Axis& axis : {grid.proportional, grid.differential}) {
     const auto count = static_cast<double>(axis.count);
-    require_within("points along a side of the chart", count, "", 2.0, 1e9);
-    // Else rounding might turn the order of the points.
+    require_within("number of grid points along an axis", count, "", 2.0, 1e9);
+    // In narrower cells rounding might change the order of the points.
     const double size = std::max(std::abs(axis.min), std::abs(axis.max));
     const double least = 16.0 * std::numeric_limits<double>::epsilon() * size;
     if (!((axis.max - axis.min) / count > least))
       throw InvalidParameter("width of a cell of the chart", (axis.max - axis.min) / (count - 1.0),
-                             "", "larger than the rounding of the gains");
+                             "", "larger than round-off: give fewer points or a wider range");
   }
-  require_within("undecided share", undecided, "", 0.0, 1.0);
+  require_within("largest undecided share", undecided, "", 0.0, 1.0);
 }
 
 /// Sorts the boxes, ascending in P and then in D.
@@ -191,7 +192,7 @@ inline void sort_boxes(ProvedChart& chart) {
   });
 }
 
-/// The four quarters of a box; none where a side has no double between its ends.
+/// The four quarters of a box; empty where a side has no double between its ends.
 inline std::vector<GainBox> quarters_of(const GainBox& box) {
   const auto [p0, p2, d0, d2] = box;
   const double p1 = 0.5 * p0 + 0.5 * p2, d1 = 0.5 * d0 + 0.5 * d2;
@@ -199,11 +200,11 @@ inline std::vector<GainBox> quarters_of(const GainBox& box) {
   return {{p0, p1, d0, d1}, {p0, p1, d1, d2}, {p1, p2, d0, d1}, {p1, p2, d1, d2}};
 }
 
-/// Quarters undecided boxes until they cover at most `most_area` (N²·s/m²), none can be divided, or
-/// the next quartering might give more than `most_boxes` boxes.
+/// Quarters undecided boxes repeatedly. It stops when their area is at most `most_area` (N²·s/m²),
+/// when none can be divided, or when quartering might give more than `most_boxes` boxes.
 /// @param open     items with a box `gains`; on return the items that are still undecided
-/// @param take     (item, quarter) → adds the quarter to `open`, or to the decided boxes
-/// @param decided  () → number of decided boxes
+/// @param take     function (item, quarter) that adds the quarter to `open` or to the decided boxes
+/// @param decided  function () → number of decided boxes
 template <class Open, class Take, class Decided>
 void quarter(std::vector<Open>& open, double most_area, std::size_t most_boxes, const Take& take,
              const Decided& decided) {
@@ -226,12 +227,12 @@ void quarter(std::vector<Open>& open, double most_area, std::size_t most_boxes, 
 
 }  // namespace detail
 
-/// Proves the cells of a chart. Each cell is decided as a whole or quartered, until the undecided
+/// Chart of the stability proved on the cells of a grid. Undecided boxes are quartered until their
 /// share of the area is at most `undecided`.
-/// @param decide      map from a GainBox to ProvedStability, such as a GainBoxProof
-/// @param grid        grid of cells between its points; both axes ascend, with at least 2 points
-/// @param undecided   largest undecided share, 0 ≤ … < 1
-/// @param most_boxes  limit of the number of boxes; beyond it the rest remains undecided
+/// @param decide      function from GainBox to ProvedStability, for example a GainBoxProof
+/// @param grid        grid points, at least 2 on each ascending axis; cells lie between the points
+/// @param undecided   largest undecided share of the area, 0 … 1
+/// @param most_boxes  largest number of boxes; quartering stops before it might be exceeded
 /// @throws InvalidParameter where the grid or the share is not admissible
 template <class Decide>
 ProvedChart proved_chart(const Decide& decide, const GainGrid& grid, double undecided = 1e-3,
@@ -254,14 +255,15 @@ ProvedChart proved_chart(const Decide& decide, const GainGrid& grid, double unde
   return chart;
 }
 
-/// The proof for the continuous loop of two masses without delay. It holds for all decimal
-/// parameters that round to the given doubles.
+/// Proof of stability over boxes of gains for the continuous loop of two masses without delay. It
+/// is valid for all decimal parameters that round to the given doubles.
 /// @throws InvalidParameter where the two masses are not admissible
 inline GainBoxProof<4> gain_box_proof(const TwoMass<double>& plant) {
   return GainBoxProof<4>(characteristic_polynomial(enclosed(plant)));
 }
 
-/// The proof for the sampled loop of two masses, for all decimals that round to its parameters.
+/// Proof of stability over boxes of gains for the sampled loop of two masses. It is valid for all
+/// decimal parameters that round to the given doubles.
 /// @throws InvalidParameter where the two masses or the sampling are not admissible
 inline GainBoxProof<5> gain_box_proof(const TwoMass<double>& plant,
                                       const Sampling<double>& sampling) {

@@ -40,7 +40,7 @@ struct ProvedFamily {
   double stable_share = 0.0;                           ///< proved stable share of the box's volume
   double undecided_share = 0.0;                        ///< undecided share of the box's volume
   std::optional<std::array<double, N>> unstable_loop;  ///< a loop proved unstable, if one was found
-  std::size_t parts = 0;                               ///< number of boxes taken from the queue
+  std::size_t parts = 0;                               ///< examined boxes and those past the limit
 
   /// The verdict: every loop is stable, some loop is unstable, or undecided.
   ProvedStability verdict() const {
@@ -62,10 +62,30 @@ struct Parts {
   Number real, imag;
 };
 
+/// The sum of two complex numbers.
+template <class Number>
+Parts<Number> operator+(const Parts<Number>& a, const Parts<Number>& b) {
+  return {a.real + b.real, a.imag + b.imag};
+}
+/// The difference of two complex numbers.
+template <class Number>
+Parts<Number> operator-(const Parts<Number>& a, const Parts<Number>& b) {
+  return {a.real - b.real, a.imag - b.imag};
+}
 /// The product of two complex numbers.
 template <class Number>
 Parts<Number> operator*(const Parts<Number>& a, const Parts<Number>& b) {
   return {a.real * b.real - a.imag * b.imag, a.real * b.imag + a.imag * b.real};
+}
+/// The product of a real and a complex number.
+template <class Number>
+Parts<Number> operator*(const Number& a, const Parts<Number>& b) {
+  return {a * b.real, a * b.imag};
+}
+/// The reciprocal of a complex number.
+inline Parts<Enclosure> reciprocal(const Parts<Enclosure>& a) {
+  const Enclosure inverse = Enclosure(1.0) / (square(a.real) + square(a.imag));
+  return {a.real * inverse, -(a.imag * inverse)};
 }
 
 /// Sum over aliased frequencies, linear in the gains: P · proportional + D · differential.
@@ -78,19 +98,16 @@ struct AliasSum {
   /// @param response  G(iω) (m/N)
   void add(const Parts<Enclosure>& hold, const Enclosure& omega, const Parts<Enclosure>& response) {
     const Parts<Enclosure> part = hold * response;
-    proportional.real += part.real;
-    proportional.imag += part.imag;
-    differential.real -= omega * part.imag;
-    differential.imag += omega * part.real;
+    proportional = proportional + part;
+    differential = differential + omega * Parts<Enclosure>{-part.imag, part.real};
   }
   /// Widens both numbers by the given errors, per N s/m of D and per N/m of P.
   void widen(const Enclosure& of_differential, const Enclosure& of_proportional) {
-    const auto widened = [](Parts<Enclosure>& z, double error) {
-      z.real += Enclosure(-error, error);
-      z.imag += Enclosure(-error, error);
+    const auto widened = [](const Parts<Enclosure>& z, double error) {
+      return z + Parts<Enclosure>{{-error, error}, {-error, error}};
     };
-    widened(differential, of_differential.magnitude());
-    widened(proportional, of_proportional.magnitude());
+    differential = widened(differential, of_differential.magnitude());
+    proportional = widened(proportional, of_proportional.magnitude());
   }
 };
 
@@ -131,11 +148,10 @@ AliasSum alias_sum(const Enclosure& theta, const Enclosure& period, const Enclos
     const Enclosure lag = angle * share, each = Enclosure(1.0) / angle, weight = square(each);
     const Parts<Enclosure> late =
         is_prompt ? Parts<Enclosure>{1.0, 0.0} : Parts<Enclosure>{cos(lag), -sin(lag)};
-    left.real -= weight * late.real;
-    left.imag -= weight * late.imag;
+    left = left - weight * late;
     const Parts<Enclosure> hold = held * late;
     const Enclosure omega = angle / period;
-    if (n != 0) sum.add({each * hold.real, each * hold.imag}, omega, response(omega));
+    if (n != 0) sum.add(each * hold, omega, response(omega));
   }
   const Enclosure turns = Enclosure(theta.magnitude()) / turn;
   const Enclosure gap = Enclosure(terms + 0.5) - turns;
@@ -145,10 +161,9 @@ AliasSum alias_sum(const Enclosure& theta, const Enclosure& period, const Enclos
   const bool is_known = known.g.is_positive() && (Enclosure(1.0) - turns).is_positive();
   Enclosure rest = is_known ? size * known.g / gap : Enclosure::unknown();
   if (is_known && is_fast) {
-    const Parts<Enclosure> lead = Parts<Enclosure>{-(twice * period * known.mu * sin(half)),
-                                                   -(twice * period * known.mu * cos(half))} *
-                                  left;
-    sum.differential = {sum.differential.real + lead.real, sum.differential.imag + lead.imag};
+    const Parts<Enclosure> lead =
+        -(twice * period * known.mu) * Parts<Enclosure>{sin(half), cos(half)};
+    sum.differential = sum.differential + lead * left;
     sum.widen(size * known.h * period / (turn * Enclosure(2.0) * square(gap)), rest / slowest);
     return sum;
   }
@@ -313,16 +328,11 @@ class ArcExclusion {
     const AliasSum sum = aliases_(at.theta);
     const Parts<Enclosure> factor = loop_.factor(all_, at, frame);
     const Parts<Enclosure> by_p = factor * sum.proportional, by_d = factor * sum.differential;
-    const auto take = [](Parts<Enclosure>& from, const Parts<Enclosure>& part,
-                         const Enclosure& times) {
-      from.real -= times * part.real;
-      from.imag -= times * part.imag;
-    };
-    take(value_, by_p, at_middle_[Loop::place_of_p].value);
-    take(value_, by_d, at_middle_[Loop::place_of_d].value);
+    value_ = value_ - middle_values_[Loop::place_of_p] * by_p;
+    value_ = value_ - middle_values_[Loop::place_of_d] * by_d;
     for (std::size_t k = 0; k < moving_.size(); ++k) {
-      if (moving_[k].number == Loop::place_of_p) take(slopes_[k], by_p, Enclosure(1.0));
-      if (moving_[k].number == Loop::place_of_d) take(slopes_[k], by_d, Enclosure(1.0));
+      if (moving_[k].number == Loop::place_of_p) slopes_[k] = slopes_[k] - by_p;
+      if (moving_[k].number == Loop::place_of_d) slopes_[k] = slopes_[k] - by_d;
     }
   }
 
@@ -371,8 +381,7 @@ LoopVerdict<N> judged(const Loop& loop, const ParameterBox<N>& box, bool has_sta
   if (of_middle == ProvedStability::unstable) return {of_middle, middle, 0, false};
   ArcExclusion<Loop> exclusion(loop, box);
   constexpr std::size_t most_arcs = 4000;
-  // From v = π k w to π (k + 1) w, k and the width w being exact. Depth first, so that an arc that
-  // fails is found soon.
+  // From v = π k w to π (k + 1) w, k and width w being exact. Depth first finds a failing arc soon.
   std::vector<std::pair<double, double>> arcs = {{0.0, 1.0}};
   for (std::size_t count = 0; !arcs.empty(); ++count) {
     const auto [number, width] = arcs.back();
@@ -425,7 +434,7 @@ std::vector<ParameterBox<N>> halves_of(const ParameterBox<N>& box, std::size_t a
 /// @param go_on   () → void, called before each box is examined; may throw
 /// @throws InvalidParameter where a loop of the box is not admissible
 /// Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009;
-/// J. Ackermann, Robust Control, Springer 1993, for the exclusion of zero.
+/// J. Ackermann, Robust Control, Springer 1993 (zero exclusion principle).
 template <class Loop, class GoOn>
 ProvedFamily<Loop::parameters> prove_family(const Loop& loop,
                                             const ParameterBox<Loop::parameters>& box,
@@ -433,7 +442,7 @@ ProvedFamily<Loop::parameters> prove_family(const Loop& loop,
   constexpr std::size_t n = Loop::parameters;
   for (std::size_t k = 0; k < n; ++k)
     if (!(box.lowest[k] <= box.highest[k]))
-      throw InvalidParameter("upper end of a parameter", box.highest[k], "",
+      throw InvalidParameter("upper end of a parameter of the box", box.highest[k], "",
                              "at least the lower end");
   loop.validate(box);
   ProvedFamily<n> family;
@@ -475,7 +484,7 @@ struct TwoMassFamily {
   /// Array of one number for each parameter.
   template <class Number>
   using Parameters = std::array<Number, parameters>;
-  using Box = ParameterBox<parameters>;  ///< closed box of such loops
+  using Box = ParameterBox<parameters>;  ///< closed box of loops of two masses
 
   /// The parameters of a loop, in the order of LoopParameter.
   static Parameters<double> of(OperatingPoint point) {
@@ -492,14 +501,14 @@ struct TwoMassFamily {
     return point;
   }
 
-  /// The frame of F near a frequency (see StringFamily), empty: F needs no factor and no tuning.
+  /// Data to evaluate F near a frequency, as `StringFamily::Frame`; F of two masses needs none.
   struct Frame {
-    /// The ratio c of natural frequencies to the middle's: 1, as no c fits both frequencies.
+    /// The ratio c of natural frequencies (`angle_at`); 1, as two masses have no common ratio.
     static EnclosedSlope tuning(const Parameters<EnclosedSlope>&) { return 1.0; }
   };
-  /// The empty frame of F near a frequency (rad/s).
+  /// The empty Frame, at every frequency.
   static Frame frame_at(const Parameters<double>&, double) { return {}; }
-  /// Two masses have no modal sum.
+  /// Does nothing: F of two masses contains no modal sum.
   static void sum_modes(const Parameters<Enclosure>&, const Enclosure&, Frame&) {}
 
   /// The characteristic polynomial of the plant at s = iω,
@@ -514,7 +523,7 @@ struct TwoMassFamily {
             omega * (c1 * k2 + c2 * k1 - cubic * square)};
   }
 
-  /// The characteristic function F without the aliased frequencies, θ being ωτ:
+  /// The characteristic function F without its alias sum (`alias_sum`); θ = ωτ, sinc x = (sin x)/x:
   ///
   ///     Δ(iω) + (P + iωD) m₂ ω² sinc(θ/2) e^{−iθ(δ/τ + 1/2)}
   static detail::Parts<EnclosedSlope> base(const Parameters<EnclosedSlope>& x,
@@ -525,17 +534,17 @@ struct TwoMassFamily {
     const EnclosedSlope phase = theta * (delay / period + EnclosedSlope(0.5));
     const EnclosedSlope c = cos(phase), s = sin(phase), rate = omega * d;
     const EnclosedSlope size = m2 * (omega * omega) * sinc(theta * EnclosedSlope(0.5));
-    return {own.real + size * (p * c + rate * s), own.imag + size * (rate * c - p * s)};
+    return own + size * detail::Parts<EnclosedSlope>{p * c + rate * s, rate * c - p * s};
   }
 
-  /// The factor Δ(iω) of the alias sum in F.
+  /// The factor Δ(iω) by which F multiplies the alias sum.
   static detail::Parts<Enclosure> factor(const Parameters<Enclosure>& x,
                                          const detail::CircleAngle<Enclosure>& at, Frame) {
     return plant<Enclosure>(x, at.omega);
   }
 
-  /// The alias sum of a box as a map θ → AliasSum, with G = −m₂ω²/Δ. The bounds follow from Δ =
-  /// m₁m₂ω⁴ − i a₃ω³ − a₂ω² + i a₁ω + k₁k₂ and e = m₁m₂ − a₂/ω²:
+  /// The alias sum of a box as a map θ → AliasSum, for G = −m₂ω²/Δ; a_k: coefficient of s^k in Δ.
+  /// Its `ResponseBounds` above ω are, with e = m₁m₂ − a₂/ω²,
   ///
   ///     g = m₂/e,   μ = 1/m₁,   h = (a₃ + a₂/ω + a₁/ω² + k₁k₂/ω³)/(m₁ e).
   static auto aliases(const Parameters<Enclosure>& x) {

@@ -18,7 +18,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// A partition into sets that are joined two at a time (union-find).
+/// Partition of indices into disjoint sets, which can be joined pairwise (union-find).
 class JoinedSets {
  public:
   explicit JoinedSets(std::size_t count) : parent_(count) {
@@ -36,13 +36,13 @@ class JoinedSets {
   std::vector<std::size_t> parent_;
 };
 
-/// A side of a box: its coordinate and its extent along the other axis.
+/// A side of a box: its constant coordinate and its range along the other axis.
 struct BoxSide {
   double at, from, to;
   std::size_t box;
 };
 
-/// Joins every pair of boxes with a side in `ends` and a side in `begins` that share a segment.
+/// Joins two boxes if a side of one in `ends` and a side of the other in `begins` share a segment.
 inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, JoinedSets& sets) {
   const auto by_place = [](const BoxSide& a, const BoxSide& b) {
     return std::tie(a.at, a.from) < std::tie(b.at, b.from);
@@ -62,9 +62,9 @@ inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, J
 
 }  // namespace detail
 
-/// For each box the index of the box that stands for its region. A region is a set of boxes that
-/// are connected through shared sides.
-/// @param boxes  boxes that do not overlap; their common sides are identical doubles
+/// Index, for each box, of the box that represents its region. Boxes of one region have equal
+/// indices. A region is a set of boxes connected through common sides.
+/// @param boxes  boxes that do not overlap; coordinates of common sides are identical doubles
 inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) {
   std::vector<detail::BoxSide> left, right, lower, upper;
   for (std::size_t k = 0; k < boxes.size(); ++k) {
@@ -84,14 +84,14 @@ inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) 
 
 namespace detail {
 
-/// Box of gains with, for each circle, the arcs on which one of its loops may have a root. A wider
-/// circle's arcs are removed once that circle cannot prove the box unstable.
+/// Box of gains with, for each circle, the arcs on which one of its loops may have a root. The arcs
+/// of a wider circle become `nullopt` once this circle cannot prove the box unstable.
 struct CrossedBox {
   GainBox gains;
   std::vector<std::optional<CircleArcs::Arcs>> arcs;
 };
 
-/// A range of grid cells, by their indices in P and in D.
+/// Rectangle of grid cells, given by ranges of indices in P and D.
 struct CellRange {
   const GainGrid& grid;
   std::int64_t p_from = 0, p_to = grid.proportional.count - 1;
@@ -113,14 +113,14 @@ struct CellRange {
   }
 };
 
-/// Unfinished chart of a loop of any order; loops of a free box have no root on the unit circle.
-/// @tparam Watch  callback, called for each box
+/// Chart under construction, for a loop of any order. Loops of a free box have no root on |λ| = 1.
+/// @tparam Watch  type of a function without arguments, which is called for each box
 template <class Watch>
 class ModalChart {
  public:
   ModalChart(const EnclosedResponse& response, const GainGrid& grid, const Watch& watch)
       : watch_(watch) {
-    // A root beyond a wider circle is one of an unstable loop, whatever crosses the unit circle.
+    // A loop with a root outside a wider circle is unstable, even if roots cross |λ| = 1.
     for (const double radius : {1.0, 1.0003, 1.005}) circles_.emplace_back(response, radius);
     const CellRange all{grid};
     CrossedBox whole{all.box(), {}};
@@ -151,7 +151,7 @@ class ModalChart {
   }
 
  private:
-  /// Halves a range down to single cells and stores each cell as free, unstable or undecided.
+  /// Halves a range of cells down to single cells; stores each as free, unstable or undecided.
   void open_cells(const CellRange& range, const CrossedBox& around) {
     CrossedBox box = part_of(around, range.box());
     if (range.is_cell()) return take(std::move(box));
@@ -160,7 +160,7 @@ class ModalChart {
     open_cells(second, box);
   }
 
-  /// A part of a box, with those arcs of the box on which loops of the part may have a root.
+  /// A part of a box, with those of the box's arcs on which loops of the part may have a root.
   CrossedBox part_of(const CrossedBox& box, const GainBox& part) {
     watch_();
     CrossedBox result{part, {}};
@@ -182,7 +182,7 @@ class ModalChart {
     open_.push_back(std::move(box));
   }
 
-  /// The verdicts on the regions, indexed by the number of a region (`joined_boxes`).
+  /// The verdict on each region, at the index of its representative box (`joined_boxes`).
   std::vector<ProvedStability> verdicts_on(const std::vector<std::size_t>& regions) {
     std::vector<std::optional<GainBox>> largest(free_.size());
     for (std::size_t k = 0; k < free_.size(); ++k) {
@@ -208,17 +208,17 @@ class ModalChart {
 
 }  // namespace detail
 
-/// Proves the cells of a chart of a loop of any order. A box is free if none of its gains puts a
-/// root on the unit circle. The number of roots outside is constant on connected free boxes; it is
-/// counted once for each region (`CircleArcs::roots_outside`). Any other box is unstable if its
-/// loops have roots outside a wider circle and none on it. Boxes still undecided are quartered
-/// until their share of the area is at most `undecided`.
-/// @param response    response of the loop
-/// @param grid        grid of cells between its points; both axes ascend, with at least 2 points
-/// @param undecided   largest undecided share, 0 ≤ … < 1
-/// @param watch       called for each box; an exception from it ends the work
-/// @param most_boxes  limit of the number of boxes; beyond it the rest remains undecided
-/// @return an undecided chart where an eigenvalue of the plant itself may be on the unit circle
+/// Chart of the stability proved on the cells of a grid, for a loop of any order. A box is free if
+/// no loop with its gains has a root on the unit circle. All loops of connected free boxes have the
+/// same number of roots outside it, counted once (`CircleArcs::roots_outside`). Any other box is
+/// unstable if its loops have roots outside a wider circle and none on it. Undecided boxes are
+/// quartered until their share of the area is at most `undecided`.
+/// @param response    enclosed response of the loop
+/// @param grid        grid points, at least 2 on each ascending axis; cells lie between the points
+/// @param undecided   largest undecided share of the area, 0 … 1
+/// @param watch       function called for each box; an exception from it ends the computation
+/// @param most_boxes  largest number of boxes; quartering stops before it might be exceeded
+/// @return chart; all boxes are undecided if an eigenvalue of the plant may be on the unit circle
 /// @throws InvalidParameter where the grid or the share is not admissible
 template <class Watch>
 ProvedChart proved_chart(const EnclosedResponse& response, const GainGrid& grid, double undecided,

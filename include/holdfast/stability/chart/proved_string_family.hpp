@@ -20,43 +20,44 @@
 
 namespace holdfast {
 
-/// The parameters of a sampled loop on a taut string.
+/// The parameters of the sampled loop of an absorber on a taut string.
 enum class StringParameter {
-  tension,             ///< T (N), > 0
-  mass_per_length,     ///< μ (kg/m), > 0
-  damping_ratio,       ///< ζ of every mode, > 0
-  clamp_mass,          ///< M_c (kg), ≥ 0
-  absorber_mass,       ///< m₂ (kg), > 0
-  absorber_stiffness,  ///< k₂ (N/m), ≥ 0
-  absorber_damping,    ///< c₂ (N s/m), ≥ 0
-  sampling_period,     ///< τ (s), > 0
-  processing_delay,    ///< δ (s), 0 … τ
-  proportional_gain,   ///< P (N/m)
-  differential_gain,   ///< D (N s/m)
+  tension,             ///< string tension T (N), > 0
+  mass_per_length,     ///< string mass per length μ (kg/m), > 0
+  damping_ratio,       ///< damping ratio ζ of every mode, > 0
+  clamp_mass,          ///< mass M_c of the absorber's clamp (kg), ≥ 0
+  absorber_mass,       ///< absorber's mass m₂ (kg), > 0
+  absorber_stiffness,  ///< absorber's stiffness k₂ (N/m), ≥ 0
+  absorber_damping,    ///< absorber's damping c₂ (N s/m), ≥ 0
+  sampling_period,     ///< sampling period τ (s), > 0
+  processing_delay,    ///< processing delay δ (s), 0 … τ
+  proportional_gain,   ///< proportional gain P (N/m)
+  differential_gain,   ///< differential gain D (N s/m)
 };
 
-/// Family of the sampled loops of an absorber on a taut string with a given number of modes.
+/// Family of sampled loops, for `prove_family`: an absorber on a taut string with N modes.
 ///
 /// The string's receptance at the absorber is H(s) = Σ h_n/d_n with h_n = 2 sin²(nπa/L)/(μL) and
-/// d_n = s² + 2ζω_n s + ω_n². Near mode m the loop's function F has the factor d_m and no large
-/// term. With S = H d_m, q = m₂ s² + c₂ s + k₂, κ = c₂ s + k₂, U₀ and A as for `alias_sum`,
+/// d_n = s² + 2ζω_n s + ω_n². As H is large near resonance, the characteristic function F is
+/// multiplied by d_m of the nearest mode m. With S = H d_m, q = m₂ s² + c₂ s + k₂, κ = c₂ s + k₂,
+/// U₀ = sinc(θ/2) e^{−iθ(δ/τ + 1/2)} and A of `alias_sum`,
 ///
 ///     F = q (d_m + M_c s² S) + m₂ s² S (κ − (P + sD) U₀) − (q (d_m + M_c s² S) + m₂ s² S κ) A.
 class StringFamily {
  public:
   static constexpr std::size_t parameters = 11;      ///< number of parameters, see StringParameter
-  static constexpr std::size_t place_of_period = 7;  ///< index of τ
-  static constexpr std::size_t place_of_p = 9;       ///< index of P
-  static constexpr std::size_t place_of_d = 10;      ///< index of D
-  /// Array of one number for each parameter, in the order of StringParameter.
+  static constexpr std::size_t place_of_period = 7;  ///< index of the sampling period τ
+  static constexpr std::size_t place_of_p = 9;       ///< index of the gain P
+  static constexpr std::size_t place_of_d = 10;      ///< index of the gain D
+  /// Array with one number for each parameter, in the order of StringParameter.
   template <class Number>
   using Parameters = std::array<Number, parameters>;
-  using Box = ParameterBox<parameters>;  ///< closed box of such loops
+  using Box = ParameterBox<parameters>;  ///< closed box of loops of the family
 
   /// @param span               span L (m), > 0
-  /// @param place              distance a (m) of the absorber from an end, inside the span
+  /// @param place              distance a (m) of the absorber from one end of the span, 0 < a < L
   /// @param bending_stiffness  bending stiffness EI (N m²), ≥ 0
-  /// @param modes              number of modes, 1 … 1000
+  /// @param modes              number N of modes, 1 … 1000
   /// @throws InvalidParameter naming the argument that is out of range
   StringFamily(double span, double place, double bending_stiffness, int modes)
       : span_(span), place_(place), bending_stiffness_(bending_stiffness), modes_(modes) {
@@ -65,7 +66,7 @@ class StringFamily {
     require_non_negative("bending stiffness EI", bending_stiffness, "N m^2");
     require_within("number of modes", modes, "", 1, 1000);
     const Enclosure length = Enclosure::of_decimal(span);
-    // The family holds its modes as they are rounded too, for the verdict on its middle.
+    // Enclosures include the rounded modes as well, which `verdict_on` uses.
     const Enclosure rounded(1.0 - 1e-12, 1.0 + 1e-12), error(-2e-12, 2e-12);
     for (int n = 1; n <= modes; ++n) {
       const Enclosure waves = Enclosure(static_cast<double>(n)) * pi<Enclosure> / length;
@@ -75,61 +76,55 @@ class StringFamily {
     }
   }
 
-  /// The frame of F near a frequency: the mode m whose d_m is a factor of F, and the wave speed of
-  /// the box's middle. With Ω = ω/c the modal sums of all tensions become one sum.
+  /// Data to evaluate F near a frequency: the nearest mode m, and the wave speed of the middle loop
+  /// of a box. In the frequency Ω = ω/c (c: see `tuning`) one modal sum serves all wave speeds.
   struct Frame {
-    int nearest;                               ///< index of that mode, from 0
-    Enclosure squared_speed;                   ///< squared wave speed T/μ of the middle (m²/s²)
-    detail::Parts<Enclosure> others = {};      ///< sum Σ μh_n/d_n over the other modes
-    detail::Parts<Enclosure> by_tuned = {};    ///< its derivative by Ω
-    detail::Parts<Enclosure> by_damping = {};  ///< its derivative by ζ
-    detail::Parts<Enclosure> by_tension = {};  ///< its derivative by T
+    int nearest;                               ///< index of mode m, from 0
+    Enclosure squared_speed;                   ///< squared wave speed T/μ, middle loop (m²/s²)
+    detail::Parts<Enclosure> others = {};      ///< sum Σ μh_n/d_n over the modes other than m
+    detail::Parts<Enclosure> by_tuned = {};    ///< derivative of the sum by Ω
+    detail::Parts<Enclosure> by_damping = {};  ///< derivative of the sum by ζ
+    detail::Parts<Enclosure> by_tension = {};  ///< derivative of the sum by T
 
-    /// The wave speed relative to the middle's, c = √((T/μ)/(T₀/μ₀)).
+    /// The ratio c = √((T/μ)/(T₀/μ₀)) of wave speeds; T₀ and μ₀ are those of the middle loop.
     EnclosedSlope tuning(const Parameters<EnclosedSlope>& x) const {
       return sqrt(x[0] / (x[1] * constant<EnclosedSlope>(squared_speed)));
     }
   };
-  /// The frame of F near a frequency.
-  /// @param x      middle of the box
+  /// Data to evaluate F near a frequency, without the modal sums, which `sum_modes` adds.
+  /// @param x      parameters of the middle loop of a box
   /// @param omega  frequency ω (rad/s)
   Frame frame_at(const Parameters<double>& x, double omega) const {
     const double first = std::sqrt(squared_waves_.front().middle() * x[0] / x[1]);
     return {std::clamp(static_cast<int>(std::lround(omega / first)), 1, modes_) - 1,
             Enclosure(x[0]) / Enclosure(x[1])};
   }
-  /// Gives a frame the modal sum at Ω (rad/s), and its derivatives, which all directions share.
+  /// Computes the modal sum of a frame at Ω (rad/s), with its derivatives by Ω, ζ and T.
   void sum_modes(const Parameters<Enclosure>& x, const Enclosure& tuned, Frame& frame) const {
     using Complex = detail::Parts<Enclosure>;
     frame.others = frame.by_tuned = frame.by_damping = frame.by_tension = {};
     const Enclosure two(2.0), squared = square(tuned);
-    const auto subtract = [](Complex& from, const Complex& part) {
-      from.real -= part.real;
-      from.imag -= part.imag;
-    };
     for (int n = 0; n < modes_; ++n) {
       if (n == frame.nearest) continue;
       const auto k = static_cast<std::size_t>(n);
       const Enclosure own = squared_frequency(x[0], frame.squared_speed, n), root = sqrt(own);
       const Complex d{own - squared, two * x[2] * root * tuned};
-      const Enclosure inverse = Enclosure(1.0) / (square(d.real) + square(d.imag));
-      const Complex one_over{d.real * inverse, -(d.imag * inverse)};
-      frame.others.real += shares_[k] * one_over.real;
-      frame.others.imag += shares_[k] * one_over.imag;
+      const Complex one_over = detail::reciprocal(d);
+      frame.others = frame.others + shares_[k] * one_over;
       // −(μh/d²) ∂d
-      const Complex rate{shares_[k] * (square(one_over.real) - square(one_over.imag)),
-                         shares_[k] * (two * one_over.real * one_over.imag)};
-      subtract(frame.by_tuned, rate * Complex{-(two * tuned), two * x[2] * root});
-      subtract(frame.by_damping, rate * Complex{0.0, two * root * tuned});
+      const Complex rate = -shares_[k] * Complex{square(one_over.real) - square(one_over.imag),
+                                                 two * one_over.real * one_over.imag};
+      frame.by_tuned = frame.by_tuned + rate * Complex{-(two * tuned), two * x[2] * root};
+      frame.by_damping = frame.by_damping + rate * Complex{0.0, two * root * tuned};
       if (bending_stiffness_ == 0.0) continue;
       const Enclosure stiff = squared_waves_[k] * Enclosure::of_decimal(bending_stiffness_);
       const Enclosure falls =
           -(squared_waves_[k] * frame.squared_speed * stiff / square(x[0]));  // ∂Ω_n²/∂T
-      subtract(frame.by_tension, rate * Complex{falls, x[2] * tuned * falls / root});
+      frame.by_tension = frame.by_tension + rate * Complex{falls, x[2] * tuned * falls / root};
     }
   }
 
-  /// The characteristic function F without the aliased frequencies.
+  /// The characteristic function F without its term with the alias sum A.
   detail::Parts<EnclosedSlope> base(const Parameters<EnclosedSlope>& x,
                                     const detail::CircleAngle<EnclosedSlope>& angle,
                                     const Frame& frame) const {
@@ -139,22 +134,21 @@ class StringFamily {
     const EnclosedSlope c = cos(phase), s = sin(phase), rate = omega * x[10];
     const EnclosedSlope size = sinc(theta * EnclosedSlope(0.5));
     // (P + iωD) U₀
-    const detail::Parts<EnclosedSlope> command{size * (x[9] * c + rate * s),
-                                               size * (rate * c - x[9] * s)};
-    const detail::Parts<EnclosedSlope> drive = here.reach * command;
-    return {here.own.real - drive.real, here.own.imag - drive.imag};
+    const detail::Parts<EnclosedSlope> command{x[9] * c + rate * s, rate * c - x[9] * s};
+    return here.own - here.reach * (size * command);
   }
 
-  /// The factor q (d_m + M_c s² S) + m₂ s² S κ of the alias sum in F.
+  /// The factor q (d_m + M_c s² S) + m₂ s² S κ by which F multiplies the alias sum A.
   detail::Parts<Enclosure> factor(const Parameters<Enclosure>& x,
                                   const detail::CircleAngle<Enclosure>& angle,
                                   const Frame& frame) const {
     return at(x, angle.omega, angle.tuned, frame).own;
   }
 
-  /// The alias sum of a box, θ → AliasSum, for G = m₂ s² H/(q (1 + M_c s² H) + m₂ s² H κ). Where ω
-  /// is beyond all ω_n, s² H has a positive real part, so that the clamp makes |1 + M_c s² H| no
-  /// smaller than 1. With η₀ = Σ h_n, |H| ≤ η/ω², |H + η₀/ω²| ≤ ε/ω³ and |κ| ≤ ω r, r = k₂/ω + c₂,
+  /// The alias sum of a box's loops, a map θ → AliasSum, for
+  /// G = m₂ s² H/(q (1 + M_c s² H) + m₂ s² H κ). Where ω exceeds all ω_n, Re(s² H) > 0 and
+  /// |1 + M_c s² H| ≥ 1. Let η₀ = Σ h_n, r = k₂/ω + c₂ ≥ |κ|/ω, |H| ≤ η/ω² and
+  /// |H + η₀/ω²| ≤ ε/ω³. Then the `ResponseBounds` are
   ///
   ///     g = m₂ η/e,   e = m₂ − k₂/ω² − m₂ η r/ω,   μ = η₀/(1 + M_c η₀)
   ///     h = (m₂ ε (1 + μ M_c) + r η₀ (1 + μ m₂) + μ r (M_c + m₂) ε/ω)/e.
@@ -182,7 +176,7 @@ class StringFamily {
     };
   }
 
-  /// The verdict on a single loop, by enclosed plant poles and the winding of F about 0.
+  /// The stability of one loop: its plant poles are enclosed, its roots counted by `CircleArcs`.
   ProvedStability verdict_on(const Parameters<double>& x) const {
     const TautString<double> string{x[0], x[1], span_, x[2], bending_stiffness_};
     ConductorWithAbsorber conductor{
@@ -197,7 +191,7 @@ class StringFamily {
     return *outside == 0 ? ProvedStability::stable : ProvedStability::unstable;
   }
 
-  /// Validates the box. @throws InvalidParameter where a loop of the box is not admissible
+  /// Validates a box. @throws InvalidParameter where a loop of the box is not admissible
   void validate(const Box& box) const {
     for (const Parameters<double>& x : {box.lowest, box.highest}) {
       holdfast::validate(TautString<double>{x[0], x[1], span_, x[2], bending_stiffness_});
@@ -218,12 +212,12 @@ class StringFamily {
     detail::Parts<Number> own, reach;
   };
 
-  /// The moments M_k = U_k(ζ) Σ h_n ω_n^k of a box's strings, U_k being Chebyshev's polynomials:
+  /// The moments M_k = U_k(ζ) Σ h_n ω_n^k of a box's strings, with Chebyshev polynomials U_k:
   ///
   ///     s² H = Σ_k M_k (−1/s)^k,   |s| > ω_N,
   ///
-  /// since 1/(1 + 2ζt + t²) = Σ U_k(ζ) (−t)^k. For ζ ≤ 1, |U_k| ≤ k + 1, and the terms with k ≥ K
-  /// sum to at most (K + 1) M_0 r^K/(1 − r)², r = ω_N/|s|.
+  /// since 1/(1 + 2ζt + t²) = Σ U_k(ζ) (−t)^k. For ζ ≤ 1, |U_k| ≤ k + 1. The terms with k ≥ K sum
+  /// to at most (K + 1) M_0 r^K/(1 − r)², r = ω_N/|s|.
   struct Moments {
     static constexpr std::size_t count = 24;
     std::array<Enclosure, count> all;
@@ -249,20 +243,16 @@ class StringFamily {
     }
   };
 
-  /// The response G(iω) of a box's loops, by moments at ω > 2 ω_N, else by modes.
+  /// The response G(iω) of a box's loops: from `moments` if ω > 2 ω_N and ζ ≤ 1, else as modal sum.
   detail::Parts<Enclosure> response(const Parameters<Enclosure>& x, const Moments& moments,
                                     const Enclosure& omega) const {
     using Complex = detail::Parts<Enclosure>;
     const Enclosure one(1.0), ratio = moments.fastest / abs(omega);
-    const auto quotient = [](const Complex& a, const Complex& b) {
-      const Enclosure norm = square(b.real) + square(b.imag);
-      return Complex{b.real / norm, -(b.imag / norm)} * a;
-    };
     if (!(ratio.upper() < 0.5 && x[2].upper() <= 1.0)) {
       Frame frame{modes_ - 1, x[0] / x[1]};
       sum_modes(x, omega, frame);
       const Near<Enclosure> here = at(x, omega, omega, frame);
-      return quotient(here.reach, here.own);
+      return here.reach * detail::reciprocal(here.own);
     }
     std::size_t terms = 0;
     Enclosure power(1.0);
@@ -272,13 +262,11 @@ class StringFamily {
     const Enclosure either(-rest.upper(), rest.upper()), falls = -(one / square(omega));
     Complex sum;
     for (std::size_t k = terms; k > 0; k -= 2)
-      sum = {moments.all[k - 2] + falls * sum.real, moments.all[k - 1] + falls * sum.imag};
+      sum = Complex{moments.all[k - 2], moments.all[k - 1]} + falls * sum;
     const Complex reach{sum.real + either, sum.imag / omega + either};  // s² H
     const Complex link{x[5], omega * x[6]}, absorber{x[5] - x[4] * square(omega), omega * x[6]};
-    const Complex clamped{one + x[3] * reach.real, x[3] * reach.imag};
-    const Complex moved{x[4] * reach.real, x[4] * reach.imag};
-    const Complex own = absorber * clamped, pressed = moved * link;
-    return quotient(moved, {own.real + pressed.real, own.imag + pressed.imag});
+    const Complex moved = x[4] * reach;
+    return moved * detail::reciprocal(absorber * (Complex{one, {}} + x[3] * reach) + moved * link);
   }
 
   /// The squared frequency k_n² (1 + k_n² EI/T) v² of mode n + 1, k_n = (n + 1)π/L, v² = T/μ.
@@ -320,13 +308,11 @@ class StringFamily {
     Complex sum = nearest * others;  // S μ
     sum.real += constant<Number>(shares_[static_cast<std::size_t>(near)]);
     const Number inertia = -(x[4] * squared) / x[1];
-    const Complex reach{inertia * sum.real, inertia * sum.imag};
+    const Complex reach = inertia * sum;
     const Complex link{x[5], omega * x[6]};
     const Complex absorber{x[5] - x[4] * (omega * omega), omega * x[6]};
     const Number clamp = x[3] * squared / x[1];
-    const Complex clamped{nearest.real - clamp * sum.real, nearest.imag - clamp * sum.imag};
-    const Complex own = absorber * clamped, pressed = reach * link;
-    return {{own.real + pressed.real, own.imag + pressed.imag}, reach};
+    return {absorber * (nearest - clamp * sum) + reach * link, reach};
   }
 
   double span_, place_, bending_stiffness_;

@@ -17,7 +17,7 @@
 
 namespace holdfast::detail {
 
-/// Bound of Σ a_j over j > `order`, with first term `next` and a_{j+1}/a_j ≤ `rate`/(j + 1).
+/// Bound of Σ a_j over j > `order`: a_j > 0, first term `next`, a_{j+1}/a_j ≤ `rate`/(j + 1); or ∞.
 inline double tail_beyond(double next, double rate, std::size_t order) {
   const double ratio = rate / static_cast<double>(order + 2);
   return ratio < 1.0 ? next / (1.0 - ratio) : std::numeric_limits<double>::infinity();
@@ -71,7 +71,7 @@ MovingVector moving_input(const Plant& plant, const LoopMap<double>& map, ForceH
   return result;
 }
 
-/// The verdict on an interval of periods: it holds if the difference of two squares is positive.
+/// The verdict on an interval of periods: proved if a difference of two squares is surely positive.
 inline Stretch stretch_of(const SquaresDifference& gap) {
   return gap.least > 0.0 ? Stretch::holds : gap.at_centre > 0.0 ? Stretch::open : Stretch::fails;
 }

@@ -35,28 +35,28 @@ namespace holdfast {
 /// The criterion for a feasible sampling period.
 enum class DelayCriterion {
   stable,      ///< at least one differential gain D stabilises the loop
-  attenuates,  ///< τ < 1/(2f), so that the samples show the vibration, and some stabilising D
-               ///< brings the steady amplitude below that without control
+  attenuates,  ///< τ < 1/(2f), so that the samples resolve the vibration, and some stabilising D
+               ///< gives a steady amplitude below that without control
 };
 
 /// The options of the search for the largest feasible sampling period at one frequency.
 struct MaxDelayOptions {
   double frequency;          ///< excitation frequency f (Hz), > 0
-  double proportional_gain;  ///< P (N/m), finite; Eq. (6) of Kollár 2022 tunes it to f
+  double proportional_gain;  ///< gain P (N/m), finite; see `tuned_proportional_gain`
   DelayCriterion criterion = DelayCriterion::attenuates;  ///< criterion for a feasible period
   ForceHold hold = ForceHold::sampled;  ///< hold of the excitation; used by `attenuates` only
-  double delay_fraction = 0.0;  ///< ratio δ/τ, constant; 0 … 1, or 0 … 1000 for a loop by poles
+  double delay_fraction = 0.0;  ///< constant δ/τ: 0 … 1, or 0 … 1000 for a conductor given by modes
   double shortest_period = 1e-5;  ///< start of the search (s), or 1/(1000 f) if that is less
   /// The end of the search (s), > `shortest_period`; 0: a default. The default is 1/(2f) for
-  /// `attenuates`. For `stable` it is the period beyond which every period is proved to be stable,
-  /// if that is within 200 periods of the plant's slowest mode, else 20 of these periods.
+  /// `attenuates`. For `stable` it is the period beyond which the loop with D = 0 is proved stable;
+  /// if none is known within 200 periods of the plant's slowest mode, 20 of these periods.
   double longest_period = 0.0;
-  double search_ratio = 1.00001;  ///< ratio of periods, > 1; infeasible windows narrower than it
-                                  ///< may be missed in a step without a D proved feasible
-  int most_steps = 20000;  ///< largest number of steps, ≥ 1; for two masses some 40 µs or more each
+  double search_ratio = 1.00001;  ///< largest ratio, > 1, of two periods between which feasibility
+                                  ///< is assumed, if both are feasible but no proof succeeds
+  int most_steps = 20000;  ///< largest number of steps, ≥ 1; for two masses one takes 40 µs or more
   std::function<void()> watch = {};  ///< called at each step; may throw to end the search
-  /// Whether `attenuates` compares the amplitude with that without control under the true force; if
-  /// not, the force is held as with control (see `AmplitudeOptions`).
+  /// Whether `attenuates` compares with the amplitude without control under the true force. If not,
+  /// it compares with that under the held force (see `AmplitudeOptions`).
   bool relative_to_true_force = false;
 
   /// The angular frequency ω = 2π f (rad/s).
@@ -81,7 +81,7 @@ inline void validate(const MaxDelayOptions& options) {
 
 namespace detail {
 
-/// Stabilising D at one sampling period and the steady response, for a given P.
+/// Stabilising gains D and the steady response at one sampling period, for a given gain P.
 struct DelayOffer {
   std::vector<Interval<double>> stable;                 ///< intervals of D (N s/m) that stabilise
   std::optional<SteadyResponse<double>> response = {};  ///< steady response; empty for `stable`
@@ -126,8 +126,8 @@ inline bool shows_vibration(const MaxDelayOptions& options, double sampling_peri
          2.0 * options.frequency * sampling_period < 1.0;
 }
 
-/// The best D for a period: the D of minimum amplitude where attenuation is required, else a D
-/// inside the first stable interval; NaN where none is feasible.
+/// The best D for a period: the D of minimum amplitude for `attenuates`, else a D inside the first
+/// stable interval; NaN where no D is feasible.
 inline double serving_gain(const MaxDelayOptions& options, double period, const DelayOffer& offer) {
   if (!shows_vibration(options, period) || offer.stable.empty()) return std::nan("");
   if (!offer.response) return offer.stable.front().representative();
@@ -144,8 +144,8 @@ inline double least_ratio(const MaxDelayOptions& options, const DelayOffer& offe
 
 }  // namespace detail
 
-/// The open intervals of D (N s/m) that make one sampling period feasible, exact and ascending. A
-/// feasible D stabilises and, for `attenuates`, gives an amplitude below that without control.
+/// The open intervals of D (N s/m), ascending, with which one sampling period is feasible. Each D
+/// in them stabilises and, for `attenuates`, gives an amplitude below that without control.
 /// @tparam Plant           two masses, in closed form, or a plant of any order with ports
 /// @param plant            plant within its ranges, which are not checked here
 /// @param options          options within their ranges (`validate`), which are not checked here
@@ -175,18 +175,18 @@ enum class MaxDelayOutcome {
 /// Cause of infeasibility just beyond the largest sampling period.
 enum class MaxDelayLimit {
   none,         ///< no known cause: the outcome is `unlimited` or `beyond_search`
-  stability,    ///< no D stabilises, or the interval of stable D used so far has vanished
+  stability,    ///< no D stabilises, or the stable interval with the best D vanishes
   attenuation,  ///< stabilising gains no longer bring the amplitude below that without control
   nyquist,      ///< τ = 1/(2f): the samples no longer resolve the vibration
 };
 
-/// The largest sampling period τ* such that every τ in (0, τ*] is feasible.
+/// The largest period τ* such that every τ from the start of the search to τ* is feasible.
 struct MaxDelay {
-  MaxDelayOutcome outcome;   ///< outcome of the search
-  double sampling_period;    ///< largest period τ* (s)
-  double differential_gain;  ///< D (N s/m) at τ*: of minimum amplitude, or inside the stable
-                             ///< interval; a limit without any margin, not a recommended gain; NaN
-                             ///< where the outcome is `never`
+  MaxDelayOutcome outcome;  ///< outcome of the search
+  double sampling_period;   ///< largest period τ* (s)
+  /// D (N s/m) at τ*: of minimum amplitude for `attenuates`, inside a stable interval for `stable`;
+  /// NaN for `never`. It has no stability margin and is not a recommended gain.
+  double differential_gain;
   MaxDelayLimit limit;  ///< cause of infeasibility beyond τ*, or of the shortest period for `never`
 };
 
@@ -394,8 +394,7 @@ class DelaySearch {
   }
 
   /// The last feasible period between a feasible and an infeasible one. A wide bracket is halved,
-  /// since a test of feasibility costs less than a reserve; for a plant without closed forms only
-  /// halving is used.
+  /// since a feasibility test costs less than a reserve; without closed forms only halving is used.
   double boundary_between(double feasible, double infeasible) {
     constexpr double wide = is_walked_ ? 1.0 + 1e-9 : has_closed_forms<Plant> ? 1.01 : 1.0 + 1e-13;
     while (infeasible > wide * feasible) {
@@ -438,15 +437,14 @@ class DelaySearch {
 
 }  // namespace detail
 
-/// The largest feasible sampling period, found by joining feasible periods.
+/// The largest feasible sampling period τ*, found in steps that are proved to be feasible.
 ///
-/// A longer period is joined to the feasible ones by one D that is proved feasible at all periods
-/// between, one short interval after the other (`MovingSpectrum`, `detail::attenuation`). Where no
-/// longer period can be joined, the boundary is found by a bracketing root finder on a function
-/// that changes its sign at the boundary: 1 − min ρ over D (`minimum_radius`), or 1 − the minimum
-/// amplitude ratio over the stabilising D. For any plant but two masses bisection is used, with a
-/// test for a feasible D. A step by less than search_ratio, such as the last one to τ*, is tested
-/// at its ends only and assumed to be feasible between them. Source: Kollár 2022, Fig. 5.
+/// In each step one D is proved to be feasible at all periods of the step (`MovingSpectrum`,
+/// `detail::attenuation`). If a period is infeasible, the boundary before it is a zero of 1 − min ρ
+/// over D (`minimum_radius`), or of 1 − the minimum amplitude ratio over the stabilising D. A
+/// bracketing root finder finds it for two masses, bisection for other plants. A step by a ratio
+/// below `search_ratio`, such as the last one to τ*, is tested at its ends only and assumed to be
+/// feasible between them. Source: Kollár 2022, Fig. 5.
 /// @tparam Plant  two masses, in closed form, or a plant of any order with ports (validated)
 /// @throws InvalidParameter where the plant or an option is outside its admissible range
 template <class Plant>
@@ -459,12 +457,12 @@ MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options)
 
 /// The largest feasible sampling period for a conductor given by its modes, found in steps.
 ///
-/// A step is (ratio − 1) T. T is the longest period that resolves all natural motions and the
-/// excitation, but at least the present period and at most ten times the present period. A step is
-/// tested by all roots with the last feasible D, or else by all stable intervals of D. If the end
-/// of a step is infeasible, the last feasible period is found by bisection, to 10⁻⁹. Infeasible
-/// windows narrower than a step are missed; nothing is proved between the steps or beyond.
-/// @param plant    conductor with its poles, without any of its hardware
+/// A step has the length (ratio − 1) T. T is the longest period that resolves all natural motions
+/// and the excitation, but it is limited to 1 to 10 times the present period. The end of a step is
+/// tested with the last feasible D, or else with all stable intervals of D. If it is infeasible,
+/// bisection finds the last feasible period to a relative 10⁻⁹. Infeasible windows shorter than a
+/// step may be missed; nothing is proved between the steps or beyond.
+/// @param plant    conductor with its poles, which exclude the poles of its hardware
 /// @param options  options within their ranges; search ratio and most steps are not used
 /// @param ratio    ratio of two successive periods, > 1
 /// @throws InvalidParameter outside these ranges

@@ -29,11 +29,10 @@ struct FrequencyBand {
   double upper;  ///< upper end (Hz), > lower, ≤ 1/(2τ)
 };
 
-/// Validates a band. @throws InvalidParameter unless 0 < lower < upper ≤ 1/(2τ), so that the
-/// samples resolve the vibration
+/// Validates a band. @throws InvalidParameter unless 0 < lower < upper ≤ 1/(2τ), the Nyquist limit
 inline void validate(const FrequencyBand& band, double sampling_period) {
   require_positive("lower frequency", band.lower, "Hz");
-  require_positive("width of the frequency band", band.upper - band.lower, "Hz");
+  require_positive("upper minus lower frequency of the band", band.upper - band.lower, "Hz");
   require_within("upper frequency", band.upper, "Hz", 0.0, 0.5 / sampling_period);
 }
 
@@ -46,7 +45,7 @@ struct RatioAtFrequency {
 /// A frequency at which the amplitude ratio is largest.
 struct WorstFrequency {
   double frequency;  ///< frequency (Hz)
-  double ratio;  ///< |Z₁| over |Z₁| without control; ∞ where the loop has the root e^{2πifτ}
+  double ratio;  ///< amplitude ratio (with control to without); ∞ if e^{2πifτ} is a loop root
 };
 
 /// Model of a plant for AmplitudeBand: its loop, the loop's steady response and roots, and the
@@ -68,7 +67,7 @@ struct PlantOverBand {
   std::vector<std::complex<double>> loop_roots(const PdGains<double>& gains) const {
     return roots(polynomial.at(gains));
   }
-  /// The offsets λ − 1 of the zeros of the uncontrolled amplitude under the held force.
+  /// The offsets λ − 1 of the zeros λ of the response without control to the held force.
   std::vector<std::complex<double>> uncontrolled_zeros() const {
     const auto open_loop = resolvent<double, 4>(loop.increment);
     return roots(open_loop.between(RowVector<double, 4>::Unit(0), loop.held_excitation), 1e-14);
@@ -77,17 +76,17 @@ struct PlantOverBand {
 
 /// Amplitude ratio (with control to without) over a band of frequencies.
 ///
-/// The peaks of the ratio belong to roots of the loop near the unit circle, where the controlled
-/// amplitude is large, or to zeros of the uncontrolled amplitude near the circle. The distance from
-/// the circle is a peak's width: so the uniform grid over the band is refined about the zeros and,
-/// for each D, about the roots. The highest grid points are then refined by golden-section search.
+/// The ratio has peaks at roots of the loop near the unit circle, where the controlled amplitude is
+/// large, and at zeros of the uncontrolled amplitude near the circle. A peak is as wide as its root
+/// or zero is far from the circle. So the uniform grid over the band is refined about the zeros
+/// and, for each D, about the roots. Golden-section search then refines the highest grid points.
 /// @tparam Model  PlantOverBand, or ConductorOverBand of modal_design.hpp
 template <class Model>
 class AmplitudeBand {
  public:
-  /// Computes the steady response at 401 equidistant frequencies and at others near the zeros.
+  /// Computes the steady response at 401 equidistant frequencies and at more near the zeros.
   /// @param model  model of the loop
-  /// @param band   band within its range (`validate`), which is not checked here, or one frequency
+  /// @param band   band within its range (`validate`), not checked here; may have lower = upper
   AmplitudeBand(Model model, const FrequencyBand& band) : model_(std::move(model)), band_(band) {
     const int uniform = band.lower < band.upper ? 400 : 0;
     std::vector<double> frequencies(static_cast<std::size_t>(uniform) + 1, band.upper);
@@ -99,7 +98,7 @@ class AmplitudeBand {
       grid_.emplace_back(frequency, model_.response(2.0 * pi<double> * frequency));
   }
 
-  /// The squared amplitude ratio at one frequency (Hz) of the band and one P (N/m).
+  /// The squared amplitude ratio at a frequency (Hz) of the band and a P (N/m), as a function of D.
   RatioAtFrequency at(double frequency, double proportional_gain) const {
     const auto response = model_.response(2.0 * pi<double> * frequency);
     return {frequency, response.squared_ratio(proportional_gain)};
@@ -150,7 +149,7 @@ class AmplitudeBand {
     return points;
   }
 
-  /// Adds frequencies near that of each root, the denser the nearer the root is to the unit circle.
+  /// Adds frequencies near those of roots 1 + `from_one`, denser for roots nearer the unit circle.
   void append_about(const std::vector<std::complex<double>>& from_one,
                     std::vector<double>& frequencies) const {
     const double unit = 2.0 * pi<double> * model_.options.sampling.period;
@@ -192,22 +191,22 @@ class AmplitudeBand {
 
 /// The outcome of the search for one D for a whole band of frequencies.
 enum class MinimaxOutcome {
-  found,          ///< `worst_ratio` and `lower_bound` agree to 1e−8
-  not_converged,  ///< `worst_ratio` and `lower_bound` differ; the D still gives `worst_ratio`
+  found,          ///< `worst_ratio` and `lower_bound` agree to a relative 1e−8
+  not_converged,  ///< they differ by more; `differential_gain` has the ratio `worst_ratio`
   none,           ///< no D is admissible: the numbers are NaN
 };
 
 /// Minimax design over a band: the D that, for a given P, minimises the largest amplitude ratio.
 struct MinimaxAmplitude {
-  MinimaxOutcome outcome;  ///< existence of an admissible D and agreement of the bounds
-  /// The D (N s/m); at an edge of the admissible intervals it is a limit of admissible D.
+  MinimaxOutcome outcome;  ///< whether a D is admissible and the bounds agree
+  /// The differential gain D (N s/m). It may be an end of an open admissible interval.
   double differential_gain = std::nan("");
   /// The largest amplitude ratio (with control to without) over the band with this D.
   double worst_ratio = std::nan("");
   double worst_frequency = std::nan("");  ///< frequency of `worst_ratio` (Hz)
-  double lower_bound = std::nan("");      ///< no admissible D has a smaller worst ratio than this
+  double lower_bound = std::nan("");      ///< lower bound of `worst_ratio` over all admissible D
   double attenuation = std::nan("");      ///< −20 log₁₀ of `worst_ratio` (dB)
-  std::size_t worst_member = 0;           ///< index in the family of the loop with `worst_ratio`
+  std::size_t worst_member = 0;           ///< index of the loop with `worst_ratio` (FamilyOverBand)
 };
 
 namespace detail {
@@ -273,14 +272,15 @@ class WorstOfFrequencies {
 
 /// Family of loops over one band of frequencies, with gains common to all loops.
 ///
-/// Exchange algorithm: the minimax D over the pairs of loop and frequency collected so far gives a
-/// lower bound, its worst pair an upper bound. This pair is added, and kept for the next P too.
+/// Exchange algorithm over a list of pairs (loop, frequency). The D that minimises the largest
+/// ratio in the list gives a lower bound; its largest ratio over all loops and the band, an upper
+/// bound, adds a pair to the list. The search at another P starts with the latest pairs.
 /// @tparam Model  model of each loop, see AmplitudeBand
 template <class Model>
 class FamilyOverBand {
  public:
   /// @param models  models of the loops, at least one
-  /// @param band    band within its range, or one frequency, as for AmplitudeBand
+  /// @param band    band within its range; may have lower = upper
   FamilyOverBand(const std::vector<Model>& models, const FrequencyBand& band) {
     for (const Model& model : models) loops_.emplace_back(model, band);
     worst_.push_back({0, band.lower});
@@ -290,7 +290,7 @@ class FamilyOverBand {
   /// The D that minimises the largest amplitude ratio over all loops and the band, at a given P.
   /// @param proportional_gain  P (N/m), finite
   /// @param admissible         intervals of D (N s/m), ascending
-  /// @param enough             lower bound at which the search stops with `not_converged`
+  /// @param enough             `lower_bound` at which the search stops with `not_converged`
   MinimaxAmplitude least(double proportional_gain, const std::vector<Interval<double>>& admissible,
                          double enough = std::numeric_limits<double>::infinity()) {
     if (admissible.empty()) return {MinimaxOutcome::none};
@@ -364,14 +364,14 @@ MinimaxAmplitude minimax_over_band(const Plant& plant, const AmplitudeOptions& o
 
 /// The D that minimises the largest amplitude ratio (with control to without) over a band, given P.
 ///
-/// The gap between the bounds of FamilyOverBand is the error, except for maxima missed in the
-/// search over frequencies (`AmplitudeBand`); peaks are resolved to 1e−9 of the band.
+/// The error is at most the gap between `worst_ratio` and `lower_bound`, unless a maximum over the
+/// frequencies is missed (`AmplitudeBand`). Peaks are located to 1e−9 of the upper frequency.
 /// @tparam Plant             anything with `state_matrix()`, `control_input()` and
 ///                           `excitation_input()` that `validate` checks
 /// @param plant              plant within its ranges
-/// @param options            τ, δ, the hold of the force and the largest admissible spectral radius
+/// @param options            τ, δ, the hold of the force and the limits of admissible D
 /// @param proportional_gain  P (N/m), finite
-/// @param band               Hz, 0 < lower < upper ≤ 1/(2τ)
+/// @param band               band of frequencies (Hz), 0 < lower < upper ≤ 1/(2τ)
 /// @throws InvalidParameter where an argument is outside its admissible range
 template <class Plant>
 MinimaxAmplitude minimax_amplitude(const Plant& plant, const AmplitudeOptions& options,

@@ -21,40 +21,40 @@ namespace holdfast {
 /// The attenuation −20 log₁₀ of an amplitude ratio (dB): 6 for 1/2, negative for a ratio above 1.
 inline double attenuation(double ratio) { return -20.0 * std::log10(ratio); }
 
-/// Location of the D of minimum amplitude.
+/// Location of the differential gain D of minimum amplitude.
 enum class MinimumAmplitudeOutcome {
   stationary,  ///< at a D inside the admissible intervals
   edge,        ///< at the edge of the admissible intervals: a limit of admissible D
   none,        ///< no D is admissible; D and the ratio are NaN
-  aliased,     ///< 2fτ ≥ 1: the samples do not resolve the vibration; D and the ratio are NaN
+  aliased,     ///< frequency ≥ 1/(2τ): the samples do not resolve it; D and the ratio are NaN
 };
 
-/// The options of a sampled loop whose amplitude is minimised.
+/// The options of the search for the D of least steady amplitude.
 struct AmplitudeOptions {
-  Sampling<double> sampling;  ///< τ (s) > 0, δ (s) 0 … 1000 τ; for two masses δ ≤ τ
+  Sampling<double> sampling;  ///< period τ (s) > 0, delay δ (s) 0 … 1000 τ; for two masses δ ≤ τ
   ForceHold hold = ForceHold::sampled;  ///< hold of the excitation over a sample
-  /// Upper limit of the spectral radius of an admissible D, 0 < … ≤ 1. 1 requires stability; a
-  /// smaller limit requires a transient that decays at least like largest_radiusʲ in j samples.
+  /// Upper limit of the spectral radius with an admissible D, > 0 and ≤ 1. With 1 the loop must be
+  /// stable; with less, its transients must decay at least like largest_radiusʲ in j samples.
   double largest_radius = 1.0;
-  /// The stability margin m, 0 … < 1. An admissible D has more than m times the distance of D* from
-  /// the boundary of stability, and a rate of decay −ln ρ of more than m times that of D*, the D of
-  /// minimum radius. m = 0 admits the boundary as a limit; the program uses m = 1/2. For a
-  /// ModalResponse, unless `by_decay`, D* is the D of largest modulus margin, and this margin
-  /// replaces the rate (modal_design.hpp).
+  /// The margin m, 0 … 0.999, relative to D*, the D of minimum spectral radius ρ. For an admissible
+  /// D, the distance from either stability boundary and the decay rate −ln ρ exceed m times those
+  /// of D*. m = 0 admits the boundary as a limit; the default of the program is 1/2. For a
+  /// ModalResponse, unless `by_decay`, D* is the D of largest modulus margin (see
+  /// modal_design.hpp), and the modulus margin replaces the decay rate.
   double margin = 0.0;
   /// Whether ratios refer to the plant without control under the true force
-  /// (`true_amplitude_per_force`). If not, they refer to the plant without control under the force
-  /// held as with control (Kollár 2022, Fig. 5).
+  /// (`true_amplitude_per_force`). If not, the reference is the plant without control under the
+  /// force held as with control (Kollár 2022, Fig. 5).
   bool relative_to_true_force = false;
-  /// Whether the margin of a ModalResponse refers to the D of minimum radius, as for two masses.
+  /// Whether D* is the D of minimum spectral radius for a ModalResponse too.
   bool by_decay = false;
 };
 
-/// The D of least steady amplitude at one frequency, for a given P.
+/// The differential gain D of least steady amplitude at one frequency, for a given gain P.
 struct MinimumAmplitude {
   MinimumAmplitudeOutcome outcome;          ///< location of the D, or why there is none
-  double differential_gain = std::nan("");  ///< D (N s/m)
-  /// The amplitude of z₁ with this D over the amplitude without control.
+  double differential_gain = std::nan("");  ///< differential gain D (N s/m)
+  /// The conductor's amplitude with this D over the amplitude without control.
   double ratio_to_uncontrolled = std::nan("");
   double attenuation =
       std::nan("");  ///< −20 log₁₀ `ratio_to_uncontrolled` (dB), > 0 where control helps
@@ -72,7 +72,7 @@ inline void validate(const AmplitudeOptions& options) {
 
 namespace detail {
 
-/// The interval around `from`, shrunk about `from` by the factor `share`; empty if there is none.
+/// The interval that contains `from`, shrunk about it by the factor `share`; empty if none does.
 template <class Scalar>
 std::vector<Interval<Scalar>> within_share(const std::vector<Interval<Scalar>>& intervals,
                                            const Scalar& from, const Scalar& share) {
@@ -82,7 +82,7 @@ std::vector<Interval<Scalar>> within_share(const std::vector<Interval<Scalar>>& 
   return {};
 }
 
-/// The admissible intervals of D of any loop, with a margin that refers to the rate of decay.
+/// The admissible intervals of D of any loop, with a margin relative to the fastest decay.
 template <class Loop>
 std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proportional_gain,
                                                const AmplitudeOptions& options) {
@@ -100,12 +100,12 @@ std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proporti
 }  // namespace detail
 
 /// The open intervals of D (N s/m) that the options admit for one P. In them the spectral radius ρ
-/// is below the largest radius of the options and, for a margin m > 0,
+/// is below `largest_radius` and, for a margin m > 0,
 ///
-///     ρ(D) < ρ_min^m  and  D = D* + (1 − m)(D_s − D*)  with a stable D_s
+///     ρ(D) < ρ_min^m  and  D = D* + (1 − m)(D_s − D*)
 ///
-/// D* being the D of minimum radius. D* itself is admitted if some D stabilises and the radius of
-/// D* is below the largest radius. A ModalResponse has an overload of its own.
+/// where D* has the minimum radius ρ_min and D_s is any D in the stable interval around D*. A
+/// stable D* is admitted if ρ_min < `largest_radius`. For a ModalResponse see modal_design.hpp.
 /// @param loop               loop of `sampled_loop` or `loop_map`
 /// @param proportional_gain  P (N/m), finite
 /// @param options            options within their ranges, which are not checked here
@@ -118,8 +118,8 @@ std::vector<Interval<double>> admissible_differential_gains(const Loop& loop,
 
 namespace detail {
 
-/// The D of least steady amplitude in given intervals; `none` without a finite D.
-/// @param admissible  intervals of D, perhaps none
+/// The D of least steady amplitude in given intervals; outcome `none` without a finite D.
+/// @param admissible  intervals of D (N s/m); may be empty
 template <class Scalar>
 MinimumAmplitude least_amplitude(const SteadyResponse<Scalar>& response, double proportional_gain,
                                  const std::vector<Interval<double>>& admissible) {
@@ -147,12 +147,12 @@ MinimumAmplitude minimum_amplitude_of(const Loop& loop, const AmplitudeOptions& 
 
 /// The differential gain D of least steady amplitude at one frequency, among the admissible D.
 ///
-/// The admissible D are exact intervals and the amplitude over them is a quotient of two quadratics
-/// (`SteadyResponse::best_differential_gain`): no grid of D is needed.
+/// No grid of D is needed: the admissible D are computed as intervals, and over them the squared
+/// amplitude is a quotient of two quadratics (`SteadyResponse::best_differential_gain`).
 /// @tparam Plant             two masses, in closed form, or a plant of any order with ports;
 ///                           `validate` checks it
 /// @param plant              plant within its ranges
-/// @param options            τ, δ, the hold of the force and the largest admissible spectral radius
+/// @param options            τ, δ, the hold of the force and the limits of admissible D
 /// @param frequency          f (Hz), > 0
 /// @param proportional_gain  P (N/m), finite; `tuned_proportional_gain` tunes it to f
 /// @throws InvalidParameter where an argument is outside its admissible range

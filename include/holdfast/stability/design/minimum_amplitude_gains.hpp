@@ -19,13 +19,13 @@ namespace holdfast {
 
 /// The pair of gains of least steady amplitude at one frequency.
 struct MinimumAmplitudeGains {
-  double proportional_gain;   ///< P (N/m)
+  double proportional_gain;   ///< proportional gain P (N/m); NaN without an admissible pair
   MinimumAmplitude quietest;  ///< D and its amplitude, or the reason why no pair is admissible
 };
 
 namespace detail {
 
-/// The intervals of D, for a given P, that keep the modulus margin and the radius of the options.
+/// The intervals of D that satisfy the options' modulus margin and largest radius, for a given P.
 template <class Scalar>
 std::vector<Interval<Scalar>> gains_of_modulus(const UnitCircleCrossings<Scalar>& circle, double p,
                                                const AmplitudeOptions& options) {
@@ -36,8 +36,7 @@ std::vector<Interval<Scalar>> gains_of_modulus(const UnitCircleCrossings<Scalar>
 }
 
 /// Minimises a function of P: first at 65 values of P in a range, which is doubled while the best P
-/// is at its end, then by golden section around the best P. A better P between two of the 65 may be
-/// missed.
+/// is at its end, then by golden section around the best P. A better P in between may be missed.
 /// @param range     initial range of P (N/m), lower < upper, finite
 /// @param value_at  P ↦ value to be minimised; ∞ where P is not admissible
 template <class Value>
@@ -67,10 +66,10 @@ void search_proportional_gain(Interval<double> range, const Value& value_at) {
 ///
 ///     min |1 − P G_z − D G_v| ≥ m   over the unit circle, m = `options.margin`
 ///
-/// that is, with a sensitivity of at most 1/m: m = 1/2 gives a gain margin of at least 6 dB upwards
-/// and a phase margin of at least 29°.
+/// for the transfer functions G_z, G_v from command to readings. The sensitivity is at most 1/m: m
+/// = 1/2 gives a gain margin of at least 6 dB upwards and a phase margin of at least 29°.
 ///
-/// For each P the D is exact; P is found by `search_proportional_gain`, which proves nothing.
+/// For each P the best D is found exactly. P is found by a search that may miss a better P.
 /// @param loop       loop of the plant given by its poles, with the sampling of the options
 /// @param options    options within their ranges
 /// @param frequency  f (Hz), > 0

@@ -18,19 +18,19 @@ namespace holdfast {
 enum class MinimumRadiusOutcome {
   point,       ///< one D has the minimum radius
   plateau,     ///< a root that D does not move determines the radius over the whole `interval`
-  idle,        ///< no D changes the radius; `interval` is the whole line and D is 0
-  unresolved,  ///< P is so large that round-off hides the minimum: D is the start, `radius` is the
-               ///< radius at the start and `lower_bound` is 0
+  idle,        ///< no D changes the radius; `interval` contains every D, and D is 0
+  unresolved,  ///< P is so large that round-off hides the minimum: the result has the initial D
+               ///< with its radius, and `lower_bound` is 0
 };
 
-/// The differential gain with which the sampled loop decays fastest, for a given P.
+/// The differential gain D with which the sampled loop decays fastest, for a given gain P.
 struct MinimumRadius {
   MinimumRadiusOutcome outcome;  ///< kind of minimum: one D, an interval, every D, or unresolved
-  double differential_gain;      ///< D (N s/m), inside `interval`
-  double radius;              ///< least spectral radius ρ = max |λ|; the loop is stable if ρ < 1
-  double margin;              ///< 1 − radius, without cancellation
-  double lower_bound;         ///< lower bound of the radius over all D; ≤ radius
-  Interval<double> interval;  ///< interval of D (N s/m) with the least radius to 1e−12
+  double differential_gain;      ///< gain D (N s/m) of minimum radius, inside `interval`
+  double radius;                 ///< least spectral radius ρ = max |λ|; stable if ρ < 1
+  double margin;                 ///< 1 − radius, without loss of digits by cancellation
+  double lower_bound;            ///< lower bound of the radius over all D; ≤ radius
+  Interval<double> interval;     ///< D (N s/m) whose radius exceeds `radius` by at most 1e−12
 };
 
 namespace detail {
@@ -57,8 +57,7 @@ void consider_promising(const std::vector<Interval<double>>& intervals,
 ///
 /// The set is a union of intervals known for every r, and grows with r, so that each tested level
 /// bounds the global minimum from above or from below. The next level is ρ at a probable minimum
-/// (`consider_promising`); these minima become exact for a smooth minimum and for two crossing
-/// branches.
+/// (`consider_promising`); these become exact for a smooth minimum and for two crossing branches.
 /// @tparam Loop  polynomial of the loop in `double`, see `LoopPolynomial`
 template <class Loop>
 class MinimumRadiusSearch {
@@ -155,7 +154,7 @@ class MinimumRadiusSearch {
   Intervals intervals_, previous_;
 };
 
-/// Loop of any order in the form that `MinimumRadiusSearch` needs, radii being offsets ρ − 1.
+/// Interface of `MinimumRadiusSearch` to a loop of any order; a radius ρ is given as ρ − 1.
 /// @tparam Loop  a `LoopMap<double>` or `ModalResponse<double>`
 template <class Loop>
 struct RadiusLevels {
@@ -176,13 +175,13 @@ struct RadiusLevels {
 
 }  // namespace detail
 
-/// The D of minimum spectral radius, min over D of ρ(S(P, D)): a global minimum, without a grid.
+/// The D of minimum spectral radius, min over D of ρ(P, D): a global minimum, without a grid.
 ///
-/// The set {D : ρ(P, D) < r} is a union of intervals in closed form, in which the polynomial in λ/r
-/// is stable (`stable_intervals`); for a loop of any order they follow from the crossings of the
-/// circle of radius r (`circle_crossings`). The minimum radius is the r at which the set becomes
-/// empty; for a `LoopMap` it is accurate to about 10⁻⁹, by round-off of two coinciding roots. ρ
-/// grows without bound with |D|: the minimum exists unless no coefficient contains D.
+/// The set {D : ρ(P, D) < r} is a union of intervals. For two masses they are found in closed form
+/// (`stable_intervals`), for a loop of any order from the roots on the circle |λ| = r
+/// (`circle_crossings`). The minimum radius is the r at which the set becomes empty. For a
+/// `LoopMap` it is accurate to about 10⁻⁹, since round-off separates coinciding roots. As ρ grows
+/// without bound with |D|, unless D moves no root, the minimum exists.
 /// @tparam Loop              type in `double` with a `loop_polynomial`, or a `LoopMap`
 /// @param loop               loop of `sampled_loop` or `loop_map`
 /// @param proportional_gain  P (N/m), finite

@@ -24,12 +24,12 @@
 
 namespace holdfast {
 
-/// The open intervals of D (N s/m) with which every root of a loop has |λ| < radius, by
-/// `UnitCircleCrossings` of G(λ radius).
+/// The open intervals of D (N s/m) with which all roots λ of a loop have |λ| < radius, from the
+/// `UnitCircleCrossings` of the loop with roots λ/radius.
 /// @param response           response of the plant given by its poles
 /// @param proportional_gain  P (N/m), finite
 /// @param radius             bound of |λ|, > 0
-/// @return no interval where the response has no poles
+/// @return the intervals; also empty where two poles nearly coincide (see ModalResponse::at_radius)
 /// @throws InvalidParameter where P is not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> differential_gains_within_radius(
@@ -44,7 +44,7 @@ std::vector<Interval<Scalar>> differential_gains_within_radius(
 namespace detail {
 
 /// Narrows an interval about a minimum in it by golden section.
-/// @param left_is_better  (left, right) ↦ whether the first of two places is better than the second
+/// @param left_is_better  (left, right) ↦ whether the first of two arguments is better
 /// @return the middle of the last interval
 template <class Scalar, class Better>
 Scalar narrow_to_best(Scalar lower, Scalar upper, int steps, const Better& left_is_better) {
@@ -84,10 +84,10 @@ std::pair<Scalar, Scalar> least_excess(const ModalResponse<Scalar>& response, co
 
 }  // namespace detail
 
-/// The minimum over D of the spectral radius ρ of a loop given by its poles. As for a `LoopMap` it
-/// follows from the D with all roots within a radius; 1 − ρ is accurate to a relative 10⁻⁶. On a
-/// circle too near a pole the winding of 1 − P G_z − D G_v is undecided. So ρ is also computed from
-/// the roots at 25 D of each stable interval and near the best D; the smaller minimum is returned.
+/// The minimum over D of the spectral radius ρ of a loop given by its poles, found as for a
+/// `LoopMap`; 1 − ρ is accurate to a relative 10⁻⁶. The search may fail on a circle |λ| = r too
+/// near a pole. So ρ is also computed at 25 D of each stable interval and near the best of them;
+/// the smaller minimum is returned.
 /// @param response           response of the plant given by its poles, which must exist
 /// @param proportional_gain  P (N/m), finite
 /// @param start              initial D (N s/m), finite
@@ -113,9 +113,8 @@ MinimumRadius minimum_radius(const ModalResponse<Scalar>& response, double propo
 
 namespace detail {
 
-/// Modulus margin of a loop, min |p(e^{iθ})|, p = 1 − P G_z − D G_v, as a function of D. At one
-/// angle |p|² is a quadratic in D. Angles between the stored ones are examined where they decide
-/// the result.
+/// Modulus margin of a loop as a function of D: min |p(e^{iθ})| over θ, p = 1 − P G_z − D G_v. At
+/// one angle |p|² is quadratic in D. Angles between the stored angles are tested where they matter.
 template <class Scalar>
 class ModulusLevels {
  public:
@@ -127,7 +126,7 @@ class ModulusLevels {
     for (const auto& place : circle.places()) places_.push_back(at(place.angle, place.g));
   }
 
-  /// The intervals of stable D with |p| > modulus at all angles.
+  /// The intervals of stable D with a modulus margin above `modulus`: |p| > modulus at all angles.
   std::vector<Interval<Scalar>> beyond(const Scalar& modulus) const {
     std::vector<Nearer> nearer = nearer_than(modulus);
     for (;;) {
@@ -164,7 +163,7 @@ class ModulusLevels {
     Scalar modulus, gain;
   };
 
-  /// The largest modulus margin over D, to ten digits; 0 where no D is stable.
+  /// The largest modulus margin over D, to ten digits, with its D; 0 and NaN where no D is stable.
   Largest largest() const {
     Largest found{Scalar(0), std::numeric_limits<Scalar>::quiet_NaN()};
     if (stable_.empty()) return found;
@@ -265,12 +264,13 @@ class ModulusLevels {
 /// The open intervals of D (N s/m) that the options admit for a given P and a loop given by its
 /// poles. With a margin m > 0, unless `by_decay`, they consist of the D with
 ///
-///     min |1 − P G_z − D G_v| > m max_D min |1 − P G_z − D G_v|  and  D = D* + (1 − m)(D_s − D*)
+///     M(D) > m M(D*)   and   D = D* + (1 − m)(D_s − D*)
 ///
-/// D* having the largest modulus margin. Minima are over the unit circle; D_s is any stable D.
-///
-/// The D of least radius, to which the margin of two masses refers, is unsuitable for a conductor:
-/// its slowest mode alone determines that radius.
+/// where M(D) = min |1 − P G_z − D G_v| over the unit circle is the modulus margin, with G_z and
+/// G_v as in `LoopResponse`. D* has the largest M, and D_s is any D in the stable interval around
+/// D*.
+/// The D of minimum spectral radius is unsuitable as D* for a conductor, whose slowest mode alone
+/// determines that radius.
 /// Source of the modulus margin: K. J. Åström and R. M. Murray, Feedback Systems (2008), 9.3.
 /// @tparam Scalar            double
 /// @param response           response of the plant given by its poles
@@ -295,14 +295,13 @@ std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<
                                                              Scalar(options.largest_radius)));
 }
 
-/// The D of least steady amplitude among the admissible D, for a loop given by its poles (see
-/// `minimum_amplitude` of a plant).
+/// The admissible D of least steady amplitude for given poles (see `minimum_amplitude` of a plant).
 /// @param loop               loop of the plant given by its poles, with the sampling of the options
 /// @param options            options within their ranges
 /// @param frequency          f (Hz), > 0
 /// @param proportional_gain  P (N/m), finite
-/// @param response           `steady_response` of the loop at f, relative to the wanted reference;
-///                           `relative_to_true_force` of the options is not used
+/// @param response           `steady_response` of the loop at f; it determines the reference of
+///                           the ratio, not `relative_to_true_force` of the options
 /// @throws InvalidParameter where an argument is outside its admissible range
 template <class Scalar>
 MinimumAmplitude minimum_amplitude(const ModalResponse<Scalar>& loop,
@@ -322,10 +321,10 @@ template <class Scalar>
 struct ConductorOverBand {
   ConductorWithAbsorber conductor;  ///< conductor with all its poles
   AmplitudeOptions options;         ///< τ, δ and the hold of the force
-  /// The zero-order-hold response of the loop.
+  /// The zero-order-hold transfer functions G_z and G_v from the command to the readings.
   ModalResponse<Scalar> loop = modal_response<Scalar>(conductor, options.sampling);
 
-  /// The steady response at ω (rad/s).
+  /// The steady response at ω (rad/s); ratios refer to the true force without control.
   SteadyResponse<Scalar> response(double angular_frequency) const {
     return steady_response<Scalar>(conductor, options.sampling, options.hold, angular_frequency)
         .relative_to(true_amplitude_per_force(conductor, angular_frequency));
@@ -337,8 +336,8 @@ struct ConductorOverBand {
     for (std::complex<double>& root : found) root -= 1.0;
     return found;
   }
-  /// The Newton step H/H′ at s towards a zero of the conductor's receptance H. With devices H is
-  /// the sum over the poles, otherwise the receptance of the bare conductor.
+  /// The Newton step H/H′, to be subtracted from s, towards a zero of the receptance H. With
+  /// devices H is the sum over the poles, otherwise the receptance of the bare conductor.
   std::complex<double> receptance_step(const std::complex<double>& s) const {
     if (!conductor.has_devices)
       return receptance(conductor.modes, s) / detail::receptance_slope(conductor.modes, s);
@@ -350,8 +349,8 @@ struct ConductorOverBand {
     }
     return sum / slope;
   }
-  /// The offsets λ − 1 of the receptance's zeros, one between every two neighbouring modes, by
-  /// Newton's method, then λ − 1 of the absorber's natural motion on a fixed conductor.
+  /// The offsets e^{sτ} − 1 of the zeros s of the uncontrolled amplitude: zeros of the receptance
+  /// between neighbouring modes (Newton's method), and the absorber's pole on a fixed conductor.
   std::vector<std::complex<double>> uncontrolled_zeros() const {
     const auto& modes = conductor.modes;
     const auto& absorber = conductor.absorber;

@@ -10,7 +10,7 @@
 
 namespace holdfast {
 
-/// The range and the steps of sampling periods for a proof.
+/// The range of sampling periods and the steps of a proof.
 struct ProvedPeriodWalk {
   double from = 0.0;         ///< shortest period (s), > 0
   double to = 0.0;           ///< longest period (s), ≥ `from`
@@ -18,14 +18,14 @@ struct ProvedPeriodWalk {
   int most_steps = 20000;    ///< largest number of steps of the proof
 };
 
-/// The largest period T (s) such that every period from the shortest to T is proved to have a
-/// stabilising D (N s/m). On each step one D is proved by `SamplingProof`. Nothing is claimed below
-/// the shortest period; longer periods than T may have a stabilising D too.
+/// The largest period T (s) such that for every period from `walk.from` to T some D (N s/m) is
+/// proved to stabilise the loop; one D per step (`SamplingProof`). Nothing is claimed below
+/// `walk.from`. Longer periods than T may have a stabilising D too.
 /// @param poles              poles as for EnclosedResponse
-/// @param proportional_gain  P (N/m)
-/// @param line               line of samplings along which the period varies
+/// @param proportional_gain  gain P (N/m)
+/// @param line               samplings with constant δ/τ and varying period
 /// @param walk               range and steps of the periods
-/// @param gains_at           period → open intervals of D that stabilise by computation in doubles
+/// @param gains_at           period (s) → open intervals of stabilising D, computed without proof
 /// @param watch              called for each step; an exception from it ends the work
 /// @return 0 where no D is proved to stabilise at the shortest period
 /// @throws InvalidParameter where a member of `walk` is out of range

@@ -26,8 +26,8 @@ namespace holdfast {
 /// is stable; in closed form (`stable_intervals`).
 /// @param loop   loop of `sampled_loop`
 /// @param free   the gain that varies
-/// @param gains  the fixed gain; the value of the free one is not used
-/// @throws InvalidParameter where loop or fixed gain are not finite
+/// @param gains  value of the fixed gain; the value of the free gain is not used
+/// @throws InvalidParameter where the polynomial of the loop or the fixed gain is not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_gains(const SampledLoop<Scalar>& loop, FreeGain free,
                                            const PdGains<detail::Undeduced<Scalar>>& gains) {
@@ -36,8 +36,8 @@ std::vector<Interval<Scalar>> stable_gains(const SampledLoop<Scalar>& loop, Free
                                         : stable_proportional_gains(polynomial, gains.differential);
 }
 
-/// The loop with a velocity by difference: D multiplies the backward difference (z_j − z_{j−1})/τ
-/// of the readings. It has one more state, the previous reading.
+/// The loop `map` without its velocity sensor: D multiplies the backward difference (z_j −
+/// z_{j−1})/τ of the displacement readings. The result has one more state, the previous reading.
 /// @param map  loop of any order with a measured velocity
 template <class Scalar>
 LoopMap<Scalar> with_velocity_by_difference(const LoopMap<Scalar>& map) {
@@ -58,7 +58,7 @@ LoopMap<Scalar> with_velocity_by_difference(const LoopMap<Scalar>& map) {
 }
 
 /// The open intervals of D (N s/m) with which every root of a loop of any order has |λ| < radius.
-/// These D stabilise a loop with the roots λ/radius; radius 1 gives `stable_gains`.
+/// They are the D that stabilise the loop with the roots λ/radius; radius 1 gives `stable_gains`.
 /// @param map                loop of `loop_map`
 /// @param proportional_gain  P (N/m), finite
 /// @param radius             bound of |λ|, > 0

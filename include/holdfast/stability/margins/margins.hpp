@@ -34,7 +34,7 @@ enum class MarginOutcome {
 enum class MarginEndOutcome {
   undefined,      ///< the loop is not stable: position and distance are NaN
   boundary,       ///< a root reaches the unit circle at `position`
-  none,           ///< stable up to the end of the quantity's range, which is `position`
+  none,           ///< no boundary: stable up to the end of the quantity's range, `position`
   beyond_search,  ///< stable at least up to `position`, where the search ended: at its limit, after
                   ///< its last step, or at a root so near the circle that round-off decides
 };
@@ -46,7 +46,7 @@ struct MarginEnd {
   /// The distance of `position` from the value in the loop (unit of the quantity); ∞ for `none`.
   double distance = std::numeric_limits<double>::quiet_NaN();
   BoundaryCurve curve = BoundaryCurve::plus_one;  ///< kind of the crossing root, for a `boundary`
-  /// The frequency of the motion at the boundary, |arg λ|/(2πτ) (Hz); NaN without a boundary.
+  /// Frequency |arg λ|/(2πτ) (Hz) of the crossing root λ at the boundary; NaN without a boundary.
   double frequency = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -58,8 +58,8 @@ struct TwoSidedMargin {
 
 /// Stability margins of a loop: the changes of one quantity at a time that leave it stable.
 struct StabilityMargins {
-  MarginOutcome outcome;             ///< whether the loop itself is stable
-  double unit_circle;                ///< 1 − ρ, not positive where the loop is not stable
+  MarginOutcome outcome;  ///< whether the loop itself is stable
+  double unit_circle;     ///< 1 − ρ (ρ: spectral radius); ≤ 0 where the loop is not stable
   TwoSidedMargin differential_gain;  ///< margin of D (N s/m)
   TwoSidedMargin proportional_gain;  ///< margin of P (N/m)
   TwoSidedMargin sampling_period;  ///< margin of τ (s), with δ/τ constant; its range is (0, ∞)
@@ -72,8 +72,8 @@ struct MarginSearch {
   /// periods of the plant's slowest mode if these are longer. The search ends earlier where
   /// stability at all longer periods is proved.
   double longest_period_ratio = 1000.0;
-  /// The largest number of steps of the search along τ or δ, ≥ 1. In a step the plant's fastest
-  /// mode turns by about a radian; for two masses a step takes some 40 µs.
+  /// The largest number of steps of the search along τ or δ, ≥ 1. In a step the phase of the
+  /// plant's fastest mode grows by about 1 rad; for two masses a step takes some 40 µs.
   int most_steps = 20000;
 };
 
@@ -121,7 +121,7 @@ inline MarginEnd beyond_search(double position, double value) {
   return {MarginEndOutcome::beyond_search, position, std::abs(position - value)};
 }
 
-/// Both ends of the interval that contains the value; undefined where no interval does.
+/// Both ends of the interval that contains the value; `undefined` where no interval contains it.
 /// @param boundary_at  map from a finite position to its MarginEnd
 template <class BoundaryAt>
 TwoSidedMargin margin_in(const std::vector<Interval<double>>& intervals, double value,
@@ -230,16 +230,16 @@ inline void validate(const MarginSearch& search) {
   require_positive("most steps", search.most_steps, "");
 }
 
-/// The stability margins of D, P, τ and δ: the distance of one quantity at a time from instability.
+/// The stability margins of D, P, τ and δ: how far each may change alone while the loop is stable.
 ///
 /// For D and P: the stable interval around the value, from all crossings of the unit circle
-/// (`circle_crossings`). For τ and δ: steps from the value outwards, each with a proof that all
-/// roots stay inside the unit circle (`MovingSpectrum`), so that no boundary is missed. The
-/// boundary that stops the proof is found by a bracketing root finder on ρ − 1. For periods below
-/// 10⁻⁶ τ the continuous loop decides; for long ones stability may be proved (`SlowSamplingBound`).
+/// (`circle_crossings`). For τ and δ: steps outwards from the value, each with a proof that all
+/// roots stay inside the unit circle (`MovingSpectrum`), so that no boundary is missed. Where the
+/// proof fails, a bracketing root finder on ρ − 1 finds the boundary. For periods below 10⁻⁶ τ the
+/// continuous loop decides; `SlowSamplingBound` may prove all long periods stable.
 /// @tparam Plant    two masses, or a plant of any order with ports; `validate` checks it
 /// @param plant     plant within its ranges
-/// @param sampling  τ (s) > 0, δ (s) 0 … τ, of a plant with ports 0 … 1000 τ
+/// @param sampling  τ (s) > 0; δ (s): 0 … τ for two masses, 0 … 1000 τ for a plant with ports
 /// @param gains     P (N/m) and D (N s/m), finite
 /// @param search    limits of the search along τ and δ
 /// @throws InvalidParameter where plant, sampling, gains or search are outside their ranges
@@ -274,17 +274,17 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
 
 /// Margins of a loop as a whole: gain margin, phase margin and delay margin.
 ///
-/// The characteristic polynomial is a + x b, x being a common factor of both gains, 1 in the loop.
-/// So the loop opened at the drive has the gain L = −b/a, which is 1 at the closed loop's roots.
+/// If both gains are multiplied by x, the characteristic polynomial is a + x b; the given loop has
+/// x = 1. Opened at the drive, this loop has the return ratio L = −b/a; its roots satisfy L = 1.
 struct LoopMargins {
-  MarginOutcome outcome;  ///< whether the loop is stable; if not, all but `unit_circle` is NaN
-  double unit_circle;     ///< 1 − ρ, not positive where the loop is not stable
+  MarginOutcome outcome;  ///< whether stable; if not, all margins but `unit_circle` are NaN
+  double unit_circle;     ///< 1 − ρ, ρ: spectral radius; ≤ 0 where the loop is not stable
   double largest_factor =
-      std::nan("");  ///< largest factor x > 1 of both gains with stability; ∞ without an end
-  double least_factor = std::nan("");  ///< least factor x < 1 with stability, −∞ without an end
+      std::nan("");  ///< upper end of the stable interval of x around 1; ∞: it has no end
+  double least_factor = std::nan("");  ///< lower end of this interval; −∞: it has no end
   double phase =
-      std::nan("");  ///< least |φ| (rad) with e^{iφ}L(e^{iθ}) = 1; ∞ if |L| ≠ 1 everywhere
-  MarginEnd delay = {};  ///< margin towards longer δ (s), with τ constant
+      std::nan("");  ///< least |φ| (rad) with e^{iφ} L(e^{iθ}) = 1 for some θ; ∞ if no φ has it
+  MarginEnd delay = {};  ///< margin towards longer delays δ (s), with τ constant
 };
 
 namespace detail {
@@ -316,9 +316,9 @@ Scalar phase_margin(const Polynomial<Scalar, 5>& constant_part,
 
 /// The gain margin, the phase margin and the delay margin of the loop of two masses.
 ///
-/// Gain: the stable interval of a common factor of both gains, from all crossings of the circle
-/// (`stable_intervals`). Phase: all angles with |L| = 1, roots of one polynomial. Delay: proved as
-/// by `stability_margins`, up to ten samples beyond δ.
+/// Gain: the stable interval of the common factor x of both gains (`stable_intervals`). Phase: all
+/// angles with |L| = 1, the roots of one polynomial. Delay: the margin of `stability_margins`, with
+/// a search up to ten samples beyond δ.
 /// @tparam Plant    two masses
 /// @param plant     plant within its ranges
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ
@@ -328,7 +328,7 @@ Scalar phase_margin(const Polynomial<Scalar, 5>& constant_part,
 template <class Plant>
 LoopMargins loop_margins(const Plant& plant, const Sampling<double>& sampling,
                          const PdGains<double>& gains, const MarginSearch& search = {}) {
-  static_assert(has_closed_forms<Plant>, "of the two masses");
+  static_assert(has_closed_forms<Plant>, "loop_margins() needs a plant of two masses");
   validate(plant);
   validate(gains);
   validate(search);

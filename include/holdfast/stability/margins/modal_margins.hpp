@@ -174,17 +174,16 @@ struct ModalMargins {
 
 }  // namespace detail
 
-/// The stability margins of D, P, τ and δ, one quantity at a time, for a loop given by the poles of
-/// its plant.
+/// The stability margins of D, P, τ and δ, one at a time, for a loop given by its plant's poles.
 ///
-/// Margins of D and P are from `UnitCircleCrossings`. τ is searched in steps of 5 %, δ in steps of
-/// an eighth of a sample; all roots are computed at each step. An unstable window narrower than a
-/// step is missed; `proved_sampling_margins` misses none. Without a boundary the end is
-/// `beyond_search`, except that the range of δ ends at δ = 0 with `none`.
+/// The margins of D and P are found by `UnitCircleCrossings`. τ is searched in steps of 5 %, δ in
+/// steps of τ/8; all roots are computed at each step. An unstable window narrower than a step is
+/// missed; `proved_sampling_margins` misses none. If the search finds no boundary, the outcome is
+/// `beyond_search`; for a search of δ that has reached 0 it is `none`.
 /// @param poles     all `plant_poles`; they must outlive the call
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @param gains     P (N/m) and D (N s/m), finite
-/// @param search    only `longest_period_ratio` is used; it limits the search along τ both ways
+/// @param search    only `longest_period_ratio` r is used: τ is searched from τ/r to τ r
 /// @param has_velocity_sensor  false: D multiplies the backward difference of the readings
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
@@ -209,9 +208,9 @@ StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
           margins.of_delay()};
 }
 
-/// The end of the margin of τ with δ/τ constant (if `of_period`) or else of δ, for a loop with
-/// measured velocity. The loop is stable up to the value `inside` and unstable at the value
-/// `outside` beyond it, as found by `proved_margins`.
+/// The stability boundary of τ (if `of_period`, with δ/τ constant) or δ (with τ constant), for a
+/// loop with measured velocity. `proved_margins` has proved the loop stable up to `inside` (s) and
+/// unstable at `outside` (s).
 template <class Scalar = double>
 MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                            const Sampling<detail::Undeduced<Scalar>>& sampling,
@@ -222,8 +221,8 @@ MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                                                                             of_period);
 }
 
-/// The gain margin, phase margin and delay margin of a loop given by the poles of its plant. δ is
-/// searched in steps of an eighth of a sample. For the arguments see `modal_stability_margins`.
+/// The gain, phase and delay margins of a loop given by the poles of its plant. For the delay
+/// margin δ is searched in steps of τ/8. The arguments are those of `modal_stability_margins`.
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
 LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,

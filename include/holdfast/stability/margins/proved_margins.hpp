@@ -20,9 +20,9 @@ namespace holdfast {
 
 /// Reason for the end of a stability proof in one direction.
 enum class ProofStop {
-  at_end,     ///< the proof reached its limit, or an unstable loop was found beyond `stable_to`
-  work,       ///< the proof used up its steps
-  undecided,  ///< a root is too near the circle for enclosures to separate it
+  at_end,     ///< the proof reached its goal (`proved_margins`), or an unstable loop was found
+  work,       ///< the proof took the largest number of steps without reaching its goal
+  undecided,  ///< enclosures could not decide whether a root reaches the unit circle
 };
 
 /// Proved stability margin of a quantity in one direction from its given value.
@@ -30,8 +30,8 @@ struct ProvedMarginEnd {
   /// The loop is proved to be stable for all values of the quantity from the given one to this one;
   /// NaN where the loop is not proved to be stable at the given value.
   double stable_to = std::numeric_limits<double>::quiet_NaN();
-  /// The loop is proved to be unstable at this value beyond `stable_to`; NaN if no such value was
-  /// found. The values between them are undecided.
+  /// A value beyond `stable_to` at which the loop is proved to be unstable; NaN if none was found.
+  /// The values between `stable_to` and `unstable_at` are undecided.
   double unstable_at = std::numeric_limits<double>::quiet_NaN();
   ProofStop stop = ProofStop::undecided;  ///< reason for the end of the proof
 };
@@ -42,16 +42,16 @@ struct ProvedMargin {
   ProvedMarginEnd above;  ///< towards larger values
 };
 
-/// Resolution and largest work of a proof of margins.
+/// Resolution and largest work of `proved_margins`.
 struct ProvedMarginsOptions {
-  double resolution = 1e-6;  ///< shortest step over the distance from value to proof's limit, > 0
+  double resolution = 1e-6;  ///< shortest step over the distance from value to goal, > 0
   int most_steps = 20000;    ///< largest number of steps of the proof in one direction
 };
 
 /// The margins of `StabilityMargins`, proved in interval arithmetic for the loop whose parameters
 /// are exactly the given decimal numbers.
 struct ProvedMargins {
-  ProvedStability stability = ProvedStability::undecided;  ///< verdict on the loop itself
+  ProvedStability stability = ProvedStability::undecided;  ///< stability of the loop itself
   ProvedMargin differential_gain;                          ///< margin of D (N s/m)
   ProvedMargin proportional_gain;                          ///< margin of P (N/m)
   ProvedMargin sampling_period;   ///< margin of τ (s), with δ/τ constant
@@ -64,7 +64,7 @@ inline GainBox box_of(const Enclosure& proportional, const Enclosure& differenti
   return {proportional.lower(), proportional.upper(), differential.lower(), differential.upper()};
 }
 
-/// Whether all loops with gains in a box are proved to have no root on the unit circle.
+/// Whether it is proved that no loop with gains in a box has a root on the unit circle.
 inline bool is_off_circle(CircleArcs& arcs, const GainBox& box) {
   return arcs.meeting(box, arcs.all()).empty();
 }
@@ -77,7 +77,7 @@ inline ProvedStability stability_of(CircleArcs& arcs, const GainBox& box) {
   return *outside == 0 ? ProvedStability::stable : ProvedStability::unstable;
 }
 
-/// Path along which one gain varies, while the other gain and the sampling are constant.
+/// One-parameter path of loops: one gain varies; the other gain and the sampling are constant.
 struct GainPath {
   CircleArcs& arcs;
   FreeGain free;
@@ -93,7 +93,7 @@ struct GainPath {
   }
 };
 
-/// Path along which the sampling period or the delay varies.
+/// One-parameter path of loops: the sampling period or the delay varies, the gains are constant.
 struct SamplingPath {
   const std::vector<EnclosedPole>& poles;
   PdGains<double> gains;
@@ -109,8 +109,8 @@ struct SamplingPath {
 };
 
 /// Proves stability step by step along a path from a value with a proved stable loop, as long as no
-/// root meets the circle: roots move continuously, so none gets outside. If the proof stops before
-/// `limit` with steps left, an unstable loop is sought beyond the value reached.
+/// root reaches the unit circle: roots move continuously, so none gets outside. If the proof stops
+/// before `limit` with steps left, an unstable loop is sought beyond the value reached.
 /// @param watch  called for each step; an exception from it ends the work
 template <class Path, class Watch>
 ProvedMarginEnd walked_end(const Path& path, double value, double limit,
@@ -147,7 +147,7 @@ ProvedMarginEnd walked_end(const Path& path, double value, double limit,
 }
 
 /// The intended end of a proof, slightly beyond the boundary found in doubles. Without a boundary
-/// it is the end of the search in doubles, or `otherwise` if that is not finite.
+/// it is the end of the search in doubles, or `otherwise` if that end is infinite.
 inline double limit_beyond(const MarginEnd& end, double value, double otherwise) {
   if (end.outcome == MarginEndOutcome::boundary) return value + 1.1 * (end.position - value);
   if (end.outcome == MarginEndOutcome::undefined) return value;
@@ -229,14 +229,14 @@ struct MarginProver {
 }  // namespace detail
 
 /// Proves by how much D, P, τ and δ, one at a time, may change before the loop loses its stability.
-/// The loop's parameters are exactly the given decimal numbers. No unstable window is missed: the
-/// loop is proved stable at the value (`CircleArcs::roots_outside`), and in each step, an enclosed
-/// interval of positions, no root meets the unit circle.
+/// First the loop with the given decimal numbers is proved stable. Then steps from the given value
+/// prove that no root reaches the unit circle; so no unstable window is missed. The goal of the
+/// steps is slightly beyond the boundary in `found`, else at the end of that search.
 /// @param poles       poles of `enclosed_poles`
 /// @param sampling    τ and δ as for EnclosedResponse
 /// @param gains       P (N/m) and D (N s/m), finite
-/// @param found       margins found in doubles; they only limit the proofs
-/// @param options     resolution and work
+/// @param found       margins computed in double precision; they only determine the goals
+/// @param options     resolution and largest number of steps
 /// @param watch       called for each step; an exception from it ends the work
 /// @throws InvalidParameter where sampling or gains are not admissible
 template <class Watch>
@@ -248,8 +248,8 @@ ProvedMargins proved_margins(const std::vector<EnclosedPole>& poles,
   return detail::MarginProver<Watch>{poles, sampling, gains, found, options, watch}.prove();
 }
 
-/// Proves the margins of τ and δ only, for a loop known to be stable; D, P and the loop itself are
-/// not examined. The arguments are those of `proved_margins`.
+/// Proves the margins of τ and δ only, for a loop known to be stable. The result's other members
+/// keep their defaults. The arguments are those of `proved_margins`.
 /// @throws InvalidParameter where sampling or gains are not admissible
 template <class Watch>
 ProvedMargins proved_sampling_margins(const std::vector<EnclosedPole>& poles,

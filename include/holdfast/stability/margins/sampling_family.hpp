@@ -32,7 +32,7 @@ std::vector<std::complex<Scalar>> roots_from_one(const SampledLoop<Scalar>& loop
   return roots(characteristic_polynomial(loop).at(gains));
 }
 
-/// The excess ρ − 1 of the two masses' loop.
+/// The excess ρ − 1 of the spectral radius of the two masses' loop.
 template <class Scalar>
 Scalar loop_excess(const SampledLoop<Scalar>& loop, const PdGains<Undeduced<Scalar>>& gains) {
   return loop_polynomial(loop).excess(gains);
@@ -45,7 +45,7 @@ Vector<std::complex<Scalar>, Eigen::Dynamic> roots_from_one(const LoopMap<Scalar
   return balanced_eigenvalues<Scalar, Eigen::Dynamic>(map.closed_increment(gains));
 }
 
-/// The excess ρ − 1 of a loop of any order; |1 + μ| − 1 is computed without cancellation.
+/// The excess ρ − 1 of a loop's spectral radius; |1 + μ| − 1 is computed without cancellation.
 template <class Scalar>
 Scalar loop_excess(const LoopMap<Scalar>& map, const PdGains<Scalar>& gains) {
   Scalar largest(-1);
@@ -61,8 +61,8 @@ extern template double loop_excess(const LoopMap<double>&, const PdGains<double>
 
 }  // namespace detail
 
-/// Family of samplings of one plant with one parameter, called position: the period τ, with δ/τ
-/// constant, or the delay δ, with τ constant. The number of delayed commands is constant.
+/// Family of samplings of one plant with one parameter, called position (s): the period τ, with δ/τ
+/// constant, or the delay δ, with τ constant. The number k of delayed commands is constant.
 /// @tparam Plant  two masses, whose loop is a `SampledLoop` in closed form, or a plant of any order
 ///                with ports, whose loop is a `LoopMap`
 template <class Plant>
@@ -70,7 +70,7 @@ class SamplingFamily {
  public:
   /// The family with varying τ and δ = delay_fraction · τ.
   /// @param plant           plant within its ranges, which are not checked here
-  /// @param delay_fraction  0 … 1; for a plant with ports ≥ 0
+  /// @param delay_fraction  ratio δ/τ, 0 … 1 for two masses, ≥ 0 for a plant with ports
   static SamplingFamily of_period(const Plant& plant, double delay_fraction) {
     return {plant, 0.0, delay_fraction, holdfast::held_commands({1.0, delay_fraction})};
   }
@@ -98,24 +98,24 @@ class SamplingFamily {
     }
   }
 
-  /// The map of the loop at a position (s).
+  /// The `LoopMap` of the plant's loop at a position (s).
   LoopMap<double> map_at(double position) const {
     return detail::loop_map_keeping<Plant, double>(plant_, at(position), held_);
   }
 
   /// The derivative of τ by the position: 1 where the position is τ, 0 where it is δ.
   double period_rate() const { return fixed_period_ > 0.0 ? 0.0 : 1.0; }
-  /// The derivative by the position of k τ − δ, the time in a sample when a new command acts.
+  /// The derivative by the position of k τ − δ, the time for which a new command acts in a sample.
   double action_rate() const { return fixed_period_ > 0.0 ? -1.0 : held_ - delay_fraction_; }
 
-  /// The Taylor series of the closed map within `radius` (s) of a centre, in x = (position −
-  /// centre)/radius. With h = k τ − δ and the derivatives τ′ and h′ by the position, the state's
-  /// rows have the derivatives
+  /// The Taylor series of the closed loop's map in x = (position − centre)/radius, |x| ≤ 1, up to
+  /// x¹². Let h = k τ − δ, and let τ′ and h′ be derivatives by the position. The j-th derivatives
+  /// by the position of the rows that belong to the plant's states are
   ///
-  ///     ∂ʲ[A_d, Γ₁, Γ₀] = A^{j−1} (τ′ʲ [A A_d, A_d b, 0] + h′ʲ e^{Ah} b [0, −1, 1]),   j ≥ 1
+  ///     A^{j−1} ((τ′)ʲ [A A_d, A_d b, 0] + (h′)ʲ e^{Ah} b [0, −1, 1]),   j ≥ 1
   ///
-  /// where the third column is multiplied by K if k = 1. The truncation error is at most the size
-  /// of the next term times Σ (‖A‖ radius/(m + 2))ⁱ, in the coordinates that balance A.
+  /// for the columns A_d, Γ₁ and Γ₀, the last of which is multiplied by K if k = 1. The remainder
+  /// bounds the omitted terms by a geometric series, and is infinite where that does not converge.
   /// @param map     map of `map_at`, at the centre
   /// @param gains   gains P and D
   /// @param radius  half width (s), ≥ 0
@@ -148,8 +148,8 @@ class SamplingFamily {
     return result;
   }
 
-  /// The Taylor series of the command's input column s within `radius` (s) of a centre. For k = 1 s
-  /// is Γ₀, whose derivatives are A^{j−1} h′ʲ e^{Ah} b; else s is constant.
+  /// The Taylor series of `LoopMap::command`, as in `moving`. For k = 1 the rows of the plant's
+  /// states are Γ₀, with the derivatives A^{j−1} (h′)ʲ e^{Ah} b; for k > 1 the column is constant.
   MovingVector moving_command(const LoopMap<double>& map, double radius) const {
     // The map of unit feedback from one more row, of which s is the column: its bound holds for s.
     const Eigen::Index size = map.size(), n = size - map.held_commands;
@@ -171,7 +171,7 @@ class SamplingFamily {
     return result;
   }
 
-  /// Whether the loop is proved to be stable within `radius` (s) of a centre.
+  /// Whether the loop is proved stable at all positions within `radius` (s) of a centre (s).
   Stretch stability(const PdGains<double>& gains, double centre, double radius) const {
     const MovingSpectrum roots(moving(map_at(centre), gains, radius));
     return roots.inside()             ? Stretch::holds

@@ -16,14 +16,14 @@
 
 namespace holdfast {
 
-/// Line of samplings of a loop with one parameter, called position (s): τ with δ/τ constant, or δ
-/// with τ constant. The number of delayed commands is constant.
+/// One-parameter line of samplings of a loop. Its parameter, called position (s), is τ with δ/τ
+/// constant, or δ with τ constant. The number of delayed commands is constant.
 struct EnclosedSamplings {
-  Enclosure fixed_period;  ///< τ (s) where δ varies, else 0
-  Enclosure last_share;    ///< φ − (k − 1), 0 … 1, for δ = φ τ where τ varies
+  Enclosure fixed_period;  ///< period τ (s) where the delay δ varies, else 0
+  Enclosure last_share;    ///< δ/τ − (k − 1), 0 … 1, where τ varies, else 0
   int commands = 1;        ///< number k of delayed commands
 
-  /// The line through a given sampling along which τ varies (see EnclosedSampling::of).
+  /// The line along which τ varies, for all decimals τ and δ that round to the given doubles.
   static EnclosedSamplings of_period(const Sampling<double>& sampling) {
     const int commands = held_commands(sampling);
     const Enclosure share =
@@ -32,7 +32,7 @@ struct EnclosedSamplings {
     return {
         0.0, {std::clamp(share.lower(), 0.0, 1.0), std::clamp(share.upper(), 0.0, 1.0)}, commands};
   }
-  /// The line along which δ varies within (k − 1) τ … k τ.
+  /// The line along which δ varies from (k − 1) τ to k τ; τ = `period` (s), k = `commands`.
   static EnclosedSamplings of_delay(double period, int commands) {
     return {Enclosure::of_decimal(period), 0.0, commands};
   }
@@ -42,22 +42,22 @@ struct EnclosedSamplings {
     if (!moves_period()) return EnclosedSampling::of_delay(fixed_period, positions, commands);
     return {positions, last_share * positions, (Enclosure(1.0) - last_share) * positions, commands};
   }
-  /// The sampling at a position in doubles, from the midpoints of the enclosures.
+  /// The sampling at a position (s) in double precision, from the midpoints of the enclosures.
   Sampling<double> next_to(double position) const {
     if (!moves_period()) return {fixed_period.middle(), std::max(position, 0.0)};
     return {position, (commands - 1 + last_share.middle()) * position};
   }
 
-  /// A time as a function of the position.
+  /// Enclosure of a time that depends on the position.
   struct Time {
     Enclosure at;    ///< value of the time (s)
-    Enclosure rate;  ///< derivative by the position, which is τ or δ
+    Enclosure rate;  ///< derivative by the position
   };
   /// The period τ at a position.
   Time period_at(const Enclosure& position) const {
     return moves_period() ? Time{position, 1.0} : Time{fixed_period, 0.0};
   }
-  /// The time k τ − δ at a position, during which the last command acts in a sample.
+  /// The time k τ − δ at a position, during which the latest command acts in a sample.
   Time present_at(const Enclosure& position) const {
     const Enclosure share = 1.0 - last_share, all = static_cast<double>(commands) * fixed_period;
     return moves_period() ? Time{share * position, share} : Time{all - position, -1.0};
@@ -69,20 +69,21 @@ struct EnclosedSamplings {
 
 /// Proof that a loop is stable at all samplings on a segment of a line.
 ///
-/// With poles s_j of residue r_j, k delayed commands and h = k τ − δ the loop has the roots of
+/// The plant has poles s_j with residues r_j; k commands are delayed, and h = k τ − δ is the time
+/// for which the latest one acts in a sample. The loop's roots are those of the polynomial
 ///
 ///     p(λ) = q(λ) Π_j (λ − e_j),   q(λ) = λᵏ − Σ_j (P + D s_j) r_j (γ₀_j λ + γ₁_j)/(λ − e_j)
-///     e = e^{s τ},   γ₀ = (e^{s h} − 1)/s,   γ₁ = (e^{s τ} − e^{s h})/s
+///     e_j = e^{s_j τ},   γ₀_j = (e^{s_j h} − 1)/s_j,   γ₁_j = (e^{s_j τ} − e^{s_j h})/s_j
 ///
-/// whose leading coefficient is 1, like that of Π (λ − z_i). So for any distinct nodes z_i, as many
-/// as roots, Lagrange's interpolation of the difference gives
+/// Let z_i be distinct nodes, as many as roots. Both p and Π_i (λ − z_i) have the leading
+/// coefficient 1, so that Lagrange's interpolation of their difference gives
 ///
-///     p(λ)/Π_i (λ − z_i) = 1 + Σ_i W_i/(λ − z_i),   W_i = p(z_i)/Π_{l≠i} (z_i − z_l),
+///     p(λ)/Π_i (λ − z_i) = 1 + Σ_i W_i/(λ − z_i),   W_i = p(z_i)/Π_{l≠i} (z_i − z_l)
 ///
-/// If all |z_i| < 1 and Σ |W_i|/|λ − z_i| < 1 on the unit circle, and therefore outside it, no root
-/// is on the circle or outside. Nodes near the roots have small W_i (K. Weierstrass, 1891). On a
-/// segment x₀ + ϱ t, |t| ≤ 1, the nodes follow the roots on spirals, and p(z_i(t)) is enclosed to
-/// second order. Work: some N² operations on curves for N roots, 2 ms for 40 modes.
+/// Let all |z_i| < 1, and Σ |W_i|/|λ − z_i| < 1 on the unit circle and hence outside it. Then no
+/// root is on or outside the circle. Nodes near the roots have small W_i (K. Weierstrass, 1891). On
+/// a segment x₀ + ϱ t, |t| ≤ 1, each node follows a root on a spiral z_i(t), and p(z_i(t)) is
+/// enclosed with its first two derivatives. Work: order N² for N roots; 2 ms for 40 modes.
 template <class Scalar>
 class SamplingProof {
  public:
@@ -110,17 +111,17 @@ class SamplingProof {
     }
   }
 
-  /// Node of the interpolation on a segment, t from −1 at its start to 1 at its end.
+  /// Node of the interpolation for a segment; t is −1 at the segment's start and 1 at its end.
   struct Node {
     EnclosedSpiral path;  ///< path of the node, z_i(t)
     double correction;    ///< upper bound of |W_i(t)| for all t
   };
 
-  /// The nodes for a proof at all positions from `from` to `to` (s); empty where the roots at the
-  /// middle are not found.
+  /// The nodes for a proof at all τ (or δ) from `from` to `to` (s); empty if the loop's roots at
+  /// the middle position are not found.
   std::vector<Node> nodes_over(double from, double to) const;
 
-  /// Whether the loop is proved to be stable at all positions from `from` to `to` (s).
+  /// Whether the loop is proved to be stable for all τ (or δ) from `from` to `to` (s).
   bool is_stable(double from, double to) const {
     const std::vector<Node> nodes = nodes_over(from, to);
     return !nodes.empty() && are_held_inside(nodes);
@@ -132,16 +133,16 @@ class SamplingProof {
   struct Motion {
     ComplexEnclosure s, reading;  // (P + D s) r/s
   };
-  /// Term of one pole in q over a segment: a part by the previous command and one by the last.
+  /// Term of one pole in the sum of q over a segment: (`present` λ + `past`)/(λ − `pole`).
   struct Part {
     EnclosedSpiral pole;  // e^{sτ}
     EnclosedCurve past, present;
 
-    /// The numerator of the term at λ on a node; its denominator is λ − e^{sτ}.
+    /// The numerator of the term at λ = `node`.
     EnclosedCurve over(const EnclosedCurve& node) const { return present * node + past; }
   };
 
-  /// The midpoints of a pole's term at a node z, and their derivatives along the segment.
+  /// A `Part` at t = 0 and a node z, in double precision, with derivatives by t (`…_moves`).
   struct PartInDoubles {
     std::complex<double> pole, pole_moves, present, over, over_moves;
 
@@ -153,7 +154,7 @@ class SamplingProof {
           over_moves(part.present.slope().middle() * z + part.past.slope().middle()) {}
   };
 
-  /// The terms of all poles over a segment. @param reach  half length ϱ of the segment (s)
+  /// The terms of all poles over a segment with centre `position` (s), half length `reach` = ϱ (s).
   std::vector<Part> parts_at(const Enclosure& position, const Enclosure& reach) const {
     const auto period = line_.period_at(position), present = line_.present_at(position);
     std::vector<Part> parts;
@@ -168,8 +169,8 @@ class SamplingProof {
 
   static ComplexEnclosure exact(const std::complex<double>& z) { return {z, 0.0}; }
 
-  /// The nodes, near the roots: first the nodes near poles, in the order of the poles. Empty where
-  /// the roots are not found. The proof is valid for any nodes.
+  /// The nodes: approximate roots of the loop, first one for each pole in the order of the poles.
+  /// Empty where the roots are not found. The quality of the nodes does not affect the validity.
   Nodes nodes_at(double position, const std::vector<Part>& parts) const {
     using Complex = std::complex<double>;
     const Sampling<double> sampling = line_.next_to(position);
@@ -186,8 +187,8 @@ class SamplingProof {
     return nodes;
   }
 
-  /// The rate σ at which root i moves along the segment, z e^{σt}: from G(z e^{σt}; t) = 0, in
-  /// doubles. For the root near pole i G = (z − e_i) q, finite at the pole; for the others G = q.
+  /// The rate σ of root i, which moves on z e^{σt} along the segment, from G(z e^{σt}; t) = 0. For
+  /// the root that belongs to pole i, G = (z − e_i) q, which is finite at the pole; else G = q.
   std::complex<double> rate_of(std::size_t i, const std::complex<double>& z,
                                const std::vector<Part>& parts) const {
     using Complex = std::complex<double>;
@@ -213,7 +214,7 @@ class SamplingProof {
     return std::abs(rate) < 0.5 ? rate : 0.0;
   }
 
-  /// A node and a point that it must not meet on the segment, in doubles.
+  /// Distance and relative motion of a node and a point that must not coincide on the segment.
   struct Encounter {
     std::complex<double> away, drift;  // from that to the node, and how this moves
 
@@ -225,7 +226,7 @@ class SamplingProof {
     bool is_near(double room) const {
       return std::abs(away) < std::min(room, std::max(2.5 * std::abs(drift), 1e-3 * room));
     }
-    /// The unit vector across `drift` that points inwards from a point; arbitrary without a drift.
+    /// The unit vector normal to `drift` that points from `point` inwards; arbitrary for drift 0.
     std::complex<double> aside_from(const std::complex<double>& point, std::size_t i) const {
       if (!(std::abs(drift) > 0.0)) return std::polar(1.0, static_cast<double>(i));
       const std::complex<double> across = drift / std::abs(drift) * std::complex<double>(0.0, 1.0);
@@ -233,8 +234,8 @@ class SamplingProof {
     }
   };
 
-  /// Separates nodes that would meet on the segment, as roots do on the real axis, and moves nodes
-  /// off the poles of other nodes. The shift is small beside a node's distance from the circle.
+  /// Moves apart nodes that would meet on the segment, as roots do on the real axis, and moves node
+  /// i away from the poles j ≠ i. A shift is at most 0.3 of a node's distance from the unit circle.
   static void make_room(Nodes& nodes, const std::vector<Part>& parts) {
     const auto room_of = [](const EnclosedSpiral& node) {
       return 0.3 * (1.0 - std::abs(node.start().middle()));
@@ -286,7 +287,7 @@ class SamplingProof {
     return partners;
   }
 
-  /// An upper bound of |W_i| on the segment. Poles and nodes are taken in pairs,
+  /// An upper bound of |W_i| on the segment. The factors of pole j and node j are combined first:
   ///
   ///     (z_i − e_j)/(z_i − z_j) = 1/(1 − (z_j − e_j)/(z_i − e_j))
   ///
@@ -310,7 +311,7 @@ class SamplingProof {
     return (Enclosure(sum.most()) / divisor).upper();
   }
 
-  /// Whether Σ |W_i|/|λ − z_i| < 1 is proved on the unit circle, as a whole or arc by arc.
+  /// Whether all |z_i| < 1, and Σ |W_i|/|λ − z_i| < 1 on the whole unit circle, are proved.
   static bool are_held_inside(const std::vector<Node>& nodes) {
     std::vector<double> inside;
     Enclosure sum;

@@ -17,28 +17,28 @@
 
 namespace holdfast {
 
-/// Bound of the loop's return ratio L that falls as the sampling period grows. It gives a period
-/// beyond which the sampled loop is stable at every period.
+/// Upper bound of |L|, the modulus of the loop's return ratio, for all |λ| ≥ 1. It decreases as τ
+/// grows. The sampled loop is stable at every τ at which the bound is below 1.
 ///
-/// With the plant's poles s_i = −a_i + iω_i, K (sI − A)⁻¹ b = n(s)/p(s), c_i = n(s_i)/(s_i
+/// Let K (sI − A)⁻¹ b = n(s)/p(s) with the plant's poles s_i = −a_i + iω_i. With c_i = n(s_i)/(s_i
 /// p′(s_i)), g = K A⁻¹ b = −n(0)/p(0) = Σ c_i, φ = δ/τ and e_i = e^{s_i τ}, the return ratio is
 ///
 ///     L(λ) = K (λI − A_d)⁻¹ (Γ₀ + Γ₁/λ)
 ///          = −g/λ + Σ c_i e^{s_i(1−φ)τ} (λ − 1)/(λ(λ − e_i))
 ///
-/// and det(λI − S) = λ det(λI − A_d) (1 − L), so that all |λ| < 1 if |L| < 1 for all |λ| ≥ 1, where
+/// det(λI − S) = λ det(λI − A_d) (1 − L), so all roots have |λ| < 1 if |L| < 1 for |λ| ≥ 1. There
 ///
-///     |L| ≤ |g| + 2 Σ |c_i| e^{−a_i χτ}/(1 − e^{−a_iτ}),   χ = 1 − φ, and χ = 1 for φ = 1
+///     |L| ≤ |g| + 2 Σ |c_i| e^{−a_i χτ}/(1 − e^{−a_iτ}),   χ = 1 − φ if φ < 1, χ = 1 if φ = 1
 ///
-/// χ = 1 follows from L = −g/λ² + Σ c_i e_i (λ − 1)/(λ²(λ − e_i)) at φ = 1. For the two-mass plant
+/// At φ = 1, L = −g/λ² + Σ c_i e_i (λ − 1)/(λ²(λ − e_i)), hence χ = 1. For the two-mass plant
 /// g = 0: a constant force between the masses does not move the conductor. Commands delayed by
 /// further whole samples divide L by powers of λ, which does not change the bound.
 class SlowSamplingBound {
  public:
-  /// @tparam Plant          plant of any order; with multiple poles there is no bound
+  /// @tparam Plant          plant of any order; for (nearly) multiple poles the bound is infinite
   /// @param plant           plant within its ranges, which are not checked here
   /// @param gains           P (N/m) and D (N s/m), finite
-  /// @param delay_fraction  φ, 0 … 1, constant while τ varies
+  /// @param delay_fraction  ratio φ = δ/τ, 0 … 1, constant while τ varies
   template <class Plant>
   SlowSamplingBound(const Plant& plant, const PdGains<double>& gains, double delay_fraction)
       : delay_fraction_(delay_fraction) {
@@ -62,7 +62,7 @@ class SlowSamplingBound {
     return bound;
   }
 
-  /// A period (s) beyond which the loop is stable at every period; infinite where none is known.
+  /// A period (s) from which on the bound is below 1 and the loop stable; infinite if none found.
   double certain_from() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto [slowest, fastest] = std::minmax_element(decay_.begin(), decay_.end());

@@ -9,36 +9,36 @@
 
 namespace holdfast {
 
-/// The variable x of a polynomial, on which the stable region of its roots depends. Polynomials in
-/// different variables are different types.
+/// The variable x of a characteristic polynomial; it determines which roots are stable. Polynomials
+/// in different variables are different types.
 enum class PolynomialVariable {
   half_plane,    ///< s, or w of `in_half_plane`; roots with Re x < 0 are stable
   about_one,     ///< λ − 1; roots with |1 + x| < 1 are stable
-  about_centre,  ///< λ − c with c of `LoopPolynomial`; roots with |c + x| < 1 are stable
+  about_centre,  ///< λ − c, c: centre of `LoopPolynomial`; roots with |c + x| < 1 are stable
 };
 
-/// A polynomial whose coefficients are affine in the two gains:
+/// Polynomial in x whose coefficients are affine in the gains P and D:
 ///
 ///     p(x; P, D) = base(x) + P · proportional(x) + D · differential(x)
 ///
-/// The characteristic polynomial of the loop has this form because both gains are in one row of the
-/// feedback matrix. The polynomial at one (P, D) costs 2 (Degree + 1) multiply-adds.
-/// @tparam Variable  x; by default that of the loop's polynomial, s for degree 4, else λ − 1
+/// The characteristic polynomial of a loop has this form because both gains are in one row of the
+/// feedback matrix. Its coefficients at one (P, D) cost 2 (Degree + 1) multiply-adds.
+/// @tparam Variable  kind of the variable x; by default s for degree 4, otherwise λ − 1
 template <class Scalar, int Degree,
           PolynomialVariable Variable =
               Degree == 4 ? PolynomialVariable::half_plane : PolynomialVariable::about_one>
 struct AffinePolynomial {
-  Polynomial<Scalar, Degree> base;          ///< value without control, constant coefficient first
+  Polynomial<Scalar, Degree> base;          ///< polynomial at P = D = 0, constant coefficient first
   Polynomial<Scalar, Degree> proportional;  ///< derivative ∂p/∂P, per N/m of P
   Polynomial<Scalar, Degree> differential;  ///< derivative ∂p/∂D, per N s/m of D
 
-  /// The polynomial at one pair of gains, constant coefficient first.
+  /// The polynomial at given gains, constant coefficient first.
   Polynomial<Scalar, Degree> at(const PdGains<Scalar>& gains) const {
     return base + gains.proportional * proportional + gains.differential * differential;
   }
 
-  /// Applies one linear change of variable to all three parts.
-  /// @tparam To  the new variable
+  /// The polynomial in another variable. `map` maps the coefficients of each part linearly.
+  /// @tparam To  kind of the new variable
   template <PolynomialVariable To, class LinearMap>
   AffinePolynomial<Scalar, Degree, To> transformed(const LinearMap& map) const {
     return {map(base), map(proportional), map(differential)};
@@ -50,32 +50,33 @@ template <class Scalar, int Degree, PolynomialVariable Variable>
 void validate(const AffinePolynomial<Scalar, Degree, Variable>& polynomial) {
   const Scalar sum =
       polynomial.base.sum() + polynomial.proportional.sum() + polynomial.differential.sum();
-  require_finite("coefficients of the polynomial", static_cast<double>(sum), "");
+  require_finite("sum of the polynomial's coefficients", static_cast<double>(sum), "");
 }
 
-/// A polynomial in a variable whose stable half-plane is Re < 0.
+/// Polynomial affine in the gains, in a variable whose stable half-plane is Re < 0.
 template <class Scalar, int Degree>
 using HalfPlanePolynomial = AffinePolynomial<Scalar, Degree, PolynomialVariable::half_plane>;
 
-/// The polynomial transformed from λ − 1 to the half-plane's variable w (math/poly/polynomial.hpp).
+/// The polynomial in w instead of λ − 1, with λ = (1 + w)/(1 − w): |λ| < 1 becomes Re w < 0.
 template <class Scalar, int Degree>
 HalfPlanePolynomial<Scalar, Degree> in_half_plane(
     const AffinePolynomial<Scalar, Degree, PolynomialVariable::about_one>& polynomial) {
   return polynomial.template transformed<PolynomialVariable::half_plane>(
       [](const Polynomial<Scalar, Degree>& p) { return in_half_plane<Scalar, Degree + 1>(p); });
 }
-/// The polynomial itself, unchanged, since its variable already is that of the half-plane.
+/// The polynomial itself, unchanged: its variable already has the stable half-plane Re < 0.
 template <class Scalar, int Degree>
 const HalfPlanePolynomial<Scalar, Degree>& in_half_plane(
     const HalfPlanePolynomial<Scalar, Degree>& polynomial) {
   return polynomial;
 }
 
-/// The characteristic polynomial of the continuous loop without delay, degree 4 in s:
+/// The characteristic polynomial of the continuous loop without delay, of degree 4 in s, for plant
+/// matrix A, force input b and feedback K = [P D 0 0]:
 ///
 ///     det(sI − A − bK) = det(sI − A) − P [1 0 0 0] adj(sI − A) b − D [0 1 0 0] adj(sI − A) b
 ///
-/// All roots in the left half-plane ⇔ asymptotically stable. Source: Kollár 2022, §4.1.
+/// The loop is asymptotically stable if and only if all Re s < 0. Source: Kollár 2022, §4.1.
 /// @throws InvalidParameter where the two masses are not admissible
 template <class Scalar, template <class> class Plant>
 AffinePolynomial<Scalar, 4> characteristic_polynomial(const Plant<Scalar>& plant) {
@@ -97,7 +98,7 @@ AffinePolynomial<Scalar, 4> characteristic_polynomial(const Plant<Scalar>& plant
 namespace detail {
 
 /// The polynomial det(λI − S) in powers of μ = λ − c, with λ Γ₀ + Γ₁ = μ Γ₀ + (c Γ₀ + Γ₁).
-/// @param centre  centre c, 1 or 0
+/// @param centre  centre c of the powers, 1 or 0
 template <class Scalar>
 AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial_about(
     int centre, const SampledLoop<Scalar>& loop) {
@@ -124,13 +125,13 @@ AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial_about(
 
 /// The characteristic polynomial det(λI − S) of the sampled loop, degree 5, in powers of μ = λ − 1.
 ///
-/// Elimination of the stored force u_{j−1} gives
+/// With A_d, Γ₀, Γ₁ and S of `SampledLoop` and the feedback K = [P D 0 0],
 ///
 ///     det(λI − S) = λ det(λI − A_d) − K adj(λI − A_d) (λ Γ₀ + Γ₁)
 ///
-/// With fast sampling the plant's four roots are close to λ = 1, where powers of λ lose them to
-/// round-off; powers of λ − 1 do not. `shifted` and `in_half_plane` change the variable. All |λ| <
-/// 1 ⇔ asymptotically stable. For δ = 0, λ = 0 is a structural root.
+/// With fast sampling four roots are close to λ = 1. In powers of λ, round-off would destroy digits
+/// of their λ − 1; in powers of μ it does not. `shifted` and `in_half_plane` change the variable.
+/// The loop is asymptotically stable if and only if all |λ| < 1. For δ = 0, λ = 0 is always a root.
 template <class Scalar>
 AffinePolynomial<Scalar, 5> characteristic_polynomial(const SampledLoop<Scalar>& loop) {
   const auto about_one = detail::polynomial_about(1, loop);

@@ -14,14 +14,13 @@
 
 namespace holdfast {
 
-/// A real quadratic factor μ² + Uμ + V of a characteristic polynomial in powers of μ = λ − 1.
+/// Real quadratic factor μ² + Uμ + V of a characteristic polynomial in powers of μ = λ − 1.
 template <class Scalar>
 struct QuadraticFactor {
   Scalar linear;    ///< coefficient U
   Scalar constant;  ///< coefficient V
 
-  /// The larger modulus |λ| of the factor's two roots: √(1 − U + V) for a complex pair, |1 − U/2| +
-  /// √(U²/4 − V) for real roots.
+  /// The larger |λ| of the two roots: √(1 − U + V) if complex, |1 − U/2| + √(U²/4 − V) if real.
   Scalar radius() const {
     using std::abs;
     using std::sqrt;
@@ -34,31 +33,31 @@ struct QuadraticFactor {
   }
 };
 
-/// Spectral radius by continuation of the dominant quadratic factor of a polynomial that changes
-/// little from call to call, as along a row of a chart. SIMD packs are treated lane by lane.
+/// Spectral radius of a characteristic polynomial that changes little from call to call, as along a
+/// row of a chart. The quadratic factor μ² + Uμ + V of its two dominant roots (largest |λ|) is
+/// followed from call to call. Each lane of a SIMD pack is a separate polynomial.
 ///
-/// The factor is extrapolated from the previous calls and corrected by Newton's method in (U, V)
-/// (Bairstow's iteration): with quotients b, c of two divisions by μ² + Uμ + V,
+/// The factor is extrapolated from previous calls and corrected by Newton's method in (U, V), known
+/// as Bairstow's iteration. `divide` computes b from the polynomial and c from b; one step solves
 ///
-///     [c₂ c₃; c₁ c₂] [δU; δV] = [b₁; b₀]
+///     c₂ δU + c₃ δV = b₁,   (c₁ − b₁) δU + c₂ δV = b₀
 ///
-/// The iteration converges quadratically if the factor shares no root with its quotient. Liénard
-/// and Chipart's conditions test that the quotient has no root beyond the radius; a lane that fails
-/// is recomputed from all roots. The polynomial must have a root λ = 0 as a partner for a real
-/// dominant root: the sampled loop without processing delay has it, any other polynomial is
-/// multiplied by λ (`with_root_at_zero`).
+/// It converges quadratically if factor and quotient have no common root. Liénard and Chipart's
+/// conditions test that no root of the quotient has a larger |λ| than the factor; a lane that fails
+/// is recomputed from all roots. A real dominant root is paired with the root λ = 0. The sampled
+/// loop has this root for δ = 0; multiply other polynomials by λ (`with_root_at_zero`).
 ///
-/// Work per call and iteration: 5 Degree multiply-adds and a division; 45 more for the test.
-/// Relative error of the radius: 2e−13 where two root moduli differ by less, otherwise round-off
-/// times the condition of the dominant root. Source: L. Bairstow, 1914.
+/// Work: 5 Degree multiply-adds and a division per iteration, 45 multiply-adds per call for the
+/// test. Relative error of the radius: round-off times the condition number of the dominant root,
+/// or 2e−13 where the two largest |λ| differ by less than that. Source: L. Bairstow, 1914.
 template <class Scalar, int Degree>
 class DominantFactor {
  public:
-  static_assert(Degree == 5 || Degree == 6, "the sampled loop has 5 roots, or 6 with λ = 0 added");
+  static_assert(Degree == 5 || Degree == 6, "Degree must be 5, or 6 with the root λ = 0 added");
   /// The number type of one lane.
   using Value = typename Lanes<Scalar>::Value;
 
-  /// The spectral radius ρ = max |λ| of a monic polynomial in powers of μ.
+  /// The spectral radius ρ = max |λ| of a monic polynomial in powers of μ = λ − 1.
   Scalar radius(const Polynomial<Scalar, Degree>& polynomial) {
     Factor factor = extrapolated();
     Quotient quotient{};
@@ -74,7 +73,7 @@ class DominantFactor {
   }
 
  private:
-  /// The factor, from all roots, of the dominant pair or of a dominant real root and λ = 0.
+  /// The factor of the dominant pair, or of a dominant real root and λ = 0, from all roots.
   static QuadraticFactor<Value> dominant_factor(const Polynomial<Value, Degree>& in_powers_of_mu) {
     const Value one(1);
     std::complex<Value> dominant(-one);
@@ -104,8 +103,8 @@ class DominantFactor {
     return settled;
   }
 
-  /// Restarts the lanes that did not converge, from the factor of the previous call. Where cells
-  /// are far apart, extrapolation may increase the error.
+  /// Restarts the lanes that did not converge from the factor of the previous call. Where cells are
+  /// far apart, extrapolation may be worse than this factor.
   void start_nearby(const Polynomial<Scalar, Degree>& polynomial, Factor& factor,
                     Quotient& quotient, Mask<Scalar>& settled) const {
     Factor other = history_[0];
@@ -119,7 +118,7 @@ class DominantFactor {
     settled = settled | also;
   }
 
-  /// The extrapolation of the cubic through the last four factors.
+  /// The factor extrapolated by the cubic through the last four factors.
   Factor extrapolated() const {
     const auto at = [this](Scalar Factor::*part) {
       return Scalar(4) * (history_[0].*part + history_[2].*part) -
@@ -128,7 +127,7 @@ class DominantFactor {
     return {at(&Factor::linear), at(&Factor::constant)};
   }
 
-  /// Performs one Newton step. @return true where it was small enough to be the last one
+  /// Performs one Newton step. @return true where the step was so small that no other is needed
   static Mask<Scalar> improve(const Polynomial<Scalar, Degree>& a, Factor& factor,
                               Quotient& quotient) {
     using std::abs;
@@ -149,7 +148,7 @@ class DominantFactor {
     return u_settled & v_settled;
   }
 
-  /// Divides a: b_k = a_k − U b_{k+1} − V b_{k+2}; quotient b_n … b₂, remainder b₁ (μ + U) + b₀.
+  /// Divides a by μ² + Uμ + V into the quotient b_n … b₂ and the remainder b₁ (μ + U) + b₀.
   static void divide(const Polynomial<Scalar, Degree>& a, const Scalar& u, const Scalar& v,
                      Polynomial<Scalar, Degree>& b) {
     b[Degree] = a[Degree];
@@ -157,7 +156,7 @@ class DominantFactor {
     for (int k = Degree - 2; k >= 0; --k) b[k] = (a[k] - v * b[k + 2]) - u * b[k + 1];
   }
 
-  /// Whether no root of the quotient is beyond the radius (with a tolerance for equal moduli).
+  /// Whether all roots of the quotient have |λ| < radius (1 + `slack_`).
   static Mask<Scalar> bounds(const Quotient& in_powers_of_mu, const Scalar& radius) {
     Quotient q = in_powers_of_mu;
     for (int start = 0; start < Degree - 2; ++start) {  // to powers of λ
@@ -169,7 +168,7 @@ class DominantFactor {
     return lienard_chipart_stable<Scalar, Degree - 1>(at_half_plane(q));
   }
 
-  /// The quotient in the half-plane's variable, (1 − w)ⁿ q((1 + w) / (1 − w)) for n = 3, 4.
+  /// The polynomial (1 − w)ⁿ q((1 + w)/(1 − w)) in w; the quotient q(λ) has the degree n = 3 or 4.
   static Quotient at_half_plane(const Quotient& q) {
     Quotient a;
     if constexpr (Degree == 5) {
@@ -215,7 +214,7 @@ class DominantFactor {
   std::array<Factor, 4> history_ = {nothing(), nothing(), nothing(), nothing()};
 };
 
-/// The polynomial times λ = 1 + μ, with the additional root λ = 0.
+/// The polynomial in powers of μ times λ = 1 + μ, which adds the root λ = 0.
 template <class Scalar, int Size>
 Vector<Scalar, Size + 1> with_root_at_zero(const Vector<Scalar, Size>& in_powers_of_mu) {
   return multiply<Scalar, Size, 2>(in_powers_of_mu, {Scalar(1), Scalar(1)});

@@ -15,24 +15,23 @@
 
 namespace holdfast {
 
-/// The polynomial det(λI − S) in powers of λ − 1 where the plant moves little between samples, and
-/// in powers of λ where its motion decays almost completely within a sample.
-///
-/// In the first case the roots are close to λ = 1, in the second to λ = 0. Powers of λ − centre
-/// keep the digits of these distances. Radii are stored as radius − centre.
+/// Characteristic polynomial det(λI − S) of the sampled loop in powers of λ − centre. The centre is
+/// 1 with fast sampling, and 0 where the plant's free motion almost decays within one period. Most
+/// roots are then close to the centre, and round-off does not destroy the digits of λ − centre.
+/// Radii are represented by their offsets, radius − centre.
 template <class Scalar>
 struct LoopPolynomial {
   Scalar centre;  ///< centre of the powers, 1 or 0
-  /// The monic polynomial in powers of λ − centre, affine in the gains.
+  /// Monic polynomial in powers of λ − centre, affine in the gains P and D.
   AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial;
 
-  /// The scale of the roots' distances from the centre, for tolerances.
+  /// Geometric mean of |λ − 1| over the eigenvalues λ of A_d, at most 1; 0 if the centre is 0.
   Scalar scale() const {
     if (centre == Scalar(0)) return Scalar(0);
     return std::min(Scalar(1), std::pow(std::abs(polynomial.base[0]), Scalar(0.25)));
   }
 
-  /// The offset ρ(P, D) − centre of the largest |λ|, computed without cancellation.
+  /// The offset ρ − centre of the spectral radius ρ at given gains, computed without cancellation.
   Scalar radius_offset(const PdGains<Scalar>& gains) const {
     Scalar largest = -centre;
     for (const std::complex<Scalar>& root : roots(polynomial.at(gains))) {
@@ -45,21 +44,21 @@ struct LoopPolynomial {
     return largest;
   }
 
-  /// The excess ρ(P, D) − 1 of the spectral radius; negative where the loop is stable.
+  /// The excess ρ − 1 of the spectral radius at given gains; negative if the loop is stable.
   Scalar excess(const PdGains<Scalar>& gains) const {
     return (centre - Scalar(1)) + radius_offset(gains);
   }
 
-  /// The polynomial in powers of λ′ − 1, λ′ = λ/r. All |λ′| < 1 means that all |λ| < r.
-  /// @param offset  r − centre for a radius r > 0
+  /// The polynomial in powers of λ′ − 1, λ′ = λ/r. All |λ′| < 1 if and only if all |λ| < r.
+  /// @param offset  offset r − centre of the radius r > 0
   AffinePolynomial<Scalar, 5> at_radius(const Scalar& offset) const {
     const Scalar radius = centre + offset;
-    // λ − centre = r μ' + offset with μ' = λ' − 1.
+    // λ − centre = r μ′ + offset with μ′ = λ′ − 1.
     return polynomial.template transformed<PolynomialVariable::about_one>(
         [&](const Polynomial<Scalar, 5>& p) { return rescaled(shifted(p, offset), radius); });
   }
 
-  /// The open intervals of D (N s/m) with spectral radius < centre + offset, exact and ascending.
+  /// The open intervals of D (N s/m), ascending, with ρ < centre + offset at a given P (N/m).
   std::vector<Interval<Scalar>> differential_gains_within(const Scalar& proportional_gain,
                                                           const Scalar& offset) const {
     if (!(centre + offset > Scalar(0))) return {};
@@ -67,7 +66,7 @@ struct LoopPolynomial {
   }
 };
 
-/// The polynomial of a loop: centre 0 if the norm of the balanced A_d is below 1/4, else centre 1.
+/// The polynomial of a loop: centre 0 if the ∞-norm of the balanced A_d is below 1/4, otherwise 1.
 template <class Scalar>
 LoopPolynomial<Scalar> loop_polynomial(const SampledLoop<Scalar>& loop) {
   const Scalar norm =
@@ -76,12 +75,12 @@ LoopPolynomial<Scalar> loop_polynomial(const SampledLoop<Scalar>& loop) {
   return {Scalar(1), detail::polynomial_about(1, loop)};
 }
 
-/// The open intervals of D (N s/m) with which every root of the sampled loop has |λ| < radius;
-/// radius 1 gives `stable_differential_gains`.
+/// The open intervals of D (N s/m) in which every root of the sampled loop has |λ| < radius, at a
+/// given P; ascending. Radius 1 gives `stable_differential_gains`.
 /// @param loop               loop of `sampled_loop`
 /// @param proportional_gain  P (N/m), finite
 /// @param radius             bound of |λ|, > 0
-/// @throws InvalidParameter where loop, P or radius are not admissible
+/// @throws InvalidParameter unless P is finite and the radius is finite and > 0
 template <class Scalar>
 std::vector<Interval<Scalar>> differential_gains_within_radius(const SampledLoop<Scalar>& loop,
                                                                const Scalar& proportional_gain,

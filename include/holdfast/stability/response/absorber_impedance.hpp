@@ -10,15 +10,15 @@
 
 namespace holdfast {
 
-/// The impedance Z_eff(s) (N s/m) of the computer's force: the part of that force with the
-/// frequency of the motion, over the conductor's velocity:
+/// The impedance Z_eff(s) = −u/v (N s/m) of the control force. v is the conductor's velocity,
+/// proportional to e^{st}, and u is the part of the force that is proportional to e^{st}:
 ///
 ///     Z_eff = −(D + P/s) F(s) A(s) e^{−s(δ + τ/2)} sinh(sτ/2)/(sτ/2)
 ///
-/// with the lags F of the measurement filter and A of the drive. Where the velocity is a difference
-/// of readings, D has the factor (1 − e^{−sτ})/(sτ). At s = iω sinh(sτ/2)/(sτ/2) = sinc(ωτ/2). The
-/// held force also has the frequencies ω + 2πk/τ; where the conductor responds to them, only the
-/// sampled loop (`ModalResponse`) is exact. The arguments are not checked.
+/// F and A are the transfer functions of measurement filter and drive. Without a velocity sensor D
+/// has the factor (1 − e^{−sτ})/(sτ). For s = iω the held force also has the frequencies ω + 2πk/τ,
+/// k = ±1, ±2, …; where the conductor responds to them, only the sampled loop (`ModalResponse`) is
+/// exact. The arguments are not checked.
 /// @param sampling  τ and δ of the loop
 /// @param gains     gains P and D
 /// @param hardware  measurement filter and drive
@@ -38,9 +38,9 @@ inline std::complex<double> drive_impedance(const Sampling<double>& sampling,
          detail::HardwarePoles::lag(lags.drive, s) * detail::HardwarePoles::lag(lags.filter, s);
 }
 
-/// The impedance Z(s) = (M_c s² + K_p)/s + T_a Z_eff (N s/m) of the absorber with its computer:
-/// force over velocity of the conductor. M_c, K_p and T_a are as in plant/modal_plant.hpp. Like
-/// `drive_impedance` it holds for one frequency only. The arguments are not checked.
+/// The impedance Z(s) = (M_c s² + K_p)/s + T_a Z_eff (N s/m) of the absorber with its computer, at
+/// one frequency. M_c is the clamp's mass, T_a = m₂ s²/(m₂ s² + c₂ s + k₂), K_p = T_a (k₂ + c₂ s),
+/// and Z_eff is `drive_impedance`. The arguments are not checked.
 /// @param absorber  absorber with its clamp
 /// @param sampling  τ and δ of the loop
 /// @param gains     gains P and D

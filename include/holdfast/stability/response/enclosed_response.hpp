@@ -14,32 +14,32 @@
 
 namespace holdfast {
 
-/// Enclosed expansion f(λ + w) = value + slope · w + r, |r| ≤ rest, for |w| up to a radius.
+/// Enclosed expansion f(λ + w) = value + slope · w + r about λ, with |r| ≤ `rest` for |w| ≤ radius.
 struct EnclosedExpansion {
   ComplexEnclosure value;  ///< value f(λ)
   ComplexEnclosure slope;  ///< derivative f′(λ)
-  double rest = 0.0;       ///< bound of r; infinite where f may have a pole within the radius
+  double rest = 0.0;       ///< bound of |r|; infinite where f may have a pole within the radius
 };
 
-/// Expansions about a point of the factors F_z of P and F_v of D (`EnclosedResponse`).
+/// Expansions of the transfer functions F_z and F_v (`EnclosedResponse`) about a point.
 struct EnclosedCommandResponse {
   EnclosedExpansion displacement;  ///< expansion of F_z (m/N)
   EnclosedExpansion velocity;      ///< expansion of F_v (m/(N s))
 };
 
-/// Enclosed times in a sample during which commands act, for one sampling or a range of them.
+/// Enclosure of a sampling or of a range of samplings: period and action times of the commands.
 struct EnclosedSampling {
-  Enclosure period;   ///< τ (s)
-  Enclosure past;     ///< δ − (k − 1) τ (s), action time of the previous command
-  Enclosure present;  ///< k τ − δ (s), action time of the last command
+  Enclosure period;   ///< sampling period τ (s)
+  Enclosure past;     ///< δ − (k − 1) τ (s), during which the previous command acts
+  Enclosure present;  ///< k τ − δ (s), during which the latest command acts
   int commands;       ///< number k of delayed commands
 
   /// Creates the enclosure from its four members, in their order.
   EnclosedSampling(Enclosure of_period, Enclosure of_past, Enclosure of_present, int on_their_way)
       : period(of_period), past(of_past), present(of_present), commands(on_their_way) {}
 
-  /// The enclosure of all decimals that round to τ (s) > 0 and δ (s), 0 … 1000 τ. A δ that exceeds
-  /// a whole number of samples by less than 10⁻¹² of itself counts as that number.
+  /// The enclosure of all decimals that round to the doubles τ (s) > 0 and δ (s), 0 … 1000 τ. A δ/τ
+  /// within a relative 10⁻¹² of a whole number counts as that number.
   /// @throws InvalidParameter where the sampling is not admissible
   static EnclosedSampling of(const Sampling<double>& sampling) {
     require_positive("sampling period tau", sampling.period, "s");
@@ -48,7 +48,7 @@ struct EnclosedSampling {
     return of_delay(Enclosure::of_decimal(sampling.period),
                     Enclosure::of_decimal(sampling.processing_delay), held_commands(sampling));
   }
-  /// The sampling that encloses all δ of a range within (k − 1) τ … k τ.
+  /// The enclosure for all δ of an interval within (k − 1) τ … k τ, k = `commands`.
   static EnclosedSampling of_delay(const Enclosure& period, const Enclosure& delay, int commands) {
     const auto within_sample = [&](const Enclosure& time) {
       return Enclosure(std::clamp(time.lower(), 0.0, period.lower()),
@@ -60,21 +60,21 @@ struct EnclosedSampling {
   }
 };
 
-/// The zero-order-hold transfer functions of `ModalResponse` in enclosures, times λᵏ so that a
-/// delay of many samples needs no inverse power: the characteristic function of the loop is
+/// The zero-order-hold transfer functions G of `ModalResponse` in enclosures. F = λᵏ G replaces G,
+/// so that long delays need no inverse powers of λ. The characteristic function of the loop is
 ///
 ///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ),   F(λ) = λᵏ G(λ) = Σ (a_j λ + b_j)/(λ − e^{s_j τ})
 ///
-/// with k, a_j and b_j as in `ModalResponse`. A pair of poles forms one real quotient f = n/g of
-/// quadratics with leading coefficients n₂ and g₂, and with the exact remainder about λ
+/// with k, a_j and b_j as in `ModalResponse`. A conjugate pair of poles forms one quotient f = n/g
+/// of real quadratics with leading coefficients n₂ and g₂. With f, f′ and g′ at λ, its remainder is
 ///
 ///     f(λ + w) − f − f′ w = w² (n₂ − f g₂ − f′ g′ − f′ g₂ w)/g(λ + w)
 ///
-/// One point costs some 300 operations of enclosures per pair.
+/// Work: some 300 operations on enclosures per pair and point λ.
 class EnclosedResponse {
  public:
   /// @param poles     poles of `enclosed_poles`, at least one, none of which may be 0
-  /// @param sampling  samplings with (k − 1) τ ≤ δ ≤ k τ for one k
+  /// @param sampling  enclosure of one or more samplings with a common k
   EnclosedResponse(const std::vector<EnclosedPole>& poles, const EnclosedSampling& sampling)
       : commands_(sampling.commands) {
     for (const EnclosedPole& pole : poles) add(pole, sampling);
@@ -94,7 +94,7 @@ class EnclosedResponse {
     return sum;
   }
 
-  /// The expansion of λᵏ about a point, |r| ≤ k (k − 1)/2 (|λ| + radius)^{k−2} radius².
+  /// The expansion of λᵏ about a point, with |r| ≤ k (k − 1)/2 (|λ| + radius)^{k−2} radius².
   /// @param lambda  point λ
   /// @param radius  radius of the disc about λ
   EnclosedExpansion power_about(const ComplexEnclosure& lambda, double radius) const {
@@ -111,8 +111,8 @@ class EnclosedResponse {
 
   /// The number k of delayed commands.
   int held_commands() const { return commands_; }
-  /// The number of the plant's own eigenvalues e^{sτ} with a modulus above r; `nullopt` where an
-  /// eigenvalue may lie on the circle |λ| = r.
+  /// The number of eigenvalues λ = e^{sτ} of the plant without control with |λ| > r; `nullopt`
+  /// where an eigenvalue may lie on the circle |λ| = r.
   /// @param radius  radius r, > 0
   std::optional<int> poles_outside(double radius) const {
     int count = 0;

@@ -11,34 +11,34 @@
 
 namespace holdfast {
 
-/// The response of the measured displacement and velocity to a unit command, at one λ.
+/// The transfer functions from the command to the measured displacement and velocity, at one λ.
 template <class Scalar>
 struct CommandResponse {
-  std::complex<Scalar> displacement;  ///< G_z(λ) (m/N)
-  std::complex<Scalar> velocity;      ///< G_v(λ) (m/(N s))
+  std::complex<Scalar> displacement;  ///< transfer function G_z(λ) (m/N) to the displacement
+  std::complex<Scalar> velocity;      ///< transfer function G_v(λ) (m/(N s)) to the velocity
 };
 
-/// The zero-order-hold transfer functions of a loop of any order,
+/// The zero-order-hold transfer functions of a loop of any order, given by its `LoopMap`,
 ///
 ///     G_z(λ) = h_z (λI − S₀)⁻¹ s,   G_v(λ) = h_v (λI − S₀)⁻¹ s
 ///
-/// from the command to the quantities that P and D multiply; the characteristic equation of the
-/// loop is 1 − P G_z(λ) − D G_v(λ) = 0. S₀ − I, of size n = N + k for N plant states and k delayed
-/// commands, is brought to Hessenberg form H = Qᵀ(S₀ − I)Q once. Each value of G_z and G_v costs
-/// the elimination of one subdiagonal, about 4 n² complex multiply-adds.
-/// Source: A. J. Laub, Efficient multivariable frequency response computations, IEEE TAC 26 (1981).
+/// from the command to the quantities that P and D multiply, with S₀, s, h_z and h_v of the map.
+/// The characteristic equation of the loop is 1 − P G_z(λ) − D G_v(λ) = 0. The n × n matrix S₀ − I
+/// is reduced once to Hessenberg form H = Qᵀ(S₀ − I)Q. Each λ then costs the elimination of one
+/// subdiagonal, about 4 n² complex multiply-adds. Source: A. J. Laub, Efficient multivariable
+/// frequency response computations, IEEE TAC 26 (1981).
 template <class Scalar>
 class LoopResponse {
  public:
   using Complex = std::complex<Scalar>;  ///< type of λ and of the responses
 
-  /// @param map  map of the loop; its gains are not used
+  /// @param map  map of the loop
   explicit LoopResponse(const LoopMap<Scalar>& map);
 
-  /// The responses G_z and G_v at λ = 1 + μ; with argument μ no digits are lost in fast sampling.
+  /// The transfer functions at λ = 1 + μ; the argument μ avoids a loss of digits in fast sampling.
   CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const;
 
-  /// The responses G_z and G_v at λ = e^{iθ}.
+  /// The transfer functions G_z and G_v at λ = e^{iθ} on the unit circle.
   /// @param angle  θ (rad), 0 … π
   CommandResponse<Scalar> at_angle(const Scalar& angle) const {
     return at_distance_from_one(circle_increment(angle));

@@ -22,17 +22,17 @@ namespace holdfast {
 struct ModeDamping {
   double angular_frequency;   ///< ω_n (rad/s) of the bare conductor
   double bare;                ///< damping ratio ζ_n without absorber
-  std::complex<double> root;  ///< the loop's root s (1/s) of the mode; NaN where none was found
-  double first_order;         ///< damping ratio by the first-order law of a light device
+  std::complex<double> root;  ///< the loop's root s = ln λ/τ (1/s) for the mode; NaN: not found
+  double first_order;         ///< damping ratio to first order, for a light absorber
 
-  /// The damping ratio −Re s/|s|; negative where the mode grows.
+  /// The damping ratio −Re s/|s|; negative where the mode grows, NaN without a root.
   double damping() const { return -root.real() / std::abs(root); }
 };
 
 namespace detail {
 
 /// The eigenvalue s (1/s) nearest to a given s, from the increments e^{sτ} − 1 of all eigenvalues.
-/// @return NaN where no increment is within 10⁻⁶ of that of the given s
+/// @return NaN where no increment is within 10⁻⁶ of e^{sτ} − 1 for the given s
 inline std::complex<double> matched_pole(const std::vector<std::complex<double>>& increments,
                                          const std::complex<double>& s, double period) {
   const std::complex<double> mu = complex_expm1(s * period);
@@ -45,13 +45,13 @@ inline std::complex<double> matched_pole(const std::vector<std::complex<double>>
 
 }  // namespace detail
 
-/// The damping of each mode of a conductor with the absorber and its computer. The bare mode is
-/// continued to a root of the sampled loop as first the absorber and then the gains grow from zero
-/// to their values; so the branch of the logarithm in s = ln λ/τ is known. The damping ratio by the
-/// first-order law for a light device is returned too.
+/// The damping of each mode of a conductor with the absorber and its computer. Each bare mode n is
+/// traced to a root of the sampled loop while first the absorber and then the gains grow from zero.
+/// The trace determines the branch of s = ln λ/τ. To first order the damping ratio is ζ_n + φ_n² Re
+/// Z(iω_n)/(2 M_n ω_n), with the symbols of `PlaceMode` and Z of `absorber_impedance`.
 ///
-/// The continuation is no proof. Where two roots meet on their way, their assignment to the two
-/// modes is arbitrary. Where the steps become too small, the damping is NaN. Work: some hundred
+/// A trace is no proof. Where two traces meet, the assignment of their roots to the two modes is
+/// arbitrary. Where the steps of a trace become too small, the damping is NaN. Work: some hundred
 /// values of the transfer functions per mode.
 /// @param modes     modes of the bare conductor at the absorber's place
 /// @param absorber  absorber with its clamp

@@ -23,14 +23,14 @@
 namespace holdfast {
 
 /// The zero-order-hold transfer functions of `LoopResponse` as sums over the plant's eigenvalues
-/// s_j with residues γ_j β_j; k commands are delayed, and δ′ is the delay within a sample:
+/// s_j with residues γ_j β_j (`Residue`); k commands are delayed, and δ′ = δ − (k − 1) τ:
 ///
 ///     G(λ) = λ^{1−k} Σ (a_j + b_j/λ) / (λ − e^{s_j τ}),
 ///     a_j = γ_j β_j (e^{s_j(τ−δ′)} − 1)/s_j,   b_j = γ_j β_j e^{s_j(τ−δ′)} (e^{s_j δ′} − 1)/s_j
 ///
-/// A value costs 10 N complex operations where LoopResponse takes 4 N². No power of λ is formed, so
-/// that hundreds of modes retain nine digits and more. Where eigenvalues (nearly) coincide, like
-/// those of a critically damped drive, LoopResponse is used.
+/// A value costs 10 N complex operations for N eigenvalues; LoopResponse takes 4 N². No polynomial
+/// is formed, so that nine digits or more are correct even for hundreds of modes. Where eigenvalues
+/// (nearly) coincide, like those of a critically damped drive, LoopResponse is used.
 template <class Scalar>
 class ModalResponse {
  public:
@@ -57,7 +57,7 @@ class ModalResponse {
     for (const Residue& residue : residues) add(residue);
   }
 
-  /// The responses G_z and G_v at λ = 1 + μ; with argument μ no digits are lost in fast sampling.
+  /// The transfer functions at λ = 1 + μ; the argument μ avoids a loss of digits in fast sampling.
   CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const {
     if (dense_) return weighted(dense_->at_distance_from_one(mu), mu);
     return finished(poles_.sums_at(mu), mu);
@@ -65,15 +65,15 @@ class ModalResponse {
 
   class Nearby;
 
-  /// The responses G_z and G_v at λ = e^{iθ}.
+  /// The transfer functions G_z and G_v at λ = e^{iθ} on the unit circle.
   /// @param angle  θ (rad), 0 … π
   CommandResponse<Scalar> at_angle(const Scalar& angle) const {
     return at_distance_from_one(circle_increment(angle));
   }
 
-  /// The response G(rλ) of a loop whose roots are those of this loop divided by r.
+  /// The response G(rλ) as a function of λ; the roots of its loop are this loop's roots over r.
   /// @param offset  r − 1, above −1
-  /// @return `nullopt` where LoopResponse is used
+  /// @return nullopt where eigenvalues (nearly) coincide, so that LoopResponse is used
   std::optional<ModalResponse> at_radius(const Scalar& offset) const {
     if (dense_) return std::nullopt;
     ModalResponse scaled = *this;
@@ -99,8 +99,8 @@ class ModalResponse {
     return scaled;
   }
 
-  /// Filter w(λ) = constant + change (1 − 1/λ) of displacement readings, G_v = w(λ) G_z. Its output
-  /// is multiplied by D. Both members are in 1/s, or in N/m if the filter replaces both gains.
+  /// Filter w(λ) = constant + change (1 − 1/λ) of displacement readings, G_v = w(λ) G_z. D
+  /// multiplies its output. Both members are in 1/s, or in N/m where they contain both gains.
   using Weight = typename PoleSum<Scalar>::Weight;
 
   /// The response of a computer without a velocity sensor, which filters its displacement readings.
@@ -128,7 +128,7 @@ class ModalResponse {
   /// The number k of delayed commands.
   int held_commands() const { return commands_; }
 
-  /// The function 1 − P G_z − D G_v as a sum over all poles; without parts if LoopResponse is used.
+  /// The function 1 − P G_z − D G_v as a sum over all poles; no `parts` if LoopResponse is used.
   PoleSum<Scalar> loop_parts(const PdGains<Scalar>& gains) const {
     PoleSum<Scalar> loop;
     loop.power = commands_ - 1;
@@ -147,10 +147,10 @@ class ModalResponse {
     return loop;
   }
 
-  /// Whether a command takes effect between two samples, not at a sample.
+  /// Whether δ′ > 0, so that the previous command still acts at the start of a sample (b_j ≠ 0).
   bool is_late_within_sample() const { return late_ > Scalar(0); }
 
-  /// The number of the plant's own eigenvalues s with Re s > 0, that is, of growing motions.
+  /// The number of eigenvalues s of the plant without control with Re s > 0 (growing motions).
   int unstable_poles() const { return unstable_; }
 
  private:
@@ -160,13 +160,13 @@ class ModalResponse {
     Complex past_displacement, past_velocity;  // b_j
   };
 
-  /// Sums Σ a_j/(λ − e_j) for displacement z and velocity v.
+  /// Sums Σ a_j/(λ − e_j), e_j = e^{s_j τ}, for displacement z and velocity v.
   struct Sums {
     Complex z{0}, v{0};
   };
 
-  /// The poles in SIMD vectors; unused entries are poles λ = −7, far from the unit circle. The
-  /// residues b of a delayed command are joined to a: (b/λ)/(λ − e) = (b/e)/(λ − e) − (b/e)/λ.
+  /// The poles in SIMD vectors; unused entries have a pole λ = −7, far from the unit circle. The
+  /// coefficient b of a pole e is merged with a by (b/λ)/(λ − e) = (b/e)/(λ − e) − (b/e)/λ.
   struct Poles : detail::ComplexRows<Scalar, 3> {
     std::vector<Pole> late;        // with their b, hardly anything being left after a sample
     Complex past_z{0}, past_v{0};  // −Σ b/e of all others
@@ -262,14 +262,14 @@ class ModalResponse {
   Scalar radius_{1};              // r of G(rλ)
 };
 
-/// The response at many λ near one point. The terms of the nearest poles are computed one by one,
-/// the sum of all other terms by its Taylor series, with the same accuracy. The nearest poles are
-/// about 3 √N of N, so that values at 30 angles per pole cost N^{3/2} operations together, not N².
+/// Transfer functions at many λ near one point. The terms of the nearest poles, about 3 √N of N,
+/// are computed one by one, the sum of the other terms by its Taylor series to the same accuracy.
+/// Values at 30 angles per pole then cost order N^{3/2} operations in all, not N².
 template <class Scalar>
 class ModalResponse<Scalar>::Nearby {
  public:
   /// @param response  the response, which must outlive this object
-  /// @param centre    offset μ = λ − 1 of the place
+  /// @param centre    offset μ = λ − 1 of that point
   Nearby(const ModalResponse& response, const Complex& centre)
       : response_(response), centre_(centre) {
     const std::vector<Pole> all = response.poles_.all();
@@ -288,7 +288,7 @@ class ModalResponse<Scalar>::Nearby {
       k < count ? near_.add(*poles[k].second) : add_far(*poles[k].second);
   }
 
-  /// Whether μ is within 1/8 of the distance of the nearest far pole from the series' centre.
+  /// Whether μ is near enough: |μ − centre| ≤ 1/8 of the distance to the series' nearest pole.
   bool holds(const Complex& mu) const { return std::abs(mu - centre_) <= reach_ / Scalar(8); }
 
   /// The responses G_z and G_v at λ = 1 + μ.
@@ -304,7 +304,7 @@ class ModalResponse<Scalar>::Nearby {
     return response_.finished({sums.z + near.z, sums.v + near.v}, mu);
   }
 
-  /// The distance from μ to the nearest pole, or a lower bound of it where no pole is near.
+  /// The distance from μ to the nearest pole, or a lower bound of that distance if no pole is near.
   Scalar nearest(const Complex& mu) const {
     const Scalar far = std::min(Scalar(2), reach_ - std::abs(mu - centre_));
     Scalar least = std::numeric_limits<Scalar>::infinity();
@@ -339,7 +339,7 @@ template <class Plant>
 ModalResponse<Scalar>::ModalResponse(const Plant& plant, const Sampling<Scalar>& sampling)
     : ModalResponse(sampling) {
   const Matrix<Scalar, Eigen::Dynamic> matrix = plant.state_matrix();
-  require_finite("entries of the plant's state matrix", static_cast<double>(matrix.sum()), "");
+  require_finite("sum of the state matrix's entries", static_cast<double>(matrix.sum()), "");
   const EigenBasis<Scalar> basis(matrix);
   if (!basis.is_sound()) dense_.emplace(loop_map(plant, sampling));
   const auto ports = ports_of(plant);
@@ -365,8 +365,8 @@ ModalResponse<Scalar> modal_response(const std::vector<PlantPole>& poles,
   return {residues, sampling};
 }
 
-/// The response of a conductor given by its modes with the absorber and the loop's hardware. It is
-/// computed from their poles or, if these are not all separated, from the plant's eigenvalues.
+/// The response of a conductor given by its modes with the absorber and the loop's hardware. If
+/// `with_hardware` gives their poles, these are used, else the eigenvalues of `linear_plant`.
 /// @tparam Scalar    double
 /// @param conductor  conductor with all its poles, or without poles
 /// @param sampling   τ and δ
@@ -391,14 +391,14 @@ ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduc
       ConductorWithAbsorber{modes, absorber, plant_poles(modes, absorber)}, sampling);
 }
 
-/// All roots λ of the loop 1 = P G_z(λ) + D G_v(λ), by `pole_sum_roots`: as many as the plant has
-/// states and delayed commands. A velocity by difference adds a state, the previous reading, and a
-/// root; for D = 0 that root is 0 and left out.
+/// All roots λ of the loop, 1 = P G_z(λ) + D G_v(λ), by `pole_sum_roots`. Their number is that of
+/// the plant's states plus the number k of delayed commands. A velocity by difference adds a state,
+/// the previous reading, and a root; for D = 0 this root is 0 and is left out.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P and D
-/// @param enough    accuracy, see `pole_sum_roots`
-/// @return no root where they are not found, the response is no sum over poles, or more than 20
-///         commands are delayed
+/// @param enough    admissible relative error (`pole_sum_roots`); 0: full precision
+/// @return an empty vector where the roots are not found, eigenvalues of the plant nearly coincide,
+/// or more than 20 commands are delayed
 template <class Scalar>
 std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& response,
                                              const PdGains<Scalar>& gains,
@@ -409,7 +409,7 @@ std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& respon
 /// The root λ of largest modulus of a loop.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P and D
-/// @param enough    accuracy, see `pole_sum_roots`
+/// @param enough    admissible relative error (`pole_sum_roots`); 0: full precision
 /// @return NaN where `loop_roots` finds none
 template <class Scalar>
 std::complex<Scalar> largest_loop_root(const ModalResponse<Scalar>& response,
@@ -426,7 +426,7 @@ std::complex<Scalar> largest_loop_root(const ModalResponse<Scalar>& response,
 /// The excess ρ − 1 of a loop, ρ being its largest root modulus; NaN where `loop_roots` finds none.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P and D
-/// @param enough    accuracy, see `pole_sum_roots`
+/// @param enough    admissible relative error (`pole_sum_roots`); 0: full precision
 template <class Scalar>
 Scalar loop_excess(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains,
                    const Scalar& enough = Scalar(0)) {

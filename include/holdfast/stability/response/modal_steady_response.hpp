@@ -16,7 +16,7 @@
 namespace holdfast {
 
 /// The amplitude |z| / F_m (m/N) of a conductor given by its modes, at the absorber's place and
-/// without control. The true force F_m cos ωt acts there, not held over samples. The amplitude is
+/// without control. The force F_m cos ωt acts there and is not held over samples. The amplitude is
 /// the modulus of `place_receptance` at s = iω; the arguments are not checked.
 /// @param conductor          conductor, with its poles where devices are on the span
 /// @param angular_frequency  ω (rad/s), > 0
@@ -66,9 +66,10 @@ SteadyResponse<Scalar> steady_response_by_poles(const ConductorWithAbsorber& con
 }  // namespace detail
 
 /// The steady response of the loop of a conductor given by its modes to a force at the absorber's
-/// place. It equals `steady_response` of `linear_plant` but takes N operations for N poles.
-/// @param conductor          conductor with all its poles; its `linear_plant` is used where they
-///                           are missing or `with_hardware` gives none
+/// place. It equals the `steady_response` of the conductor's `linear_plant`, but its work is only
+/// proportional to the number of poles.
+/// @param conductor          conductor with all its poles. Without poles, or if it shares a pole
+///                           with the hardware, the `linear_plant` is used
 /// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
 /// @param hold               hold of the excitation over a sample
 /// @param angular_frequency  ω (rad/s), > 0

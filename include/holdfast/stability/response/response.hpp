@@ -37,14 +37,14 @@ struct LoopPhasors {
   std::complex<Scalar> force_conductor;       ///< f_c (m/N): conductor's z per excitation force
 };
 
-/// The responses of a sampled loop to unit forces at ω, one in each column of Y:
+/// The responses Y of a sampled loop without feedback to a unit command and a unit excitation at ω:
 ///
 ///     (λI − S₀) Y = [s, g],   λ = e^{iωτ}
 ///
-/// with the input column s of the command and the phasor g of the excitation, which acts on no
-/// stored command. For two masses the stored command is eliminated: S₀ = A_d and s = Γ₀ + Γ₁/λ.
+/// S₀ and s are the map and the command's column of `LoopMap`; g is the phasor of `input`. For two
+/// masses the stored command u_{j−1} is eliminated: S₀ = A_d and s = Γ₀ + Γ₁/λ.
 /// @tparam Loop              `SampledLoop` of the two masses, or `LoopMap` of any order
-/// @param loop               the loop; its gains are not used
+/// @param loop               the loop
 /// @param input              `harmonic_input` of the same loop and ω
 /// @param angular_frequency  ω (rad/s), > 0
 /// @throws InvalidParameter where the input has another size than the loop
@@ -90,7 +90,7 @@ Vector<Scalar, 3> squared_modulus(const std::complex<Scalar>& a, const std::comp
 
 }  // namespace detail
 
-/// Quotient N(D)/M(D) of two quadratics in D, with constant coefficients first.
+/// Quotient N(D)/M(D) of two quadratics in D, with the constant coefficients first.
 template <class Scalar>
 struct RatioOfQuadratics {
   Vector<Scalar, 3> numerator;    ///< numerator N(D)
@@ -109,26 +109,26 @@ struct RatioOfQuadratics {
 
 /// The steady response of the sampled loop without backlash to the excitation F_m cos ωt.
 ///
-/// With z_j = Re(Z e^{iωτj}) and λ = e^{iωτ} the conductor's amplitude is a Möbius function of the
-/// gains,
+/// The conductor's displacement at the samples is z_j = Re(Z e^{iωτj}). With the symbols of
+/// `LoopPhasors`, its phasor Z depends on the gains as
 ///
 ///     Z / F_m = (f_c + P (t_c f_z − f_c t_z) + D (t_c f_v − f_c t_v)) / (1 − P t_z − D t_v)
 ///
-/// (`LoopPhasors`). Its numerator does not contain P where z and ż themselves are measured, as for
-/// the two masses, with index 1 for z₁ and 2 for ż₁:
+/// Where z and ż themselves are measured, as for the two masses, P vanishes from the numerator.
+/// With the index 1 for z₁ and 2 for ż₁,
 ///
 ///     Z₁ / F_m = (f₁ + D (t₁ f₂ − t₂ f₁)) / (1 − P t₁ − D t₂)
 ///
-/// The amplitude is that of the samples; it is a steady motion only where the loop is stable. Used
-/// for Kollár 2022, Fig. 5.
+/// A steady motion exists only where the loop is stable. Used for Kollár 2022, Fig. 5.
 template <class Scalar>
 class SteadyResponse {
  public:
   using Complex = std::complex<Scalar>;  ///< the type of the phasors
 
-  /// @param loop               loop of `sampled_loop`, or of `loop_map` with any gains
+  /// @param loop               loop of `sampled_loop` or `loop_map`
   /// @param input              `held_harmonic` or `exact_harmonic` of the same loop and ω
-  /// @param angular_frequency  ω (rad/s), > 0, else InvalidParameter
+  /// @param angular_frequency  ω (rad/s), > 0
+  /// @throws InvalidParameter where ω or the size of the input is not admissible
   template <class Loop, int States>
   SteadyResponse(const Loop& loop, const HarmonicInput<Scalar, States>& input,
                  const Scalar& angular_frequency)
@@ -154,11 +154,11 @@ class SteadyResponse {
                     gains.differential * phasors_.control_velocity);
   }
 
-  /// The conductor's amplitude |Z| / F_m (m/N) without control, with the same hold of the force.
+  /// The conductor's amplitude |Z| / F_m (m/N) without control, under the same excitation.
   Scalar uncontrolled_amplitude_per_force() const { return std::abs(phasors_.force_conductor); }
 
-  /// This response with ratios relative to another amplitude without control, for example under the
-  /// true force (`true_amplitude_per_force`).
+  /// This response with another reference amplitude for `ratio_to_uncontrolled`, for example that
+  /// under a force not held over samples (`true_amplitude_per_force`).
   /// @param amplitude_per_force  reference amplitude (m/N), > 0
   SteadyResponse relative_to(const Scalar& amplitude_per_force) const {
     SteadyResponse response = *this;
@@ -167,8 +167,8 @@ class SteadyResponse {
     return response;
   }
 
-  /// The response of a computer without velocity sensor: D multiplies the difference (ẑ_j −
-  /// ẑ_{j−1})/τ of its displacement readings.
+  /// The response of a computer without velocity sensor: D multiplies the backward difference of
+  /// its displacement readings over τ.
   /// @param angle   ωτ (rad)
   /// @param period  τ (s), > 0
   SteadyResponse with_velocity_by_difference(const Scalar& angle, const Scalar& period) const {
@@ -180,17 +180,15 @@ class SteadyResponse {
     return SteadyResponse(phasors).relative_to(reference_);
   }
 
-  /// The amplitude over the reference amplitude without control; below 1 the control attenuates.
+  /// The amplitude over the reference, by default the amplitude without control; < 1: attenuation.
   Scalar ratio_to_uncontrolled(const PdGains<Scalar>& gains) const {
     return amplitude_per_force(gains) / reference_;
   }
 
-  /// The square of `ratio_to_uncontrolled` as a function of D for a given P:
+  /// The square of `ratio_to_uncontrolled` as a function of D for a given P. With the reference
+  /// amplitude R (m/N) and the symbols of `LoopPhasors` it is
   ///
-  ///     |f₁ + D (t₁ f₂ − t₂ f₁)|² / (|1 − P t₁ − D t₂|² |f₁|²)
-  ///
-  /// with the reference amplitude in place of |f₁| in the denominator; where z itself is not
-  /// measured, f₁ in the numerator is f_c + P (t_c f_z − f_c t_z).
+  ///     |f_c + P (t_c f_z − f_c t_z) + D (t_c f_v − f_c t_v)|² / (R² |1 − P t_z − D t_v|²)
   RatioOfQuadratics<Scalar> squared_ratio(const Scalar& proportional_gain) const {
     return {detail::squared_modulus(without_differential(proportional_gain), differential_slope_),
             squared_reference_ * detail::squared_modulus(
@@ -198,27 +196,25 @@ class SteadyResponse {
                                      -phasors_.control_velocity)};
   }
 
-  /// The open intervals of D, stable or not, in which the amplitude is below that without control:
-  /// the numerator of `squared_ratio` is below its denominator.
+  /// The open intervals of D (N s/m) in which `squared_ratio` is below 1; the loop may be unstable.
   /// @param proportional_gain  P (N/m), finite
   std::vector<Interval<Scalar>> differential_gains_below(const Scalar& proportional_gain) const {
     const RatioOfQuadratics<Scalar> square = squared_ratio(proportional_gain);
     return where_negative<Scalar>(square.numerator - square.denominator);
   }
 
-  /// Differential gain with its amplitude ratio.
+  /// Differential gain D of least amplitude with its amplitude ratio.
   struct Best {
-    /// The D (N s/m); NaN where no interval contains a finite D.
+    /// The differential gain D (N s/m); NaN where no interval contains a finite D.
     Scalar differential_gain = std::numeric_limits<Scalar>::quiet_NaN();
-    /// The amplitude |Z₁| over the amplitude without control; infinite if there is no D.
+    /// The value of `ratio_to_uncontrolled` at this D; infinite where D is NaN.
     Scalar ratio_to_uncontrolled = std::numeric_limits<Scalar>::infinity();
   };
 
   /// The D of least steady amplitude in given (stable) intervals of D, for a given P.
   ///
-  /// |Z₁|² is a quotient of two quadratics in D, so that its stationary points are the roots of one
-  /// quadratic; these and the finite interval ends are compared. An interval end is a limit of
-  /// stable gains.
+  /// The stationary points of `squared_ratio`, roots of one quadratic, and the finite interval ends
+  /// are compared. The result may be an end, which for a stable interval is a boundary point.
   Best best_differential_gain(const Scalar& proportional_gain,
                               const std::vector<Interval<Scalar>>& intervals) const {
     Best best;
@@ -253,8 +249,7 @@ class SteadyResponse {
   Complex differential_slope_;  // t_c f_v − f_c t_v
 };
 
-/// The steady response of a plant's loop: in closed form for two masses with δ ≤ τ, else from the
-/// loop's map.
+/// The steady response of a loop: in closed form for two masses and δ ≤ τ, else by `loop_map`.
 /// @param plant              plant of any order; its ports define measurement and conductor
 /// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
 /// @param hold               hold of the excitation over a sample
@@ -276,8 +271,8 @@ SteadyResponse<double> steady_response(const Plant& plant, const Sampling<double
   return of(loop_map(plant, sampling));
 }
 
-/// The amplitude |Z| / F_m (m/N) of the plant without control under the true force F_m cos ωt, not
-/// held: |h (iωI − A)⁻¹ c|, h being the row of the conductor's displacement, c the force's input.
+/// The amplitude |Z| / F_m (m/N) of the plant without control under the force F_m cos ωt, not held
+/// over samples: |h (iωI − A)⁻¹ c|, with the row h of the conductor's displacement.
 /// @param plant              plant of any order; the motion is steady only if the plant is stable
 /// @param angular_frequency  ω (rad/s), > 0
 /// @throws InvalidParameter where ω is outside its range
@@ -291,7 +286,7 @@ double true_amplitude_per_force(const Plant& plant, double angular_frequency) {
 
 namespace detail {
 
-/// The steady response of a plant's loop; its ratios refer to the true or to the held force.
+/// The steady response of a plant's loop, with ratios relative to the true or to the held force.
 template <class Plant, class Loop>
 SteadyResponse<double> response_of_loop(const Plant& plant, const Loop& loop, ForceHold hold,
                                         double angular_frequency, bool relative_to_true_force) {

@@ -48,15 +48,16 @@ DecayRecord plant_decay(const TwoMass<double>& plant, double force, bool equal_d
 
 namespace {
 
-/// Refuses a decay of so many periods of the cable that it would take for ever, as when the
-/// frequencies of the reduction are not those of the cable at all.
+/// Throws NoAnswer for a decay of too many periods of the cable, as when reduction.first_frequency
+/// is far below its frequencies.
 void require_followable(const Case& the_case, const CableDecayOptions& options) {
   constexpr double most_periods = 1e5;
   const double lowest = irvine_modes(conductor_of(the_case), 1).front().frequency;
   const double periods = options.duration * lowest;
   if (periods <= most_periods) return;
   throw NoAnswer("a decay over " + format_rounded(options.duration) + " s has " +
-                 format_rounded(periods) + " periods of the cable (" + format_rounded(lowest) +
+                 format_rounded(periods) + " periods of the cable's first mode (" +
+                 format_rounded(lowest) +
                  " Hz), more than the limit of 100000: give a shorter --duration, or a higher "
                  "reduction.first_frequency");
 }
@@ -71,12 +72,12 @@ CableDecay decay_of(const CableElements& cable, const CableDecayOptions& options
     case cvode::LoadRemovalOutcome::slack:
       throw WrongInput("after " + force + " is removed the cable goes slack within " +
                        format_rounded(removal.last_time) +
-                       " s, beyond the model: give a smaller force");
+                       " s, which the model excludes: give a smaller force");
     case cvode::LoadRemovalOutcome::no_equilibrium:
       throw NoAnswer("no equilibrium was found under " + force + ": give a smaller force");
     case cvode::LoadRemovalOutcome::integration_failed:
       throw NoAnswer("the integrator CVODE failed at t = " + format_number(removal.last_time) +
-                     " s of the decay: " + one_line(removal.words));
+                     " s of the decay; give a smaller force (" + one_line(removal.words) + ")");
   }
   return {removal.initial_displacement, removal.record};
 }

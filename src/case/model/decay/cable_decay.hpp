@@ -8,8 +8,8 @@
 
 namespace holdfast::program {
 
-/// The continuous cable, with the damping ratio of the conductor, where the case tells it, at the
-/// two frequencies of [reduction]; the spring and damper of `spring_mass` are those of [plant].
+/// The continuous cable in finite elements, with the conductor's damping ratio at both frequencies
+/// of [reduction], and for `spring_mass` with the absorber's spring and damper of [plant].
 CableElements elements_of(const Case& the_case, int elements, AbsorberReading reading);
 
 /// Whether the program was built with SUNDIALS.
@@ -18,32 +18,32 @@ bool has_sundials();
 /// Throws NoAnswer, naming the package to install, in a program built without SUNDIALS.
 void require_sundials();
 
-/// A load that is removed from the continuous cable of a case.
+/// Options of the decay after a load is removed from the continuous cable of a case.
 struct CableDecayOptions {
-  double force;     ///< N, downward positive
-  double duration;  ///< s
-  double interval;  ///< s between the instants of the record
+  double force;     ///< removed load (N), downward positive
+  double duration;  ///< duration of the record (s)
+  double interval;  ///< time between instants of the record (s)
   int elements = 100;
   AbsorberReading reading = AbsorberReading::weight;
 };
 
-/// Usual decay: an eighth of the absorber's weight removed, six periods of the first frequency of
-/// [reduction], 250 instants in each.
+/// Default options: an eighth of the absorber's weight, six periods of the first frequency of
+/// [reduction] with 250 instants each.
 CableDecayOptions usual_decay(const Case& the_case);
 
-/// The vibration of the absorber's place.
+/// Free vibration of the absorber's place after the load is removed.
 struct CableDecay {
-  double initial_displacement;  ///< m
+  double initial_displacement;  ///< displacement under the load (m)
   DecayRecord record;
 };
 
-/// Throws WrongInput where the force is beyond the statics or the cable goes slack; NoAnswer where
-/// CVODE gives up, in its words, or where the program was built without SUNDIALS, naming the
-/// package.
+/// Simulates the decay of the continuous cable. Throws WrongInput if the force exceeds the statics
+/// or the cable goes slack; NoAnswer without an equilibrium, if CVODE fails (with its message), if
+/// the duration has over 10⁵ periods, or in a program without SUNDIALS (naming the package).
 CableDecay cable_decay(const Case& the_case, const CableDecayOptions& options);
 
-/// The plant's decay at the instants of the cable's: from where the cable starts, or from where the
-/// same force (N) holds the plant, F/k1.
+/// The plant's decay at the instants of the cable's decay. It starts at the cable's initial
+/// displacement, or at F/k1 under the same force F (N).
 DecayRecord plant_decay(const TwoMass<double>& plant, double force, bool equal_displacement,
                         const CableDecay& cable);
 

@@ -27,7 +27,7 @@ fit::DecayFit fit_record(const DecayRecord& record, const TwoMass<double>& plant
                          const fit::DecayFitOptions& options) {
   fit::DecayFit found = fit::fit_decay(record, plant, options);
   if (found.outcome == fit::FitOutcome::no_minimum)
-    throw NoAnswer("the fit found no minimum: the record does not determine the fitted parameters");
+    throw NoAnswer("the record does not determine the fitted parameters: give a longer record");
   return found;
 }
 
@@ -64,15 +64,15 @@ DecayRecord first_part(const DecayRecord& record, double duration) {
   return part;
 }
 
-/// One reading of c2 from a decay that starts at a computed displacement.
+/// A fit of c2 to a decay with a known initial displacement.
 struct DampingReading {
   fit::DecayFit fit;
-  double misfit;  // relative to the measures, or to z(0)
+  double misfit;  // relative to the fitted quantities, or to z(0)
 
   double value() const { return fit.minima.front().plant.absorber_damping; }
 };
 
-/// None where the decay does not determine it.
+/// Fits c2 to a decay; none if the decay does not determine c2.
 std::optional<DampingReading> damping_by(fit::DecayTarget target, const DecayRecord& record,
                                          const TwoMass<double>& plant) {
   fit::DecayFitOptions options;
@@ -99,7 +99,7 @@ AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoMass<doub
   constexpr double largest_misfit = 0.1;
   const DecayRecord record = record_for_fit(the_case);
   const auto peak = damping_by(fit::DecayTarget::first_peak_and_period, record, plant);
-  std::vector<std::optional<DampingReading>> histories;  // the whole one last
+  std::vector<std::optional<DampingReading>> histories;  // the whole record last
   for (const double periods : {1.0, 2.0, 3.0, 6.0}) {
     const double window = periods / the_case.reduction.first_frequency;
     histories.push_back(

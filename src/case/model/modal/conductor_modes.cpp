@@ -15,7 +15,7 @@
 namespace holdfast::program {
 namespace {
 
-/// All that the modes are asked for with, at once: they are seen by an absorber and its computer.
+/// Throws MissingKeys for all missing keys of conductor, absorber and computer at once.
 void require_all(const Case& the_case) {
   std::vector<std::string> keys = {"plant.absorber_mass",     "conductor.mass_per_length",
                                    "conductor.span",          "conductor.sag",
@@ -27,11 +27,11 @@ void require_all(const Case& the_case) {
   require_keys(the_case, keys);
 }
 
-/// Limits of the modes and bars that are chosen.
+/// Limits of the chosen numbers of modes and bars.
 constexpr int fewest_modes = 60, most_modes_of_string = 300, most_modes_of_cable = 200;
 constexpr double fewest_bars = 200.0, most_bars = 8000.0;
 
-/// The modes of a bar chain as the case's absorber sees them.
+/// The modes of a chain of bars at the absorber's place.
 CablePlaceModes chain_modes_of(const Case& the_case, int bars, int steps) {
   constexpr std::size_t enough = 16;
   static Memo<std::array<double, 11>, CablePlaceModes> memo(enough);
@@ -55,7 +55,7 @@ CablePlaceModes chain_modes_of(const Case& the_case, int bars, int steps) {
                  [&] { return cable_place_modes(BarChain(conductor, place, bars), mass, steps); });
 }
 
-/// Modes of the conductor alone, with the case's damping; bundles besides over their width.
+/// Modes of the bare conductor with the case's damping, added to the width of each bundle.
 ConductorModes damped(const Case& the_case, std::vector<PlaceMode<double>> modes, int apart,
                       int bars) {
   for (PlaceMode<double>& mode : modes)
@@ -70,24 +70,24 @@ TautString<double> undamped_string_of(const Case& the_case) {
   return string;
 }
 
-/// rad/s: what the sampling and twice the force reach.
+/// The larger of half the sampling rate and twice the frequency of the force (rad/s).
 double seen_frequency(const Case& the_case) {
   return 2.0 * pi<double> *
          std::max(0.5 / the_case.control.sampling_period,
                   2.0 * effective_excitation(the_case).frequency);
 }
 
-/// The most modes of a judge of stability.
+/// Largest number of single modes in a test of stability.
 constexpr int most_judged = 2000;
 
-/// rad/s.
+/// Twice the sampling rate (rad/s).
 double twice_the_rate_of(const Case& the_case) {
   require_keys(the_case, {"control.sampling_period"});
   return 4.0 * pi<double> / the_case.control.sampling_period;
 }
 
-/// The number of modes, `n` to `most`, up to `highest` (rad/s) of which a wave that has gone twice
-/// over `way` spans keeps `share` of its amplitude.
+/// The number of modes, `n` to `most`, up to `highest` (rad/s) whose waves keep at least `share` of
+/// their amplitude after travelling `way` spans forth and back.
 int returning_modes(const Case& the_case, int n, double highest, int most = most_judged,
                     double way = 1.0, double share = 0.05) {
   const TautString<double> string = string_of(the_case);
@@ -98,8 +98,8 @@ int returning_modes(const Case& the_case, int n, double highest, int most = most
   return n;
 }
 
-/// A force that jumps at samples sends out waves with an edge, far faster than the samples show.
-/// Gains end at up to five times the frequency of the absorber, by waves that come back.
+/// The number of single modes. A force that jumps at samples excites waves above the sampling rate;
+/// returning waves may end stability at up to five times the frequency of the absorber.
 int chosen_modes(const Case& the_case) {
   const int most = is_cable(the_case) ? most_modes_of_cable : most_modes_of_string;
   constexpr double sharpness = 5.0, decisive = 5.0, hardly = 0.1;
@@ -112,8 +112,7 @@ int chosen_modes(const Case& the_case) {
                          decisive * std::sqrt(plant.absorber_stiffness / plant.absorber_mass));
 }
 
-/// Radians in the span of the fastest wave that is to be seen, but for its being damped out: so
-/// many bars serve.
+/// Phase (rad) of the fastest relevant wave along the span, reduced for damping: bars needed.
 double radians_of(const Case& the_case, int apart) {
   const TautString<double> string = string_of(the_case);
   const double omega = std::max(seen_frequency(the_case), string.angular_frequency(2.0 * apart));
@@ -126,23 +125,23 @@ int bars_of(const Case& the_case, int apart) {
 }
 
 ConductorModes all_modes_of_cable(const Case& the_case, int apart, int bars) {
-  // One of two steps makes a mode, the other one a bundle.
+  // One of two Lanczos steps gives a mode, the other one a bundle.
   CablePlaceModes found = chain_modes_of(the_case, bars, std::min(2 * apart, 2 * (bars - 1)));
   if (found.outcome != EquilibriumOutcome::converged)
-    throw NoAnswer("no static equilibrium of the cable was found: check [conductor], [absorber]");
+    throw NoAnswer("found no static equilibrium of the cable: check [conductor] and [absorber]");
   return damped(the_case, std::move(found.modes), found.apart, bars);
 }
 
 ConductorModes all_modes_of_string(const Case& the_case, int apart) {
   const TautString<double> string = undamped_string_of(the_case);
-  // Beyond, what is left out is felt by no clamp: it passes many times within a sample.
+  // Faster waves have no effect at the clamp: they pass it many times within a sample.
   const double highest =
       std::max(100.0 / the_case.control.sampling_period, 10.0 * string.angular_frequency(apart));
   return damped(the_case, bundled_string_modes(string, the_case.absorber.position, apart, highest),
                 apart, 0);
 }
 
-/// One mass under its own spring and dashpot, or a string without ends.
+/// The single mode of one mass on spring and dashpot, or of a string without ends.
 ConductorModes one_mode_of(const Case& the_case) {
   if (is_infinite(the_case)) {
     require_keys(the_case, {"control.sampling_period"});
@@ -224,8 +223,9 @@ ConductorModes conductor_modes_of(const Case& the_case) {
   }
   ConductorModes found = all_modes_of_cable(the_case, modes + 10, bars_of(the_case, modes + 10));
   if (found.apart < modes)
-    throw NoAnswer("the cable in " + std::to_string(found.bars) + " bars has only " +
-                   std::to_string(found.apart) + " modes moving the absorber: lower plant.modes");
+    throw NoAnswer("the cable, modelled by " + std::to_string(found.bars) + " bars, has only " +
+                   std::to_string(found.apart) +
+                   " modes that move the absorber: lower plant.modes to this number or less");
   found.modes.resize(static_cast<std::size_t>(modes));
   found.apart = modes;
   return found;

@@ -8,47 +8,46 @@
 
 namespace holdfast::program {
 
-/// The conductor as a taut string, with the tension of the case or the one that its sag leaves.
+/// The conductor as a taut string, with the given tension or the one computed from the sag.
 TautString<double> string_of(const Case& the_case);
 
-/// ζ of a mode of the conductor alone, ω in rad/s: conductor.damping_ratio, or by Rayleigh's
-/// damping.
+/// The damping ratio ζ of a bare conductor's mode at ω (rad/s): constant, or Rayleigh damping.
 double bare_damping_of(const Case& the_case, double angular_frequency);
 
-/// The conductor as the absorber's place sees it.
+/// The modes of the conductor at the absorber's place.
 struct ConductorModes {
-  std::vector<PlaceMode<double>> modes;  ///< ascending frequency
-  int apart;                             ///< so many are modes, those behind bundles of modes
-  int bars = 0;                          ///< of a cable, how many stand for it
+  std::vector<PlaceMode<double>> modes;  ///< modes by ascending frequency
+  int apart;     ///< number of single modes; bundles of faster modes follow them
+  int bars = 0;  ///< number of bars of a hanging cable; 0: no cable
 
-  /// Hz, of the last mode that is kept apart.
+  /// The frequency (Hz) of the last single mode.
   double highest_frequency() const;
 };
 
-/// Modes that a modal case is computed with: plant.modes and no more; or 60, and up to 300 of a
-/// string and 200 of a cable, the faster ones bundled. Beyond 60 those are kept whose waves the
-/// nearer end sends back by more than a tenth, up to five times what half the sampling rate and
-/// twice the force's frequency reach; and of a string as many more as `judged_modes_of` has up to
-/// five times the absorber's frequency. Throws NoAnswer where a cable has no equilibrium, or not so
-/// many modes for its bars.
+/// The modes with which a case is computed: plant.modes alone if given. Otherwise at least 60
+/// single modes, at most 300 of a string and 200 of a cable, and bundles of all faster modes.
+/// Beyond 60, modes are single while the nearer support returns more than a tenth of their waves,
+/// up to five times the larger of half the sampling rate and twice the force's frequency. A string
+/// also has the single modes of `judged_modes_of` up to five times the absorber's frequency. Throws
+/// NoAnswer if a cable has no equilibrium, or too few modes for plant.modes.
 ConductorModes conductor_modes_of(const Case& the_case);
 
-/// All modes of the conductor, about so many of them kept apart.
+/// All modes of the conductor, about `apart` of them single and the faster ones in bundles.
 ConductorModes all_conductor_modes_of(const Case& the_case, int apart);
 
-/// Modes of the same conductor with half as many kept apart, of a cable also by fewer bars: how far
-/// an answer depends on them.
+/// Modes of the same conductor with half as many single modes, and fewer bars for a cable, to show
+/// how far a result depends on these numbers.
 ConductorModes coarser_modes_of(const Case& the_case, const ConductorModes& conductor);
 
-/// All modes of the string by which its stability is judged: kept apart up to twice the sampling
-/// rate, or to where less than a twentieth of a wave comes back from the supports, 2000 at most and
-/// never fewer than it is computed with.
+/// All modes of the string for the test of its stability. Modes are single up to twice the sampling
+/// rate, or until less than a twentieth of a wave returns from the supports: at most 2000 and at
+/// least as many as in `conductor_modes_of`.
 ConductorModes judged_modes_of(const Case& the_case);
 
-/// The modes of the string up to twice the sampling rate, 2000 at most, and none beyond.
+/// The modes of the string up to twice the sampling rate, at most 2000; faster modes are omitted.
 ConductorModes cut_modes_of(const Case& the_case);
 
-/// Whether a cable would need more bars than it has for the waves that sampling shows.
+/// Whether a cable has too few bars for the waves at half the sampling rate.
 bool lacks_bars(const Case& the_case);
 
 }  // namespace holdfast::program

@@ -26,14 +26,14 @@ void require_absorber(const Case& the_case) {
   const auto place = the_case.places.find("plant.absorber_mass");
   const bool in_file = place != the_case.places.end() && place->second.rfind("--set", 0) != 0;
   throw WrongInput((in_file ? place->second + ": " : "") +
-                   "plant.absorber_mass = 0: this job needs an absorber on the conductor");
+                   "plant.absorber_mass = 0: this job needs an absorber: set a mass above 0 kg");
 }
 
 Absorber<double> absorber_of(const Case& the_case) {
   const auto& plant = the_case.plant;
   require_absorber(the_case);
   require_keys(the_case, {"plant.absorber_stiffness", "plant.absorber_damping"});
-  // The clamp of a string without ends is the mode's own mass; one mass has none.
+  // The clamp of a string without ends is the mass of its mode; two masses have no clamp.
   const bool clamped = !is_two_masses(the_case) && !is_infinite(the_case);
   return {plant.absorber_mass, plant.absorber_stiffness, plant.absorber_damping,
           clamped ? the_case.absorber.clamp_mass : 0.0};
@@ -47,7 +47,7 @@ LoopHardware hardware_of(const Case& the_case) {
 
 namespace {
 
-/// All that the poles depend on.
+/// All numbers on which the poles depend.
 std::vector<double> numbers_of(const std::vector<PlaceMode<double>>& modes,
                                const Absorber<double>& absorber) {
   std::vector<double> numbers = {absorber.mass, absorber.stiffness, absorber.damping,
@@ -59,7 +59,7 @@ std::vector<double> numbers_of(const std::vector<PlaceMode<double>>& modes,
   return numbers;
 }
 
-/// As `plant_poles`.
+/// The result of `plant_poles`, cached.
 std::vector<PlantPole> remembered_poles(const std::vector<PlaceMode<double>>& modes,
                                         const Absorber<double>& absorber) {
   constexpr std::size_t enough = 64;
@@ -67,7 +67,7 @@ std::vector<PlantPole> remembered_poles(const std::vector<PlaceMode<double>>& mo
   return memo.of(numbers_of(modes, absorber), [&] { return plant_poles(modes, absorber); });
 }
 
-/// With devices on the span their poles are those of all together, of which `modes` are no part.
+/// The conductor with absorber. Its poles include devices on the span; its modes do not.
 ConductorWithAbsorber conductor_by(const Case& the_case, const ConductorModes& conductor) {
   const Absorber<double> absorber = absorber_of(the_case);
   auto poles = the_case.devices.empty() ? remembered_poles(conductor.modes, absorber)
@@ -76,7 +76,7 @@ ConductorWithAbsorber conductor_by(const Case& the_case, const ConductorModes& c
           !the_case.devices.empty()};
 }
 
-/// Without the drift of a string without ends, which the drive neither moves nor sees.
+/// The poles without the drift of a string without ends, which the drive does not excite.
 std::vector<PlantPole> without_drift(const Case& the_case, std::vector<PlantPole> poles) {
   if (!is_infinite(the_case)) return poles;
   const double slow = 1e-11 / the_case.control.sampling_period;
@@ -100,7 +100,7 @@ ModalResponse<double> response_of(const Case& the_case, const ConductorModes& mo
   return response;
 }
 
-/// The controller of the loop: P and D with their limits and delays, or one of the user's own.
+/// Calls `visit` with the controller: P and D with limits and delay, or a user-defined one.
 template <class Visit>
 auto with_law_of(const Case& the_case, bool controlled, const Visit& visit) {
   const DigitalLoop digital = implemented_loop_of(the_case, Switching::sampled).digital;
@@ -114,16 +114,16 @@ auto with_law_of(const Case& the_case, bool controlled, const Visit& visit) {
 
 ConductorWithAbsorber conductor_with_absorber_of(const Case& the_case) {
   if (has_own_plant(the_case))
-    throw WrongInput("this job needs a conductor with absorber, not a plant of your own");
+    throw WrongInput("this job cannot use a plant of your own: give [conductor] and [absorber]");
   ConductorWithAbsorber conductor = conductor_by(the_case, conductor_modes_of(the_case));
   if (conductor.poles.empty())
     throw NoAnswer(
-        "two natural motions of conductor and absorber coincide too nearly to be told apart: "
+        "two poles of conductor and absorber nearly coincide and cannot be separated: "
         "change plant.absorber_damping or absorber.position by a thousandth");
   if (with_hardware(conductor.poles, conductor.hardware).empty())
     throw NoAnswer(
-        "a natural motion of conductor and absorber coincides too nearly with one of filter or "
-        "drive: change control.measurement_filter or control.drive_bandwidth by a thousandth");
+        "a pole of conductor and absorber nearly coincides with a pole of filter or drive: change "
+        "control.measurement_filter or control.drive_bandwidth by a thousandth");
   return conductor;
 }
 
@@ -150,7 +150,7 @@ std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>
   return largest_loop_root(command_response_of(the_case), gains);
 }
 
-/// Modes kept apart, with which all modes of a conductor count.
+/// Number of single modes if all modes are included.
 constexpr int enough = 60;
 
 bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {
@@ -175,8 +175,8 @@ OtherModes other_modes_of(const Case& the_case) {
   if (other.apart == kept.apart) other = coarser_modes_of(the_case, kept);
   const std::string fewer_bars =
       is_cable(the_case) ? " and " + std::to_string(other.bars) + " bars" : "";
-  return {circle_by(other), "with " + std::to_string(other.apart) + " modes kept apart" +
-                                fewer_bars + " instead of " + std::to_string(kept.apart) +
+  return {circle_by(other), "with " + std::to_string(other.apart) + " single modes" + fewer_bars +
+                                " instead of " + std::to_string(kept.apart) +
                                 (fewer_bars.empty() ? "" : " and " + std::to_string(kept.bars))};
 }
 
@@ -214,7 +214,7 @@ std::string judged_otherwise(const Case& the_case) {
 
 namespace {
 
-/// With its poles where they are found; with devices there is no other way.
+/// The conductor with its poles, if they are found; with devices a missing pole is an error.
 ConductorWithAbsorber placed_conductor_of(const Case& the_case) {
   return the_case.devices.empty() ? conductor_by(the_case, conductor_modes_of(the_case))
                                   : conductor_with_absorber_of(the_case);
@@ -248,8 +248,7 @@ double true_amplitude_of(const Case& the_case, double angular_frequency) {
 ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
                                                      const MotionChoice& choice) {
   if (is_infinite(the_case) && !(the_case.absorber.clamp_mass > 0.0))
-    throw WrongInput(
-        "a string without ends has no inertia of its own: give absorber.clamp_mass > 0");
+    throw WrongInput("a string without ends adds no inertia: give absorber.clamp_mass above 0 kg");
   const ImplementedLoop loop = implemented_loop_of(the_case, choice.switching);
   const Sampling<double>& sampling = loop.digital.sampling;
   ImplementedLoopOf<ControlledPlant> own{

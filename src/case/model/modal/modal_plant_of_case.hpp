@@ -21,86 +21,84 @@
 
 namespace holdfast::program {
 
-/// Throws WrongInput where no absorber hangs on the conductor.
+/// Throws WrongInput if the conductor has no absorber, MissingKeys if its mass is not known.
 void require_absorber(const Case& the_case);
 
-/// The absorber with what of it moves with the conductor. Throws WrongInput where there is none.
+/// The absorber with its clamp mass. Throws WrongInput if there is none.
 Absorber<double> absorber_of(const Case& the_case);
 
-/// Measurement filter and drive.
+/// Measurement filter, drive lag and velocity sensor of a case.
 LoopHardware hardware_of(const Case& the_case);
 
-/// The plant of a modal case, with filter and drive.
+/// The linear plant of a modal case, with filter and drive.
 LinearPlant<double> modal_plant_of(const Case& the_case);
 
-/// That plant with the poles of conductor and absorber; those found last are remembered. Throws
-/// NoAnswer where two natural motions of it cannot be told apart.
+/// The conductor with absorber, filter and drive, and the poles of conductor and absorber; the last
+/// poles found are cached. Throws NoAnswer if two poles nearly coincide.
 ConductorWithAbsorber conductor_with_absorber_of(const Case& the_case);
 
-/// The poles from the command to the readings, those of filter and drive too. Throws as above.
+/// The poles from command to readings, with filter and drive. Throws NoAnswer if two coincide.
 std::vector<PlantPole> loop_poles_of(const Case& the_case);
 
-/// The readings by the command, of any case, as a sum over those poles. Throws as above.
+/// The response of the readings to the command, as a sum over poles, for any case.
 ModalResponse<double> command_response_of(const Case& the_case);
 
-/// The root of a modal case's loop of largest modulus; NaN where the roots were not found.
+/// The characteristic root of largest modulus of a modal case's loop; NaN if roots were not found.
 std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>& gains);
 
-/// Whether the gains of a case on all modes would be stable with another clamp mass (kg), judged by
-/// 60 modes kept apart.
+/// Whether the gains of a case are stable with another clamp mass (kg), for all modes of the
+/// conductor: 60 single ones and bundles.
 bool is_stable_with_clamp(const Case& the_case, double clamp_mass);
 
-/// Other modes of the same conductor, to show how far an answer depends on those kept.
+/// The loop with other modes of the same conductor, to show how far a result depends on the modes.
 struct OtherModes {
   UnitCircleCrossings<double> circle;
-  std::string words;  ///< "with all modes"
+  std::string words;  ///< description of the modes: "with all modes"
 
   bool is_stable(const PdGains<double>& gains) const { return circle.roots_outside(gains) == 0; }
 };
 
-/// With all modes where the case gives how many; else those of the judge (below), or half as many
-/// where it has no more, and of a cable with fewer bars.
+/// The loop with all modes if the case gives plant.modes; else with more single modes by
+/// `judged_modes_of`, or with fewer by `coarser_modes_of` where there are no more.
 OtherModes other_modes_of(const Case& the_case);
 
-/// The loop of a case's absorber and computer as the one judge of its stability sees it: on the
-/// taut string with all devices, by all modes that the sampling can excite (`judged_modes_of`),
-/// whatever plant.model and plant.modes say.
+/// The loop of a case's absorber and computer for the test of its stability: on the taut string
+/// with all devices and the modes of `judged_modes_of`, whatever plant.model and plant.modes are.
 struct JudgedLoop {
   UnitCircleCrossings<double> circle;
-  int modes;       ///< so many one by one, the faster ones bundled
-  double highest;  ///< Hz, of the last of them
+  int modes;       ///< number of single modes; faster modes are bundled
+  double highest;  ///< frequency of the last single mode (Hz)
 
   bool is_stable(const PdGains<double>& gains) const { return circle.roots_outside(gains) == 0; }
 };
 
-/// Throws what `conductor_with_absorber_of` does, and WrongInput for a measured device.
+/// Throws what `conductor_with_absorber_of` throws, and WrongInput for a measured device.
 JudgedLoop judged_loop_of(const Case& the_case);
 
-/// Its loop without the modes above twice the sampling rate, which is not how a string is.
+/// The JudgedLoop of a case without its modes above twice the sampling rate, for comparison.
 JudgedLoop cut_loop_of(const Case& the_case);
 
-/// Whether a case is of a string whose modes the program chooses, of which the judge has more.
+/// Whether plant.model is "string" and the program chooses the number of modes.
 bool has_chosen_modes(const Case& the_case);
 
-/// Objection of the judge to a loop that is stable by the modes that a case is computed with; empty
-/// where it agrees, and without chosen modes.
+/// A warning that a loop that is stable with the modes of the case is unstable by `judged_loop_of`;
+/// empty if both agree, and if !has_chosen_modes().
 std::string judged_otherwise(const Case& the_case);
 
-/// The steady response of the loop of either kind of plant at ω (rad/s), and its amplitude without
-/// control under the true force, m/N.
+/// The steady response of the loop of any plant at ω (rad/s), and the amplitude without control per
+/// newton of the true force (m/N).
 SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<double>& sampling,
                                           ForceHold hold, double angular_frequency);
 double true_amplitude_of(const Case& the_case, double angular_frequency);
 
-/// The loop of a modal case with all that the case says of it, its controller being one of the
-/// plant's own, whose memory are the commands on their way. Throws WrongInput for a string without
-/// ends that nothing is clamped to.
+/// The loop of a modal case with all its features. The controller is part of the plant; its memory
+/// are the delayed commands. Throws WrongInput for a string without ends and without clamp mass.
 ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
                                                      const MotionChoice& choice);
 
-/// The initial state of a modal case under all that is built, from what is seen of it, [z1, v1, z2,
-/// v2]: the conductor as a force at the absorber's place bends it to z1, with the velocities that a
-/// blow there gives it to have v1; drive and commands at 0, the filter settled.
+/// The initial state of `conductor_loop_of` for given `seen` = [z1, v1, z2, v2] (m, m/s). The
+/// conductor is deflected to z1 by a static force at the absorber's place and has the velocities of
+/// an impulse there. Drive and commands are 0; the filter is settled.
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case, const Vector<double, 4>& seen);
 
 }  // namespace holdfast::program

@@ -11,14 +11,14 @@
 namespace holdfast::program {
 namespace {
 
-/// Σ φ²/M (1/kg): the place with its clamp off starts under a newton as one over it would.
+/// Σ φ²/M (1/kg): acceleration of the place without its clamp per newton.
 double mobility_of(const std::vector<PlaceMode<double>>& modes) {
   double sum = 0.0;
   for (const PlaceMode<double>& mode : modes) sum += mode.shape * mode.shape / mode.mass;
   return sum;
 }
 
-/// Warning of given keys on which nothing of the case's plant depends.
+/// A warning of given keys that have no effect on the case's plant.
 std::string idle_keys_warning(const Case& the_case) {
   const bool masses = is_two_masses(the_case), cable = is_cable(the_case);
   const bool endless = is_infinite(the_case), string = !masses && !cable && !endless;
@@ -27,7 +27,7 @@ std::string idle_keys_warning(const Case& the_case) {
     if (counts) names += (names.empty() ? "" : ", ") + std::string(name);
   };
   const bool plane = the_case.absorber.motion == "plane";
-  // A named conductor has a bending stiffness without being asked for it.
+  // A named conductor has a bending stiffness from the library, not from the user.
   const bool bends = the_case.conductor.bending_stiffness > 0.0 && the_case.conductor.name.empty();
   const bool of_modes = the_case.absorber.clamp_mass > 0.0 || std::isfinite(the_case.plant.modes) ||
                         the_case.conductor.damping != "chosen";
@@ -45,7 +45,7 @@ std::string idle_keys_warning(const Case& the_case) {
   return names + ": not used by " + who + "; used with plant.model = " + other;
 }
 
-/// Words for the modes that are kept apart, and that the force is faster than they.
+/// Text about the single modes, and about a force faster than these.
 struct KeptModes {
   std::string words, faster;
 };
@@ -58,23 +58,24 @@ KeptModes kept_modes(const Case& the_case, const ConductorModes& conductor) {
           force > end ? "; the force, " + format_rounded(force) + " Hz, is faster than these" : ""};
 }
 
-/// Warning of faster modes in bundles.
+/// A warning that bundles of faster modes lack returning waves; empty if these are negligible.
 std::string bundles_warning(const Case& the_case, const ConductorModes& conductor) {
   const auto& last = conductor.modes[static_cast<std::size_t>(conductor.apart) - 1];
-  // A mode of the string of that frequency has so many half waves.
+  // Number of half-waves of a string mode of that frequency.
   const double half_waves = last.angular_frequency / string_of(the_case).angular_frequency(1.0);
   const double returned =
       std::exp(-2.0 * pi<double> * bare_damping_of(the_case, last.angular_frequency) * half_waves);
   const KeptModes kept = kept_modes(the_case, conductor);
   if (returned < 0.05 && (kept.faster.empty() || is_cable(the_case))) return "";
-  return kept.words + "are computed singly, faster modes in bundles without returning waves" +
+  return kept.words +
+         "are computed singly, faster modes in bundles without waves returning from the supports" +
          (returned < 0.05 ? ""
-                          : "; with the case's damping up to " + format_rounded(100.0 * returned) +
-                                " % of such a wave returns") +
+                          : "; with the damping of the case up to " +
+                                format_rounded(100.0 * returned) + " % of such a wave returns") +
          kept.faster;
 }
 
-/// Warning of faster modes left out.
+/// A warning that faster modes are left out; empty if these are negligible.
 std::string cut_warning(const Case& the_case, const ConductorModes& conductor) {
   const double cut_mass = 1.0 / mobility_of(conductor.modes);
   const double felt_mass =
@@ -86,10 +87,10 @@ std::string cut_warning(const Case& the_case, const ConductorModes& conductor) {
   if (cut_mass < 0.02 * felt_mass && conductor.highest_frequency() > half_rate &&
       kept.faster.empty())
     return "";
-  return kept.words + "are kept and faster modes left out, which acts like " +
+  return kept.words + "are included and faster modes left out, which acts like " +
          format_rounded(1e3 * cut_mass) +
-         " g more at the clamp: gains may look stable far beyond the true limit; leave plant.modes "
-         "out to include all modes" +
+         " g more mass at the clamp: gains may seem stable far beyond the true limit; remove "
+         "plant.modes to include all modes" +
          kept.faster;
 }
 
@@ -100,16 +101,16 @@ std::string modes_warning(const Case& the_case) {
   if (std::isfinite(the_case.control.drive_damping) &&
       !std::isfinite(the_case.control.drive_bandwidth))
     said += (said.empty() ? "" : "; ") +
-            std::string("control.drive_damping: not used without control.drive_bandwidth");
+            std::string("control.drive_damping: no effect without control.drive_bandwidth");
   if (is_two_masses(the_case) || is_infinite(the_case)) return said;
   const ConductorModes conductor = conductor_modes_of(the_case);
   const auto warning = std::isfinite(the_case.plant.modes) ? cut_warning : bundles_warning;
   for (const std::string& more :
-       {warning(the_case, conductor), lacks_bars(the_case)
-                                          ? std::to_string(conductor.bars) +
-                                                " bars are too few for the waves at half the "
-                                                "sampling rate: results for gains are not converged"
-                                          : ""})
+       {warning(the_case, conductor),
+        lacks_bars(the_case) ? std::to_string(conductor.bars) +
+                                   " bars of the cable are too few for the waves at half the "
+                                   "sampling rate: results for gains are not converged"
+                             : ""})
     said += (said.empty() || more.empty() ? "" : "; ") + more;
   return said;
 }

@@ -7,15 +7,14 @@
 
 namespace holdfast::program {
 
-/// Warning of the modes that are kept, beside half the sampling rate, and of keys that do not count
-/// for the case's plant. Empty where there is nothing.
+/// A warning of too few modes or bars and of keys without effect on the plant; empty otherwise.
 std::string modes_warning(const Case& the_case);
 
-/// That a motion beyond the paper's model takes minutes, its work growing with the third power of
-/// the modes; empty where it does not.
+/// A warning that a motion beyond the paper's model takes minutes, since its work grows with the
+/// third power of the number of modes; empty otherwise.
 std::string dense_work_warning(const Case& the_case, Switching switching);
 
-/// That the peaks of a motion count its drift, of a string without ends; else empty.
+/// A warning that peaks on a string without ends include the drift; empty for other plants.
 std::string drift_warning(const Case& the_case);
 
 }  // namespace holdfast::program

@@ -12,7 +12,7 @@
 namespace holdfast::program {
 namespace {
 
-/// A key that the case was given, if it was: "control.velocity, --set control.velocity=difference".
+/// Throws WrongInput with the place, the key and the reason if the key was given.
 void refuse_key(const Case& the_case, const std::string& key, const std::string& why) {
   const auto place = the_case.places.find(key);
   if (place != the_case.places.end()) throw WrongInput(place->second + ": " + key + ": " + why);
@@ -22,7 +22,7 @@ void require_consistent_plant(const Case& the_case) {
   validate(*the_case.own->plant);
   if (the_case.control.proportional_gain_tuned)
     throw WrongInput(
-        "control.proportional_gain = \"tuned\": the paper's Eq. 6 needs an absorber's mass and "
+        "control.proportional_gain = \"tuned\": Eq. 6 of Kollár 2022 needs an absorber's mass and "
         "stiffness, which a plant of your own does not give; give a number");
   for (const auto& [key, place] : the_case.places) require_counts(the_case, key, place + ": ");
 }
@@ -45,8 +45,9 @@ void require_counts(const Case& the_case, std::string_view key, const std::strin
   for (const char* table :
        {"plant.", "conductor.", "absorber.", "reduction.", "device.", "initial."})
     if (key.rfind(table, 0) == 0)
-      throw WrongInput(place + std::string(key) +
-                       " has no effect: the plant is your own, with its own state; remove the key");
+      throw WrongInput(
+          place + std::string(key) +
+          " has no effect on a plant of your own and its initial state; remove the key");
 }
 
 void require_consistent(const Case& the_case) {
@@ -65,8 +66,8 @@ std::vector<PlantPole> poles_of(const LinearPlant<double>& plant) {
   const EigenBasis<double> basis(plant.state_matrix());
   if (!basis.is_sound())
     throw NoAnswer(
-        "two natural motions of the plant coincide too nearly to be told apart: change a number "
-        "of the plant by a thousandth");
+        "two poles of the plant nearly coincide and cannot be separated: change a number of the "
+        "plant by a thousandth");
   const auto beta = basis.coordinates(plant.control_input());
   const auto of_z = basis.readings(plant.connections.measured_displacement);
   const auto of_v = basis.readings(plant.connections.measured_velocity);
@@ -82,7 +83,7 @@ std::vector<PlantPole> poles_of(const LinearPlant<double>& plant) {
   if (apart > 1e-9 * size)
     throw NoAnswer(
         "margins and designs need a measured velocity that is the derivative of the measured "
-        "displacement, but this plant measures another: remove the plant's velocity output");
+        "displacement, unlike that of this plant: remove the plant's velocity output");
   return poles;
 }
 

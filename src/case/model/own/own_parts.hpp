@@ -15,32 +15,30 @@
 
 namespace holdfast::program {
 
-/// A controller in place of P and D: the force (N) of sample k at t (s) by the readings (m, m/s).
+/// A controller instead of P and D: the force (N) at sample k, t (s), from readings (m, m/s).
 using OwnForce =
     std::function<double(std::int64_t k, double t, double displacement, double velocity)>;
 
-/// Parts of a case that are its user's own, beyond what a case file can say. Only a program in
-/// whose memory the case is can give them.
+/// User-defined parts of a case, which a calling program supplies; a case file cannot.
 struct OwnParts {
-  std::optional<LinearPlant<double>> plant;  ///< in place of conductor and absorber
-  Vector<double, Eigen::Dynamic> state;      ///< of that plant, where it starts
+  std::optional<LinearPlant<double>> plant;  ///< replaces conductor and absorber
+  Vector<double, Eigen::Dynamic> state;      ///< initial state of that plant
   OwnForce controller;                       ///< empty: P and D
 };
 
-/// Throws WrongInput where the case says something that its own plant or controller takes no notice
-/// of, or would contradict.
+/// Throws WrongInput if a key contradicts the user-defined plant or controller, or has no effect.
 void require_consistent(const Case& the_case);
 
-/// Throws WrongInput where a key is of a plant that one of the user's own stands in place of.
-/// @param place  where it is given, with a colon behind; or empty
+/// Throws WrongInput for a key of the conductor or absorber that a user-defined plant replaces.
+/// @param place  place where the key is given, with ": " at the end; or empty
 void require_counts(const Case& the_case, std::string_view key, const std::string& place = "");
 
-/// OwnForce as a controller of the library (control/controlled_plant.hpp); its memory are the
-/// number and the instant of the sample.
+/// An OwnForce as a controller for control/controlled_plant.hpp. Its memory consists of the number
+/// and the instant of the sample.
 struct OwnLaw {
   static constexpr int states = 2;
-  OwnForce force;  ///< empty: none
-  double period;   ///< τ (s) of a steady clock; 0: instants are sums of what elapsed
+  OwnForce force;  ///< empty: no force
+  double period;   ///< τ (s) of regular samples; 0: instants are sums of elapsed times
 
   double command(const ControlSample& sample, Vector<double, 2>& memory) const {
     const double k = memory[0];
@@ -51,13 +49,13 @@ struct OwnLaw {
   }
 };
 
-/// Control law of the case.
-/// @param controlled  else without force
+/// The user-defined control law of the case.
+/// @param controlled  false: the law gives no force
 OwnLaw own_law_of(const Case& the_case, bool controlled);
 
-/// The poles of a plant from its command to its readings. Throws NoAnswer where two of them
-/// coincide too nearly to be told apart, or what D multiplies is not the rate of what P does: such
-/// a plant has charts, responses and motions, and no sum over its poles.
+/// The poles of a plant from its command to its readings. Throws NoAnswer if two poles nearly
+/// coincide, or if the velocity that D multiplies is not the derivative of the displacement that P
+/// multiplies. Such a plant has charts, responses and motions, but no sum over its poles.
 std::vector<PlantPole> poles_of(const LinearPlant<double>& plant);
 
 }  // namespace holdfast::program

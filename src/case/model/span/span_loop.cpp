@@ -13,7 +13,7 @@
 namespace holdfast::program {
 namespace {
 
-/// The places that something is clamped to, each once, and which of them each device has.
+/// The distinct positions (m) of absorber and devices, and the index of each.
 struct Places {
   std::vector<double> places;
 
@@ -28,15 +28,15 @@ struct Places {
 void require_loop(const Case& the_case) {
   if (is_cable(the_case))
     throw WrongInput(
-        "[[device]] on plant.model = \"cable\": devices beside the absorber are computed only on "
-        "the taut string: set plant.model=string; with many half-waves on the span both models "
-        "agree");
+        "[[device]] with plant.model = \"cable\": devices besides the absorber are computed only "
+        "on the taut string; set plant.model = \"string\", which agrees with the cable in modes of "
+        "many half-waves");
   for (const case_tables::Device& device : the_case.devices)
     if (device.table)
-      throw WrongInput(
-          "a measured impedance (" + device.file +
-          ") holds only for steady vibration, so the stability of the computer's loop cannot be "
-          "computed: give that device by its masses and frequencies (kind = \"stockbridge\")");
+      throw WrongInput("a measured impedance (" + device.file +
+                       ") is valid only for steady vibration, so the stability of the absorber's "
+                       "control loop cannot be computed: describe that device by mass, frequencies "
+                       "and damping_ratios (kind = \"stockbridge\")");
 }
 
 std::vector<double> numbers_of(const Case& the_case, const ConductorModes& conductor,
@@ -73,7 +73,7 @@ std::vector<PlantPole> found_poles(const Case& the_case, const ConductorModes& c
   Places places;
   const std::size_t own = places.index(the_case.absorber.position);
   for (const case_tables::Device& device : the_case.devices) places.index(device.position);
-  // Bundles as far as the conductor has them.
+  // Bundles up to the highest one of the conductor.
   const bool is_bundled = conductor.modes.size() > static_cast<std::size_t>(conductor.apart);
   const double highest = is_bundled ? conductor.modes.back().angular_frequency : 0.0;
   auto modes = string_modes_at(string, places.places, conductor.apart, highest);
@@ -99,8 +99,8 @@ std::vector<PlantPole> poles_with_devices(const Case& the_case, const ConductorM
                        [&] { return found_poles(the_case, conductor, absorber); });
   if (poles.empty())
     throw NoAnswer(
-        "two natural motions of the span with its devices coincide too nearly to be told apart: "
-        "change the position or damping of a device by a thousandth");
+        "two poles of the span with its devices nearly coincide and cannot be separated: change "
+        "the position or damping of a device by a thousandth");
   return poles;
 }
 

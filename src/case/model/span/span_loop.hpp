@@ -9,19 +9,18 @@
 
 namespace holdfast::program {
 
-/// The poles from the absorber's drive to its place, of a taut string with the case's devices; as
-/// many modes kept apart as `conductor` has, and the rest bundled where it bundles. Those found
-/// last are remembered. Throws WrongInput for a hanging cable and for a measured device, and
-/// NoAnswer where two natural motions cannot be told apart.
+/// The poles from the drive's force to the displacement at the absorber, for a taut string with the
+/// case's devices. The string has the single modes and bundles of `conductor`. The last poles are
+/// cached. Throws WrongInput for a hanging cable or a measured device, NoAnswer if poles coincide.
 std::vector<PlantPole> poles_with_devices(const Case& the_case, const ConductorModes& conductor,
                                           const Absorber<double>& absorber);
 
 /// Whether the loop of a case's absorber and computer is stable on the string with its devices, by
-/// `judged_loop_of`. Throws as above.
+/// `judged_loop_of`. Throws what judged_loop_of() throws.
 bool is_stable_span(const Case& the_case);
 
-/// Whether the vibration of a span with its computer grows by itself, so that no steady one can be
-/// told. Not without control or absorber; beside a measured device nobody knows. Throws as above.
+/// Whether the loop of a span is unstable and has no steady vibration; false without control or
+/// absorber, and with a measured device (unknown). Throws what judged_loop_of() throws.
 bool is_growing_span(const Case& the_case, bool controlled);
 
 }  // namespace holdfast::program

@@ -17,7 +17,7 @@
 namespace holdfast::program {
 namespace {
 
-/// With its clamp, whose iωM runs as straight as the table between its rows.
+/// The measured impedance plus iωM of the clamp mass M, which is linear between rows too.
 MeasuredImpedance measured(const case_tables::Device& device) {
   const ImpedanceTable& table = *device.table;
   std::vector<MeasuredImpedance::Row> rows;
@@ -34,8 +34,7 @@ SpanDevice span_device_of(const case_tables::Device& device) {
   return {device.position, lumped_device_of(device)};
 }
 
-/// The force over the displacement at rest (N/m) of a device; nothing that hangs on the conductor
-/// has any.
+/// Static stiffness (N/m) of a device; 0 for a device that hangs on the conductor.
 double stiffness_at_rest(const SpanDevice& device) {
   double sum = 0.0;
   if (const auto* lumped = std::get_if<LumpedDevice>(&device.device))
@@ -80,7 +79,7 @@ LumpedDevice lumped_device_of(const case_tables::Device& device) {
 
 SpanDevice active_device_of(const Case& the_case, bool controlled) {
   require_keys(the_case, {"absorber.position"});
-  // The clamp mass of two masses is part of the conductor's; on the conductor it is not.
+  // In two masses the clamp is part of the conductor's mass; on a span it is a separate mass.
   Absorber<double> absorber = absorber_of(the_case);
   absorber.clamp_mass = the_case.absorber.clamp_mass;
   return {the_case.absorber.position,
@@ -120,7 +119,7 @@ void require_measured(const Case& the_case, double lowest, double highest) {
     throw WrongInput("device " + std::to_string(k + 1) + ": " + device.file + " covers " +
                      format_number(first) + " to " + format_number(last) + " Hz, but " +
                      format_number(lowest) + " to " + format_number(highest) +
-                     " Hz are asked for: give --frequency within the measured range");
+                     " Hz are needed: give --frequency within the measured range");
   }
 }
 

@@ -14,53 +14,51 @@
 
 namespace holdfast::program {
 
-/// That the built-in absorber does not count; empty where nobody could think it does.
+/// A note that the built-in absorber is left out, or that gains need an absorber; empty otherwise.
 std::string absent_absorber_note(const Case& the_case);
 
-/// A device of masses, springs and dashpots, of every kind but a measured one.
+/// A device as masses, springs and dashpots; not for kind "measured".
 LumpedDevice lumped_device_of(const case_tables::Device& device);
 
-/// The absorber with its computer, or with gains 0.
+/// The absorber with its computer as a device; not `controlled`: with gains 0.
 SpanDevice active_device_of(const Case& the_case, bool controlled);
 
-/// Clamped devices of the case's span and, where it has one, its absorber.
+/// Devices and active absorber, if any, of the span, by position; not `controlled`: gains 0.
 std::vector<SpanDevice> span_devices_of(const Case& the_case, bool controlled = true);
 
-/// Whether the string with its devices comes back to rest, its springs that push away being so many
-/// times as strong: from the left support on it passes through no node before the right one
-/// (Sturm).
-/// @param devices  `in_order`
+/// Whether the string with its devices is statically stable, negative stiffnesses being multiplied
+/// by `times`: a shape started at the left support has no node up to the right one (Sturm).
+/// @param devices  sorted by `in_order`
 bool comes_back(const TautString<double>& string, const std::vector<SpanDevice>& devices,
                 double times = 1.0);
 
-/// Throws WrongInput where a device was not measured at some frequency (Hz) of a range.
+/// Throws WrongInput if a measured device does not cover the frequency range (Hz).
 void require_measured(const Case& the_case, double lowest, double highest);
 
-/// Throws WrongInput for a conductor without outside diameter, in the words of `job`.
+/// Throws MissingKeys for a conductor without diameter; `job` begins the message.
 void require_diameter(const Case& the_case, const std::string& job);
 
-/// Power that a conductor itself takes at a frequency (Hz) and an antinode amplitude (m), W/m, by
-/// one law.
+/// A law of self-damping: dissipated power (W/m) at a frequency (Hz) and antinode amplitude (m).
 struct LossLaw {
   std::string name;
   std::function<double(double, double)> power;
 };
 
-/// By each published self-damping law where the rated strength is known, else by the damping ratio.
+/// The published self-damping laws if strength and diameter are known, else the damping ratio.
 std::vector<LossLaw> loss_laws_of(const Case& the_case);
 
-/// How it bends at a clamp; nothing where its wires are not known.
+/// The bending of the conductor at a clamp; none if its wires or bending stiffness are not known.
 std::optional<ClampBending> clamp_bending_of(const Case& the_case);
 
-/// The line of life for its layers of aluminium: that of several where they are not known, which is
-/// the shorter life.
+/// The fatigue curve (safe border line) for the layers of aluminium wires; the curve for several
+/// layers, of shorter life, if their number is not known.
 SafeBorderLine life_line_of(const Case& the_case);
 
-/// The hours of a year at each wind speed (m/s), of a Weibull site over the speeds of the range in
-/// steps of a twentieth. Throws WrongInput where the case says nothing of its site.
+/// The hours per year at each wind speed (m/s); for Weibull's law from lowest to highest in steps
+/// of at most 0.05 m/s. Throws WrongInput if the case has neither speeds nor Weibull's law.
 std::vector<WindHours> wind_hours_of(const Case& the_case, double lowest, double highest);
 
-/// f d/U of the vortices.
+/// The Strouhal number f d/U of the vortices (frequency f, diameter d, wind speed U).
 double strouhal_of(const Case& the_case);
 
 }  // namespace holdfast::program

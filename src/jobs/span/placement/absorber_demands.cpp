@@ -17,7 +17,7 @@
 namespace holdfast::program {
 namespace {
 
-/// How far the conductor moves at the absorber, of 1 m at the antinodes.
+/// Displacement of the conductor at the absorber for 1 m at the antinodes.
 double motion_at_absorber(const TautString<double>& string, const std::vector<SpanDevice>& devices,
                           double omega) {
   for (const SpanEnd& end : span_ends(devices, string.span))
@@ -27,7 +27,7 @@ double motion_at_absorber(const TautString<double>& string, const std::vector<Sp
   return 0.0;
 }
 
-/// Demands on the drive where the conductor moves by an amplitude z (m) at ω.
+/// Demands on the drive for a conductor amplitude z (m) at ω.
 AbsorberDemands demands_at(const ActiveAbsorber& device, double z, double omega) {
   const std::complex<double> s(0.0, omega), v = s * z;
   const auto& [absorber, sampling, gains, hardware] = device;

@@ -13,8 +13,7 @@ namespace {
 
 using case_tables::Device;
 
-/// A strength, searched by its logarithm from a lower to an upper bound, or to where it stands now
-/// beyond them.
+/// Strength, searched by its logarithm between two bounds, which are widened to the current value.
 placement::MovableValue strength(double lower, double upper, double present, int places) {
   placement::MovableValue value{lower, upper};
   value.by_ratio = true;
@@ -35,7 +34,7 @@ std::function<void(Case&, double)> into(std::size_t device, std::vector<double> 
   return [=](Case& variant, double value) { variant.devices[device - 1].*place = {value}; };
 }
 
-/// Factors about what matches the conductor's wave impedance.
+/// Factors around the value that matches the conductor's wave impedance.
 constexpr double weakest = 1e-2, strongest = 1e2;
 
 void add_mass(std::vector<MovedNumber>& numbers, const Case& the_case, std::size_t number,
@@ -51,7 +50,7 @@ void add_mass(std::vector<MovedNumber>& numbers, const Case& the_case, std::size
                      into(number, &Device::damping_ratios)});
 }
 
-/// The strength of a device of a kind that has one.
+/// Adds the strength of a device of a kind that has one.
 void add_strength(std::vector<MovedNumber>& numbers, const Case& the_case, std::size_t number,
                   double lowest, double highest) {
   const Device& device = the_case.devices[number - 1];
@@ -117,8 +116,8 @@ std::vector<MovedNumber> moved_numbers(const Case& the_case, const PlacementQues
   if (numbers.empty())
     throw WrongInput("device " + std::to_string(question.device) + ", a " +
                      the_case.devices[question.device - 1].kind +
-                     ", has nothing to vary: the maker fixes its data, and --keep position fixes "
-                     "its position; leave --keep out");
+                     ", has nothing to vary: its maker has fixed its data, and --keep position "
+                     "fixes its position; leave --keep out");
   return numbers;
 }
 

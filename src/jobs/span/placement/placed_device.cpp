@@ -52,9 +52,8 @@ double worst_of(const std::vector<double>& levels) {
   return levels.empty() ? std::nan("") : *std::max_element(levels.begin(), levels.end());
 }
 
-/// The gains as numbers that move, over a rectangle; where the case's own are not admissible, those
-/// without control are what the search also begins from.
-/// @param places  of the grid along each gain
+/// Gains varied over a rectangle; one start of the search is 0 if the case's own are inadmissible.
+/// @param places  grid points along each gain
 std::vector<MovedNumber> moved_gains(const Case& the_case, const StableGains& stable,
                                      const PdGains<double>& most, int places) {
   const GainWindow around = stable.around(most);
@@ -76,7 +75,7 @@ std::vector<MovedNumber> moved_gains(const Case& the_case, const StableGains& st
            [](Case& variant, double d) { variant.control.differential_gain = d; }}};
 }
 
-/// The placement of the active absorber.
+/// Placement of the active absorber.
 class AbsorberPlacement {
  public:
   AbsorberPlacement(const Case& the_case, const PlacementQuestion& question,
@@ -88,11 +87,11 @@ class AbsorberPlacement {
              beyond_all * match};
   }
 
-  /// Its gains where it is.
+  /// Best gains at the current position.
   PlacedDevice gains() const { return gains_of_variant(case_, thorough); }
 
-  /// And its place: gains at nine places, about the best of them twice at half the step, and at
-  /// the best once more, thoroughly.
+  /// Best gains and position: gains at nine positions, twice around the best of them at half the
+  /// step, and at the best position once more, thoroughly.
   PlacedDevice gains_and_position() const {
     const double speed = string_of(case_).wave_speed();
     const MovedNumber position =
@@ -184,7 +183,9 @@ PlacedDevice placed_passively(const Case& the_case, const PlacementQuestion& que
       },
       4);
   if (placed.found.values.empty())
-    throw NoAnswer("the span is unstable at rest with all positions and strengths that were tried");
+    throw NoAnswer(
+        "the span is statically unstable (unstable at rest) with all values tried: give the other "
+        "devices less negative stiffness");
   placed.the_case = with_values(the_case, placed.numbers, placed.found.values);
   placed.before = levels.value_of(worst_of(levels.of(the_case)));
   constexpr double more = 1.01;
@@ -224,10 +225,11 @@ std::string bound_warning(const MovedNumber& number, placement::PlacementBound m
   return number.quantity + " lies at the " + (is_lower ? "lower" : "upper") +
          " bound of the search, " + format_rounded(number.sign * bound) +
          (number.unit.empty() ? "" : " " + number.unit) +
-         (number.quantity == "position" ? " from the support" : "") + ": the best may be beyond";
+         (number.quantity == "position" ? " from the support" : "") +
+         ": better values may lie beyond this bound";
 }
 
-/// That the computer does not see the whole band.
+/// Warning that the samples do not show the whole band; else empty.
 std::string sampling_warning(const Case& the_case, const PlacementQuestion& question) {
   const double half_rate = 0.5 / the_case.control.sampling_period;
   const double highest =
@@ -235,8 +237,9 @@ std::string sampling_warning(const Case& the_case, const PlacementQuestion& ques
   if (!question.is_absorber() || question.goal == PlacementGoal::modes || highest < half_rate)
     return "";
   return "at " + format_rounded(half_rate) +
-         " Hz, half the sampling rate, and above, the samples do not show the vibration, and the "
-         "results for the drive do not hold";
+         " Hz, half the sampling rate, and above, the samples do not show the vibration: results "
+         "for "
+         "the drive are invalid there; give a shorter control.sampling_period";
 }
 
 }  // namespace
@@ -246,12 +249,14 @@ std::vector<std::string> placement_warnings(const PlacedDevice& placed,
   std::vector<std::string> warnings;
   if (std::isnan(placed.before) && question.is_absorber())
     warnings.emplace_back(
-        "with the case's gains the loop is unstable on this span: the _before row is left out");
+        "with the case's own gains the loop is unstable on this span: the goal before the change "
+        "is left out");
   if (question.is_absorber() && !std::isfinite(placed.the_case.conductor.diameter))
     warnings.emplace_back(
         "force, stroke and power of the drive are left out: give conductor.diameter, which "
         "determines the amplitude of the conductor in the wind");
-  if (!placed.is_better) warnings.emplace_back("no values better than the case's were found");
+  if (!placed.is_better)
+    warnings.emplace_back("no values better than the case's were found: keep the case's values");
   for (std::size_t k = 0; k < placed.numbers.size(); ++k)
     warnings.push_back(bound_warning(placed.numbers[k], placed.found.bounds[k]));
   if (placed.is_at_limit_of_rest)

@@ -10,56 +10,56 @@
 
 namespace holdfast::program {
 
-/// One number of a case that a placement moves, by its modulus where it has a sign.
+/// Number of a case that a placement varies; a negative number by its absolute value.
 struct MovedNumber {
   std::string quantity;                    ///< "damping"
   std::string unit;                        ///< of the quantity
-  placement::MovableValue value;           ///< its bounds, and where it stands
-  std::function<void(Case&, double)> put;  ///< gives a case another one
-  double sign = 1.0;                       ///< of the case's number over the value
+  placement::MovableValue value;           ///< its bounds and current value
+  std::function<void(Case&, double)> put;  ///< sets the number in a case
+  double sign = 1.0;                       ///< the case's number is sign × value
 };
 
-/// Where a device may be: its distance from the nearer support, from 0.2 m, or 0.002 of a short
-/// span, to a quarter of the longest wave of the band or a tenth of the span, and where it is now.
-/// @param shortest, longest  waves of the band (m)
+/// Position of a device as a varied number: distance from the nearer support, from 0.2 m (0.002 of
+/// a short span) to a quarter of the band's longest wave or a tenth of the span. The bounds are
+/// widened to the current position.
+/// @param shortest, longest  wavelengths of the band (m)
 MovedNumber moved_position(const Case& the_case, const PlacementQuestion& question, double shortest,
                            double longest);
 
-/// Numbers of a passive device that may move: its place, unless the question keeps it, and its
-/// strength, of a Stockbridge damper and a measured device none, which are as their makers made
-/// them. Throws WrongInput where nothing may.
-/// @param lowest, highest  of the band (Hz)
+/// Numbers of a passive device that a placement varies: its position, unless the question keeps it,
+/// and its strength. The maker fixes the strength of a Stockbridge damper or measured device.
+/// Throws WrongInput where nothing can vary.
+/// @param lowest, highest  frequencies of the band (Hz)
 std::vector<MovedNumber> moved_numbers(const Case& the_case, const PlacementQuestion& question,
                                        double lowest, double highest);
 
-/// The case with other values of those numbers.
+/// Case with new values of the varied numbers.
 Case with_values(Case the_case, const std::vector<MovedNumber>& numbers,
                  const std::vector<double>& values);
 
-/// A device where it is best, the others staying as they are.
+/// Result of the placement of one device, the other devices unchanged.
 struct PlacedDevice {
-  Case the_case;                     ///< with the device there
-  std::vector<MovedNumber> numbers;  ///< what was moved
-  placement::Placement found;        ///< their values, in the same order
-  double before;  ///< the goal's number of the case as it was; NaN where its loop is not stable
-  double after;   ///< and with the answer
-  double worst_frequency;  ///< Hz, of the latter
-  bool is_better;          ///< than the case as it was
-  /// Whether with a spring that pushes the conductor on by a hundredth more it would hardly rest.
+  Case the_case;                     ///< with the best values
+  std::vector<MovedNumber> numbers;  ///< the varied numbers
+  placement::Placement found;        ///< best values, in the order of `numbers`
+  double before;           ///< goal with the case's own values; NaN where the loop is unstable
+  double after;            ///< goal with the best values
+  double worst_frequency;  ///< Hz, with the best values
+  bool is_better;          ///< whether `after` is better than `before`
+  /// Whether 1 % more negative stiffness would violate the 10 % reserve of stability at rest.
   bool is_at_limit_of_rest;
-  std::string range_note;  ///< where the laws of the wind end, of its worst vibration; else empty
+  std::string range_note;  ///< worst vibration outside the wind law's range; else empty
 };
 
 /// Throws NoAnswer, naming the package to install, in a program built without Ceres Solver.
 void require_placement_search();
 
-/// Places a device. Gains of the absorber are such that its loop is stable on the string with all
-/// devices, at the margin of the question. Throws WrongInput where nothing may move or the case
-/// lacks what the goal needs, NoAnswer where no gains have the margin.
+/// Finds the best values of one device. An absorber's gains keep its loop stable on the string with
+/// all devices, with the question's modulus margin. Throws WrongInput where nothing can vary or the
+/// case lacks data for the goal, NoAnswer where no gains have the margin.
 PlacedDevice placed_device(const Case& the_case, const PlacementQuestion& question);
 
-/// Warnings of an answer, a sentence each: that nothing better was found, that a value is at the
-/// end of what was searched.
+/// Warnings about a placement, a sentence each: no improvement, a value at a search bound, ….
 std::vector<std::string> placement_warnings(const PlacedDevice& placed,
                                             const PlacementQuestion& question);
 

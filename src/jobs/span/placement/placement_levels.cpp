@@ -10,8 +10,8 @@
 namespace holdfast::program {
 namespace {
 
-/// The inverse of a ratio that is to be large; below a ratio that nobody wants, and where it is
-/// negative, its tangent goes on.
+/// Level of a ratio to be maximised: its inverse; below an irrelevant ratio, and where it is
+/// negative, the tangent of the inverse.
 constexpr double poor = 1e-5;
 double level_of_ratio(double ratio) {
   return ratio >= poor ? 1.0 / ratio : (2.0 * poor - ratio) / (poor * poor);

@@ -7,7 +7,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Widens an interval by others, as far as the bound of |gain|.
+/// Widens an interval by others, up to a bound of |gain|.
 void widen(Interval<double>& interval, const std::vector<Interval<double>>& others, double most) {
   for (const Interval<double>& other : others) {
     interval.lower = std::min(interval.lower, std::max(other.lower, -most));

@@ -10,10 +10,10 @@
 
 namespace holdfast::program {
 
-/// The gains with which the computer's loop of a case is stable on the taut string with all its
-/// devices at a modulus margin: min |1 − P G_z − D G_v| over the unit circle. They are so by the
-/// judge of loops (`judged_loop_of`), and by the same string without the modes above twice the
-/// sampling rate: gains that hang on how many modes are kept are not recommended.
+/// Gains with which a case's control loop is stable on the taut string with all devices, with a
+/// modulus margin: min |1 − P G_z − D G_v| over the unit circle, G_z and G_v from force to z₁ and
+/// ż₁. Both the full model (`judged_loop_of`) and the string without modes above twice the sampling
+/// rate must be stable, so that the result does not depend on the number of modes.
 class StableGains {
  public:
   /// @param margin  0 … 1; 0: stability alone
@@ -24,19 +24,19 @@ class StableGains {
     return judge_.is_stable(gains) && cut_.is_stable(gains);
   }
 
-  int judged_modes() const { return judge_.modes; }            ///< one by one
-  double highest_frequency() const { return judge_.highest; }  ///< Hz, of the last of them
+  int judged_modes() const { return judge_.modes; }            ///< computed singly
+  double highest_frequency() const { return judge_.highest; }  ///< Hz, of the last of these
 
   /// Whether gains are stable and keep the margin.
   bool admits(const PdGains<double>& gains) const;
 
-  /// The bounded open intervals of one gain, the other being held, that are stable and keep the
-  /// margin, or 0.01 where it is less; ascending.
+  /// Bounded open intervals of one gain, the other fixed, that are stable and keep the margin, or
+  /// 0.01 where the margin is less; ascending.
   std::vector<Interval<double>> along(FreeGain free, const PdGains<double>& held) const;
 
-  /// About all that are admitted on lines through the gains without control: by turns the D of some
-  /// P and the P of some D, and a tenth beyond.
-  /// @param most  bounds of |P| and |D| where there are no others
+  /// Window around the admissible gains: alternate searches of D at several P and of P at several
+  /// D, from gains of 0, then a tenth wider.
+  /// @param most  bounds of |P| and |D|
   GainWindow around(const PdGains<double>& most) const;
 
  private:
