@@ -94,6 +94,7 @@ TEST(Help, OptionsWithoutAJobAreToldToHaveNone) {
   expect_refused("--case margins", {"no job is given"});
   expect_refused("--duration 1 simulate", {"--duration", "after"});
   expect_refused("--quiet margns", {"margins"});
+  expect_refused("simulat", {"simulate"});
   expect_refused("max_delay", {"max-delay"});
   expect_refused("-x", {"-x"});
 }

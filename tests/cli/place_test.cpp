@@ -154,6 +154,7 @@ TEST_F(PlaceJob, RefusesWhatIsNoQuestion) {
   expect_wrong(passive, "--device first", "--device first: must be 1");
   expect_wrong(passive, "--device absorber", "no absorber");
   expect_wrong(passive, "--frequency 0:60:56", "greater than 0 Hz");
+  expect_wrong(passive, "--frequency -5:60:56", "greater than 0 Hz");
   expect_wrong(passive, "--keep position", "nothing to vary");
   expect_wrong(passive, "--margin 0.3", "device 1 has none");
   expect_wrong(passive, "--modes 1:2 --for strain", "--modes works only with --for damping");

@@ -238,8 +238,7 @@ std::string sampling_warning(const Case& the_case, const PlacementQuestion& ques
     return "";
   return "at " + format_rounded(half_rate) +
          " Hz, half the sampling rate, and above, the samples do not show the vibration: results "
-         "for "
-         "the drive are invalid there; give a shorter control.sampling_period";
+         "for the drive are invalid there; give a shorter control.sampling_period";
 }
 
 }  // namespace
