@@ -25,8 +25,8 @@ template std::optional<ModalAttraction> modal_attraction(const ModalLoop&,
 template OrbitResult detail::orbit_by_returns(const ModalLoop&, const Rational&, const OrbitLimits&,
                                               const ModalMotion&,
                                               const detail::ModalRegion<ModalLoop>&);
-template OrbitResult find_periodic_orbit(const ModalLoop&, const ModalMotion::Full&,
-                                         const OrbitLimits&);
+template OrbitResult find_periodic_orbit(const ModalLoop&, const std::vector<PlantPole>&,
+                                         const ModalMotion::Full&, const OrbitLimits&);
 
 template OrbitResult orbit_of_itinerary(const IdealLoop<double>&, const Rational&,
                                         const ItineraryMaps<double>&, const Itinerary&,

@@ -183,7 +183,6 @@ struct BasinsQuestion {
   std::vector<std::string> map;           ///< two KEY=MIN:MAX:COUNT: cells in place of states
   std::int64_t largest_period = 100'000;  ///< samples
   bool fractions = false;  ///< a row for each attractor instead of one for each state
-  bool motions = false;    ///< with `map`: a row for each motion instead of each cell
   Switching switching = Switching::sampled;
 
   void add_to(const Job& job) {
@@ -191,16 +190,14 @@ struct BasinsQuestion {
     job.add("--max-period", largest_period);
     job.add("--fractions", fractions);
     job.add("--map", map);
-    job.add("--motions", motions);
     job.add("--switching", switching);
   }
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
-    if (motions && map.empty()) throw WrongInput("--motions works only with a map: give --map");
     if (!map.empty()) {
       const auto more = axes.empty() ? States{} : states_of(context, grid_of(axes));
-      return write_motion_cells(context, {map, largest_period, switching, motions, more});
+      return write_motion_cells(context, {map, largest_period, switching, more});
     }
     const StateGrid grid = grid_of(axes);
     const States states = states_of(context, grid);

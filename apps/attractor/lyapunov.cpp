@@ -12,9 +12,8 @@ namespace holdfast::program {
 namespace {
 
 struct LyapunovQuestion {
-  double duration = 100.0;             ///< s, the longest
+  double duration = 100.0;             ///< s
   double discard = 0.0;                ///< s, left out at the start
-  double standard_error = 0.0;         ///< per sample, at which to stop; 0: never stop early
   std::string tangent = "consistent";  ///< or "printed"
   bool largest = false;                ///< the largest exponent alone
   bool history = false;                ///< the exponents after every sample instead
@@ -23,7 +22,6 @@ struct LyapunovQuestion {
   void add_to(const Job& job) {
     job.add("--duration", duration);
     job.add("--discard", discard);
-    job.add("--standard-error", standard_error);
     job.add("--tangent", tangent);
     job.add("--largest", largest);
     job.add("--history", history);
@@ -109,13 +107,11 @@ void write_exponents(const JobContext& context, const MovingLoop& moving,
   if (discard >= steps) throw WrongInput("--discard must be shorter than --duration");
   Table table(context, columns_of("exponents"));
   const auto scope = options.largest ? LyapunovScope::largest : LyapunovScope::all;
-  const LyapunovRun run{steps - discard, discard, options.standard_error, scope};
+  const LyapunovRun run{steps - discard, discard, scope};
   const auto [result, end] =
       exponents_of(moving, run, tangent_sampling_of(context.case_data, options));
-  if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(end.time);
+  if (result.diverged) refuse_diverging(end.time);
   tell_of_end(context, end);
-  if (options.standard_error > 0.0 && result.outcome == LyapunovOutcome::sample_limit)
-    report_warning("--standard-error was not reached: give a longer --duration", context.quiet);
   report_warning(open_sign_warning(result), context.quiet);
   report_warning(stepped_reading_warning(context.case_data), context.quiet);
   report_warning(

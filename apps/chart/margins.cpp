@@ -103,7 +103,7 @@ void MarginsQuestion::run(const JobContext& context) const {
     std::string doubt =
         "sampling_period was searched in steps of 5 % and processing_delay in eighths of a sample: "
         "an unstable interval narrower than a step is missed";
-    if (!poles_if_proved(the_case).empty()) doubt += "; --prove checks every value";
+    if (may_be_proved(the_case)) doubt += "; --prove checks every value";
     report_warning(doubt, context.quiet);
   }
   MarginsTable table(context, proved);

@@ -66,7 +66,7 @@ void CoverageQuestion::run(const JobContext& context) const {
     table.row(duration, coverage.cells(), coverage.visited(), coverage.visited_fraction());
   }
   tell_of_end(context, end_of(motion));
-  if (digits) tell_trust(context, table, with_rate(digits->result(), moving, motion.index()));
+  if (digits) tell_trust(context, table, digits->result());
   table.commit();
 }
 

@@ -43,24 +43,20 @@ struct DeviationQuestion {
           "the distance of the two motions is below rounding errors: give a larger --offset");
     table.note("above_rounding_until_s", format_number(told_until));
     tell_of_end(context, end_of(first));
-    const TrustedDigits trusted =
-        with_rate(trusted_digits_of_deviation(moving, offset, samples), moving, samples);
-    table.trust(trusted);
+    table.trust(trusted_digits_of_deviation(moving, offset, samples));
     table.commit();
-    if (last >= std::abs(offset)) tell_why_apart(context, moving, last, trusted);
+    if (last >= std::abs(offset)) tell_why_apart(context, moving, last);
   }
 
   /// Warns why two neighbours have not come together within the duration, from their orbits.
-  void tell_why_apart(const JobContext& context, const MovingLoop& moving, double last,
-                      const TrustedDigits& trusted) const {
+  void tell_why_apart(const JobContext& context, const MovingLoop& moving, double last) const {
     const auto* first = std::get_if<SampledMasses>(&moving);
     if (first == nullptr) return;
     Vector<double, 4> second = first->state;
     second[0] += offset;
     report_warning("after " + format_rounded(duration) +
                        " s the states of the two motions still differ by " + format_rounded(last) +
-                       " (norm in SI units): " + apart_text(first->loop, first->state, second) +
-                       rate_text(trusted),
+                       " (norm in SI units): " + apart_text(first->loop, first->state, second),
                    context.quiet);
   }
 };

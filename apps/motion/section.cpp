@@ -42,8 +42,7 @@ struct SectionQuestion {
     const BuiltLoop built = built_loop_of(context.case_data, {switching});
     std::visit([&](const auto& one) { run_of(motion_of(one)); }, built);
     const MovingLoop moving = moving_loop_of(context.case_data, {switching});
-    tell_trust(context, table,
-               with_rate(trusted_digits_of_motion(moving, built, samples, from), moving, samples));
+    tell_trust(context, table, trusted_digits_of_motion(moving, built, samples, from));
     table.commit();
   }
 };

@@ -60,9 +60,7 @@ struct SimulateQuestion {
       write_motion_row(table, switching, sample);
     });
     tell_of_end(context, end_of(motion), !no_control, kicked ? kicked->displacement : 0.0);
-    if (digits)
-      tell_trust(context, table,
-                 no_control ? digits->result() : with_rate(digits->result(), moving, samples));
+    if (digits) tell_trust(context, table, digits->result());
     table.commit();
   }
 

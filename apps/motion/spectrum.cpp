@@ -68,7 +68,7 @@ SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& op
   });
   tell_of_end(context, end_of(motion));
   if (!digits) return {record, {}};
-  return {record, with_rate(digits->result(), moving, samples)};
+  return {record, digits->result()};
 }
 
 /// Warning that the two halves of a record differ in size; else empty.

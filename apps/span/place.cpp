@@ -35,7 +35,7 @@ std::size_t device_named(const std::optional<std::string>& word, const Case& the
 }
 
 struct PlaceQuestion {
-  std::optional<std::string> device, goal, modes, keep, move;
+  std::optional<std::string> device, goal, modes, keep;
   std::string frequency = "5:60:56";
   std::optional<double> margin;
 
@@ -45,7 +45,6 @@ struct PlaceQuestion {
     job.add("--for", goal);
     job.add("--modes", modes);
     job.add("--keep", keep);
-    job.add("--move", move);
     job.add("--margin", margin);
   }
 
@@ -72,7 +71,7 @@ struct PlaceQuestion {
       throw WrongInput("--frequency " + one_line(frequency) + ": give at most 100000 frequencies");
     if (goal == "damping") question.goal = PlacementGoal::ratio;
     if (modes) read_modes(question);
-    question.moves_position = question.is_absorber() ? move.has_value() : !keep.has_value();
+    question.moves_position = !question.is_absorber() && !keep;
     question.margin = margin.value_or(question.margin);
     if (margin && !question.is_absorber())
       throw WrongInput("--margin works only for the gains of --device absorber: device " +

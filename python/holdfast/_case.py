@@ -778,7 +778,6 @@ class Case:
         duration: Optional[float] = None,
         *,
         discard: Optional[float] = None,
-        standard_error: Optional[float] = None,
         tangent: Optional[Literal["consistent", "printed"]] = None,
         largest: bool = False,
         history: bool = False,
@@ -790,7 +789,6 @@ class Case:
 
         :param duration: s
         :param discard: left out at the start, s
-        :param standard_error: stop once the largest exponent per sample is known to this
         :param tangent: ``"consistent"`` or ``"printed"`` (as the paper's Table 2)
         :param largest: the largest one alone
         """
@@ -800,7 +798,6 @@ class Case:
                 {
                     "duration": duration,
                     "discard": discard,
-                    "standard_error": standard_error,
                     "tangent": tangent,
                     "largest": largest,
                     "history": history,
@@ -844,7 +841,6 @@ class Case:
         keys: Mapping[str, Range],
         *,
         starts: Optional[Mapping[str, Range]] = None,
-        each: bool = False,
         max_period: Optional[int] = None,
         switching: Optional[Switching] = None,
         store: Optional[Path] = None,
@@ -856,11 +852,10 @@ class Case:
 
         :param keys: two, each with (min, max, count)
         :param starts: further initial states of each cell, as the axes of :meth:`basins`
-        :param each: a row for each motion of each cell instead
         """
         words = _options.axes_texts(keys, 2, "--map")
         words += _options.axes_texts(starts, 2) if starts else []
-        words += _options.arguments({"motions": each, "max_period": max_period, "switching": switching})
+        words += _options.arguments({"max_period": max_period, "switching": switching})
         return self._run("basins", words, {**how, "store": store})
 
     def diagram(
@@ -999,7 +994,6 @@ class Case:
         for_: Optional[Literal["strain", "damping"]] = None,
         modes: Optional[tuple[int, int]] = None,
         keep: Optional[Literal["position"]] = None,
-        move: Optional[Literal["position"]] = None,
         margin: Optional[float] = None,
         **how: Unpack[How],
     ) -> Table:
@@ -1010,11 +1004,10 @@ class Case:
         :param for_: ``"strain"`` or ``"damping"``
         :param modes: (first, last) instead
         :param keep: ``"position"``
-        :param move: ``"position"``
         :param margin: modulus margin that the absorber's loop keeps
         """
         words = _axis("frequency", frequency) + _options.arguments(
-            {"device": device, "for": for_, "keep": keep, "move": move, "margin": margin}
+            {"device": device, "for": for_, "keep": keep, "margin": margin}
         )
         words += [f"--modes={_options.interval_text(modes, 'modes')}"] if modes is not None else []
         return self._run("place", words, how)

@@ -288,11 +288,11 @@ class Case:
         ...
 
     @overload
-    def lyapunov(self, duration: Optional[float]=None, *, discard: Optional[float]=None, standard_error: Optional[float]=None, tangent: Optional[Literal['consistent', 'printed']]=None, largest: bool=False, history: bool=False, switching: Optional[Switching]=None, **how: Unpack[How]) -> Table:
+    def lyapunov(self, duration: Optional[float]=None, *, discard: Optional[float]=None, tangent: Optional[Literal['consistent', 'printed']]=None, largest: bool=False, history: bool=False, switching: Optional[Switching]=None, **how: Unpack[How]) -> Table:
         ...
 
     @overload
-    def lyapunov(self, duration: Optional[float]=None, *, output: Path, discard: Optional[float]=None, standard_error: Optional[float]=None, tangent: Optional[Literal['consistent', 'printed']]=None, largest: bool=False, history: bool=False, switching: Optional[Switching]=None, **how: Unpack[How]) -> None:
+    def lyapunov(self, duration: Optional[float]=None, *, output: Path, discard: Optional[float]=None, tangent: Optional[Literal['consistent', 'printed']]=None, largest: bool=False, history: bool=False, switching: Optional[Switching]=None, **how: Unpack[How]) -> None:
         ...
 
     @overload
@@ -316,15 +316,15 @@ class Case:
         ...
 
     @overload
-    def motions(self, keys: Mapping[str, Range], *, store: None=None, starts: Optional[Mapping[str, Range]]=None, each: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> Table:
+    def motions(self, keys: Mapping[str, Range], *, store: None=None, starts: Optional[Mapping[str, Range]]=None, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> Table:
         ...
 
     @overload
-    def motions(self, keys: Mapping[str, Range], *, store: Path, starts: Optional[Mapping[str, Range]]=None, each: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> Store:
+    def motions(self, keys: Mapping[str, Range], *, store: Path, starts: Optional[Mapping[str, Range]]=None, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> Store:
         ...
 
     @overload
-    def motions(self, keys: Mapping[str, Range], *, output: Path, store: None=None, starts: Optional[Mapping[str, Range]]=None, each: bool=False, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> None:
+    def motions(self, keys: Mapping[str, Range], *, output: Path, store: None=None, starts: Optional[Mapping[str, Range]]=None, max_period: Optional[int]=None, switching: Optional[Switching]=None, **how: Unpack[How]) -> None:
         ...
 
     @overload
@@ -372,11 +372,11 @@ class Case:
         ...
 
     @overload
-    def place(self, device: Optional[Union[int, str]]=None, *, frequency: Range=None, for_: Optional[Literal['strain', 'damping']]=None, modes: Optional[tuple[int, int]]=None, keep: Optional[Literal['position']]=None, move: Optional[Literal['position']]=None, margin: Optional[float]=None, **how: Unpack[How]) -> Table:
+    def place(self, device: Optional[Union[int, str]]=None, *, frequency: Range=None, for_: Optional[Literal['strain', 'damping']]=None, modes: Optional[tuple[int, int]]=None, keep: Optional[Literal['position']]=None, margin: Optional[float]=None, **how: Unpack[How]) -> Table:
         ...
 
     @overload
-    def place(self, device: Optional[Union[int, str]]=None, *, output: Path, frequency: Range=None, for_: Optional[Literal['strain', 'damping']]=None, modes: Optional[tuple[int, int]]=None, keep: Optional[Literal['position']]=None, move: Optional[Literal['position']]=None, margin: Optional[float]=None, **how: Unpack[How]) -> None:
+    def place(self, device: Optional[Union[int, str]]=None, *, output: Path, frequency: Range=None, for_: Optional[Literal['strain', 'damping']]=None, modes: Optional[tuple[int, int]]=None, keep: Optional[Literal['position']]=None, margin: Optional[float]=None, **how: Unpack[How]) -> None:
         ...
 
     @overload

@@ -17,7 +17,6 @@ _KEYWORDS = {
     "--from": "from_",
     "--map": "keys",
     "--metric": "metrics",
-    "--motions": "each",
     "--yes": "yes=True",
 }
 

@@ -71,9 +71,6 @@ void append_trust(Json& json, const TrustedDigits& trusted) {
   json["trusted_digits"] = trusted.digits;
   if (trusted.until) json["trusted_until_s"] = *trusted.until;
   if (!trusted.least.empty()) json["least_trusted"] = trusted.least;
-  if (!trusted.rate) return;
-  json["largest_exponent_per_s"] = trusted.rate->per_second;
-  json["largest_exponent_standard_error_per_s"] = trusted.rate->standard_error;
 }
 
 Json of_file(const Written& file) {

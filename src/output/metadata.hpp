@@ -15,9 +15,8 @@ namespace holdfast::program {
 /// Origin and columns of a table, as W3C CSV on the Web metadata. `file_name` is the table's name
 /// without folder. Units are `schema:unitText`. `notes[0].holdfast` contains version, job, options
 /// and the full case. There is no date: an equal job gives equal bytes. If the table has fewer than
-/// six trusted digits, `trusted_digits` is their number. For a motion `trusted_until_s`,
-/// `largest_exponent_per_s` and its standard error are added; for a table of single quantities
-/// `least_trusted`.
+/// six trusted digits, `trusted_digits` is their number. For a motion `trusted_until_s` is added;
+/// for a table of single quantities `least_trusted`.
 nlohmann::ordered_json table_metadata(const JobContext& context, const std::vector<Column>& columns,
                                       const std::string& file_name,
                                       const TrustedDigits& trusted = {},

@@ -47,7 +47,7 @@ TEST(EventLyapunov, AtSamplesItIsTheSpectrumOfTheSampledMotion) {
     EventLyapunov<DriveContact<>> lyapunov(motion);
     auto sampled = which.motion();
     LyapunovObserver<double> observer(which.loop(), which.gains);
-    for (const std::int64_t samples : {run.discard, run.most_samples}) {
+    for (const std::int64_t samples : {run.discard, run.samples}) {
       lyapunov.restart();
       observer.restart();
       test::move_samples(lyapunov, samples);

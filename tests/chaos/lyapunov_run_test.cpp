@@ -60,24 +60,22 @@ TYPED_TEST(LyapunovRunOf, LeavesOutTheSamplesToBeDiscardedAndTheMotionAfterTheLa
   for (const double period : {0.001, 0.011}) {
     const auto which = flickering(period);
     auto motion = TypeParam::motion(which);
-    const auto result = TypeParam::run(motion, which, {1299, 701, 1e-9});
-    EXPECT_EQ(result.outcome, LyapunovOutcome::sample_limit);
+    const auto result = TypeParam::run(motion, which, {1299, 701});
+    EXPECT_FALSE(result.diverged);
     EXPECT_EQ(motion.index(), 2000);
     EXPECT_EQ(result.samples + result.settling, 1299);
   }
 }
 
-TYPED_TEST(LyapunovRunOf, EndsWhenTheLargestExponentIsAccurate) {
+TYPED_TEST(LyapunovRunOf, AveragesLongerToASmallerError) {
   const auto which = flickering(0.011);
-  LyapunovRun run{200000, 2000, 1e-3};
+  LyapunovRun run{5000, 2000};
   const auto result = this->run_of(which, run);
-  EXPECT_EQ(result.outcome, LyapunovOutcome::accurate);
-  EXPECT_LT(result.samples, run.most_samples);
-  EXPECT_LE(result.standard_errors[0], 1e-3);
   EXPECT_EQ(result.standard_errors[4], 0.0);
-  const auto longer = this->run_of(which, {20 * result.samples, run.discard});
-  EXPECT_EQ(longer.outcome, LyapunovOutcome::sample_limit);
-  EXPECT_NEAR(result.exponents[0], longer.exponents[0], 5e-3);
+  const auto longer = this->run_of(which, {20 * run.samples, run.discard});
+  EXPECT_LT(longer.standard_errors[0], 0.5 * result.standard_errors[0]);
+  EXPECT_NEAR(result.exponents[0], longer.exponents[0],
+              4.0 * (result.standard_errors[0] + longer.standard_errors[0]));
   run.scope = LyapunovScope::largest;
   const auto largest = this->run_of(which, run);
   EXPECT_TRUE(std::isfinite(largest.exponents[0]));
@@ -90,11 +88,11 @@ TYPED_TEST(LyapunovRunOf, ADivergingMotionHasTheExponentsOfTheSamplesBeforeItLef
   which.processing_delay = 0.011;  // S has an eigenvalue outside the unit circle
   auto motion = TypeParam::motion(which);
   const auto result = TypeParam::run(motion, which, {100000});
-  EXPECT_EQ(result.outcome, LyapunovOutcome::diverged);
+  EXPECT_TRUE(result.diverged);
   EXPECT_EQ(result.samples + result.settling, motion.index());
   EXPECT_GT(result.exponents[0], 0.1);
   const auto early = this->run_of(which, {10, 99999});
-  EXPECT_EQ(early.outcome, LyapunovOutcome::diverged);
+  EXPECT_TRUE(early.diverged);
   EXPECT_EQ(early.samples, 0);
   EXPECT_TRUE(std::isnan(early.exponents[0]));
 }
@@ -103,11 +101,9 @@ TYPED_TEST(LyapunovRunOf, RefusesWhatIsNoRun) {
   const auto which = flickering(0.011);
   EXPECT_THROW(this->run_of(which, {0}), InvalidParameter);
   EXPECT_THROW(this->run_of(which, {10, -1}), InvalidParameter);
-  EXPECT_THROW(this->run_of(which, {10, 0, -1e-3}), InvalidParameter);
-  EXPECT_THROW(this->run_of(which, {10, 0, std::nan("")}), InvalidParameter);
 }
 
-TEST(LyapunovRun, TakesAllSamplesWhereNothingElseIsAskedFor) {
+TEST(LyapunovRun, TakesAllSamples) {
   for (const double period : {0.001, 0.011}) {
     for (const std::int64_t samples : {1, 4, 6, 1001}) {
       const auto which = flickering(period);
@@ -115,19 +111,12 @@ TEST(LyapunovRun, TakesAllSamplesWhereNothingElseIsAskedFor) {
       LyapunovObserver observer(which.loop(), which.gains);
       auto motion = which.motion();
       run_trajectory(motion, samples, std::nullopt, observer);
-      EXPECT_EQ(result.outcome, LyapunovOutcome::sample_limit);
       EXPECT_EQ(result.samples + result.settling, samples);
       const auto settled = observer.spectrum().settled();
       EXPECT_EQ(result.settling, settled.left_out);
       EXPECT_EQ(result.exponents, settled.means);
     }
   }
-}
-
-TEST(LyapunovRun, IsJudgedFirstByTheFewestBatches) {
-  const auto result = run_of(flickering(0.011), {100000, 0, 1e3});
-  EXPECT_EQ(result.outcome, LyapunovOutcome::accurate);
-  EXPECT_EQ(result.samples, ItineraryBlocks::length * static_cast<std::int64_t>(fewest_batches));
 }
 
 TEST(LyapunovRun, KnowsTheSignThatItsStandardErrorLeavesNoDoubtOf) {
@@ -159,7 +148,7 @@ ExponentEstimate of_linear_loop(const IdealLoop<double>& loop, LyapunovScope sco
   auto motion = harmonically_forced_motion(loop, Vector<double, 4>::Zero());
   const auto blocks =
       std::make_shared<const ItineraryBlocks>(sampled_loop(loop.plant, loop.sampling), loop.gains);
-  const LyapunovResult found = run_lyapunov(motion, blocks, {samples, 0, 0, scope});
+  const LyapunovResult found = run_lyapunov(motion, blocks, {samples, 0, scope});
   return exponent_estimate(found.exponents[0], found.standard_errors[0]);
 }
 

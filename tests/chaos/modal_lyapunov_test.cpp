@@ -66,7 +66,6 @@ TEST(ModalLyapunov, OfAnOrbitIsItsLargestMultiplier) {
   ASSERT_EQ(found.outcome, OrbitOutcome::certified);
   ModalMotion motion = *modal_motion(loop, at_rest(loop));
   const LyapunovResult result = run_lyapunov(motion, loop, {200000, 20000});
-  EXPECT_EQ(result.outcome, LyapunovOutcome::sample_limit);
   const double expected = found.orbit->multipliers.front().log_modulus /
                           static_cast<double>(found.orbit->period_samples());
   EXPECT_NEAR(result.exponents[0], expected, 2e-2 * std::abs(expected));
@@ -99,7 +98,7 @@ TEST(ModalLyapunov, StopsWhereTheMotionDiverges) {
   loop.gains = {-557.0, 400.0};
   loop.backlash_width = 0.0;
   ModalMotion motion = *modal_motion(loop, at_rest(loop));
-  EXPECT_EQ(run_lyapunov(motion, loop, {1000000, 0}).outcome, LyapunovOutcome::diverged);
+  EXPECT_TRUE(run_lyapunov(motion, loop, {1000000, 0}).diverged);
 }
 
 /// Periodic, chaotic and diverging motions of one mode are those of its two masses.

@@ -77,7 +77,7 @@ TEST(VerdictOfAnyOrder, OfSevenIsPeriodicWithTheExponentOfItsMultiplier) {
     const LyapunovResult result = exponents_from_rest(loop, run);
     std::cout << "exponent " << expected << ", over the run less " << result.exponents[0] - expected
               << "\n";
-    EXPECT_NEAR(result.exponents[0], expected, 3.0 / static_cast<double>(run.most_samples));
+    EXPECT_NEAR(result.exponents[0], expected, 3.0 / static_cast<double>(run.samples));
   }
 }
 

@@ -38,8 +38,6 @@ TEST(DigitsInMetadata, OfAnIrregularMotionAreNoneAfterAWhile) {
   for (const std::string job : {"simulate --duration 60", "section --duration 60",
                                 "spectrum --duration 60", "coverage --durations 10,60"}) {
     const std::string metadata = metadata_of(job + irregular, errors);
-    expect_holds(metadata, {"\"largest_exponent_per_s\""});
-    expect_holds(errors, {"neighbouring motions separate, the largest exponent is "});
     expect_holds(metadata, {"\"trusted_digits\": 0", "\"trusted_until_s\""});
     expect_holds(errors, {"warning: after t = "});
   }
@@ -48,12 +46,9 @@ TEST(DigitsInMetadata, OfAnIrregularMotionAreNoneAfterAWhile) {
 }
 
 TEST(DigitsInMetadata, OfADeviationThatStaysTellWhyNeighboursPart) {
-  if (!long_double_is_wider) GTEST_SKIP() << "long double is no wider than double here";
   std::string errors;
-  const std::string job = std::string("deviation --offset 1e-9 --duration 60") + irregular;
-  EXPECT_NE(metadata_of(job, errors).find("\"largest_exponent_per_s\""), std::string::npos);
-  expect_holds(errors, {"no certified orbit was found",
-                        "neighbouring motions separate, the largest exponent is "});
+  metadata_of(std::string("deviation --offset 1e-9 --duration 60") + irregular, errors);
+  expect_holds(errors, {"no certified orbit was found"});
 }
 
 TEST(DigitsInMetadata, OfAnotherLoopAreThoseThatAnotherRoundingConfirms) {

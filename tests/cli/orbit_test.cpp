@@ -203,7 +203,6 @@ TEST(OrbitJob, RefusesWhatItCannotFollow) {
   expect_refused("basins --map backlash.width=0.001:0.002:2", {"two keys, not 1"});
   expect_refused(cells + "backlash.width=0.001:0.002:2", {"both keys"});
   expect_refused(cells + "control.sampling_period=-1:1:2", {"must be greater than 0 s"});
-  expect_refused("basins --motions", {"--map"});
   expect_refused("orbit --follow backlash.width=0.001:0.002", {"must lie between"});
   expect_refused("orbit --follow control.sampling_period=0.0005:0.002",
                  {"changes the ratio of sampling and excitation period"});

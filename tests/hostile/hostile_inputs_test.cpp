@@ -109,7 +109,7 @@ std::vector<std::string> some_option(Random& random) {
       "--set --case --output --threads --p --d --force --elements --count --absorber --duration "
       "--interval --data --parameters --target --axis --frequency --band --largest-radius "
       "--criterion --from --kick --switching --discard --window --offset --durations --cells "
-      "--max-period --follow --transient --strobes --standard-error --tangent --metric --chunk "
+      "--max-period --follow --transient --strobes --tangent --metric --chunk "
       "--init --check --resume --dry-run --quiet --progress --radius --continuous --plain "
       "--largest --history --trace --certificate --fractions --details --best-gain --no-control "
       "--help --version --regions --features --stable-interval --both-gains "

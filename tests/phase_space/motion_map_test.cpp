@@ -94,7 +94,6 @@ TEST(MotionMap, ContinuesAMotionOverTheCellsThatItsRegionHolds) {
   for (const MapCell& cell : cells) {
     ASSERT_EQ(cell.motions.size(), 1U);
     EXPECT_EQ(cell.motions[0].amplitude, cells[0].motions[0].amplitude);
-    EXPECT_EQ(cell.motions[0].origin, MotionOrigin::start);
   }
 }
 

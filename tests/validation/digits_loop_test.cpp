@@ -189,10 +189,8 @@ TEST_F(LoopDigits, WhereTwoRootsMeetAreAtLeastHalfAsMany) {
   for (const SamplingCase& which : samplings) {
     LoopInputs x = loop_inputs(which.period, which.delay, 0.0);
     const auto least_at = [&](double p) { return minimum_radius(sampled_of(x), p); };
-    detail::narrow_to_best(-800.0, 800.0, 80, [&](double left, double right) {
-      x[8] = left;
-      return least_at(left).radius < least_at(right).radius;
-    });
+    const auto radius_at = [&](double p) { return least_at(p).radius; };
+    x[8] = detail::narrow_to_minimum(-800.0, 800.0, 60, radius_at);
     x[9] = least_at(x[8]).differential_gain;
     const auto radius = [](const auto& v) {
       return spectral_radius(sampled_of(v).engaged_map(loop_of(v).gains));

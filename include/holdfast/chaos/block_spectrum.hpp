@@ -65,8 +65,6 @@ class BlockSpectrum {
 
   /// The Lyapunov spectrum over all blocks added so far and the incomplete block `open`.
   LyapunovSpectrum<double, 5> spectrum(ItineraryBlock open = empty_block) const;
-  /// The number of complete batches of samples, used for the standard errors.
-  std::size_t complete_batches() const { return sums_.complete_batches(); }
 
  private:
   /// The tangent vectors, orthonormalised in the loop's own coordinates, with their ln |R_ii|.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <functional>
 
 #include "holdfast/chaos/lyapunov_run.hpp"
@@ -61,8 +60,6 @@ class EventLyapunov {
 
   /// The Lyapunov spectrum over the samples since the last restart, natural logarithm per sample.
   const LyapunovSpectrum<double, size>& spectrum() const { return spectrum_; }
-  /// The number of complete batches of samples, used for the standard errors.
-  std::size_t complete_batches() const { return spectrum_.complete_batches(); }
   /// Restarts the averages; only the tangent vectors and the number of exponents −∞ are kept.
   void restart() { spectrum_.restart(); }
 

@@ -1,12 +1,10 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "holdfast/chaos/block_spectrum.hpp"
@@ -21,33 +19,25 @@
 
 namespace holdfast {
 
-/// The length and accuracy of an averaged Lyapunov spectrum.
+/// The length of an averaged Lyapunov spectrum.
 struct LyapunovRun {
-  std::int64_t most_samples;  ///< largest number of samples averaged after the discarded ones, ≥ 1
-  std::int64_t discard = 0;   ///< samples left out while motion and tangent vectors settle, ≥ 0
-  double standard_error = 0;  ///< standard error of λ₁ that ends the run, ≥ 0; 0: no early end
+  std::int64_t samples;      ///< number of samples averaged after the discarded ones, ≥ 1
+  std::int64_t discard = 0;  ///< samples left out while motion and tangent vectors settle, ≥ 0
   LyapunovScope scope = LyapunovScope::all;  ///< exponents to be computed
 };
 
 /// Validates the settings of a run. @throws InvalidParameter where a field is not admissible
 inline void validate(const LyapunovRun& run) {
-  require_within("samples of the Lyapunov run", static_cast<double>(run.most_samples), "", 1, 9e15);
+  require_within("samples of the Lyapunov run", static_cast<double>(run.samples), "", 1, 9e15);
   require_within("discarded samples", static_cast<double>(run.discard), "", 0, 9e15);
-  require_non_negative("required standard error", run.standard_error, "");
 }
-
-/// The outcome of a Lyapunov run.
-enum class LyapunovOutcome {
-  accurate,      ///< the required standard error was reached
-  sample_limit,  ///< all samples were used, and the required error was not reached
-  diverged,      ///< the state became infinite or NaN; exponents are averages up to then, or NaN
-                 ///< if this happened within the discarded samples
-};
 
 /// The Lyapunov exponents of a motion, natural logarithm per sample, averaged over the samples
 /// after the tangent vectors have settled (settled_means()).
 struct LyapunovResult {
-  LyapunovOutcome outcome;  ///< reason for the end of the run
+  /// Whether the state became infinite or NaN. The exponents are then averages up to that sample,
+  /// or NaN if it was one of the discarded samples.
+  bool diverged;
   /// The exponents λ₁ … λ₅ in the order of the QR factorisation; −∞ for a direction in which
   /// deviations become exactly zero. λ₂ … λ₅ are NaN where only λ₁ was computed.
   Vector<double, 5> exponents;
@@ -66,19 +56,15 @@ struct LyapunovResult {
   }
 };
 
-/// The smallest number of complete batches after which a run may end early.
-inline constexpr std::size_t fewest_batches = 32;
-
 namespace detail {
 
 /// The result of a Lyapunov run, from the five leading exponents of a spectrum.
 /// @tparam Size  ≥ 5
 template <int Size>
-LyapunovResult lyapunov_result(LyapunovOutcome outcome,
-                               const LyapunovSpectrum<double, Size>& spectrum,
+LyapunovResult lyapunov_result(bool diverged, const LyapunovSpectrum<double, Size>& spectrum,
                                const LyapunovRun& run) {
   const SettledMeans<Size> settled = spectrum.settled();
-  LyapunovResult result{outcome, settled.means.template head<5>(),
+  LyapunovResult result{diverged, settled.means.template head<5>(),
                         settled.standard_errors.template head<5>(), settled.steps,
                         settled.left_out};
   if (run.scope == LyapunovScope::largest) {
@@ -88,42 +74,29 @@ LyapunovResult lyapunov_result(LyapunovOutcome outcome,
   return result;
 }
 
-/// Averages the exponents of one motion: discards the first samples, then continues until the mean
-/// is accurate enough, the samples are used up or the motion diverges.
+/// Averages the exponents of one motion: discards the first samples, then continues until the
+/// samples are used up or the motion diverges.
 /// @param pause  called every 2¹² samples
-/// @tparam Lyapunov  type with sense(), advance() and state() of the motion, and with restart(),
-///                   spectrum() and complete_batches() of the exponents
+/// @tparam Lyapunov  type with sense(), advance() and state() of the motion, and with restart() and
+///                   spectrum() of the exponents
 template <class Lyapunov>
 LyapunovResult run_average(Lyapunov& motion, const LyapunovRun& run,
                            const std::function<void()>& pause) {
   constexpr std::int64_t samples_between_pauses = 1 << 12;
   bool diverged = false;
-  const auto advance = [&](std::int64_t samples, const auto& is_enough) {
+  const auto advance = [&](std::int64_t samples) {
     for (std::int64_t taken = 0; taken < samples && !diverged; ++taken) {
       if (pause && taken % samples_between_pauses == 0) pause();
       motion.sense();
       diverged = !std::isfinite(motion.state().sum());
       if (diverged) return;
       motion.advance();
-      if (is_enough()) return;
     }
   };
-  advance(run.discard, [] { return false; });
+  advance(run.discard);
   motion.restart();
-  std::optional<LyapunovResult> accurate;
-  std::size_t judged = 0;
-  advance(run.most_samples, [&] {
-    const std::size_t batches = motion.complete_batches();
-    const bool is_new = batches != judged && batches >= fewest_batches;
-    if (!is_new || !(run.standard_error > 0.0)) return false;
-    judged = batches;
-    const auto now = lyapunov_result(LyapunovOutcome::accurate, motion.spectrum(), run);
-    if (now.standard_errors[0] <= run.standard_error) accurate = now;
-    return accurate.has_value();
-  });
-  if (accurate) return *accurate;
-  const auto ending = diverged ? LyapunovOutcome::diverged : LyapunovOutcome::sample_limit;
-  return lyapunov_result(ending, motion.spectrum(), run);
+  advance(run.samples);
+  return lyapunov_result(diverged, motion.spectrum(), run);
 }
 
 }  // namespace detail
@@ -160,8 +133,6 @@ class LyapunovObserver {
 
   /// The Lyapunov spectrum since the last restart, equal to that of a QR step at every sample.
   LyapunovSpectrum<Scalar, 5> spectrum() const { return engine_.spectrum(open_); }
-  /// The number of complete batches of samples, used for the standard errors.
-  std::size_t complete_batches() const { return engine_.complete_batches(); }
   /// Restarts the averages; only the directions of the tangent vectors are kept.
   void restart() {
     engine_.restart(open_);
@@ -208,11 +179,11 @@ LyapunovResult run_sampled(Motion& motion, const Exponents& exponents, const Lya
 /// The Lyapunov exponents of the sampled loop with backlash along a motion from its present state.
 ///
 ///     auto blocks = std::make_shared<const ItineraryBlocks>(loop, gains);
-///     const LyapunovResult result = run_lyapunov(motion, blocks, {1000000, 1000, 1e-5});
+///     const LyapunovResult result = run_lyapunov(motion, blocks, {1000000, 1000});
 ///
 /// @param motion  a SampledMotion of `double`, not of a SIMD pack; advanced to the end of the run
 /// @param blocks  products of the tangent maps S and S* of the motion's loop; not null
-/// @param run     length and accuracy of the average
+/// @param run     length of the average
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible or there are no blocks
 template <class Motion>

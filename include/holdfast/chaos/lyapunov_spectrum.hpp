@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -91,8 +90,6 @@ class LyapunovSpectrum {
 
   /// The number n of maps since the start or the last restart.
   std::int64_t steps() const { return state_.sums.steps(); }
-  /// The number of complete batches of steps, used for the standard errors.
-  std::size_t complete_batches() const { return state_.sums.complete_batches(); }
 
   /// Restarts the averages; only the tangent vectors and the number of null directions are kept.
   void restart() {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <type_traits>
+#include <vector>
 
 #include "holdfast/chaos/chaos_indicators.hpp"
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
@@ -11,6 +12,7 @@
 #include "holdfast/motion/modal/modal_motion.hpp"
 #include "holdfast/motion/modal/natural_motions.hpp"
 #include "holdfast/orbit/modal/modal_orbit_search.hpp"
+#include "holdfast/plant/plant_poles.hpp"
 
 namespace holdfast {
 
@@ -40,7 +42,9 @@ struct ModalTangents : ModalSpectrum<Scalar> {
 template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 SampledClassification classify_motion(const Loop& loop, const ModalMotion::Full& initial_state,
                                       const OrbitLimits& limits = {}) {
-  const std::optional<ModalMotion> motion = modal_motion(loop, initial_state);
+  validate(loop);
+  const std::vector<PlantPole> poles = plant_poles(loop.modes, loop.absorber);
+  const std::optional<ModalMotion> motion = modal_motion(loop, poles, initial_state);
   if (!motion) {
     SampledClassification unknown;
     unknown.classification.rests_on =
@@ -52,8 +56,8 @@ SampledClassification classify_motion(const Loop& loop, const ModalMotion::Full&
     detail::ModalTangents<double> tangents(loop, engaged);
     return detail::indicators_of_samples(*motion, plan, engaged, tangents);
   };
-  return detail::classify_sampled(loop, find_periodic_orbit(loop, initial_state, limits), *motion,
-                                  look);
+  return detail::classify_sampled(loop, find_periodic_orbit(loop, poles, initial_state, limits),
+                                  *motion, look);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <functional>
 
 #include "holdfast/chaos/lyapunov_run.hpp"
@@ -71,8 +70,6 @@ class ModalSpectrum {
                                         Vector<Scalar, leading>::Zero(),
                                         static_cast<int>(finite_)});
   }
-  /// The number of complete batches of samples, used for the standard errors.
-  std::size_t complete_batches() const { return sums_.complete_batches(); }
 
  private:
   static constexpr int leading = 5;

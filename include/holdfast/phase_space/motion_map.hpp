@@ -22,14 +22,6 @@
 
 namespace holdfast {
 
-/// The start of the search that found a periodic motion in a cell of a map.
-enum class MotionOrigin {
-  start,      ///< the initial state given for the map
-  state,      ///< one of MotionMapOptions::more_starts
-  continued,  ///< a neighbouring cell's motion, continued with its order of contact changes
-  neighbour,  ///< a state of a neighbouring cell's motion, from which the search started
-};
-
 /// A certified, attracting periodic motion found in a cell.
 struct MappedMotion {
   std::int64_t period_samples;   ///< number N of samples in a period
@@ -38,7 +30,6 @@ struct MappedMotion {
   double amplitude;              ///< largest |z₁| (m) at a sample
   double largest_multiplier;     ///< largest modulus of the multipliers
   double border_share;           ///< border_share() of the PeriodicOrbit or EventOrbit
-  MotionOrigin origin;           ///< start of the search that found the motion
 };
 
 /// A cell of a map, with the periodic motions found in that cell.
@@ -65,14 +56,10 @@ struct MapShape {
 namespace detail {
 
 template <class Orbit>
-MappedMotion mapped(const Orbit& orbit, MotionOrigin origin) {
-  return {orbit.period_samples(),
-          orbit.period(),
-          orbit.forcing_periods(),
-          orbit.amplitude(),
-          orbit.largest_multiplier(),
-          orbit.border_share(),
-          origin};
+MappedMotion mapped(const Orbit& orbit) {
+  return {orbit.period_samples(),     orbit.period(),
+          orbit.forcing_periods(),    orbit.amplitude(),
+          orbit.largest_multiplier(), orbit.border_share()};
 }
 
 /// The search for motions of IdealLoops in a map, and their continuation in another cell.
@@ -224,8 +211,7 @@ class MotionMapSearch {
     for (std::size_t k = 0; k < starts.size(); ++k) {
       auto found = model_.from_start(*loop, starts[k]);
       if (k == 0) cells_[cell].outcome = found.outcome;
-      if (found.outcome == OrbitOutcome::certified)
-        add(cell, *found.orbit, k == 0 ? MotionOrigin::start : MotionOrigin::state);
+      if (found.outcome == OrbitOutcome::certified) add(cell, *found.orbit);
     }
   }
 
@@ -251,19 +237,18 @@ class MotionMapSearch {
     const auto ratio = loop ? model_.ratio_of(*loop) : std::nullopt;
     if (!ratio || ratio->denominator > model_.limits.largest_period) return;
     auto found = model_.continued(*loop, *ratio, seed);
-    const bool goes_on = found.outcome == OrbitOutcome::certified && found.orbit->is_attracting();
-    if (!goes_on) found = model_.from_neighbour(*loop, *ratio, seed);
-    if (found.outcome == OrbitOutcome::certified)
-      add(cell, *found.orbit, goes_on ? MotionOrigin::continued : MotionOrigin::neighbour);
+    if (found.outcome != OrbitOutcome::certified || !found.orbit->is_attracting())
+      found = model_.from_neighbour(*loop, *ratio, seed);
+    if (found.outcome == OrbitOutcome::certified) add(cell, *found.orbit);
   }
 
-  void add(std::size_t cell, const typename Model::Orbit& orbit, MotionOrigin origin) {
+  void add(std::size_t cell, const typename Model::Orbit& orbit) {
     Seed seed = model_.seed_of(orbit);
     for (const Seed& known : seeds_[cell])
       if (model_.is_same(known, seed)) return;
     for (const Found& known : fresh_[cell])
       if (model_.is_same(known.seed, seed)) return;
-    fresh_[cell].push_back({std::move(seed), mapped(orbit, origin)});
+    fresh_[cell].push_back({std::move(seed), mapped(orbit)});
   }
 
   const Model& model_;

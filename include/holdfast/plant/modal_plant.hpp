@@ -63,10 +63,18 @@ inline void validate(const std::vector<PlaceMode<double>>& modes,
 template <class Scalar>
 std::complex<Scalar> receptance(const std::vector<PlaceMode<Scalar>>& modes,
                                 const std::complex<Scalar>& s) {
-  std::complex<Scalar> sum(0);
-  for (const PlaceMode<Scalar>& mode : modes)
-    sum += mode.shape * mode.shape / mode.mass * mode.response(s);
-  return sum;
+  const Scalar x = s.real(), y = s.imag();
+  Scalar re(0), im(0);
+  for (const PlaceMode<Scalar>& mode : modes) {
+    const Scalar omega = mode.angular_frequency,
+                 beyond = x + Scalar(2) * mode.damping_ratio * omega;
+    const Scalar real = (x * beyond - y * y) + omega * omega, imaginary = x * y + y * beyond;
+    const Scalar share =
+        mode.shape * mode.shape / (mode.mass * (real * real + imaginary * imaginary));
+    re += share * real;
+    im -= share * imaginary;
+  }
+  return {re, im};
 }
 
 namespace detail {

@@ -79,7 +79,7 @@ class PoleFinder {
     if (!(std::abs(found.residue * found.stiffness) < 1e-6 * std::abs(s))) return std::nullopt;
     Complex others = -found.residue / apart;
     for (const PlaceMode<double>& other : modes_)
-      if (&other != &mode) others += receptance<double>({other}, s);
+      if (&other != &mode) others += other.shape * other.shape / other.mass * other.response(s);
     found.divisor += others * found.stiffness;
     if (!(std::abs(found.residue * found.stiffness) < 1e-8 * std::abs(found.divisor) * std::abs(s)))
       return std::nullopt;

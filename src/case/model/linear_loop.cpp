@@ -228,10 +228,11 @@ double LinearLoop::excess(const Sampling<double>& sampling, const PdGains<double
   return loop_excess_or_turn(by_poles_->response_at(sampling), gains);
 }
 
-StabilityMargins LinearLoop::margins(const PdGains<double>& gains) const {
+StabilityMargins LinearLoop::margins(const PdGains<double>& gains, bool of_delay) const {
   const Sampling<double> sampling = sampling_of(case_);
-  if (closed_) return stability_margins(plant_of(case_), sampling, gains);
   MarginSearch search;
+  search.of_delay = of_delay;
+  if (closed_) return stability_margins(plant_of(case_), sampling, gains, search);
   search.longest_period_ratio = 100.0;
   return modal_stability_margins(loop_poles_of(case_), sampling, gains, search,
                                  hardware_of(case_).has_velocity_sensor);

@@ -85,7 +85,7 @@ class LinearLoop {
   double excess(const Sampling<double>& sampling, const PdGains<double>& gains) const;
 
   /// The stability limits of D, P, τ and δ, each changed alone; τ by poles up to 100 times.
-  StabilityMargins margins(const PdGains<double>& gains) const;
+  StabilityMargins margins(const PdGains<double>& gains, bool of_delay = true) const;
   /// Gain, phase and delay margins of the whole loop.
   LoopMargins whole_margins(const PdGains<double>& gains) const;
 

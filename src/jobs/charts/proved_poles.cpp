@@ -20,13 +20,12 @@ bool all_decay(const std::vector<EnclosedPole>& poles) {
                      [](const EnclosedPole& pole) { return pole.s.real().is_negative(); });
 }
 
-/// As texts/support.toml has it of --prove.
-bool is_provable(const Case& the_case) {
+}  // namespace
+
+bool may_be_proved(const Case& the_case) {
   return the_case.own == nullptr && has_ideal_computer(the_case) && !is_infinite(the_case) &&
          the_case.devices.empty();
 }
-
-}  // namespace
 
 std::vector<EnclosedPole> proved_poles_of(const Case& the_case) {
   std::vector<EnclosedPole> poles = possible_poles_of(the_case);
@@ -42,7 +41,7 @@ std::vector<EnclosedPole> proved_poles_of(const Case& the_case) {
 }
 
 std::vector<EnclosedPole> poles_if_proved(const Case& the_case) {
-  if (!is_provable(the_case)) return {};
+  if (!may_be_proved(the_case)) return {};
   std::vector<EnclosedPole> poles = possible_poles_of(the_case);
   return all_decay(poles) ? poles : std::vector<EnclosedPole>{};
 }

@@ -36,7 +36,7 @@ void correct_by_proof(StabilityMargins& found, const ProvedMargins& proved, cons
 /// Whether the proof has come as far as the walk, or to an unstable loop.
 bool reaches(const ProvedMargin& proved, const TwoSidedMargin& walked, double value) {
   const auto one = [&](const ProvedMarginEnd& known, const MarginEnd& end) {
-    return std::isfinite(known.unstable_at) ||
+    return end.outcome == MarginEndOutcome::undefined || std::isfinite(known.unstable_at) ||
            std::abs(known.stable_to - value) >= (1.0 - 1e-9) * std::abs(end.position - value);
   };
   return one(proved.below, walked.below) && one(proved.above, walked.above);
@@ -45,12 +45,12 @@ bool reaches(const ProvedMargin& proved, const TwoSidedMargin& walked, double va
 /// Looks at every τ and δ between those of the case and the ends that the walk has found, and puts
 /// these right, as far as a second or so allows; not at all where that is a few steps.
 bool search_by_proof(StabilityMargins& found, const Case& the_case, const PdGains<double>& gains) {
-  const auto poles = poles_if_proved(the_case);
-  if (poles.empty() || found.outcome != MarginOutcome::stable) return false;
   const Sampling<double> sampling = sampling_of(the_case);
-  const auto roots = 2.0 * static_cast<double>(poles.size()) + held_commands(sampling);
+  const auto roots = static_cast<double>(loop_poles_of(the_case).size()) + held_commands(sampling);
   const int steps = static_cast<int>(1e6 / (roots * roots));  // a second or so
-  if (steps < 10) return false;
+  if (steps < 10 || found.outcome != MarginOutcome::stable) return false;
+  const auto poles = poles_if_proved(the_case);
+  if (poles.empty()) return false;
   const ProvedMargins proved =
       proved_sampling_margins(poles, sampling, gains, found, {1e-5, steps}, throw_if_interrupted);
   const bool everywhere =
@@ -80,9 +80,10 @@ void warn_of_edge(double spectral_radius, double sampling_period, bool quiet) {
         quiet);
 }
 
-CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains) {
+CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains,
+                                 bool of_delay) {
   const LinearLoop loop(the_case);
-  StabilityMargins margins = loop.margins(gains);
+  StabilityMargins margins = loop.margins(gains, of_delay);
   const bool everywhere = !loop.walks() || search_by_proof(margins, the_case, gains);
   return {margins, everywhere};
 }

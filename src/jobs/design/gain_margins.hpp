@@ -35,7 +35,9 @@ struct CaseMargins {
 };
 
 /// Margins in floating point, with a quick proof that no step missed an unstable interval.
-CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains);
+/// @param of_delay  whether δ is searched, too
+CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains,
+                                 bool of_delay = true);
 
 /// Proves stability margins by interval arithmetic, for the cases that texts/support.toml admits.
 /// Throws what proved_poles_of throws, Interrupted, and NoAnswer if the loop is not proved stable.

@@ -152,9 +152,9 @@ ExponentsOfMotion exponents_of(const MovingLoop& motion, const LyapunovRun& run,
 
 std::optional<LyapunovResult> run_largest_exponent(const MovingLoop& motion, std::int64_t samples) {
   if (samples < 1) return std::nullopt;
-  const LyapunovRun run{samples, 0, 0.0, LyapunovScope::largest};
+  const LyapunovRun run{samples, 0, LyapunovScope::largest};
   const LyapunovResult result = exponents_of(motion, run).result;
-  if (result.outcome == LyapunovOutcome::diverged) return std::nullopt;
+  if (result.diverged) return std::nullopt;
   return result;
 }
 

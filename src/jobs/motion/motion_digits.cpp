@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "holdfast/chaos/classification.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "holdfast/motion/instant.hpp"
-#include "jobs/motion/cell_motion.hpp"
 #include "text/text.hpp"
 
 namespace holdfast::program {
@@ -49,18 +47,6 @@ void take_root(Fewest& fewest, const ReducedMasses& found, const FrequencyReduct
 
 }  // namespace
 
-std::string rate_text(const TrustedDigits& trusted) {
-  if (!trusted.rate) return "";
-  const auto& [value, error] = *trusted.rate;
-  const ExponentEstimate estimate = exponent_estimate(value, error);
-  return std::string("; ") +
-         (estimate.positive()   ? "neighbouring motions separate, "
-          : estimate.negative() ? "neighbouring motions converge except at some contacts, "
-                                : "") +
-         "the largest exponent is " + format_rounded(value) + " +- " + format_rounded(error) +
-         " per second";
-}
-
 std::string trust_warning(const TrustedDigits& trusted) {
   if (!is_worth_telling(trusted)) return "";
   const std::string few =
@@ -69,7 +55,7 @@ std::string trust_warning(const TrustedDigits& trusted) {
       " confirms";
   if (trusted.until)
     return "after t = " + format_number(*trusted.until) + " s the result has " + few +
-           ": rounding errors dominate" + rate_text(trusted) + " (trusted_digits in the metadata)";
+           ": rounding errors dominate (trusted_digits in the metadata)";
   return (trusted.least.empty() ? "the result" : trusted.least) + " has " + few +
          " (trusted_digits in the metadata)";
 }
@@ -146,15 +132,6 @@ TrustedDigits trusted_digits_of_motion(const MovingLoop& moving, const BuiltLoop
   auto motion = motion_of(std::get<BuiltMasses>(built));
   run_trajectory(motion, std::min(samples, most_compared_samples), std::nullopt, *digits);
   return digits->result();
-}
-
-TrustedDigits with_rate(TrustedDigits trusted, const MovingLoop& moving, std::int64_t samples) {
-  if (!is_worth_telling(trusted)) return trusted;
-  const double period = period_of(moving);
-  const auto found = run_largest_exponent(moving, std::min(samples, most_compared_samples) - 1);
-  if (found && std::isfinite(found->exponents[0]) && std::isfinite(found->standard_errors[0]))
-    trusted.rate = {found->exponents[0] / period, found->standard_errors[0] / period};
-  return trusted;
 }
 
 TrustedDigits trusted_digits_of_deviation(const MovingLoop& moving, double offset,

@@ -84,10 +84,6 @@ TrustedDigits trusted_digits_of_motion(const MovingLoop& moving, const BuiltLoop
 TrustedDigits trusted_digits_of_deviation(const MovingLoop& moving, double offset,
                                           std::int64_t samples);
 
-/// Trusted digits with the largest Lyapunov exponent over the first 10⁵ samples at most. The
-/// exponent is added only where fewer than six digits are trusted.
-TrustedDigits with_rate(TrustedDigits trusted, const MovingLoop& moving, std::int64_t samples);
-
 /// Trusted digits of the results of a reduction: both roots, discriminant, largest absorber mass.
 /// Throws what reduce_to_frequencies() throws.
 TrustedDigits trusted_digits_of_reduction(const FrequencyReduction<double>& asked);

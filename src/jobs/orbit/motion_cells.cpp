@@ -13,21 +13,14 @@
 #include "jobs/columns.hpp"
 #include "output/grid/grid_output.hpp"
 #include "output/row_blocks.hpp"
-#include "output/table.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
-#include "text/names.hpp"
 #include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
 
 constexpr double most_map_cells = 1e6;
-
-constexpr Named<MotionOrigin> origin_names[] = {{MotionOrigin::start, "start"},
-                                                {MotionOrigin::state, "state"},
-                                                {MotionOrigin::continued, "continued"},
-                                                {MotionOrigin::neighbour, "neighbour"}};
 
 /// Grid over two keys.
 struct MapGrid {
@@ -154,19 +147,6 @@ void write_cells(const JobContext& context, const MapGrid& grid,
   output.commit();
 }
 
-void write_motions(const JobContext& context, const MapGrid& grid,
-                   const std::vector<MapCell>& cells) {
-  Table table(context, columns_of("map motions", {{"x", grid.slow.key}, {"y", grid.fast.key}}));
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    int number = 0;
-    for (const MappedMotion& motion : cells[k].motions)
-      table.row(grid.slow_at(k), grid.fast_at(k), ++number, motion.period_samples, motion.period,
-                motion.forcing_periods, motion.amplitude, motion.largest_multiplier,
-                motion.border_share, name_in(origin_names, motion.origin));
-  }
-  table.commit();
-}
-
 }  // namespace
 
 void write_motion_cells(const JobContext& context, const MotionCellsQuestion& question) {
@@ -179,7 +159,7 @@ void write_motion_cells(const JobContext& context, const MotionCellsQuestion& qu
                      [](const Case& there) { return ideal_loop_of(there); })
           : cells_by(context, grid, question,
                      [&](const Case& there) { return implemented_loop_of(there, switching); });
-  question.each_motion ? write_motions(context, grid, cells) : write_cells(context, grid, cells);
+  write_cells(context, grid, cells);
 }
 
 }  // namespace holdfast::program

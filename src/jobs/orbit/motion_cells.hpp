@@ -15,7 +15,6 @@ struct MotionCellsQuestion {
   std::vector<std::string> axes;  ///< two texts KEY=MIN:MAX:COUNT
   std::int64_t largest_period;    ///< longest period, samples
   Switching switching;
-  bool each_motion;                                 ///< one row per motion, not per cell
   std::vector<Vector<double, 4>> more_starts = {};  ///< further initial states
 };
 

@@ -199,7 +199,7 @@ std::string stretch_text(const TwoSidedMargin& margin, double unit, const std::s
 }
 
 std::string margins_text(const Case& the_case, const PdGains<double>& gains) {
-  const StabilityMargins margins = stability_margins_of(the_case, gains).margins;
+  const StabilityMargins margins = stability_margins_of(the_case, gains, false).margins;
   if (margins.outcome == MarginOutcome::not_stable) return page_text("not stable with it");
   return page_text("stable with it",
                    {{"D", stretch_text(margins.differential_gain, 1.0, "N s/m")},
@@ -274,7 +274,7 @@ Answer which_gain(const Question& question) {
 
 /// "; with the gains of the case up to 12 ms; the case has 1 ms."
 std::string own_period_text(const Case& the_case) {
-  const auto [margins, everywhere] = stability_margins_of(the_case, gains_of(the_case));
+  const auto [margins, everywhere] = stability_margins_of(the_case, gains_of(the_case), false);
   const MarginEnd& longest = margins.sampling_period.above;
   const char* limit = everywhere ? "stable up to" : "stable by steps";
   if (longest.outcome != MarginEndOutcome::boundary) limit = "no limit";
@@ -324,12 +324,23 @@ std::vector<double> evenly(double from, double to, int parts) {
   return values;
 }
 
-/// Width up to which all serve, in twenty steps from one that serves towards one that does not.
+/// Parts into which the range of plays is divided, and then the part with the limit, once or twice.
+/// Motions of two masses cost little, and many run side by side.
+std::vector<int> parts_of_play(const Case& the_case) {
+  return is_two_masses(the_case) ? std::vector<int>{120, 20} : std::vector<int>{24, 10, 10};
+}
+
+/// Width up to which all serve, from one that serves towards one that does not.
 double limit_between(const Question& question, double serving, double failing) {
-  const std::vector<double> widths = evenly(serving, failing, 20);
-  const std::vector<char> serve = widths_that_serve(question, widths);
-  const auto first = std::find(serve.begin(), serve.end(), 0) - serve.begin();
-  return widths[static_cast<std::size_t>(std::max<std::ptrdiff_t>(first - 1, 0))];
+  const std::vector<int> parts = parts_of_play(question.the_case);
+  for (auto finer = parts.begin() + 1; finer != parts.end(); ++finer) {
+    const std::vector<double> widths = evenly(serving, failing, *finer);
+    const std::vector<char> serve = widths_that_serve(question, widths);
+    const auto first = std::find(serve.begin() + 1, serve.end() - 1, 0) - serve.begin();
+    serving = widths[static_cast<std::size_t>(first - 1)];
+    failing = widths[static_cast<std::size_t>(first)];
+  }
+  return serving;
 }
 
 /// Text on the range of widths that serve around the case's own, or else on the first such range;
@@ -390,7 +401,7 @@ double widest_play(const Case& the_case) {
 }
 
 Answer how_much_play(const Question& question) {
-  constexpr int parts = 120;
+  const int parts = parts_of_play(question.the_case).front();
   const double widest = widest_play(question.the_case);
   Answer answer = asked("play", {{"parts", std::to_string(parts)},
                                  {"widest", millimetres(widest)},

@@ -12,10 +12,7 @@ namespace holdfast::program {
 namespace {
 
 namespace fs = std::filesystem;
-using tests::message_of;
-using tests::read_text;
-using tests::TemporaryFolder;
-using tests::write_text;
+using namespace tests;
 
 /// Runs the work in a child whose standard output is `descriptor`; gives how the child ended.
 template <typename Work>

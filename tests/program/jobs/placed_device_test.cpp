@@ -22,7 +22,6 @@ Case active_drake() { return tests::from_text(tests::drake_line + tests::drake_a
 PlacementQuestion gains_for(const Axis& frequencies) {
   PlacementQuestion question;
   question.frequencies = frequencies;
-  question.moves_position = false;
   return question;
 }
 

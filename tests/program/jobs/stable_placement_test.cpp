@@ -118,7 +118,6 @@ PlacementQuestion question_of(const DrawnSpan& span, test::Random& random) {
   question.frequencies = {lowest, random.uniform(1.1, 3.0) * lowest, 5};
   question.first_mode = 1;
   question.last_mode = 1 + static_cast<int>(random.index(6));
-  question.moves_position = false;
   question.margin = random.uniform(0.05, 0.6);
   return question;
 }

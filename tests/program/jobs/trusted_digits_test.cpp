@@ -96,31 +96,15 @@ TEST(TrustedDigitsByRounding, AreLostWhereNeighboursPart) {
     Case the_case = irregular_case();
     if (limited) the_case.control.largest_force = 10.0;
     if (!limited && !long_double_is_wider) continue;
-    const auto trusted = with_rate(digits_of(the_case, Switching::sampled, 6001, 0.0),
-                                   moving_loop_of(the_case, {}), 6001);
+    const auto trusted = digits_of(the_case, Switching::sampled, 6001, 0.0);
     EXPECT_EQ(trusted.by_rounding, limited);
     EXPECT_EQ(trusted.digits, 0);
-    ASSERT_TRUE(trusted.until && trusted.rate);
+    ASSERT_TRUE(trusted.until);
     EXPECT_GT(*trusted.until, 5.0);
     EXPECT_LT(*trusted.until, 20.0);
-    // Ten digits of rounding are lost at the rate of the exponent: e^{λ t} = 10¹⁰.
-    EXPECT_GT(trusted.rate->per_second, 3.0 * trusted.rate->standard_error);
-    EXPECT_NEAR(std::log(1e10) / trusted.rate->per_second, *trusted.until, 0.5 * *trusted.until);
     const std::string warning = trust_warning(trusted);
-    EXPECT_NE(warning.find("motions separate, the largest exponent is "), std::string::npos);
     EXPECT_EQ(warning.find("other rounding errors") != std::string::npos, limited) << warning;
   }
-}
-
-TEST(TrustedDigitsByRounding, HaveARateOnlyWhereTheyAreFew) {
-  EXPECT_FALSE(with_rate({}, moving_loop_of(case_of({}), {}), 1001).rate);
-  TrustedDigits few;
-  few.digits = 3;
-  const auto found = with_rate(few, moving_loop_of(case_of({"backlash.width=0"}), {}), 100001);
-  ASSERT_TRUE(found.rate);
-  EXPECT_LT(found.rate->per_second, 0.0);
-  EXPECT_NE(rate_text(found).find("converge except at some contacts"), std::string::npos);
-  EXPECT_FALSE(with_rate(few, moving_loop_of(case_of({}), {}), 1).rate) << "a single sample";
 }
 
 TEST_F(TrustedDigitsOf, ADeviationAreLostWhereItIsDownToRounding) {
@@ -161,12 +145,7 @@ TEST(MetadataOfDigits, SayHowManyThereAreAndOfWhat) {
   const auto motion = table_metadata(context, {}, "out.csv", {0, 7.25, ""})["notes"][0]["holdfast"];
   EXPECT_EQ(motion["trusted_digits"], 0);
   EXPECT_EQ(motion["trusted_until_s"], 7.25);
-  EXPECT_FALSE(motion.contains("least_trusted") || motion.contains("largest_exponent_per_s"));
-  TrustedDigits parting{0, 7.25, ""};
-  parting.rate = {1.75, 0.25};
-  const auto rated = table_metadata(context, {}, "out.csv", parting)["notes"][0]["holdfast"];
-  EXPECT_EQ(rated["largest_exponent_per_s"], 1.75);
-  EXPECT_EQ(rated["largest_exponent_standard_error_per_s"], 0.25);
+  EXPECT_FALSE(motion.contains("least_trusted"));
   const auto single =
       table_metadata(context, {}, "out.csv", {3, std::nullopt, "k2"})["notes"][0]["holdfast"];
   EXPECT_EQ(single["trusted_digits"], 3);

@@ -14,10 +14,7 @@ namespace holdfast::program {
 namespace {
 
 namespace fs = std::filesystem;
-using tests::message_of;
-using tests::read_text;
-using tests::TemporaryFolder;
-using tests::write_text;
+using namespace tests;
 
 TEST(StoreFolder, KeepsItsChunksForWhoeverOpensIt) {
   const TemporaryFolder folder;

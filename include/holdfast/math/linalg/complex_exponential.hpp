@@ -37,12 +37,11 @@ std::complex<Scalar> exponential_integral(const std::complex<Scalar>& s, const S
 namespace detail {
 
 /// Complex numbers in the lanes of a SIMD register, for sums over many poles.
-/// @tparam Scalar  double
+/// @tparam Scalar  double or float
 template <class Scalar>
 struct ComplexLanes {
-  static constexpr int size = EIGEN_MAX_STATIC_ALIGN_BYTES > 16  ///< number of lanes
-                                  ? EIGEN_MAX_STATIC_ALIGN_BYTES / sizeof(Scalar)
-                                  : 2;
+  static constexpr int size =  // number of lanes; NOLINTNEXTLINE(bugprone-branch-clone): a macro
+      (EIGEN_MAX_STATIC_ALIGN_BYTES > 16 ? EIGEN_MAX_STATIC_ALIGN_BYTES : 16) / sizeof(Scalar);
   using Reals = Eigen::Array<Scalar, size, 1>;  ///< a real number for each lane
 
   Reals re = Reals::Zero(), im = Reals::Zero();
@@ -83,7 +82,7 @@ struct ComplexLanes {
 };
 
 /// A table of complex numbers, stored in blocks with one row for each lane of a SIMD register.
-/// @tparam Scalar  double
+/// @tparam Scalar  double or float
 template <class Scalar, std::size_t Columns>
 class ComplexRows {
  public:

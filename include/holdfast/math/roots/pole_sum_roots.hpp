@@ -1,9 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -46,7 +49,9 @@ namespace detail {
 
 /// The simultaneous iteration for all roots of a PoleSum (Ehrlich 1967, Aberth 1973): each root is
 /// improved by a Newton step for p with all other roots divided out. Except for the extra roots, a
-/// root λ is stored as the difference d = λ − e from a pole e, so that a small d is accurate.
+/// root λ is stored as the difference d = λ − e from a pole e, so that a small d is accurate. A
+/// root is found alone, by the Taylor series of the other poles' sum, if it is nearer to its pole
+/// than half the pole's distance to the next pole and to 0; no two of these are the same root.
 template <class Scalar>
 class RootIteration {
  public:
@@ -54,21 +59,28 @@ class RootIteration {
 
   /// @param extra     number of roots in excess of the poles: order of the pole of p at λ = 0
   /// @param mirrored  whether roots of conjugate poles are first assumed to be conjugate
-  RootIteration(const PoleSum<Scalar>& sum, int extra, bool mirrored)
+  /// @param enough    admissible error of a root, as a share of its distance from the unit circle
+  ///                  or of |d|, whichever is less
+  RootIteration(const PoleSum<Scalar>& sum, int extra, bool mirrored, const Scalar& enough)
       : weight_(sum.weight),
         radius_(sum.radius),
         power_(sum.power),
         past_(sum.past),
+        enough_(enough),
         poles_(sum.parts.size()),
-        steps_(poles_ + static_cast<std::size_t>(extra)) {
+        settled_(poles_ + static_cast<std::size_t>(extra), 0),
+        steps_(settled_.size()) {
     for (const auto& part : sum.parts) {
       parts_.push_back({part.increment, part.present, part.past, Complex(0)});
-      has_past_ = has_past_ || part.past != Complex(0);
+      rough_.push_back(rough_row(part.increment, part.present));
+      if (part.past != Complex(0)) past_from_ = std::min(past_from_, parts_.blocks().size() - 1);
     }
     find_mirrors(mirrored);
     std::vector<Complex> first(poles_);
-    for (std::size_t i = 0; i < poles_; ++i)
-      if (mirrors_[i] >= i) first[i] = first_of(i);
+    for (std::size_t i = 0; i < poles_; ++i) {
+      settled_[i] = mirrors_[i] < i ? 1 : 0;
+      if (settled_[i] == 0) first[i] = first_of(i);
+    }
     for (std::size_t i = 0; i < poles_; ++i)
       set_distance(i, mirrors_[i] < i ? std::conj(first[mirrors_[i]]) : first[i]);
     for (int j = 0; j < extra; ++j)
@@ -77,20 +89,16 @@ class RootIteration {
   }
 
   /// Iterates until all roots have converged.
-  /// @param enough  admissible error of a root, as a share of its distance from the unit circle
   /// @return whether all roots converged and their sum agrees with the polynomial
-  bool converge(const Scalar& enough) {
-    enough_ = enough;
-    std::vector<char> settled(steps_.size(), 0);
-    for (std::size_t i = 0; i < poles_; ++i) settled[i] = mirrors_[i] < i ? 1 : 0;
+  bool converge() {
     for (int sweep = 0; sweep < 200; ++sweep) {
       bool all = true;
-      for (std::size_t i = 0; i < settled.size(); ++i) {
-        if (settled[i] == 0) settled[i] = improve(i) ? 1 : 0;
-        all = all && settled[i] != 0;
+      for (std::size_t i = 0; i < settled_.size(); ++i) {
+        if (settled_[i] == 0) settled_[i] = improve(i) ? 1 : 0;
+        all = all && settled_[i] != 0;
       }
       if (all) return has_their_sum();
-      if (sweep == 20) part_mirrors(settled);
+      if (sweep == 20) part_mirrors();
       // Round-off of roots close to each other, or to 0, hides the last digits.
       if (sweep != 40) continue;
       tolerance_ = Scalar(1e-12);
@@ -110,6 +118,15 @@ class RootIteration {
  private:
   using Row = typename ComplexRows<Scalar, 4>::Row;  // e − 1, a, b and d
   static constexpr Scalar parked{-8};                // an e − 1 that no root is near
+
+  /// The Taylor coefficients Σ a/(λ − e)^{m+1} and Σ b/(λ − e)^{m+1} of the sums over the other
+  /// poles, in powers of −δ at λ + δ, the distance of the nearest of these poles, and a bound of
+  /// the rounding error of the first sum if it is in single precision.
+  struct Series {
+    static constexpr std::size_t terms = 3;
+    std::array<Complex, terms> a, b;
+    Scalar nearest, rounding;
+  };
 
   /// The sums over all poles e at a given λ, with their derivatives by λ.
   struct Sums {
@@ -149,22 +166,70 @@ class RootIteration {
     }
   }
 
-  /// The first estimate of root i, off the real axis, since iterates from the axis stay real.
+  /// The difference of root i from its pole, if it is settled alone, else a first estimate. That is
+  /// off the real axis, since iterates from the axis stay real.
   Complex first_of(std::size_t i) {
     Row own = parts_[i];
     own[3] = Complex(0);
+    Series others = series_about(i, own);
     const Factors at = factors_at(own[0]);
     const Complex first = std::polar(Scalar(1), Scalar(0.1)) * at.of(own[1], own[2]) /
-                          rest(at, without(i, own)).value;
+                          rest(at, sums_near(others, Complex(0))).value;
+    const Scalar reach = std::min(others.nearest, std::abs(Complex(1) + own[0])) / Scalar(2);
+    for (int turn = 0; turn < 3; ++turn) {
+      const Complex d = near_pole(own, others);
+      if (!(std::abs(d) < reach)) break;
+      if (is_settled_alone(own, others, d)) {
+        settled_[i] = settled_[mirrors_[i]] = 1;
+        return d;
+      }
+      own[3] = d;
+      others = series_about(i, own);
+    }
     return std::isfinite(std::abs(first)) ? first : Complex(1e-3, 1e-3);
   }
 
+  /// The root near a pole e, as the difference d from it, by Newton steps with the Taylor series;
+  /// NaN where they do not converge, as from the real axis to a complex root.
+  Complex near_pole(const Row& own, const Series& others) const {
+    Complex d = own[3];
+    Scalar before(0);
+    for (int step = 0; step < 12; ++step) {
+      const Value left =
+          without_pole(own, d, factors_at(own[0] + d), sums_near(others, d - own[3]));
+      const Complex change = left.value / left.slope;
+      d -= change;
+      const Scalar size = std::abs(change), shrinking = std::min(Scalar(1), size / before);
+      if (size * shrinking <= tolerance_ * std::abs(d) + floor_) return d;
+      before = size;
+    }
+    return {std::numeric_limits<Scalar>::quiet_NaN(), Scalar(0)};
+  }
+
+  /// Whether the terms left out of the series hardly move the root: they are at most about as large
+  /// as the last two, each times the ratio of d's change to the distance of the nearest pole.
+  bool is_settled_alone(const Row& own, const Series& others, const Complex& d) const {
+    constexpr std::size_t last = Series::terms - 1;
+    const Scalar change = std::abs(d - own[3]), ratio = change / others.nearest;
+    const auto left_out = [&](const std::array<Complex, Series::terms>& of) {
+      return std::pow(change, Scalar(last - 1)) * ratio *
+             (std::abs(of[last - 1]) * ratio + std::abs(of[last]) * change);
+    };
+    const Factors at = factors_at(own[0] + d);
+    const Value left = without_pole(own, d, at, sums_near(others, d - own[3]));
+    const Scalar error = std::abs(d) / std::abs(left.slope) *
+                         (std::abs(at.a) * (left_out(others.a) + others.rounding) +
+                          std::abs(at.b) * left_out(others.b));
+    return is_negligible(Scalar(10) * error, d, Complex(1) + (own[0] + d));
+  }
+
   /// Restarts unconverged roots of conjugate poles one by one: they may be real, not conjugate.
-  void part_mirrors(std::vector<char>& settled) {
+  void part_mirrors() {
     for (std::size_t i = 0; i < poles_; ++i) {
       const std::size_t other = std::exchange(mirrors_[i], i);
-      if (other <= i || settled[i] != 0) continue;
-      settled[other] = 0;
+      if (other <= i || settled_[i] != 0) continue;
+      mirrors_[other] = other;
+      settled_[other] = 0;
       for (const std::size_t k : {i, other}) set_distance(k, first_of(k));
     }
   }
@@ -175,16 +240,84 @@ class RootIteration {
     parts_.set(i, row);
   }
 
+  static typename ComplexRows<float, 2>::Row rough_row(const Complex& increment,
+                                                       const Complex& present) {
+    return {std::complex<float>(increment), std::complex<float>(present)};
+  }
+
+  /// The series of all other poles about the root that belongs to pole i. The first one of a root
+  /// has its sums of a in single precision where the roots need not be accurate.
+  Series series_about(std::size_t i, const Row& own) {
+    Series series{};
+    if (enough_ > Scalar(0) && own[3] == Complex(0)) {
+      rough_.set(i, rough_row(Complex(parked), Complex(0)));
+      Scalar size(0);
+      series.nearest = add_series<float, 1>(rough_, own, 0, series.a, &size);
+      rough_.set(i, rough_row(own[0], own[1]));
+      series.rounding = Scalar(6e-8) * (Scalar(4) + std::abs(own[0]) / series.nearest) * size;
+    }
+    parts_.set(i, {Complex(parked), Complex(0), Complex(0), Complex(0)});
+    if (series.nearest == Scalar(0))
+      series.nearest = add_series<Scalar, 1>(parts_, own, 0, series.a);
+    if (past_from_ < parts_.blocks().size())
+      add_series<Scalar, 2>(parts_, own, past_from_, series.b);
+    parts_.set(i, own);
+    return series;
+  }
+
+  /// Computes the series of one column of residues from a block on.
+  /// @param size  if given, set to the sum of the first sum's terms without their signs
+  /// @return the distance of the nearest pole
+  template <class Real, std::size_t column, class Rows>
+  static Scalar add_series(const Rows& rows, const Row& own, std::size_t from,
+                           std::array<Complex, Series::terms>& series, Scalar* size = nullptr) {
+    using Lanes = ComplexLanes<Real>;
+    Lanes first, second, third;
+    typename Lanes::Reals nearest = first.re, sizes = first.re;
+    const std::complex<Real> pole(own[0]), distance(own[3]);
+    const std::size_t blocks = rows.blocks().size();
+    for (std::size_t k = from; k < blocks; ++k) {
+      const auto& block = rows.blocks()[k];
+      const Lanes away = (pole - block[0]) + distance;
+      const typename Lanes::Reals scale = (away.re * away.re + away.im * away.im).inverse();
+      const Lanes inverse{away.re * scale, -away.im * scale};
+      nearest = nearest.max(scale);
+      const auto one = block[column] * inverse, two = one * inverse;
+      const auto three = two * inverse;
+      if constexpr (std::is_same_v<Real, float>) sizes += one.re.abs() + one.im.abs();
+      first += one;
+      second += two;
+      third += three;
+    }
+    series = {first.sum(), second.sum(), third.sum()};
+    if (size != nullptr) *size = sizes.sum();
+    return Scalar(1) / std::sqrt(nearest.maxCoeff());
+  }
+
+  /// The sums at a distance δ from the centre of a series, without `divided_out`.
+  Sums sums_near(const Series& series, const Complex& delta) const {
+    Sums at{series.a.back(), series.b.back(), Complex(0), Complex(0), Complex(0)};
+    for (std::size_t m = Series::terms - 1; m-- > 0;) {
+      at.slope_a = -at.a - delta * at.slope_a;
+      at.slope_b = -at.b - delta * at.slope_b;
+      at.a = series.a[m] - delta * at.a;
+      at.b = series.b[m] - delta * at.b;
+    }
+    at.b += past_;
+    return at;
+  }
+
   Sums sums_at(const Complex& e, const Complex& d) const {
     ComplexLanes<Scalar> a, b, slope_a, slope_b, divided_out;
-    for (const auto& [increment, present, past, distance] : parts_.blocks()) {
+    for (std::size_t k = 0; k < parts_.blocks().size(); ++k) {
+      const auto& [increment, present, past, distance] = parts_.blocks()[k];
       const auto from_pole = (e - increment) + d, from_root = from_pole - distance;
       const auto both = (from_pole * from_root).inverse(), away = from_root * both;
       const auto of_a = present * away;
       a += of_a;
       slope_a += of_a * away;
       divided_out += distance * both;
-      if (!has_past_) continue;
+      if (k < past_from_) continue;
       const auto of_b = past * away;
       b += of_b;
       slope_b += of_b * away;
@@ -217,6 +350,14 @@ class RootIteration {
             -at.slope_of(sums.a, sums.b) - at.of(sums.slope_a, sums.slope_b)};
   }
 
+  /// The value and slope of d p(λ), which has no pole at e.
+  static Value without_pole(const Row& own, const Complex& d, const Factors& at,
+                            const Sums& others) {
+    const Value other = rest(at, others);
+    return {d * other.value - at.of(own[1], own[2]),
+            other.value + d * other.slope - at.slope_of(own[1], own[2])};
+  }
+
   /// The sum Σ (1/λ − 1/(λ − z)) over the extra roots except root i.
   Complex extras_divided_out(std::size_t i, const Complex& lambda) const {
     Complex sum(0);
@@ -237,11 +378,7 @@ class RootIteration {
     const Row own = parts_[i];
     Complex d = own[3];
     const Sums others = without(i, own);
-    const Factors at = factors_at(own[0] + d);
-    const Value other = rest(at, others);
-    // Value and slope of d p(λ), which has no pole at e.
-    const Value left{d * other.value - at.of(own[1], own[2]),
-                     other.value + d * other.slope - at.slope_of(own[1], own[2])};
+    const Value left = without_pole(own, d, factors_at(own[0] + d), others);
     const bool settled = take(i, d, left, others, Complex(1) + (own[0] + d));
     set_distance(i, d);
     if (mirrors_[i] != i) set_distance(mirrors_[i], std::conj(d));
@@ -258,8 +395,16 @@ class RootIteration {
     if (!std::isfinite(size)) return std::abs(lambda) < Scalar(1e-15);
     unknown -= step;
     const Scalar shrinking = std::min(Scalar(1), size / std::exchange(steps_[i], size));
+    // Two real roots would be returned as a pair near their mean, whose sum is right.
+    const bool may_be_real =
+        i < poles_ && mirrors_[i] != i && !(size < enough_ * std::abs(lambda.imag()));
     return size * shrinking <= tolerance_ * std::abs(unknown) + floor_ ||
-           size < enough_ * std::abs(Scalar(1) - std::abs(lambda));
+           (!may_be_real && is_negligible(size, unknown, lambda));
+  }
+
+  bool is_negligible(const Scalar& error, const Complex& unknown, const Complex& lambda) const {
+    return error <= tolerance_ * std::abs(unknown) + floor_ ||
+           error < enough_ * std::min(std::abs(Scalar(1) - std::abs(lambda)), std::abs(unknown));
   }
 
   /// Whether the roots z have the right sum: the sum of the poles, plus w(∞) (g + Σ a) where n = 0.
@@ -277,20 +422,22 @@ class RootIteration {
       sum += root;
       size += std::abs(root);
     }
-    const Scalar share(enough_ > Scalar(0) ? 1e-5 : 1e-9);
+    const Scalar share(enough_ > Scalar(0) ? 1e-4 : 1e-9);
     return std::abs(sum) <= share * size + Scalar(1e-14) * Scalar(poles_);
   }
 
   typename PoleSum<Scalar>::Weight weight_;
   Scalar radius_;
   int power_;
-  Complex past_;           // g
-  bool has_past_ = false;  // whether any b differs from zero
-  Scalar tolerance_{1e-14}, floor_{1e-17}, enough_{0};
+  Complex past_;                                                     // g
+  std::size_t past_from_ = std::numeric_limits<std::size_t>::max();  // first block with a b
+  Scalar tolerance_{1e-14}, floor_{1e-17}, enough_;
   std::size_t poles_;
   std::vector<std::size_t> mirrors_;
   ComplexRows<Scalar, 4> parts_{parked};
+  ComplexRows<float, 2> rough_{static_cast<float>(parked)};  // e − 1 and a
   std::vector<Complex> extras_;
+  std::vector<char> settled_;
   std::vector<Scalar> steps_;  // last step of each root
 };
 
@@ -299,8 +446,8 @@ class RootIteration {
 /// All roots λ of a PoleSum of N poles, by about 3 to 30 iterations of N² operations.
 /// @param sum     function p with one pole or more; complex poles are in conjugate pairs
 /// @param late    whether any coefficient b or g differs from zero
-/// @param enough  admissible error of a root relative to its distance from the unit circle; 0: full
-///                precision
+/// @param enough  admissible error of a root relative to its distance from its pole or from the
+///                unit circle, whichever is less; 0: full precision
 /// @return all roots; empty if n > 19, or if the iteration does not converge to roots with the
 ///         correct sum, as happens for multiple roots
 template <class Scalar>
@@ -323,10 +470,12 @@ std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late,
   const int extra = sum.power + (late ? 1 : 0) + (sum.weight.change != Scalar(0) ? 1 : 0);
   if (of_dead > 0) sum.parts.push_back(dead);
   if (sum.parts.empty() || sum.power > 19) return {};
-  detail::RootIteration<Scalar> iteration(sum, extra, true);
+  using Iteration = detail::RootIteration<Scalar>;
+  Iteration iteration(sum, extra, true, enough);
   // If two iterates have converged to the same root, all restart without assumed symmetry.
-  if (!iteration.converge(enough) && !(enough > Scalar(0) && iteration.converge(Scalar(0))) &&
-      !(iteration = {sum, extra, false}).converge(Scalar(0)))
+  if (!iteration.converge() &&
+      !(enough > Scalar(0) && (iteration = Iteration(sum, extra, true, Scalar(0))).converge()) &&
+      !(iteration = Iteration(sum, extra, false, Scalar(0))).converge())
     return {};
   auto roots = iteration.roots();
   for (; of_dead > 1; --of_dead) roots.emplace_back(0);

@@ -44,11 +44,13 @@ class ModalMotion {
     const NaturalMotions natural(loop, poles);
     Full unit = Full::Zero(state.size());
     unit.head(state.size() - 2)(Eigen::seq(0, Eigen::last, 2)) = bent_conductor(loop.modes);
+    const bool at_rest = state.isZero(0.0);
     for (std::size_t k = 0; k < natural.size(); ++k) {
       const NaturalMotion& of = natural[k];
-      motions_.push_back({natural.amplitude(k, state), of.decay, of.present, of.past, of.cosine,
-                          of.sine, std::conj(of.z), std::conj(of.v), std::conj(of.z2),
-                          std::conj(of.v2), natural.amplitude(k, unit)});
+      motions_.push_back({at_rest ? 0.0 : natural.amplitude(k, state), of.decay, of.present,
+                          of.past, of.cosine, of.sine, std::conj(of.z), std::conj(of.v),
+                          std::conj(of.z2), std::conj(of.v2)});
+      bent_.push_back(natural.amplitude(k, unit));
     }
     read();
   }
@@ -67,7 +69,7 @@ class ModalMotion {
     const Vector<double, 2> force = phases_.next();
     Seen seen;
     for (Block& block : motions_.blocks()) {
-      auto& [state, decay, present, past, cosine, sine, z, v, z2, v2, bent] = block;
+      auto& [state, decay, present, past, cosine, sine, z, v, z2, v2] = block;
       const Lanes re = decay.re * state.re - decay.im * state.im + present.re * u +
                        past.re * before + cosine.re * force[0] + sine.re * force[1];
       const Lanes im = decay.re * state.im + decay.im * state.re + present.im * u +
@@ -83,10 +85,10 @@ class ModalMotion {
   /// Displaces the conductor in the shape of its static deflection under a force at the absorber,
   /// by a length (m) at the absorber's place; to be called before `sense()`.
   void displace_conductor(double by) {
-    for (Block& block : motions_.blocks()) {
-      Part &state = block.front(), &bent = block.back();
-      state.re += by * bent.re;
-      state.im += by * bent.im;
+    for (std::size_t k = 0; k < bent_.size(); ++k) {
+      auto row = motions_[k];
+      row.front() += by * bent_[k];
+      motions_.set(k, row);
     }
     read();
   }
@@ -110,19 +112,18 @@ class ModalMotion {
   }
 
  private:
-  /// The rows over all natural motions: ξ, e^{sτ}, the factors γ₀, γ₁, g_c, g_s, the conjugate
-  /// weights w̄ of the readings, Re(w ξ) = Re w̄ Re ξ + Im w̄ Im ξ, and ξ of a displacement by 1 m.
-  using Motions = detail::ComplexRows<double, 11>;
+  /// The rows over all natural motions: ξ, e^{sτ}, the factors γ₀, γ₁, g_c, g_s, and the conjugate
+  /// weights w̄ of the readings, Re(w ξ) = Re w̄ Re ξ + Im w̄ Im ξ.
+  using Motions = detail::ComplexRows<double, 10>;
   using Block = Motions::Block;
-  using Part = detail::ComplexLanes<double>;
-  using Lanes = Part::Reals;
+  using Lanes = detail::ComplexLanes<double>::Reals;
 
   /// The sums for [z, ż, z₂, ż₂] over the blocks added so far, lane by lane.
   struct Seen {
     Lanes z = Lanes::Zero(), v = z, z2 = z, v2 = z;
 
     void add(const Block& of) {
-      const auto& [state, decay, present, past, cosine, sine, of_z, of_v, of_z2, of_v2, bent] = of;
+      const auto& [state, decay, present, past, cosine, sine, of_z, of_v, of_z2, of_v2] = of;
       z += of_z.re * state.re + of_z.im * state.im;
       v += of_v.re * state.re + of_v.im * state.im;
       z2 += of_z2.re * state.re + of_z2.im * state.im;
@@ -142,6 +143,7 @@ class ModalMotion {
   Backlash<double> law_;
   HarmonicForcing<double, 2> phases_;
   Motions motions_;
+  std::vector<std::complex<double>> bent_;  // ξ of a displacement by 1 m
   State seen_;
   double previous_force_ = 0.0, present_force_ = 0.0;
   std::int64_t index_ = 0;

@@ -179,24 +179,33 @@ std::optional<PeriodicOrbit> orbit_without_backlash(const ModalLoop& loop, const
 /// Work for a state of N entries: without backlash O(N) per sample of the orbit. With backlash O(N)
 /// per sample of the motion, and O(N²) per sample of a period plus O(N³) for each solution.
 /// @param loop           the loop with its excitation and backlash
+/// @param poles          `plant_poles` of the loop's modes and absorber
 /// @param initial_state  state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂]
 /// @param limits         limits of the search: longest period and number of samples
 /// @throws InvalidParameter where the loop, the initial state or a limit is out of its range
 template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
-OrbitResult find_periodic_orbit(const Loop& loop, const ModalMotion::Full& initial_state,
+OrbitResult find_periodic_orbit(const Loop& loop, const std::vector<PlantPole>& poles,
+                                const ModalMotion::Full& initial_state,
                                 const OrbitLimits& limits = {}) {
   validate(limits);
-  const std::optional<ModalMotion> motion = modal_motion(loop, initial_state);
+  const std::optional<ModalMotion> motion = modal_motion(loop, poles, initial_state);
   if (!motion) return {};
   const std::optional<Rational> ratio = forcing_ratio(loop);
   if (!ratio) return {OrbitOutcome::incommensurate, {}};
   if (ratio->denominator > limits.largest_period) return {};
-  const ModalItineraryMaps maps(loop, plant_poles(loop.modes, loop.absorber), *ratio, limits.watch);
+  const ModalItineraryMaps maps(loop, poles, *ratio, limits.watch);
   if (loop.backlash_width == 0.0)
     if (auto orbit = detail::orbit_without_backlash(loop, maps, *ratio))
       return {OrbitOutcome::certified, std::move(orbit), 0, 1};
   return detail::orbit_by_returns(loop, *ratio, limits, *motion,
                                   detail::ModalRegion<Loop>(loop, maps));
+}
+/// Finds the periodic orbit; computes the poles itself. @throws InvalidParameter as with poles
+template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
+OrbitResult find_periodic_orbit(const Loop& loop, const ModalMotion::Full& initial_state,
+                                const OrbitLimits& limits = {}) {
+  validate(loop);
+  return find_periodic_orbit(loop, plant_poles(loop.modes, loop.absorber), initial_state, limits);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
@@ -206,8 +215,8 @@ extern template std::optional<ModalAttraction> modal_attraction(const ModalLoop&
 extern template OrbitResult detail::orbit_by_returns(const ModalLoop&, const Rational&,
                                                      const OrbitLimits&, const ModalMotion&,
                                                      const detail::ModalRegion<ModalLoop>&);
-extern template OrbitResult find_periodic_orbit(const ModalLoop&, const ModalMotion::Full&,
-                                                const OrbitLimits&);
+extern template OrbitResult find_periodic_orbit(const ModalLoop&, const std::vector<PlantPole>&,
+                                                const ModalMotion::Full&, const OrbitLimits&);
 #endif
 
 }  // namespace holdfast

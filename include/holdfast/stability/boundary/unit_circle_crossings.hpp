@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,7 +49,6 @@ class UnitCircleCrossings {
 
   /// @param response  response of the loop; a copy is stored
   explicit UnitCircleCrossings(ModalResponse<Scalar> response) : response_(std::move(response)) {
-    using Nearby = typename ModalResponse<Scalar>::Nearby;
     const Scalar close(0.12);
     // At smaller angles Im X is only round-off.
     const auto from = [&](const std::complex<Scalar>& end) {
@@ -58,15 +56,11 @@ class UnitCircleCrossings {
     };
     Scalar angle = from(Scalar(0));
     const Scalar last = pi<Scalar> - from(Scalar(-2));
-    std::optional<Nearby> nearby;
+    Nearby nearby(response_, circle_increment(angle));
     while (angle < last) {
-      const std::complex<Scalar> mu = circle_increment(angle);
-      if (!nearby || !nearby->holds(mu)) nearby.emplace(response_, mu);
-      const Scalar to_ends = std::min(angle, pi<Scalar> - angle), to_pole = nearby->nearest(mu);
-      // Near the real axis Im X needs full accuracy.
-      const bool at_end = to_ends < Scalar(0.1) * to_pole;
-      places_.push_back({angle, at_end ? response_.at_angle(angle) : nearby->at(mu)});
-      const Scalar step = close * std::min(to_pole, to_ends);
+      const auto [g, to_pole] = read(angle, nearby);
+      places_.push_back({angle, g});
+      const Scalar step = close * std::min({to_pole, angle, pi<Scalar> - angle});
       const Scalar least = Scalar(1e-13) + Scalar(1e-14) * angle;
       angle += std::min(std::max(step, least), Scalar(0.4) / Scalar(response_.held_commands()));
     }
@@ -129,6 +123,7 @@ class UnitCircleCrossings {
   /// @param gains  the fixed gain; the value of the free gain is not used
   std::vector<GainPassage<Scalar>> passages(FreeGain free, const PdGains<Scalar>& gains) const {
     const Line line{free, gains};
+    Nearby nearby(response_, circle_increment(places_.front().angle));
     std::vector<GainPassage<Scalar>> found;
     // The last place, θ = π, is left out: Im X is round-off there.
     std::vector<Scalar> values;
@@ -137,9 +132,10 @@ class UnitCircleCrossings {
     add_real_root(line, places_.front(), values.front(), found);
     for (std::size_t i = 1; i < values.size(); ++i) {
       if ((values[i - 1] > Scalar(0)) != (values[i] > Scalar(0))) {
-        add_pair(line, places_[i - 1].angle, values[i - 1], places_[i].angle, values[i], found);
+        add_pair(line, places_[i - 1].angle, values[i - 1], places_[i].angle, values[i], nearby,
+                 found);
       } else if (i + 1 < values.size()) {
-        add_close_pairs(line, i, &values[i], found);
+        add_close_pairs(line, i, &values[i], nearby, found);
       }
     }
     add_real_root(line, places_.back(), -values.back(), found);
@@ -163,6 +159,18 @@ class UnitCircleCrossings {
   }
 
  private:
+  using Nearby = typename ModalResponse<Scalar>::Nearby;
+
+  /// The transfer functions at an angle, by the terms near the angle before, and the distance of
+  /// the nearest pole. Near the real axis Im X needs full accuracy.
+  std::pair<CommandResponse<Scalar>, Scalar> read(const Scalar& angle, Nearby& nearby) const {
+    const std::complex<Scalar> mu = circle_increment(angle);
+    nearby.follow(mu);
+    const Scalar to_pole = nearby.nearest(mu);
+    const bool at_end = std::min(angle, pi<Scalar> - angle) < Scalar(0.1) * to_pole;
+    return {at_end ? response_.at_angle(angle) : nearby.at(mu), to_pole};
+  }
+
   /// Line in the plane of P and D along which one gain varies.
   struct Line {
     FreeGain free;
@@ -238,11 +246,12 @@ class UnitCircleCrossings {
 
   /// Adds the crossing of a root pair between two angles at which Im X has opposite signs.
   void add_pair(const Line& line, const Scalar& lower, const Scalar& at_lower, const Scalar& upper,
-                const Scalar& at_upper, std::vector<GainPassage<Scalar>>& found) const {
+                const Scalar& at_upper, Nearby& nearby,
+                std::vector<GainPassage<Scalar>>& found) const {
     const auto zero = bracketing_root<Scalar>(
-        [&](const Scalar& angle) { return line.imaginary(response_.at_angle(angle)); },
+        [&](const Scalar& angle) { return line.imaginary(read(angle, nearby).first); },
         {lower, upper, at_lower, at_upper}, Scalar(0));
-    keep({line.gain(response_.at_angle(zero.lower)), zero.lower, at_upper > Scalar(0) ? 2 : -2},
+    keep({line.gain(read(zero.lower, nearby).first), zero.lower, at_upper > Scalar(0) ? 2 : -2},
          line, found);
   }
 
@@ -268,7 +277,7 @@ class UnitCircleCrossings {
   /// Adds two crossings between which no angle is stored, so that the stored Im X keep their sign.
   /// They are sought where |Im X| is less at place i than at both neighbouring places.
   /// @param at  pointer to Im X at place i, in the array of Im X at all places
-  void add_close_pairs(const Line& line, std::size_t i, const Scalar* at,
+  void add_close_pairs(const Line& line, std::size_t i, const Scalar* at, Nearby& nearby,
                        std::vector<GainPassage<Scalar>>& found) const {
     const Scalar before = at[-1], here = at[0], after = at[1];
     if ((after > Scalar(0)) != (here > Scalar(0)) || std::abs(here) > std::abs(before) ||
@@ -286,13 +295,13 @@ class UnitCircleCrossings {
     for (int step = 0; step < 40; ++step) {
       const Scalar left = lower + golden * (upper - lower),
                    right = upper - golden * (upper - lower);
-      const Scalar at_left = sign * line.imaginary(response_.at_angle(left));
-      const Scalar at_right = sign * line.imaginary(response_.at_angle(right));
+      const Scalar at_left = sign * line.imaginary(read(left, nearby).first);
+      const Scalar at_right = sign * line.imaginary(read(right, nearby).first);
       if (std::min(at_left, at_right) <= Scalar(0)) {
         const Scalar beyond = at_left < at_right ? left : right;
         const Scalar value = sign * std::min(at_left, at_right);
-        add_pair(line, places_[i - 1].angle, before, beyond, value, found);
-        add_pair(line, beyond, value, places_[i + 1].angle, after, found);
+        add_pair(line, places_[i - 1].angle, before, beyond, value, nearby, found);
+        add_pair(line, beyond, value, places_[i + 1].angle, after, nearby, found);
         return;
       }
       (at_left < at_right ? upper : lower) = at_left < at_right ? right : left;

@@ -168,19 +168,16 @@ class AmplitudeBand {
   /// The largest squared ratio near `middle`, a point with a higher ratio than its two neighbours.
   WorstFrequency refined(double left, double middle, double right,
                          const PdGains<double>& gains) const {
-    constexpr double golden = 0.61803398874989485;
-    const auto value_at = [&](double frequency) {
-      return value(at(frequency, gains.proportional), gains.differential);
+    WorstFrequency best{middle, 0.0};
+    const auto negative_value = [&](double frequency) {
+      const double here = value(at(frequency, gains.proportional), gains.differential);
+      if (here > best.ratio) best = {frequency, here};
+      return -here;
     };
-    WorstFrequency best{middle, value_at(middle)};
-    double low = left, high = right;
-    while (high - low > 1e-9 * band_.upper) {
-      const double inner = high - golden * (high - low), outer = low + golden * (high - low);
-      const double at_inner = value_at(inner), at_outer = value_at(outer);
-      if (at_inner > best.ratio) best = {inner, at_inner};
-      if (at_outer > best.ratio) best = {outer, at_outer};
-      (at_inner > at_outer ? high : low) = at_inner > at_outer ? outer : inner;
-    }
+    negative_value(middle);
+    const double halvings = std::log2(std::max((right - left) / (1e-9 * band_.upper), 1.0));
+    detail::narrow_to_minimum(left, right, static_cast<int>(std::ceil(1.45 * halvings)),
+                              negative_value);
     return best;
   }
 

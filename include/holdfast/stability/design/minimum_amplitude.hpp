@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "holdfast/control/loop_input.hpp"
@@ -71,6 +72,27 @@ inline void validate(const AmplitudeOptions& options) {
 }
 
 namespace detail {
+
+/// Narrows an interval about a minimum of a function in it by golden section, one value a step.
+/// @return the middle of the last interval
+template <class Scalar, class Value>
+Scalar narrow_to_minimum(Scalar lower, Scalar upper, int steps, const Value& value) {
+  const Scalar golden(0.3819660112501051);
+  Scalar left = lower + golden * (upper - lower), right = upper - golden * (upper - lower);
+  Scalar at_left = value(left), at_right = value(right);
+  for (int k = 0; k < steps; ++k) {
+    if (at_left < at_right) {
+      upper = std::exchange(right, left);
+      left = lower + golden * (upper - lower);
+      at_right = std::exchange(at_left, value(left));
+    } else {
+      lower = std::exchange(left, right);
+      right = upper - golden * (upper - lower);
+      at_left = std::exchange(at_right, value(right));
+    }
+  }
+  return (lower + upper) / Scalar(2);
+}
 
 /// The interval that contains `from`, shrunk about it by the factor `share`; empty if none does.
 template <class Scalar>

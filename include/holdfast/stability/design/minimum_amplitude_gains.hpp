@@ -54,10 +54,7 @@ void search_proportional_gain(Interval<double> range, const Value& value_at) {
     range = {range.lower - half, range.upper + half};
   }
   if (std::isinf(best)) return;
-  narrow_to_best(best_p - step, best_p + step, 40, [&](double left, double right) {
-    const double at_left = value_at(left);
-    return at_left < value_at(right);
-  });
+  narrow_to_minimum(best_p - step, best_p + step, 40, value_at);
 }
 
 }  // namespace detail

@@ -43,42 +43,21 @@ std::vector<Interval<Scalar>> differential_gains_within_radius(
 
 namespace detail {
 
-/// Narrows an interval about a minimum in it by golden section.
-/// @param left_is_better  (left, right) ↦ whether the first of two arguments is better
-/// @return the middle of the last interval
-template <class Scalar, class Better>
-Scalar narrow_to_best(Scalar lower, Scalar upper, int steps, const Better& left_is_better) {
-  const Scalar golden(0.3819660112501051);
-  for (int k = 0; k < steps; ++k) {
-    const Scalar left = lower + golden * (upper - lower), right = upper - golden * (upper - lower);
-    const bool is_left = left_is_better(left, right);
-    (is_left ? upper : lower) = is_left ? right : left;
-  }
-  return (lower + upper) / Scalar(2);
-}
-
 /// The least ρ(P, D) − 1 over an interval of D, and its D: the best of 25 values of D, refined by
 /// golden section if its ρ − 1 is not above `known`.
 template <class Scalar>
 std::pair<Scalar, Scalar> least_excess(const ModalResponse<Scalar>& response, const Scalar& p,
                                        const Interval<Scalar>& gains, const Scalar& known) {
   constexpr int count = 24;
+  std::pair<Scalar, Scalar> best{std::numeric_limits<Scalar>::infinity(), Scalar(0)};
   const auto excess = [&](const Scalar& d) {
-    return loop_excess_or_turn(response, PdGains<Scalar>{p, d});
+    const Scalar here = loop_excess_or_turn(response, PdGains<Scalar>{p, d});
+    best = std::min(best, {here, d});
+    return here;
   };
   const Scalar step = (gains.upper - gains.lower) / Scalar(count);
-  std::pair<Scalar, Scalar> best{std::numeric_limits<Scalar>::infinity(), Scalar(0)};
-  for (int k = 0; k <= count; ++k) {
-    const Scalar d = gains.lower + Scalar(k) * step;
-    best = std::min(best, {excess(d), d});
-  }
-  if (best.first > known) return best;
-  narrow_to_best(best.second - step, best.second + step, 30,
-                 [&](const Scalar& left, const Scalar& right) {
-                   const Scalar at_left = excess(left), at_right = excess(right);
-                   best = std::min({best, {at_left, left}, {at_right, right}});
-                   return at_left < at_right;
-                 });
+  for (int k = 0; k <= count; ++k) excess(gains.lower + Scalar(k) * step);
+  if (!(best.first > known)) narrow_to_minimum(best.second - step, best.second + step, 30, excess);
   return best;
 }
 
@@ -212,10 +191,9 @@ class ModulusLevels {
   /// The angle, between the neighbours of a place, at which a function is largest.
   template <class Value>
   Scalar best_about(std::size_t place, const Value& value) const {
-    return narrow_to_best(
-        places_[place == 0 ? 0 : place - 1].angle,
-        places_[std::min(place + 1, places_.size() - 1)].angle, 30,
-        [&](const Scalar& left, const Scalar& right) { return value(left) > value(right); });
+    return narrow_to_minimum(places_[place == 0 ? 0 : place - 1].angle,
+                             places_[std::min(place + 1, places_.size() - 1)].angle, 30,
+                             [&](const Scalar& angle) { return -value(angle); });
   }
 
   /// Moves one end of an interval outward, to its extreme at angles between the place's neighbours.

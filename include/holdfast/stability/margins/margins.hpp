@@ -75,6 +75,7 @@ struct MarginSearch {
   /// The largest number of steps of the search along τ or δ, ≥ 1. In a step the phase of the
   /// plant's fastest mode grows by about 1 rad; for two masses a step takes some 40 µs.
   int most_steps = 20000;
+  bool of_delay = true;  ///< whether δ is searched; if not, its margins are `undefined`
 };
 
 namespace detail {
@@ -264,12 +265,13 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
   const bool stable = reserve > 0.0 && by_d.below.outcome != MarginEndOutcome::undefined &&
                       by_p.below.outcome != MarginEndOutcome::undefined;
   if (!stable) return {MarginOutcome::not_stable, std::min(reserve, 0.0), {}, {}, {}, {}};
-  return {MarginOutcome::stable,
-          reserve,
-          by_d,
-          by_p,
-          detail::period_margin(plant, sampling, gains, search),
-          detail::delay_margin(general, sampling, gains, search)};
+  return {
+      MarginOutcome::stable,
+      reserve,
+      by_d,
+      by_p,
+      detail::period_margin(plant, sampling, gains, search),
+      search.of_delay ? detail::delay_margin(general, sampling, gains, search) : TwoSidedMargin{}};
 }
 
 /// Margins of a loop as a whole: gain margin, phase margin and delay margin.

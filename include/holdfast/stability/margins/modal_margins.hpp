@@ -183,7 +183,7 @@ struct ModalMargins {
 /// @param poles     all `plant_poles`; they must outlive the call
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @param gains     P (N/m) and D (N s/m), finite
-/// @param search    only `longest_period_ratio` r is used: τ is searched from τ/r to τ r
+/// @param search    `longest_period_ratio` r: τ is searched from τ/r to τ r; `of_delay`
 /// @param has_velocity_sensor  false: D multiplies the backward difference of the readings
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
@@ -205,7 +205,7 @@ StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
           by_d,
           by_p,
           margins.of_period(search.longest_period_ratio),
-          margins.of_delay()};
+          search.of_delay ? margins.of_delay() : TwoSidedMargin{}};
 }
 
 /// The stability boundary of τ (if `of_period`, with δ/τ constant) or δ (with τ constant), for a

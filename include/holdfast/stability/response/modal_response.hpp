@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "holdfast/control/loop_map.hpp"
@@ -271,29 +270,38 @@ class ModalResponse<Scalar>::Nearby {
   /// @param response  the response, which must outlive this object
   /// @param centre    offset μ = λ − 1 of that point
   Nearby(const ModalResponse& response, const Complex& centre)
-      : response_(response), centre_(centre) {
-    const std::vector<Pole> all = response.poles_.all();
-    std::vector<std::pair<Scalar, const Pole*>> poles;
-    poles.reserve(all.size());
-    for (std::size_t k = 0; k < response.poles_.size(); ++k)  // without the late ones
-      poles.emplace_back(std::norm(centre - all[k].increment), &all[k]);
-    const Scalar wanted = Scalar(8) + Scalar(3) * std::sqrt(static_cast<Scalar>(poles.size()));
-    const std::size_t count = std::min(static_cast<std::size_t>(wanted), poles.size());
-    if (count < poles.size()) {
-      std::nth_element(poles.begin(), poles.begin() + static_cast<std::ptrdiff_t>(count),
-                       poles.end());
-      reach_ = std::sqrt(poles[count].first);
+      : response_(&response), centre_(centre) {
+    const Poles& all = response.poles_;
+    std::vector<Scalar> distances;  // squared, of all but the late ones
+    for (std::size_t k = 0; k < all.size(); ++k)
+      distances.push_back(std::norm(centre - all[k].front()));
+    const Scalar wanted = Scalar(8) + Scalar(3) * std::sqrt(static_cast<Scalar>(all.size()));
+    const std::size_t count = std::min(static_cast<std::size_t>(wanted), all.size());
+    Scalar farthest = std::numeric_limits<Scalar>::infinity();  // squared, of a near pole
+    if (count < all.size()) {
+      std::vector<Scalar> sorted = distances;
+      std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count),
+                       sorted.end());
+      farthest = sorted[count];
+      reach_ = std::sqrt(farthest);
     }
-    for (std::size_t k = 0; k < poles.size(); ++k)
-      k < count ? near_.add(*poles[k].second) : add_far(*poles[k].second);
+    detail::ComplexRows<Scalar, 3> far(Scalar(-8));
+    for (std::size_t k = 0; k < all.size(); ++k)
+      distances[k] < farthest ? near_.push_back(all[k]) : far.push_back(all[k]);
+    add_far(far);
   }
 
   /// Whether μ is near enough: |μ − centre| ≤ 1/8 of the distance to the series' nearest pole.
   bool holds(const Complex& mu) const { return std::abs(mu - centre_) <= reach_ / Scalar(8); }
 
+  /// Moves the centre to μ unless μ is near enough.
+  void follow(const Complex& mu) {
+    if (!holds(mu)) *this = Nearby(*response_, mu);
+  }
+
   /// The responses G_z and G_v at λ = 1 + μ.
   CommandResponse<Scalar> at(const Complex& mu) const {
-    if (response_.dense_) return response_.at_distance_from_one(mu);
+    if (response_->dense_) return response_->at_distance_from_one(mu);
     Sums sums = far_.back();
     for (std::size_t j = far_.size() - 1; j-- > 0;) {
       const Complex way = mu - centre_;
@@ -301,7 +309,7 @@ class ModalResponse<Scalar>::Nearby {
               far_[j].v + detail::plain_product(way, sums.v)};
     }
     const Sums near = near_.sums_at(mu);
-    return response_.finished({sums.z + near.z, sums.v + near.v}, mu);
+    return response_->finished({sums.z + near.z, sums.v + near.v}, mu);
   }
 
   /// The distance from μ to the nearest pole, or a lower bound of that distance if no pole is near.
@@ -316,22 +324,30 @@ class ModalResponse<Scalar>::Nearby {
   }
 
  private:
-  /// Adds a far pole to the series: 1/(μ − e) = Σ (−1)^j (μ − μ₀)^j/(μ₀ − e)^{j+1}.
-  void add_far(const Pole& pole) {
-    const Complex ratio = -Scalar(1) / (centre_ - pole.increment);
-    Complex factor = -ratio;
-    for (Sums& term : far_) {
-      term.z += detail::plain_product(pole.displacement, factor);
-      term.v += detail::plain_product(pole.velocity, factor);
-      factor = detail::plain_product(factor, ratio);
+  /// Computes the series of the far poles: 1/(μ − e) = Σ (−1)^j (μ − μ₀)^j/(μ₀ − e)^{j+1}.
+  void add_far(const detail::ComplexRows<Scalar, 3>& poles) {
+    std::array<std::array<detail::ComplexLanes<Scalar>, 2>, terms> series;
+    for (const auto& [increment, of_z, of_v] : poles.blocks()) {
+      const auto ratio = (centre_ - increment).inverse();
+      auto factor_z = of_z * ratio, factor_v = of_v * ratio;
+      for (auto& [z, v] : series) {
+        z += factor_z;
+        v += factor_v;
+        factor_z = factor_z * ratio;
+        factor_v = factor_v * ratio;
+      }
     }
+    Scalar sign(1);
+    for (std::size_t j = 0; j < terms; ++j, sign = -sign)
+      far_[j] = {sign * series[j][0].sum(), sign * series[j][1].sum()};
   }
 
-  const ModalResponse& response_;
+  const ModalResponse* response_;
   Complex centre_;
   Scalar reach_ = std::numeric_limits<Scalar>::infinity();
   Poles near_;
-  std::array<Sums, 17> far_{};  // 8^−17 is round-off
+  static constexpr std::size_t terms = 17;  // 8^−17 is round-off
+  std::array<Sums, terms> far_{};
 };
 
 template <class Scalar>

@@ -80,14 +80,15 @@ void add_strength(std::vector<MovedNumber>& numbers, const Case& the_case, std::
   }
 }
 
-}  // namespace
-
+/// Position of a device as a varied number: distance from the nearer support, from 0.2 m (0.002 of
+/// a short span) to a quarter of the band's longest wave or a tenth of the span. The bounds are
+/// widened to the current position.
+/// @param shortest, longest  wavelengths of the band (m)
 MovedNumber moved_position(const Case& the_case, const PlacementQuestion& question, double shortest,
                            double longest) {
   const double span = the_case.conductor.span;
   const std::size_t number = question.device;
-  const double now =
-      number == 0 ? the_case.absorber.position : the_case.devices[number - 1].position;
+  const double now = the_case.devices[number - 1].position;
   const bool right = now > span / 2.0;
   const double present = right ? span - now : now;
   placement::MovableValue value{std::min({0.2, 0.002 * span, present}),
@@ -98,13 +99,11 @@ MovedNumber moved_position(const Case& the_case, const PlacementQuestion& questi
   value.places = static_cast<int>(
       std::clamp(std::ceil(eighth * (value.upper - value.lower) / shortest) + 1.0, 9.0, 41.0));
   return {"position", "m", value, [=](Case& variant, double distance) {
-            const double place = right ? span - distance : distance;
-            if (number == 0)
-              variant.absorber.position = place;
-            else
-              variant.devices[number - 1].position = place;
+            variant.devices[number - 1].position = right ? span - distance : distance;
           }};
 }
+
+}  // namespace
 
 std::vector<MovedNumber> moved_numbers(const Case& the_case, const PlacementQuestion& question,
                                        double lowest, double highest) {

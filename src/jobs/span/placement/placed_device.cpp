@@ -53,9 +53,8 @@ double worst_of(const std::vector<double>& levels) {
 }
 
 /// Gains varied over a rectangle; one start of the search is 0 if the case's own are inadmissible.
-/// @param places  grid points along each gain
 std::vector<MovedNumber> moved_gains(const Case& the_case, const StableGains& stable,
-                                     const PdGains<double>& most, int places) {
+                                     const PdGains<double>& most) {
   const GainWindow around = stable.around(most);
   const PdGains<double> own = gains_of(the_case);
   const PdGains<double> present = stable.admits(own) ? own : PdGains<double>{0.0, 0.0};
@@ -63,7 +62,7 @@ std::vector<MovedNumber> moved_gains(const Case& the_case, const StableGains& st
     placement::MovableValue value{std::min(range.lower, now), std::max(range.upper, now)};
     value.upper = std::max(value.upper, value.lower + 1e-6);
     value.present = now;
-    value.places = places;
+    value.places = 25;
     return value;
   };
   return {{"proportional_gain", "N/m", gain(around.proportional, present.proportional),
@@ -75,101 +74,31 @@ std::vector<MovedNumber> moved_gains(const Case& the_case, const StableGains& st
            [](Case& variant, double d) { variant.control.differential_gain = d; }}};
 }
 
-/// Placement of the active absorber.
-class AbsorberPlacement {
- public:
-  AbsorberPlacement(const Case& the_case, const PlacementQuestion& question,
-                    const PlacementLevels& levels)
-      : case_(the_case), question_(question), levels_(levels) {
-    const double match = string_of(the_case).wave_impedance();
-    constexpr double beyond_all = 1e3;
-    most_ = {beyond_all * match * 2.0 * pi<double> * levels.frequencies().back(),
-             beyond_all * match};
-  }
-
-  /// Best gains at the current position.
-  PlacedDevice gains() const { return gains_of_variant(case_, thorough); }
-
-  /// Best gains and position: gains at nine positions, twice around the best of them at half the
-  /// step, and at the best position once more, thoroughly.
-  PlacedDevice gains_and_position() const {
-    const double speed = string_of(case_).wave_speed();
-    const MovedNumber position =
-        moved_position(case_, question_, speed / levels_.frequencies().back(),
-                       speed / levels_.frequencies().front());
-    constexpr int places = 9, halvings = 2;
-    double step = (position.value.upper - position.value.lower) / (places - 1);
-    std::vector<double> distances = {position.value.present};
-    for (int k = 0; k < places; ++k) distances.push_back(position.value.lower + k * step);
-    PlacedDevice best;
-    for (int halving = 0; halving <= halvings; ++halving) {
-      for (const double distance : distances) keep_better(best, position, distance, quick);
-      step *= 0.5;
-      const double middle = best.found.values.back();
-      distances.clear();
-      for (const double distance : {middle - step, middle + step})
-        if (distance > position.value.lower && distance < position.value.upper)
-          distances.push_back(distance);
-    }
-    const double there = best.found.values.back();
-    keep_better(best, position, there, thorough);
-    return best;
-  }
-
- private:
-  struct Effort {
-    int places, runs;  // of the grid along each gain, and of the search
-  };
-  static constexpr Effort thorough{25, 4}, quick{13, 1};
-
-  PlacedDevice gains_of_variant(const Case& variant, const Effort& effort) const {
-    const StableGains stable(variant, question_.margin);
-    PlacedDevice placed{};
-    placed.numbers = moved_gains(variant, stable, most_, effort.places);
-    placed.found = searched(
-        placed.numbers,
-        [&](const std::vector<double>& values) {
-          if (!stable.admits({values[0], values[1]})) return std::vector<double>();
-          return levels_.of(with_values(variant, placed.numbers, values));
-        },
-        effort.runs);
-    if (placed.found.values.empty())
-      throw NoAnswer("no gains, not even 0, keep the loop stable with --margin " +
-                     format_rounded(question_.margin) + ": give a smaller --margin");
-    placed.the_case = with_values(variant, placed.numbers, placed.found.values);
-    const bool own_is_stable = stable.is_stable(program::gains_of(variant));
-    placed.before = own_is_stable ? levels_.value_of(worst_of(levels_.of(variant))) : std::nan("");
-    return placed;
-  }
-
-  void keep_better(PlacedDevice& best, const MovedNumber& position, double distance,
-                   const Effort& effort) const {
-    const bool is_first = best.found.values.empty();
-    Case variant = is_first ? case_ : best.the_case;  // whose gains the search begins from, too
-    position.put(variant, distance);
-    PlacedDevice here;
-    try {
-      here = gains_of_variant(variant, effort);
-    } catch (const NoAnswer&) {  // of that place: its natural motions cannot be told apart
-      if (is_first) throw;
-      return;
-    }
-    if (!is_first && !(here.found.worst < best.found.worst)) return;
-    here.numbers.push_back(position);
-    here.found.values.push_back(distance);
-    const auto& bounds = position.value;
-    here.found.bounds.push_back(distance <= bounds.lower   ? placement::PlacementBound::lower
-                                : distance >= bounds.upper ? placement::PlacementBound::upper
-                                                           : placement::PlacementBound::none);
-    if (!is_first) here.before = best.before;  // of where it was, which is asked first
-    best = std::move(here);
-  }
-
-  const Case& case_;
-  const PlacementQuestion& question_;
-  const PlacementLevels& levels_;
-  PdGains<double> most_;
-};
+/// Placement of the active absorber: the best gains at its position.
+PlacedDevice placed_actively(const Case& the_case, const PlacementQuestion& question,
+                             const PlacementLevels& levels) {
+  const double match = string_of(the_case).wave_impedance();
+  constexpr double beyond_all = 1e3;
+  const PdGains<double> most{beyond_all * match * 2.0 * pi<double> * levels.frequencies().back(),
+                             beyond_all * match};
+  const StableGains stable(the_case, question.margin);
+  PlacedDevice placed{};
+  placed.numbers = moved_gains(the_case, stable, most);
+  placed.found = searched(
+      placed.numbers,
+      [&](const std::vector<double>& values) {
+        if (!stable.admits({values[0], values[1]})) return std::vector<double>();
+        return levels.of(with_values(the_case, placed.numbers, values));
+      },
+      4);
+  if (placed.found.values.empty())
+    throw NoAnswer("no gains, not even 0, keep the loop stable with --margin " +
+                   format_rounded(question.margin) + ": give a smaller --margin");
+  placed.the_case = with_values(the_case, placed.numbers, placed.found.values);
+  const bool own_is_stable = stable.is_stable(gains_of(the_case));
+  placed.before = own_is_stable ? levels.value_of(worst_of(levels.of(the_case))) : std::nan("");
+  return placed;
+}
 
 PlacedDevice placed_passively(const Case& the_case, const PlacementQuestion& question,
                               const PlacementLevels& levels) {
@@ -203,10 +132,8 @@ PlacedDevice placed_passively(const Case& the_case, const PlacementQuestion& que
 PlacedDevice placed_device(const Case& the_case, const PlacementQuestion& question) {
   require_placement_search();
   const PlacementLevels levels(the_case, question);
-  const AbsorberPlacement absorber(the_case, question, levels);
-  PlacedDevice placed = !question.is_absorber()   ? placed_passively(the_case, question, levels)
-                        : question.moves_position ? absorber.gains_and_position()
-                                                  : absorber.gains();
+  PlacedDevice placed = question.is_absorber() ? placed_actively(the_case, question, levels)
+                                               : placed_passively(the_case, question, levels);
   placed.after = levels.value_of(placed.found.worst);
   placed.worst_frequency = levels.frequency_of(placed.found.worst_at);
   const double gained = question.goal == PlacementGoal::strain ? placed.before - placed.after

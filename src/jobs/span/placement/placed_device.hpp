@@ -19,13 +19,6 @@ struct MovedNumber {
   double sign = 1.0;                       ///< the case's number is sign × value
 };
 
-/// Position of a device as a varied number: distance from the nearer support, from 0.2 m (0.002 of
-/// a short span) to a quarter of the band's longest wave or a tenth of the span. The bounds are
-/// widened to the current position.
-/// @param shortest, longest  wavelengths of the band (m)
-MovedNumber moved_position(const Case& the_case, const PlacementQuestion& question, double shortest,
-                           double longest);
-
 /// Numbers of a passive device that a placement varies: its position, unless the question keeps it,
 /// and its strength. The maker fixes the strength of a Stockbridge damper or measured device.
 /// Throws WrongInput where nothing can vary.
