@@ -330,15 +330,15 @@ std::vector<int> parts_of_play(const Case& the_case) {
   return is_two_masses(the_case) ? std::vector<int>{120, 20} : std::vector<int>{24, 10, 10};
 }
 
-/// Width up to which all serve, from one that serves towards one that does not.
+/// Width up to which all serve, from one known to serve towards one known not to.
 double limit_between(const Question& question, double serving, double failing) {
   const std::vector<int> parts = parts_of_play(question.the_case);
   for (auto finer = parts.begin() + 1; finer != parts.end(); ++finer) {
     const std::vector<double> widths = evenly(serving, failing, *finer);
-    const std::vector<char> serve = widths_that_serve(question, widths);
-    const auto first = std::find(serve.begin() + 1, serve.end() - 1, 0) - serve.begin();
-    serving = widths[static_cast<std::size_t>(first - 1)];
-    failing = widths[static_cast<std::size_t>(first)];
+    const auto serve = widths_that_serve(question, {widths.begin() + 1, widths.end() - 1});
+    const auto last = std::find(serve.begin(), serve.end(), 0) - serve.begin();
+    serving = widths[static_cast<std::size_t>(last)];
+    failing = widths[static_cast<std::size_t>(last + 1)];
   }
   return serving;
 }
