@@ -32,11 +32,11 @@ enum class LyapunovScope {
 ///
 ///     a = √(Σ_k ‖W_k … W₁ Q‖²) ‖R⁻¹‖,   k = 1 … K
 ///
-/// measures the amplification of round-off in the diagonal of R. The a of one stretch decides the
-/// length of the next. A stretch with a > `largest_amplification` is split into halves, a single
-/// block into samples. Vectors are orthogonalised in balanced coordinates (`ItineraryBlocks`);
-/// spectrum() converts the result to the loop's coordinates. Tangent vectors that a singular map
-/// sends to zero are dropped; their exponents are −∞.
+/// measures the amplification of round-off in the diagonal of R. The value of a in one stretch
+/// decides the length of the next stretch. A stretch with a > `largest_amplification` is split into
+/// halves, a single block into samples. Vectors are orthogonalised in balanced coordinates
+/// (`ItineraryBlocks`); spectrum() converts the result to the loop's coordinates. Tangent vectors
+/// that a singular map sends to zero are dropped; their exponents are −∞.
 ///
 /// Work per block of six samples and per tangent vector: 25 multiply-adds (20 without processing
 /// delay). Work per stretch: orthogonalising a 5 × 4 matrix (5 × 5 before a vector is dropped).

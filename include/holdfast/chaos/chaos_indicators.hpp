@@ -28,7 +28,7 @@ struct IndicatorOptions {
                                  ///< 3, 5 and 7 holds most short periods a whole number of times
   double base_frequency = 1.0;   ///< f (cycles per sample): lines are sought at multiples of f/m
   std::int64_t zero_one_stride = 1;  ///< n: the 0–1 test uses every n-th sample; 1 … samples/500
-  bool forcing_incommensurate = false;  ///< whether no response repeats: see ChaosIndicators
+  bool forcing_incommensurate = false;  ///< whether forcing and sampling have no common period
 };
 
 /// Validates the options. @throws InvalidParameter where a member is outside its range
@@ -51,7 +51,7 @@ ExponentEstimate largest_exponent(const LyapunovSpectrum<double, Size>& spectrum
   return exponent_estimate(value, found.standard_errors[which]);
 }
 
-/// A motion diverges when some |x_i| exceeds 10³⁰ times the largest |x_i| of its first 100 samples.
+/// Detector of divergence: |x_i| over 10³⁰ times the largest |x_i| of the first 100 samples.
 template <int Size>
 class DivergenceGuard {
  public:

@@ -52,7 +52,7 @@ struct SpectralIndicators {
   int division;  ///< smallest m whose multiples of f/m contain `share` of the power; 0: none
   double share;  ///< share of the power that is required on the multiples of f/m
   std::size_t lines_holding;  ///< smallest number of lines that contain 99 % of the power
-  double continuous;          ///< share of the power in the floor between the lines
+  double continuous;          ///< share of the power between the spectral lines
 };
 
 /// The indicators that decide the kind of a motion; one that is not computed is empty.

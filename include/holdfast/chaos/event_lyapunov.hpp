@@ -79,10 +79,10 @@ void EventLyapunov<Contact>::advance() {
 /// The five leading Lyapunov exponents, natural logarithm per sample, of an EventMotion from its
 /// present state. They are invalid if `motion.counts().accumulates` is true after the call.
 ///
-///     const LyapunovResult result = run_event_lyapunov(motion, {1000000, 1000, 1e-5});
+///     const LyapunovResult result = run_event_lyapunov(motion, {1000000, 1000});
 ///
 /// @param motion  the motion; it is advanced to the end of the run
-/// @param run     length and accuracy of the average
+/// @param run     length of the average
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible
 template <class Contact>

@@ -131,7 +131,7 @@ class LyapunovObserver {
     open_ = empty_block;
   }
 
-  /// The Lyapunov spectrum since the last restart, equal to that of a QR step at every sample.
+  /// The Lyapunov spectrum since the last restart, equal to the result of a QR step per sample.
   LyapunovSpectrum<Scalar, 5> spectrum() const { return engine_.spectrum(open_); }
   /// Restarts the averages; only the directions of the tangent vectors are kept.
   void restart() {

@@ -19,8 +19,8 @@ namespace holdfast {
 /// The five leading Lyapunov exponents of a conductor given by its modes, along a sequence of
 /// contacts. They are computed from five tangent vectors that are orthonormalised at every sample.
 ///
-/// With a single mode the fifth exponent is −∞ without processing delay and once the drive has been
-/// in its backlash; otherwise all are finite. Work per sample: 130 multiply-adds per NaturalMotion.
+/// With a single mode the fifth exponent is −∞ if there is no processing delay or the drive was in
+/// its backlash; else all are finite. Work per sample: 130 multiply-adds per NaturalMotion.
 template <class Scalar = double>
 class ModalSpectrum {
  public:
@@ -83,7 +83,7 @@ class ModalSpectrum {
 /// present state, natural logarithm per sample.
 /// @param motion  a ModalMotion; it is advanced to the end of the run
 /// @param loop    the loop of the motion
-/// @param run     length and accuracy of the average
+/// @param run     length of the average
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible
 template <class Motion>

@@ -137,7 +137,7 @@ ChaosIndicators indicators_of_motion(const IdealLoop<Scalar>& loop,
   return indicators_of_samples(motion, options, engaged, tangents);
 }
 
-/// A motion with its tangent in the form that chaos_indicators() requires. The states are [x;
+/// A motion with its tangent maps in the form that chaos_indicators() requires. The states are [x;
 /// u_{j−1}; 0; 0]: the zeros make them as long as the deviations of VariationalFlow.
 template <class Contact>
 class TrajectoryWithTangent {
@@ -256,8 +256,8 @@ std::optional<IndicatorOptions> indicator_options(const ImplementedLoopOf<Plant>
 
 /// The conditions under which the samples of a motion are examined.
 struct Weighing {
-  bool is_forced;               ///< forced by a harmonic, whose periods are counted
-  bool may_look_longer = true;  ///< may use more samples if the planned ones do not decide
+  bool is_forced;               ///< whether a harmonic force acts, whose periods are counted
+  bool may_look_longer = true;  ///< whether to use more samples if the planned ones do not decide
 };
 
 /// Classifies a motion by the indicators of its samples. If they do not decide, the distance of a

@@ -10,10 +10,10 @@
 
 namespace holdfast {
 
-/// The final distance of a neighbouring motion y from a motion x, as a share of the extent: the
-/// mean of |x_i − y_i| over the last quarter of the samples, divided by max x_i − min x_i, for the
-/// coordinate i where this is largest. The neighbour starts after the transient, with z₁ displaced
-/// by `neighbour_start` times the extent of z₁ in the second half of the transient.
+/// The final distance of a neighbouring motion y from a motion x, as a share of the extent. This is
+/// the mean of |x_i − y_i| over the last quarter of the samples, divided by max x_i − min x_i, for
+/// the coordinate i with the largest quotient. The neighbour starts after the transient, with z₁
+/// displaced by `neighbour_start` times the extent of z₁ in the second half of the transient.
 ///
 /// The distance detects sensitive dependence without tangent maps. If neighbours separate
 /// exponentially, it grows to the order of 1; on an invariant circle or torus it stays small.

@@ -11,7 +11,7 @@ namespace holdfast {
 /// The complexity of a sequence of contacts (engaged or in the backlash); H_k is block_entropy().
 struct SwitchingComplexity {
   double entropy;        ///< entropy rate h_k = H_{k+1} − H_k (bits per symbol)
-  std::size_t block;     ///< length k of the words counted
+  std::size_t block;     ///< length k of the words (contacts of k successive samples) counted
   std::size_t switches;  ///< number of changes of contact
 };
 

@@ -47,8 +47,8 @@ double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plan
   return 1e12 * std::max(scale, 1e-100);
 }
 
-/// The divergence bound of a conductor given by its modes, in the same form: y is the static
-/// deflection at the absorber under the force amplitude.
+/// The divergence bound of a conductor given by its modes, by the formula for an ImplementedLoop,
+/// with y the static deflection at the absorber under the force amplitude.
 /// @param loop   an admissible loop
 /// @param state  the initial state of the plant of `loop`
 inline double divergence_bound(const ModalLoop& loop, const NaturalMotions::Full& state) {

@@ -63,9 +63,9 @@ struct IgnoreFlow {
 ///
 /// `sense()` takes a sample and computes the command u_j. `advance()` moves to the next sample, in
 /// two parts: under u_{j−1} until t_j + δ, then under u_j. The contact changes where a guard
-/// (GuardOf) reaches zero. In a part for which a bound excludes this, the exact transition matrix
-/// advances the state to the end of the part. Otherwise the state is expanded in Taylor series and
-/// the first root of every guard is found (first_root.hpp), so that no change is missed.
+/// (GuardOf) reaches zero. If a bound proves that no guard does so in a part, the exact transition
+/// matrix advances the state to the end of the part. Otherwise the state is expanded in Taylor
+/// series and the first root of every guard is found (first_root.hpp), so that no change is missed.
 ///
 /// Work per sample without a change of contact: about 80 multiply-adds and a square root; per
 /// change some 2000 multiply-adds more. No memory is allocated.

@@ -59,7 +59,7 @@ auto converted(const IdealLoop<From, Plant>& loop) {
       loop.hold};
 }
 
-/// The DigitalLoop with the sampling, gains and harmonic force of an IdealLoop; an ideal computer.
+/// The DigitalLoop of an IdealLoop: its sampling, gains and harmonic force, with an ideal computer.
 template <class Plant>
 DigitalLoop digital_loop(const IdealLoop<double, Plant>& loop) {
   return {loop.sampling, loop.gains, multi_harmonic_force(loop.excitation), loop.hold};
@@ -116,7 +116,7 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
   return detail::forced_motion<PeriodicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation.amplitude, ratio);
 }
-/// The function above for an initial state given as any Eigen column.
+/// The periodically forced motion from an initial state given as any Eigen column vector.
 template <class Scalar, class Plant, class Column>
 PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Rational& ratio,
@@ -134,7 +134,7 @@ HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
   return detail::forced_motion<HarmonicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation, loop.sampling.period);
 }
-/// The function above for an initial state given as any Eigen column.
+/// The harmonically forced motion from an initial state given as any Eigen column vector.
 template <class Scalar, class Plant, class Column>
 HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Eigen::MatrixBase<Column>& initial_state) {

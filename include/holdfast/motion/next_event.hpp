@@ -32,7 +32,7 @@ template <int States>
 struct NextEvent {
   int guard = -1;                             ///< number of the guard; −1: no guard reaches zero
   FirstRoot root{RootOutcome::none, 1.0, 0};  ///< first zero; `at`: 0 … 1 along the stretch
-  std::array<double, 2> signs{};  ///< sign (±1) found for a guard of unknown sign; else 0
+  std::array<double, 2> signs{};  ///< sign (±1) found for a guard of unknown sign; 0 for others
   Vector<double, States> state =
       {};  ///< state x at the zero, N × 1; without a zero, at the end of the stretch
 };

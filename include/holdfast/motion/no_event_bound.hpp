@@ -58,7 +58,7 @@ class NoEventBoundOf {
   }
 
   /// An upper bound of the depth of g below its chord over a time `length` (s), from the state
-  /// `begin` (N × 1) under a constant command (N). If g exceeds it at both ends, g has no zero.
+  /// `begin` (N × 1) under a constant command (N). A g above the bound at both ends has no zero.
   double drop_below_chord(const Vector<double, States>& begin, double command,
                           double length) const {
     const Drop drop = drop_over(length);

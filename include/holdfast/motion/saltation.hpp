@@ -27,8 +27,8 @@ struct SurfaceCrossing {
 ///
 /// The motion with deviation δx crosses the surface later by δt = −∂h/∂x δx / ḣ (earlier if δt <
 /// 0). During δt it moves with f⁻ while the motion without deviation moves with f⁺. If f⁺ = ∂R/∂x
-/// f⁻ + ∂R/∂t, the field does not jump and S = ∂R/∂x. If R = x, ∂h/∂t = 0 and f⁺ is tangential to
-/// the surface (∂h/∂x f⁺ = 0), S is singular: ∂h/∂x S = 0.
+/// f⁻ + ∂R/∂t, S = ∂R/∂x: the field does not jump. If R = x, ∂h/∂t = 0 and f⁺ is tangential to the
+/// surface (∂h/∂x f⁺ = 0), S is singular: ∂h/∂x S = 0.
 ///
 /// If f⁻ is tangential to the surface (ḣ = 0), no derivative exists and the entries are not finite.
 /// Work: 2 Size² multiply-adds and one division.

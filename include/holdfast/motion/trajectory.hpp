@@ -73,8 +73,8 @@ inline std::int64_t samples_within(double duration, double sampling_period) {
 /// sample to every observer, `observer(const MotionSample&)`.
 ///
 /// The observers decide which data are stored; this function allocates nothing. A further call
-/// continues at the sample after the last one. If the instant of its kick has already passed, the
-/// kick acts at the first sample of the call.
+/// continues at the sample after the last one. A kick whose instant has already passed acts at the
+/// first sample of the call.
 /// @tparam Motion  type for which is_motion_v is true, or any type with `sense`, `advance`,
 ///                 `displace_conductor` and `time` as described at is_motion_v
 template <class Motion, class... Observers>

@@ -125,7 +125,7 @@ class VariationalFlow {
   /// The tangent map of the sampling period just passed, (N + 3) × (N + 3).
   const Map& map() const { return map_; }
 
-  /// Structural rank of the product of all maps so far: that of generic maps with the same zeros.
+  /// Structural rank of the product of all maps so far: the rank for generic nonzero entries.
   int rank_of_product() const { return rank_.rank(); }
 
  private:

@@ -18,7 +18,7 @@ enum class BorderKind {
   fold,              ///< a multiplier reaches 1
   flip,              ///< a multiplier reaches −1 (period doubling)
   neimark_sacker,    ///< a complex pair of multipliers reaches the unit circle
-  border_collision,  ///< switching at samples: Δz or Δż of a sample reaches a surface
+  border_collision,  ///< switching at samples: Δz or Δż of a sample reaches a switching surface
   grazing,  ///< exact switching: Δz or Δż touches a switching surface without crossing it
   sliding,  ///< exact switching: after a reversal, stick replaces the gap or vice versa
   switch_at_sample,  ///< exact switching: a contact change reaches a sample, where F or u may jump
@@ -58,7 +58,7 @@ struct MotionRegion {
   /// Points of the border, counter-clockwise. Where the kind of border changes, two points lie
   /// close together, at a codimension-two point.
   std::vector<MotionBorderPoint> border;
-  bool closed = false;  ///< whether the border is complete; else it could not be followed further
+  bool closed = false;  ///< whether the border is complete; false if following it failed
   int solutions = 0;    ///< number of times that the motion was solved for
 };
 
@@ -93,7 +93,7 @@ inline std::optional<int> strong_resonance(const MotionBorder& a, const MotionBo
 
 namespace detail {
 
-/// The border, by the angle of the largest multiplier: fold, flip or Neimark–Sacker.
+/// The border for a multiplier at the unit circle, by its angle: fold, flip or Neimark–Sacker.
 inline MotionBorder circle_border(const Multiplier& multiplier) {
   constexpr double pi = 3.14159265358979323846, real = 1e-7;
   const double angle = std::abs(multiplier.angle);

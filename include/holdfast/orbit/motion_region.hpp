@@ -51,7 +51,7 @@ inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t h
 /// on its side of the switching surfaces and every multiplier lies inside the unit circle.
 ///
 /// The map of a given itinerary is affine. As a multiplier tends to 1, the periodic solution grows
-/// without bound, and reaches a switching surface before. The exception is a symmetric motion that
+/// without bound and reaches a switching surface first. The exception is a symmetric motion that
 /// loses its symmetry; only there a `fold` occurs.
 ///
 ///     const auto family = [&](double width, double gain) { … return other; };

@@ -26,11 +26,11 @@ enum class BranchEndOutcome {
 struct BranchEnd {
   BranchEndOutcome outcome = BranchEndOutcome::range_end;  ///< cause of the end
   double parameter = 0.0;                                  ///< value of the parameter at the end
-  Border border;  ///< surface and sample of a border collision; else the default
+  Border border;  ///< surface and sample of a border collision; unused for other outcomes
   /// Largest multiplier at the end; for `unit_circle` with angle 0 at a fold, π at a flip (period
   /// doubling) and another angle for a complex pair.
   Multiplier multiplier{};
-  int solutions = 0;  ///< number of solutions for the orbit that were computed
+  int solutions = 0;  ///< number of solutions for the orbit
 };
 
 namespace detail {
@@ -126,8 +126,8 @@ class OrbitContinuation {
 /// Continues an orbit with a fixed itinerary along one parameter until the orbit ends.
 ///
 /// The orbit is solved for at each value. It lasts while every sample stays on its side of the
-/// switching surfaces and every multiplier inside the unit circle. Bracketing in the first step
-/// with an end locates it to rounding. An end and reappearance within a step pass unnoticed.
+/// switching surfaces and every multiplier inside the unit circle. In the first step with an end,
+/// bracketing locates the end to rounding. An end with reappearance in the same step is missed.
 ///
 ///     const auto family = [&](double gain) { auto other = loop; other.gains.differential = gain;
 ///                                          return other; };

@@ -56,8 +56,8 @@ class SampledSearchModel {
     return memory().backlash.inside == other.backlash.inside;
   }
 
-  /// Whether the last `period` contacts equal the `period` contacts before. If too few are known:
-  /// whether the reference is the first sample or the period is q.
+  /// Whether the last `period` contacts equal the `period` contacts before. Where too few contacts
+  /// are known, the result is true if the reference is the first sample or the period is q.
   bool may_repeat(const Seen& seen, std::int64_t period) const {
     if (seen.reference < period) return seen.reference == 0 || period == ratio_.denominator;
     const auto end = seen.itinerary.end();
@@ -87,7 +87,7 @@ class SampledSearchModel {
     return found.outcome == OrbitOutcome::on_surface || attraction_.holds(motion_);
   }
 
-  /// The orbit with its shortest period; the given orbit where that one is not confirmed.
+  /// The given orbit with its shortest period; unchanged where the shorter one is not confirmed.
   PeriodicOrbit shortened(const PeriodicOrbit& orbit) const {
     const auto step = static_cast<std::size_t>(ratio_.denominator);
     const auto period = static_cast<std::ptrdiff_t>(

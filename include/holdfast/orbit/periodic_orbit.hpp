@@ -102,7 +102,7 @@ std::vector<Multiplier> multipliers_of(const ItineraryMaps<Scalar>&, const Itine
 /// @param maps       maps of the same loop and ratio
 /// @param itinerary  contacts of N ≥ 1 samples, N a multiple of q, the first one at phase 0
 /// @param law        backlash law with its memory before the first sample
-/// @return `certified` where both are equal, whether the orbit attracts or not; otherwise
+/// @return `certified` where the contacts agree, whether the orbit attracts or not; otherwise
 ///         `on_surface`, `not_reproduced`, or `none_found` without an orbit
 /// Work for two masses: about 500 multiply-adds per sample. Memory: about 70 bytes per sample.
 /// @tparam Loop  IdealLoop, with ItineraryMaps, or ModalLoop, with ModalItineraryMaps
@@ -127,15 +127,15 @@ OrbitResult orbit_of_itinerary(const Loop& loop, const Rational& ratio, const Ma
 
 /// The comparison of a periodic orbit with its solution in another number type.
 struct OrbitVerification {
-  bool same_itinerary = false;  ///< whether the solution in that type has the orbit's itinerary
+  bool same_itinerary = false;  ///< whether the solution in `Precise` has the orbit's itinerary
   double displacement_difference =
       std::numeric_limits<double>::infinity();  ///< largest difference of z₁ or z₂ at a sample (m)
   double velocity_difference =
       std::numeric_limits<double>::infinity();  ///< largest difference of ż₁ or ż₂ (m/s)
-  double closure_error = std::numeric_limits<double>::infinity();  ///< ‖z_N − z₀‖ in that type (SI)
+  double closure_error = std::numeric_limits<double>::infinity();  ///< ‖z_N − z₀‖ in `Precise` (SI)
 };
 
-/// Recomputes an orbit from its itinerary in `Precise`: exponentials, forcing, solution, backlash.
+/// Recomputes an orbit from its itinerary in the number type `Precise`, exponentials included.
 ///
 ///     verify_orbit<long double>(loop, orbit).same_itinerary
 ///

@@ -24,14 +24,14 @@ namespace holdfast {
 ///     ‖e‖² = e_z₁² + (e_ż₁/ω)² + e_z₂² + (e_ż₂/ω)² + (e_u/k₁)² + e_gap²   (m²),
 ///
 /// with the excitation's angular frequency ω (without excitation √(k₁/m₁)) and the deviation e_gap
-/// of the gap's position, in a gap. The motion must have the orbit's contact and, if engaged, its
-/// sign of Δż at the last sample. An orbit that never leaves its gap exists in every gap that
-/// contains its Δz. The ball's radius is then `radius` times its clearance from the gap's ends.
+/// of the gap's position, in a gap. The motion must have the orbit's contact and, if engaged, the
+/// orbit's sign of Δż at the last sample. An orbit that never leaves its gap exists in every gap
+/// that contains its Δz. The radius is then `radius` times the clearance from the gap's ends.
 struct AttractionBall {
   std::int64_t sample;            ///< index of the orbit's sample: a multiple of q, f τ = p/q
-  Vector<double, 5> state;        ///< state z̃ = [z; u_{j−1}] at that sample
-  BacklashMemory<double> memory;  ///< memory of the drive before that sample
-  bool stays_inside;              ///< the drive never leaves its gap
+  Vector<double, 5> state;        ///< state z̃ = [z; u_{j−1}] at sample j = `sample`
+  BacklashMemory<double> memory;  ///< memory of the drive before sample j = `sample`
+  bool stays_inside;              ///< whether the drive never leaves its gap
   double lowest,                  ///< least Δz of the orbit (m)
       highest;                    ///< largest Δz of the orbit (m)
   double radius;                  ///< radius (m), > 0; if stays_inside, m per metre of clearance
@@ -88,7 +88,7 @@ class SampledDeviations {
   using Columns = Matrix<Scalar, 6>;               ///< six deviations e
   using Deviations = Eigen::Matrix<Scalar, 5, 6>;  ///< deviations of z̃, without the gap
   using Readings = Eigen::Matrix<Scalar, 2, 6>;    ///< readings of Δz and Δż, one per row
-  static constexpr int block = 1;                  ///< samples between take_readings(), at most
+  static constexpr int block = 1;                  ///< most samples between two take_readings()
 
   SampledDeviations(const IdealLoop<Scalar>& loop, const ItineraryMaps<Scalar>& maps) {
     const Vector<Scalar, 5> weights = deviation_weights(loop).template head<5>();
@@ -223,8 +223,8 @@ class DeviationFlow {
 };
 
 /// The radii of attraction at the starts of a period's segments. A deviation within a segment's
-/// radius stays within the radius of the next segment. The list is empty where a decision limits a
-/// radius and the segments together do not contract.
+/// radius stays within the radius of the next segment. The list is empty where some segment has a
+/// finite radius and the segments together do not contract.
 inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>& segments) {
   constexpr double everywhere = std::numeric_limits<double>::infinity();
   double logarithm = 0.0, smallest = everywhere;
@@ -246,8 +246,8 @@ inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>&
   return radii;
 }
 
-/// The segments of one period, each of `length` times q samples (the last may be shorter). If that
-/// is longer than the period, there is one segment of several whole periods.
+/// The segments of one period, each of `length` times q samples (the last may be shorter). If this
+/// length exceeds the period, there is one segment of several whole periods.
 /// @param flow  flow of deviations from the first sample on
 template <class Deviations>
 std::vector<DeviationSegment> deviation_segments(DeviationFlow<Deviations> flow,
@@ -305,8 +305,8 @@ std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
 /// @param orbit  attracting and certified
 /// @return neighbourhoods in the order of the samples; empty where no segments contract, up to a
 ///         length of 64 periods or 10⁶ samples, whichever is longer
-/// Work: about 300 multiply-adds per sample for each length of segments up to a period; no more
-/// than one of the longer lengths is computed in full.
+/// Work: about 300 multiply-adds per sample for each length of segments up to a period; beyond, at
+/// most one of the lengths is computed in full.
 template <class Scalar>
 std::vector<AttractionBall> attraction_balls(const IdealLoop<Scalar>& loop,
                                              const PeriodicOrbit& orbit) {

@@ -12,7 +12,7 @@
 
 namespace holdfast {
 
-/// A motion's extent: its largest displacement and velocity, units of relative state differences.
+/// A motion's extent: largest displacement and velocity, by which state differences are divided.
 struct StateScale {
   double displacement = 0.0;  ///< largest |z₁|, |z₂| (m)
   double velocity = 0.0;      ///< largest |ż₁|, |ż₂| (m/s)

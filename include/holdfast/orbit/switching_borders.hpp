@@ -68,8 +68,8 @@ ContactDecision decide(Backlash<Scalar>& law, const Vector<Scalar, 5>& state) {
   return decision;
 }
 
-/// Calls visit(sample, surface, distance) for every surface that a sample's contact decision
-/// depends on; borders_of() defines the distance.
+/// Calls visit(sample, surface, distance) for every surface on which the contact decision at a
+/// sample depends, with the distances of borders_of().
 template <class Scalar, class Visit>
 void for_each_border(const SwitchingPattern& pattern, const std::vector<Vector<Scalar, 5>>& states,
                      double width, const Visit& visit) {
@@ -141,7 +141,7 @@ struct Borders {
 /// of a pattern would change; negative where a state already contradicts the pattern.
 ///
 /// Inside the gap, the distance of Δz from the nearer end counts. At a sample at which the drive
-/// leaves the gap, the excess of Δz beyond that end and |Δż| count. At all others |Δż| counts.
+/// leaves the gap, the excess of Δz beyond that end and |Δż| count; at all other samples |Δż|.
 /// @param pattern  pattern of this motion, or of another one for comparison
 /// @param states   z̃_j of one period of the motion, one for each decision
 /// @param width    width r₀ of the backlash (m)

@@ -73,7 +73,7 @@ struct Neighbourhoods<IdealLoop<Scalar>> {
   Vector<double, 6> weights = deviation_weights(loop);
 
   std::vector<Point> points_of(const Orbit& orbit) const { return attraction_balls(loop, orbit); }
-  /// The reach of a neighbourhood in z₁ (m): inside a gap at most half the gap's width.
+  /// An upper bound of the reach of a neighbourhood in z₁ (m), for any position of the gap.
   double reach(const Point& point) const {
     return point.stays_inside ? point.radius * loop.backlash_width : point.radius;
   }

@@ -79,7 +79,7 @@ BasinsOf<Orbit> numbered_basins(std::vector<BasinLabel> labels, const std::vecto
 /// The result of a search for the periodic orbit of one motion.
 template <class Orbit>
 struct FoundOrbit {
-  BasinLabel label;  ///< label; its attractor is the number of an orbit that was already known
+  BasinLabel label;            ///< label; its attractor is the number of an already known orbit
   std::optional<Orbit> orbit;  ///< a certified orbit that was not known yet
 };
 
@@ -92,9 +92,9 @@ auto own_orbit(Result found) {
   return FoundOrbit<Orbit>{{found.outcome, -1}, std::move(found.orbit)};
 }
 
-/// The search for the labels of many initial states of one loop, in rounds. In a round some of the
-/// remaining states are searched for their own orbits, one by one. Then all remaining motions may
-/// be advanced together towards the known orbits. Each round searches twice as many states as the
+/// The search for the labels of many initial states of one loop, in rounds. Each round first
+/// searches, one by one, for the orbits of some remaining states. Then all remaining motions may be
+/// advanced together towards the known orbits. Each round searches twice as many states as the
 /// previous one, up to 2¹⁶. The result is independent of the order of execution within a round.
 /// @tparam Model  has search(motion, set), a FoundOrbit, and advance(motions, set, for_tiles),
 ///                which marks attracted and diverging motions
@@ -175,7 +175,7 @@ auto basins_by(const typename Model::Loop& loop,
       std::vector<BasinLabel>(initial_states.size(), {outcome, -1}), {}};
 }
 
-/// The motions of a loop that advance in parallel; each may be searched for its own orbit.
+/// The motions of a loop that advance in parallel, with a search for the orbit of any one motion.
 /// @tparam LoopModel  IdealLoop<double>; ImplementedLoop in event_basins.hpp
 template <class LoopModel, class Propagator>
 struct BatchedMotions;

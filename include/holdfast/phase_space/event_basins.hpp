@@ -30,14 +30,14 @@ namespace holdfast {
 
 namespace detail {
 
-/// The neighbourhoods of an orbit's points: a millionth of its extent (`StateScaleOf`) wide.
+/// Neighbourhoods of an orbit's points, with a radius of 10⁻⁶ of its extent (`StateScaleOf`).
 template <class Plant>
 struct Neighbourhoods<ImplementedLoopOf<Plant>> {
   using Orbit = EventOrbitOf<states_of<Plant>>;
 
   struct Point {
-    std::size_t sample;          ///< sample of the orbit
-    StateOf<Plant> state;        ///< state at that sample
+    std::size_t sample;          ///< index of a sample of the orbit
+    StateOf<Plant> state;        ///< state at sample `sample`
     StateScaleOf<Plant> extent;  ///< extent of the orbit
 
     double distance(const StateOf<Plant>& other) const { return extent.share_of(other - state); }
@@ -66,7 +66,7 @@ struct Neighbourhoods<ImplementedLoopOf<Plant>> {
   static constexpr double nearness = 1e-6;
 };
 
-/// Tests by stroboscopic states and contact modes whether a motion settles on an orbit of a set.
+/// Test of whether a motion settles on an orbit of a set, by stroboscopic states and contact modes.
 /// @tparam Plant  plant of an ImplementedLoopOf
 template <class Plant>
 class ApproachOf {
@@ -129,7 +129,7 @@ class ApproachOf {
   }
 
   /// Whether the motion had the orbit's contact modes in the last period. After two periods its
-  /// distance from the orbit must also have fallen in both, by the factors at find_basins().
+  /// distance from the orbit must also have decreased as stated at find_basins().
   bool keeps_course(const StateOf<Plant>& state) {
     if (!keeps_) return false;
     distances_[++periods_] = entry_->point.distance(state);
@@ -228,8 +228,8 @@ class EventScheduler final : public LaneScheduler {
   std::array<std::optional<Place>, 8> places_;
 };
 
-/// The motions of a loop ImplementedLoopOf<Plant>. Each motion is tested for the orbits found in
-/// earlier rounds and, where it settles on none of them, searched for its own orbit.
+/// The motions of a loop ImplementedLoopOf<Plant>. Each motion is compared with the orbits found in
+/// earlier rounds. If it settles on none of them, its own orbit is searched for.
 /// @tparam Begin  map [z₁, ż₁, z₂, ż₂] ↦ x
 template <class LoopModel, class Begin>
 struct SingleMotions {

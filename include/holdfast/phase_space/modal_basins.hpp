@@ -63,8 +63,8 @@ struct Neighbourhoods<ModalLoop> : ModalNeighbourhoods<ModalLoop> {
   using ModalNeighbourhoods<ModalLoop>::ModalNeighbourhoods;
 };
 
-/// The motions of a conductor given by its modes. Each motion is tested for the regions found in
-/// earlier rounds and, where it enters none of them, searched for its own orbit.
+/// The motions of a conductor given by its modes. Each motion is compared with the regions found in
+/// earlier rounds. If it enters none of them, its own orbit is searched for.
 template <class LoopModel>
 struct ModalMotions {
   using Loop = LoopModel;

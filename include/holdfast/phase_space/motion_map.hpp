@@ -108,7 +108,7 @@ struct SampledMapModel {
   }
 
  private:
-  /// The memory with a gap of the loop's width; the gap's middle moves no farther than Δz requires.
+  /// The memory with a gap of the loop's width, whose middle moves only as far as Δz requires.
   static ForcedMotionMemory<Scalar> resized(ForcedMotionMemory<Scalar> memory, const Loop& loop) {
     auto& gap = memory.backlash;
     const Scalar half = loop.backlash_width / 2.0, here = relative_displacement(memory.state);

@@ -41,7 +41,7 @@ struct KnownVelocity {
   double sign = 0.0;  ///< constant sign of Δż in the stretch, ±1; 0: not determined
 };
 
-/// The sign and the zeros of Δż that the contact determines. @param guards  guards of the mode
+/// The KnownVelocity of a contact mode, from its guards. @param guards  guards of the mode
 /// @param readings  readings of the plant
 template <int States, class Readings>
 KnownVelocity known_velocity(const GuardsOf<States>& guards, const Readings& readings) {
@@ -156,7 +156,7 @@ class TurnFinder {
     }
   }
 
-  /// The bound Σ |r_i| Σ_k |x_ik| of |Δż| = |r x| in a part, x_ik being the coefficients of x.
+  /// The bound Σ |r_i| Σ_k |x_ik| of |Δż| = |r x| in a part; x_ik: Taylor coefficients of x.
   template <class Coefficients>
   double velocity_size(const Coefficients& states) const {
     const typename Motion::State row = motion_->readings().velocity_row();

@@ -39,9 +39,9 @@ Mask<Scalar> stays_above_zero(const Scalar& begin, const Scalar& end, const Scal
 /// The first change of contact in each lane within a time interval of the motion.
 template <class Scalar>
 struct LaneEvent {
-  Mask<Scalar> found;  ///< whether a guard reaches zero
+  Mask<Scalar> found;  ///< whether a guard reaches zero in the interval
   Scalar at;           ///< position of the change, as a share 0 … 1 of the interval; 1: no change
-  Mask<Scalar> second;  ///< whether the second guard is the one that reaches zero
+  Mask<Scalar> second;  ///< whether the second guard reaches zero (else the first)
 };
 
 namespace detail {

@@ -27,7 +27,7 @@ class ModalDeviations {
  public:
   using Columns = Eigen::MatrixXd;  ///< one deviation per column, order() rows
   using Readings = Columns;         ///< one row per reading, one column per deviation
-  static constexpr int block = 64;  ///< largest block (samples); take readings at least this often
+  static constexpr int block = 64;  ///< most samples in a block, and between two take_readings()
 
   /// Begins with the unit vectors as deviations, one for each coordinate.
   /// @param motions  natural motions of the loop
@@ -118,8 +118,8 @@ class ModalDeviations {
   }
 
  private:
-  /// The weights of Σ Re(w ξ): `of_start` for the coordinates at the start of the block, one row
-  /// for each sample since; `of_command` for a command 1, 2, … samples earlier.
+  /// The weights of a reading Σ Re(w ξ): `of_start` for the coordinates at the start of the block,
+  /// one row for each sample since; `of_command` for a command 1, 2, … samples earlier.
   struct Sensor {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> of_start;
     Eigen::VectorXd of_command;

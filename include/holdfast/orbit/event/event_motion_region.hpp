@@ -104,7 +104,7 @@ RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
   return look;
 }
 
-/// Continuation of an orbit with exact switching over two parameters, from the nearest known one.
+/// Continuation of an orbit with exact switching over two parameters, from the nearest solution.
 template <class Family, class Orbit>
 class EventContinuation {
  public:

@@ -22,7 +22,7 @@
 
 namespace holdfast {
 
-/// The least distances of an orbit from another switching sequence; +∞ for events that never occur.
+/// The least margins of an orbit before its switching sequence changes; +∞ for absent events.
 ///
 /// At a margin of zero the motion touches a switching surface without crossing it. Neighbouring
 /// motions then switch in different ways, and multipliers do not describe them. All margins are +∞
@@ -31,7 +31,7 @@ struct SwitchingMargins {
   /// The margin of an event that never occurs.
   static constexpr double none = std::numeric_limits<double>::infinity();
 
-  /// Least distance (m) of a turning point of Δz from an end of the gap that it does not reach.
+  /// Least distance (m) of a turning point of Δz from an end of the gap that Δz does not reach.
   double border_distance = none;
   /// Least distance that Δz covers between leaving a gap and the next reversal (m).
   double shortest_travel = none;
@@ -49,8 +49,8 @@ struct SwitchingMargins {
 ///
 /// The certificate is numerical, in doubles. The EventMotion closes after one period up to
 /// `closure_error` and has the same switches in three successive periods. All multipliers,
-/// saltation included, lie inside the unit circle. `margins` are distances from another switching
-/// sequence. Only prove_event_orbit() proves a true orbit within a bound of the computed one.
+/// saltation included, lie inside the unit circle. At a zero margin the switching sequence changes.
+/// Only prove_event_orbit() proves a true orbit within a bound of the computed one.
 ///
 /// There is one multiplier for each entry of [x; u_{j−1}; gap position; last measured displacement]
 /// that affects later samples. If there are fewer than five, multipliers 0 are added.
@@ -201,7 +201,7 @@ class EventOrbitMeasures {
   /// Records that the command u_j takes effect, at t_j + δ.
   void commanded() { trace_.commanded(); }
   /// Records the margins of a switch at which a guard reaches zero: the speed at an end of the gap,
-  /// the accelerations at a reversal. A switch by a jump of force or command (guard −1) has none.
+  /// the accelerations at a reversal. A switch by a jump (guard −1) has no margin.
   void switched(int from, int, int guard, const Instant& instant) {
     last_slope_ = {};
     if (guard < 0) return;

@@ -31,7 +31,7 @@ struct EventOrbitResult : OrbitResultOf<EventOrbitOf<EventMotion<Contact>::state
 
 namespace detail {
 
-/// Records the samples and switches of a motion as an orbit, and passes them to the measures.
+/// Records the samples and switches of a motion as an orbit and passes all to EventOrbitMeasures.
 template <class Contact>
 class PeriodRecorder {
  public:
@@ -77,7 +77,7 @@ class PeriodRecorder {
 
 /// A sample of an orbit and its distance in time from the nearest switch.
 struct FarSample {
-  std::int64_t sample = -1;  ///< sample j; −1: no sample apart from the switches
+  std::int64_t sample = -1;  ///< sample j; −1: none apart from the switches
   double distance = 0.0;     ///< time from the nearest switch (s)
 };
 
@@ -196,7 +196,7 @@ class EventOrbitSolver {
   }
 
   /// Measures the orbit over three periods from its first state, and compares their switches.
-  /// @param extent  extent of the states in the search; the orbit's own may be mere rounding
+  /// @param extent  extent of the states simulated before; that of the orbit may be mere rounding
   Result measured(const Point& first, std::int64_t samples, const Extent& extent) {
     motion_.go_to(first);
     EventOrbitMeasures<Contact> measures(motion_.motion());
@@ -229,8 +229,8 @@ class EventOrbitSolver {
 };
 
 /// The Model of ReturnSearch for an EventMotion. When the state repeats, the fixed point is solved
-/// for. The motion has settled on an orbit once it came within 10⁻⁶ of its extent to the orbit and
-/// then, for two periods, had the orbit's contact modes and did not move away.
+/// for. The motion has settled on an orbit if its distance fell below 10⁻⁶ of its extent and did
+/// not grow over the next two periods, in which the motion had the orbit's contact modes.
 template <class Contact>
 class EventSearchModel {
  public:

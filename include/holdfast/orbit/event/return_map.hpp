@@ -316,7 +316,7 @@ class ReturnMap {
   }
 
   /// The number of samples whose maps may be multiplied without loss of digits in any direction of
-  /// x. It is 1 for a loop with memory in addition to x, since this may decay within few samples.
+  /// x. It is 1 for a loop with memory besides x, since that memory may decay within few samples.
   std::size_t samples_that_keep_digits() const {
     const EventMotion<Contact>& motion = motion_.motion();
     const DigitalLoop& loop = motion.loop();

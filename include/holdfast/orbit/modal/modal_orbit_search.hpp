@@ -30,27 +30,27 @@ namespace holdfast {
 /// at the same phase of the forcing, follow the orbit's itinerary for ever and tend to the orbit.
 ///
 /// The neighbourhood is ‖R e‖ < `radius`, with the deviation e of a motion from the orbit. The
-/// entries of e are those of ModalDeviations and the gap's deviation, all in m. Here ‖R e‖²
-/// = eᵀV e, where V − MᵀV M is positive definite and M maps e over one or more periods. The drive
-/// must also have the orbit's contact and, while engaged, its last sign of Δż. For an orbit that
-/// stays in a gap, the radius is per metre of clearance between the orbit and the gap's ends.
+/// entries of e are those of ModalDeviations and the gap's deviation, all in m. ‖R e‖² is eᵀV e,
+/// where V − MᵀV M is positive definite and M maps e over one or more periods. The motion must also
+/// have the orbit's contact and, while engaged, the orbit's last sign of Δż. For an orbit that
+/// stays in a gap, `radius` is per metre of clearance between the orbit and the gap's ends.
 struct ModalAttraction {
   Eigen::VectorXd first;          ///< first state of the orbit, a ModalItineraryMaps::State
   BacklashMemory<double> memory;  ///< memory of the drive before the first sample
-  bool stays_inside;              ///< the drive never leaves its gap
+  bool stays_inside;              ///< whether the drive never leaves its gap
   double lowest,                  ///< least Δz of the orbit (m)
       highest;                    ///< largest Δz of the orbit (m)
   Eigen::MatrixXd root;           ///< factor R of the norm, V = RᵀR
-  double radius;           ///< bound of ‖R e‖ (m, or m per m), > 0; ∞: no contact can change
-  double inscribed_share;  ///< 1/‖R‖_F (Frobenius): ‖R e‖ < radius if ‖e‖ < radius/‖R‖_F
+  double radius;  ///< bound of ‖R e‖ (m, or m per m), > 0; ∞ if no contact can change
+  double inscribed_share;  ///< 1/‖R‖_F: ‖e‖ < radius · inscribed_share implies ‖R e‖ < radius
 };
 
 /// Computes the neighbourhood of attraction of an orbit of a conductor given by its modes.
 ///
-/// Φ maps the initial deviation e to that at a sample; h is a switching surface's normal. A contact
-/// is unchanged if |h Φ e| is below the orbit's distance from the surface there. `radius` is the
-/// least of this distance / ‖h Φ R⁻¹‖ over M's periods. After them ‖R e‖ is smaller. V is computed
-/// for the fewest of 1, 2, 4, … 64 periods whose contraction exceeds rounding.
+/// Φ maps the initial deviation e to the deviation at a sample; h is a switching surface's normal.
+/// A contact is unchanged if |h Φ e| is below the orbit's distance from the surface. `radius` is
+/// the least distance / ‖h Φ R⁻¹‖ over the periods that M covers, after which ‖R e‖ is smaller. V
+/// is computed for the fewest of 1, 2, 4, … 64 periods whose contraction exceeds rounding.
 /// @param loop   the loop that has the orbit
 /// @param maps   maps of that loop
 /// @param orbit  orbit of that loop, attracting and certified
@@ -122,7 +122,7 @@ namespace detail {
 template <class Loop>
 class ModalRegion {
  public:
-  /// The cost of solving per orbit sample, O(N²), as a number of simulated samples, O(N).
+  /// The cost of solving per orbit sample, O(N²), over the cost of a simulated sample, O(N).
   std::int64_t samples_per_solved() const {
     return std::max<std::int64_t>(16, maps_.units().size());
   }

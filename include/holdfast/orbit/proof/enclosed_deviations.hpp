@@ -18,7 +18,7 @@ inline RowVector<double, 5> relative_row(bool of_velocity) {
 /// A row vector of doubles with a bound of the Euclidean length of its error.
 struct RowWithError {
   RowVector<double, 6> row = RowVector<double, 6>::Zero();  ///< computed row
-  Enclosure error;  ///< bound of the length of the row's error
+  Enclosure error;  ///< bound of the Euclidean length of the error
 
   /// The difference of two rows, its rounding errors included.
   RowWithError operator-(const RowWithError& other) const {
@@ -88,7 +88,7 @@ class EnclosedDeviations {
   }
 
  private:
-  /// Stores the midpoints; the error is `carried` plus √(Σ V_j²) of the columns' remainders.
+  /// Stores the midpoints of `exact`; their error is `carried` plus √(Σ V_j²) of the remainders.
   void take(std::size_t sample, const Enclosed& exact, const Number& carried) {
     columns_ = exact.template cast<double>();
     const Enclosed wrong = exact - columns_.template cast<Number>();

@@ -28,7 +28,7 @@ enum class ContactSurface {
   gap_upper,            ///< Δz at the upper end of the gap (m)
   free_acceleration,    ///< stick ends in the gap: Δz̈ = 0 without a force (m/s²)
   driven_acceleration,  ///< stick ends engaged: Δz̈ = 0 under the command (m/s²)
-  sampling_instant,     ///< sampling instant, or the change of the force δ after it (s)
+  sampling_instant,     ///< sampling instant, or the change of the force at delay δ (s)
 };
 
 namespace detail {

@@ -195,7 +195,7 @@ class EventOrbitProver {
     return true;
   }
 
-  /// The difference of the image of the ellipsoid's centre from the proposal of the next sample.
+  /// The difference of the image of the ellipsoid's centre from the next sample's proposed state.
   Six missed(std::size_t sample, const Set& set) const {
     const Passage passage(modes_, path_, delay_);
     const Vector<double, 6> proposed = passage.proposed(after(sample));
@@ -271,7 +271,7 @@ class EventOrbitProver {
     return farthest_in_first(weights) < proof_.radius;
   }
 
-  /// The radius of the largest weighted ball, of states that the contact allows, in the ellipsoid.
+  /// The radius, in the weighted norm, of the largest ball of allowed states in the ellipsoid.
   double weighted(double radius, const Vector<double, 6>& weights) const {
     const Node& first = nodes_.front();
     const Passage passage(modes_, path_, delay_);

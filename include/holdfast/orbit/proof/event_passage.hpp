@@ -23,7 +23,7 @@ struct ContactTest {
   ContactSurface surface = ContactSurface::reversal;  ///< surface of the guard
   int order = 0;             ///< order of the guard's time derivative; 0: the guard itself
   std::int64_t sample = -1;  ///< sample j, counted from the orbit's first; −1: no test
-  double instant = 0.0;      ///< time since that sample (s)
+  double instant = 0.0;      ///< time since sample j (s)
   double distance = std::numeric_limits<double>::infinity();  ///< tested value (SI), > 0 if proved
   double error = 0.0;                                         ///< bound of the value's error
 
@@ -37,8 +37,8 @@ namespace detail {
 /// of contact and proves that no other change occurs.
 ///
 /// Just after a contact change the motion is close to an end of its gap. The ball at the next
-/// sample then extends beyond it, although no motion does. A guard may therefore be proved positive
-/// on a second set, the witness: the previous set, followed to this sample. Each motion is in both.
+/// sample then extends beyond this end, although no motion does. A guard may therefore be proved
+/// positive on a second set with all motions, the witness: the previous set followed to here.
 template <class Number>
 class EventPassage {
  public:

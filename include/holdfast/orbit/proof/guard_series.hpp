@@ -45,8 +45,8 @@ class GuardSeries {
   }
   /// An interval that contains g(s) for all s in the given interval.
   Number value(const Number& s) const { return value_without(0, s); }
-  /// An interval that contains ġ(s) for all s in the given interval; the formal derivative of the
-  /// remainder encloses that of g's remainder, h A^m w s^{m−1}/(m−1)!.
+  /// An interval that contains ġ(s) for all s in the given interval. The formal derivative of c_m
+  /// sᵐ encloses the remainder of ġ, h A^m w s^{m−1}/(m−1)!.
   Number slope(const Number& s) const {
     Number sum;
     for (std::size_t k = coefficients_.size(); k-- > 1;)

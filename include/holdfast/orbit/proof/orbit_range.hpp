@@ -16,8 +16,8 @@ namespace holdfast {
 
 /// A closed range of a parameter, with one proof for all loops of the range.
 struct ProvedOrbitRange {
-  double from;       ///< least value
-  double to;         ///< largest value
+  double from;       ///< least value of the parameter
+  double to;         ///< largest value of the parameter
   OrbitProof proof;  ///< result for every loop of the range, without a ball (radius 0)
 };
 

@@ -23,7 +23,7 @@ struct RecordedContact {
 /// A change of contact between two samples.
 struct RecordedSwitch {
   double after;  ///< time since the sample (s)
-  int guard;     ///< index of the ended mode's guard that fell to 0; −1: a jump of the command
+  int guard;     ///< index of the guard of the ended mode that fell to 0; −1: jump of the command
   RecordedContact begun;  ///< contact that begins
 };
 

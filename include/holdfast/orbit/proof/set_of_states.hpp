@@ -18,14 +18,14 @@ namespace holdfast::detail {
 template <class Number>
 struct SetOfStates {
   using State = Vector<Number, FlowPlace::size>;      ///< state w (FlowPlace)
-  using Spread = Matrix<Number, FlowPlace::size, 6>;  ///< matrix D
+  using Spread = Matrix<Number, FlowPlace::size, 6>;  ///< matrix D, the derivative of w by y
   using Row = FlowRow<Number>;                        ///< linear function of w
 
   State centre = State::Zero();     ///< state for y = 0
-  Spread spread = Spread::Zero();   ///< matrix D
+  Spread spread = Spread::Zero();   ///< matrix D, the derivative of w with respect to y
   Spread at_once = Spread::Zero();  ///< derivative at one instant, used where `is_apart`
   bool is_apart = false;  ///< whether the motions reached the surface at different instants
-  double radius = 0.0;    ///< radius of the ball
+  double radius = 0.0;    ///< radius of the ball of positions y
 
   /// The derivative of w with respect to y at one instant that is common to all motions.
   const Spread& together() const { return is_apart ? at_once : spread; }

@@ -18,7 +18,7 @@ struct SwitchingTest {
   std::int64_t entry;        ///< sample k, < 0 in the previous period; unused for a reversal
   SwitchingSurface surface;  ///< switching surface whose distance is tested
   int sign;                  ///< sign of the inequality: 1 or −1
-  int widths;                ///< coefficient of r₀: −1, 0 or 1
+  int widths;                ///< coefficient of r₀ in the inequality: −1, 0 or 1
 
   /// Whether the inequality is one of Δż, not of Δz.
   bool is_of_velocity() const { return surface == SwitchingSurface::reversal; }

@@ -17,16 +17,15 @@ namespace holdfast {
 
 namespace detail {
 
-/// Point of a curve of root pairs: the curve's parameter and the gains P and D there.
+/// Point of a curve of gains with a root pair on the stability boundary: parameter, P and D.
 template <class Scalar>
 struct CurvePlace {
   Scalar parameter;
   PdGains<Scalar> gains;  // not finite at a pole
 };
 
-/// Tracer of a curve of root pairs over a range of P; it finds points as dense as a plot needs.
-///
-/// A piece of the curve is halved until its chord spans at most 1/50 of the range and three inner
+/// Tracer of the curve of gains with a root pair on the stability boundary, over a range of P. It
+/// halves each piece of the curve until the chord spans at most 1/50 of the range and three inner
 /// points are within 0.001 of the chord (`distance`). Pieces outside the range are left out.
 /// @tparam Curve  `BoundaryCurves` or `CircleBoundary`, with functions `gains`, `between` and
 ///                `angle` of the curve's parameter, and `pair_kind`
@@ -43,7 +42,7 @@ class CurveTracer {
 
   Place at(const Scalar& parameter) const { return {parameter, curve_.gains(parameter)}; }
 
-  /// Appends the curve's points in range, from the first to the last of `places` (ascending).
+  /// Appends the curve's points between the given places (ascending), as far as P is in range.
   void trace(const std::vector<Place>& places, Points& points) const {
     for (std::size_t k = 0; k + 1 < places.size(); ++k) {
       append(places[k], points);

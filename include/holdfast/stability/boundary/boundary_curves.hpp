@@ -23,8 +23,8 @@ struct BoundaryLine {
   BoundaryCurve curve;  ///< kind of the line: `plus_one`, `minus_one` or `zero`
   Scalar angle;         ///< θ of the root, 0 or π (rad); for the continuous loop ω = 0 (rad/s)
   Scalar constant;      ///< characteristic polynomial at the root, without control (P = D = 0)
-  Scalar proportional;  ///< its derivative by P, per N/m; 0 if P does not change it
-  Scalar differential;  ///< its derivative by D, per N s/m; 0 if D does not change it
+  Scalar proportional;  ///< polynomial's derivative by P at the root, per N/m; 0: no effect
+  Scalar differential;  ///< polynomial's derivative by D at the root, per N s/m; 0: no effect
 
   /// Whether P is constant along the line, that is, `differential` is 0.
   bool is_vertical() const { return differential == Scalar(0); }
@@ -121,9 +121,9 @@ class BoundaryCurves {
     return largest;
   }
 
-  /// Adds the line of gains with the root x. A gain counts as not moving this root if its part of
-  /// the polynomial is round-off at x: at λ = ±1 below 1e−9 of the part's largest coefficient
-  /// (error of the matrix exponential), at s = 0 below 1e−13 with s in units of `root_bound`.
+  /// Adds the line of gains for which x (λ − 1 or s) is a root. A gain that does not move this root
+  /// gets the coefficient 0: its part of the polynomial at x is then round-off, below 1e−9 of the
+  /// part's largest coefficient (continuous loop: 1e−13, s in units of `root_bound`).
   void add_line(const AffinePolynomial<Scalar, Degree>& polynomial, BoundaryCurve curve,
                 const Scalar& angle, const Scalar& x) {
     const Scalar unit = sampled ? Scalar(1) : root_bound(polynomial.base);

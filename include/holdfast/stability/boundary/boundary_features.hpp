@@ -29,8 +29,8 @@ struct DoubleNeimarkSacker {
 
 namespace detail {
 
-/// Two 3 × 3 matrices that map (1, P, D) to the coefficients of Y⁰, Y¹, Y² of the polynomial's even
-/// and odd part. Rows and columns are scaled to similar size; `column` has the columns' factors.
+/// The matrices E (`even`) and O (`odd`) of `double_neimark_sacker_points`, with rows and columns
+/// scaled to similar size. `column` has the factors of the columns.
 template <class Scalar>
 struct ParityPencil {
   Matrix<Scalar, 3> even, odd;
@@ -57,7 +57,7 @@ struct ParityPencil {
 
   Matrix<Scalar, 3> at(const Scalar& ratio) const { return ratio * even - odd; }
 
-  /// The determinant det(ν even − odd), of degree 3 in ν.
+  /// The polynomial det(ν E − O) in ν, of degree 3.
   Polynomial<Scalar, 3> determinant() const {
     const auto mixed = [this](int rows_of_even) {
       Matrix<Scalar, 3> matrix;
@@ -69,7 +69,7 @@ struct ParityPencil {
     return {-mixed(0), mixed(1) + mixed(2) + mixed(4), -mixed(3) - mixed(5) - mixed(6), mixed(7)};
   }
 
-  /// The gains at which the odd part is ν times the even part; not finite if there are none.
+  /// The gains at which the odd part is ν = `ratio` times the even part; not finite if none.
   PdGains<Scalar> gains(const Scalar& ratio) const {
     const Matrix<Scalar, 3> matrix = at(ratio);
     Vector<Scalar, 3> null = Vector<Scalar, 3>::Zero();
@@ -85,9 +85,9 @@ struct ParityPencil {
   }
 };
 
-/// The double point at given gains. Its two Y are roots of the even or the odd part, whichever has
-/// larger coefficients. `nullopt` unless both are positive, finite and over 1e−5 of their sum
-/// apart: closer roots form a cusp; a root 0 or ∞ is an `end`, or no pair.
+/// The double point at given gains, from the two roots Y of the even or the odd part, whichever has
+/// larger coefficients. `nullopt` unless both Y are positive, finite and over 1e−5 of their sum
+/// apart. Closer Y form a cusp; Y = 0 or ∞ is an `end` of the curve, or no root pair.
 template <class Scalar>
 std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scalar>& curve,
                                                         const PdGains<Scalar>& gains) {
@@ -180,7 +180,7 @@ class FeatureFinder {
     add(kind, pair, pair, gains);
   }
 
-  /// Marks vertical and horizontal tangents as near cusps where their angles agree to 1/1000.
+  /// Marks vertical and horizontal tangents as near cusps where their θ differ by ≤ 0.1 %.
   void mark_near_cusps() {
     constexpr double near = 1e-3;
     const auto is_near = [](const BoundaryFeature<Scalar>& one,
@@ -198,7 +198,7 @@ class FeatureFinder {
   }
 
   /// Adds tangents and cusps. At a cusp P and D are stationary at the same Y, to 1e−9 of Y. Without
-  /// damping one gain is 0 on the whole curve; each extreme of the other gain is a cusp.
+  /// damping one gain is 0 on the whole curve, so that each extreme of the other gain is a cusp.
   void add_tangents() {
     const std::vector<Scalar> vertical = pairs_.proportional_extremes();
     std::vector<Scalar> horizontal = pairs_.differential_extremes();
@@ -217,8 +217,8 @@ class FeatureFinder {
     }
   }
 
-  /// Adds the crossings of the curve P = n_P/Δ, D = n_D/Δ with a line c + P p + D d = 0: roots Y of
-  /// c Δ + p n_P + d n_D. One outer coefficient is 0, as the curve begins or ends on the line.
+  /// Adds the crossings of the curve P = n_P/Δ, D = n_D/Δ with a line c + P p + D d = 0, at the
+  /// roots Y of c Δ + p n_P + d n_D, and the end of the curve on this line, at Y = 0 or ∞.
   void add_meetings(const BoundaryLine<Scalar>& line) {
     const bool at_infinity = line.curve == BoundaryCurve::minus_one;
     Polynomial<Scalar, 4> on_line = line.constant * pairs_.denominator() +
@@ -239,8 +239,8 @@ class FeatureFinder {
         end);
   }
 
-  /// A root Y refined by up to three Newton steps on c + P(Y) p + D(Y) d. This loses fewer digits
-  /// than the polynomial where line and curve almost coincide. The slope is a difference quotient.
+  /// A root Y refined by up to three Newton steps on c + P(Y) p + D(Y) d. This function loses fewer
+  /// digits than the polynomial c Δ + p n_P + d n_D where line and curve almost coincide.
   Scalar polished(const BoundaryLine<Scalar>& line, Scalar square) const {
     const auto value = [&](const Scalar& y2) {
       const PdGains<Scalar> gains = pairs_.gains(y2);

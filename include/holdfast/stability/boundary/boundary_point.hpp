@@ -95,9 +95,9 @@ inline void validate(const GainWindow& window) {
 enum class BoundaryFeatureKind {
   vertical_tangent,    ///< dP/dθ = 0: a stable interval of D may appear or vanish as P varies
   horizontal_tangent,  ///< dD/dθ = 0: a stable interval of P may appear or vanish as D varies
-  cusp,                ///< both derivatives 0: double root pair; the curve reverses its direction
+  cusp,                ///< dP/dθ = dD/dθ = 0: double root pair; the curve reverses its direction
   crossing,            ///< crossing of two curves, or of the curve of root pairs with itself
-  end,  ///< end of the curve of root pairs: they become a double root λ = ±1 or s = 0
+  end,  ///< end of the curve of root pairs, where a pair becomes a double root λ = ±1 or s = 0
 };
 
 /// A root or root pair on the stability boundary: its kind and its angle.
@@ -107,16 +107,16 @@ struct BoundaryRoot {
   Scalar angle;         ///< θ (rad), 0 … π, of e^{±iθ}; in the continuous loop ω (rad/s)
 };
 
-/// Special point of the stability boundary. Its two roots are equal at tangents and cusps.
+/// Special point of the stability boundary; at tangents and cusps `first` equals `second`.
 template <class Scalar>
 struct BoundaryFeature {
   BoundaryFeatureKind kind;  ///< kind of the special point
   BoundaryRoot<Scalar>
-      first;  ///< root pair (the one of smaller angle), or λ = 1 where both are real
-  BoundaryRoot<Scalar> second;  ///< real root, or root pair of larger angle; λ = −1 beside λ = 1
+      first;  ///< root pair (of two pairs that of smaller angle); λ = 1 if both are real
+  BoundaryRoot<Scalar> second;  ///< real root, or pair of larger angle; λ = −1 if both are real
   PdGains<Scalar> gains;        ///< P (N/m) and D (N s/m), finite
-  Scalar residual;  ///< round-off: |characteristic polynomial|/Σ |its terms|, maximum of both roots
-  /// Whether this tangent nearly forms a cusp with a tangent of the other direction: their angles
+  Scalar residual;  ///< round-off at the roots: |polynomial|/Σ |its terms|, the larger of the two
+  /// Whether this tangent nearly forms a cusp with a tangent of the other direction: their angles θ
   /// differ by at most 0.1 %. A small change of the loop can create or remove stable intervals.
   bool nearly_cusp = false;
 };

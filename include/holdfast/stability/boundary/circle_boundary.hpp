@@ -9,7 +9,7 @@ namespace holdfast {
 
 namespace detail {
 
-/// Stability boundary of a loop of any order, angle by angle, from its `ModalResponse` G_z, G_v.
+/// Stability boundary of a loop of any order: the gains P and D with a root e^{iθ}, for each θ.
 template <class Scalar>
 class CircleBoundary {
  public:
@@ -32,7 +32,7 @@ class CircleBoundary {
   static Scalar angle(const Scalar& angle) { return angle; }
   static BoundaryCurve pair_kind() { return BoundaryCurve::complex_pair; }
 
-  /// Appends the two ends, within the range of P, of the line of gains with the root λ = 1 or −1.
+  /// Appends both ends, within the range of P, of the line of gains with the root λ = 1 or −1.
   void append_line(BoundaryCurve curve, std::vector<BoundaryPoint<Scalar>>& points) const {
     const Scalar angle = curve == BoundaryCurve::plus_one ? Scalar(0) : pi<Scalar>;
     const CommandResponse<Scalar> g = response_.at_angle(angle);
@@ -52,7 +52,7 @@ class CircleBoundary {
   }
 
  private:
-  /// The largest |G_v| at θ = π/2 and at the poles' angles; 1e−9 of it counts as round-off.
+  /// The largest |G_v| at θ = π/2 and the poles' angles; values below 1e−9 of it are round-off.
   Scalar response_size() const {
     Scalar largest = std::abs(response_.at_angle(pi<Scalar> / Scalar(2)).velocity);
     for (const Scalar& angle : pole_angles_)

@@ -27,14 +27,14 @@ struct GainCrossing {
 
 namespace detail {
 
-/// Free gain x(θ) = (1 − y G_fixed)/G_free with the root e^{iθ}; fixed gain y, G of `LoopResponse`.
+/// Free gain x(θ) = (1 − y G_fixed)/G_free with the root e^{iθ}. y: fixed gain; G: G_z or G_v.
 template <class Scalar>
 class FreeGainOnCircle {
  public:
   FreeGainOnCircle(const LoopMap<Scalar>& map, FreeGain free, const PdGains<Scalar>& gains)
       : response_(map), free_(free), gains_(gains) {}
 
-  /// The complex value x(θ); its imaginary part is 0 at a crossing.
+  /// The complex value x(θ). A crossing is at an angle θ at which its imaginary part is 0.
   std::complex<Scalar> at(const Scalar& angle) const {
     const CommandResponse<Scalar> g = response_.at_angle(angle);
     return free_ == FreeGain::differential
@@ -42,7 +42,7 @@ class FreeGainOnCircle {
                : (Scalar(1) - gains_.differential * g.velocity) / g.displacement;
   }
 
-  /// The zero of Im x near an approximate angle by the secant method, or that angle if it diverges.
+  /// The zero of Im x near an approximate angle by the secant method; that angle if it diverges.
   Scalar polished(const Scalar& angle) const {
     Scalar before = angle * (Scalar(1) - Scalar(1e-7)), here = angle;
     Scalar value_before = at(before).imag(), value = at(here).imag();
@@ -84,7 +84,7 @@ std::vector<Scalar> angles_on_circle(const Matrix<Scalar, Eigen::Dynamic>& m,
   return angles;
 }
 
-/// The pencil M − λ L; the loop's roots at crossings are its eigenvalues on the unit circle.
+/// The pencil M − λ L of `circle_crossings`; crossings are its eigenvalues on the unit circle.
 /// @param s, b, h  map, command column and reading row of the balanced loop; b and h in any unit
 template <class Scalar>
 std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossing_pencil(

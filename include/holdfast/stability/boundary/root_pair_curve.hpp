@@ -11,13 +11,13 @@
 
 namespace holdfast {
 
-/// End of an arc of the `RootPairCurve`: Y, and n and Δ of P = n/Δ there. At Y = 0 n and Δ are the
-/// coefficients of the lowest power of Y for which not both are 0, at Y = ∞ of the highest.
+/// End of an arc of the `RootPairCurve`: Y, with n and Δ of P = n/Δ. At Y = 0 (∞) these are
+/// replaced by their coefficients of the lowest (highest) power of Y that occurs in n or Δ.
 template <class Scalar>
 struct ArcEnd {
-  Scalar square;       ///< parameter Y, 0 … ∞
-  Scalar numerator;    ///< numerator n of P; n/|Y − pole| at a pole where P is finite
-  Scalar denominator;  ///< Δ, at such a pole Δ/|Y − pole|; 0 at a pole where P is infinite
+  Scalar square;     ///< parameter Y, 0 … ∞
+  Scalar numerator;  ///< numerator n of P; n/|Y − pole| at a pole of D where P is finite
+  Scalar denominator;  ///< denominator Δ of P; Δ/|Y − pole| at a pole of D alone; 0 at a pole of P
 
   /// The residual n − P Δ at a given P (N/m). If P occurs on an arc, the signs at its ends differ.
   Scalar residual(const Scalar& proportional_gain) const {
@@ -37,7 +37,7 @@ struct MonotoneArc {
            (end.residual(proportional_gain) < Scalar(0));
   }
 
-  /// A parameter Y inside the arc: the geometric mean of both ends, if they are finite and not 0.
+  /// A parameter Y inside the arc: the geometric mean of its ends, if they are finite and not 0.
   Scalar inside() const {
     if (std::isinf(end.square)) return start.square > 0 ? Scalar(2) * start.square : Scalar(1);
     if (!(start.square > Scalar(0))) return end.square / Scalar(2);
@@ -144,7 +144,7 @@ class RootPairCurve {
     return distance(arc.start) < distance(arc.end) ? arc.start.square : arc.end.square;
   }
 
-  /// The crossing at P (N/m) and Y = `square`, with the smaller round-off of D = −(b + P p)/d.
+  /// The crossing at P (N/m) and Y = `square`; D from the even or odd part with less round-off.
   RowCrossing<Scalar> crossing(const Scalar& proportional_gain, const Scalar& square) const {
     const Scalar even_slope = evaluate(differential_.even, square);
     const Scalar odd_slope = evaluate(differential_.odd, square);
@@ -253,7 +253,7 @@ class RootPairCurve {
                          multiply<Scalar, 3, 3>(a.odd, c.even));
   }
 
-  /// Cut of the curve at one Y: `below` ends the arc of smaller Y, `above` starts that of larger Y.
+  /// Cut of the curve at one Y, where the arc of smaller Y ends and the arc of larger Y starts.
   struct Cut {
     ArcEnd<Scalar> below, above;
   };
@@ -262,8 +262,8 @@ class RootPairCurve {
     Polynomial<Scalar, 4> numerator, denominator;
   };
 
-  /// The fraction numerator/Δ of P or D, without the zeros that numerator and Δ have in common.
-  /// Both are 0 at a pole where `factor` is 0, which is d(iy) for P and p(iy) for D.
+  /// The fraction numerator/Δ of P or D in lowest terms. Numerator and Δ have a common zero at each
+  /// pole at which `factor` is 0; the factor is d(iy) for P and p(iy) for D.
   Fraction reduced(const Polynomial<Scalar, 4>& numerator,
                    const ParityParts<Scalar>& factor) const {
     Fraction result{numerator, denominator_};

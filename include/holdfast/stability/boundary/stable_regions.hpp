@@ -177,7 +177,7 @@ class RegionBuilder {
   using Levels = std::vector<Scalar>;
   static constexpr double negligible_ = 1e-12;  // of the window
 
-  /// Part of a region in one slab. `absorb` adds a region's other cells to its root cell.
+  /// Part of a region in one slab. Cells of a region form a tree; its root cell has their union.
   struct Cell {
     std::size_t parent;
     GainRegion<Scalar> region;
@@ -209,7 +209,7 @@ class RegionBuilder {
         .integrate(slab.lower, slab.upper);
   }
 
-  /// The number of unstable roots; −1 in a cell so thin that only round-off separates its edges.
+  /// The number of unstable roots; −1 for a cell whose height in D is only round-off.
   int count_roots(const PdGains<Scalar>& gains, const Scalar& height) const {
     if (!(height > Scalar(negligible_ * window_.height()))) return -1;
     return unstable_roots(curves_.polynomial().at(gains));

@@ -33,11 +33,11 @@ struct GainPassage {
 ///     p(λ) = 1 − P G_z(λ) − D G_v(λ),   n_out = n_plant − (1/π) [arg p(e^{iθ})] from 0 to π
 ///
 /// If y is the fixed gain, p(e^{iθ}) = 0 at the free gain X(θ) = (1 − y G_fixed)/G_free. Roots
-/// cross where X is real. As the free gain grows, they leave the circle if Im X rises with θ. The
-/// winding gives n_out in one interval between crossings; the crossings give it in the others. The
-/// winding is a check in all intervals if these are at most twelve, else in those with few roots
-/// outside. If a check disagrees, the winding decides every interval. About 30 angles per pole are
-/// stored. Each fixed gain takes 10 operations per angle and 10 values of G per crossing.
+/// cross where X is real; as the free gain grows, they leave the circle if Im X rises with θ. The
+/// winding gives n_out in one interval between crossings, and the crossings give it in all others.
+/// There the winding is a check: in every interval if there are at most twelve, else in those with
+/// few roots outside. If a check fails, the winding decides everywhere. About 30 angles per pole
+/// are stored. Work for each fixed gain: 10 operations per angle, 10 values of G per crossing.
 template <class Scalar>
 class UnitCircleCrossings {
  public:
@@ -161,8 +161,8 @@ class UnitCircleCrossings {
  private:
   using Nearby = typename ModalResponse<Scalar>::Nearby;
 
-  /// The transfer functions at an angle, by the terms near the angle before, and the distance of
-  /// the nearest pole. Near the real axis Im X needs full accuracy.
+  /// The transfer functions at an angle, and the distance of the nearest pole. Near θ = 0 and π,
+  /// where Im X needs full accuracy, all terms are summed; elsewhere the series of `nearby`.
   std::pair<CommandResponse<Scalar>, Scalar> read(const Scalar& angle, Nearby& nearby) const {
     const std::complex<Scalar> mu = circle_increment(angle);
     nearby.follow(mu);
@@ -183,7 +183,7 @@ class UnitCircleCrossings {
       return Scalar(1) - (free == FreeGain::differential ? gains.proportional * g.displacement
                                                          : gains.differential * g.velocity);
     }
-    /// A smooth function with the sign of Im X (X: see the class).
+    /// A smooth function with the sign of Im X, for X of `UnitCircleCrossings`.
     Scalar imaginary(const CommandResponse<Scalar>& g) const {
       const std::complex<Scalar> a = rest(g), b = of_free(g);
       return a.imag() * b.real() - a.real() * b.imag();
@@ -203,8 +203,8 @@ class UnitCircleCrossings {
     std::int64_t budget;  ///< number of values of G that may still be computed
     int crossings = 0;    ///< counterclockwise crossings minus clockwise ones
 
-    /// Whether arg p can be followed along the chord from a to b: these are at most 45° apart, or
-    /// the chord keeps `distance` from 0. If so, its crossing of the negative real axis is counted.
+    /// Whether arg p can be followed along the chord from a to b: their angles differ by ≤ 45°, or
+    /// the chord is over `distance` from 0. If so, counts a crossing of the negative real axis.
     bool takes(const std::complex<Scalar>& a, const std::complex<Scalar>& b,
                const Scalar& distance = std::numeric_limits<Scalar>::infinity()) {
       const Scalar along = a.real() * b.real() + a.imag() * b.imag();
@@ -218,7 +218,7 @@ class UnitCircleCrossings {
     }
   };
 
-  /// Estimated distance of p from the chord between places i − 1 and i; ∞ at both ends.
+  /// Estimated distance of p from the chord between places i − 1 and i; ∞ for the outer chords.
   Scalar bend_of(const std::vector<std::complex<Scalar>>& p, std::size_t i) const {
     if (i < 2 || i + 1 == p.size()) return std::numeric_limits<Scalar>::infinity();
     const Scalar step = places_[i].angle - places_[i - 1].angle;
@@ -230,8 +230,8 @@ class UnitCircleCrossings {
     return std::max(from(i - 1), from(i + 1));
   }
 
-  /// Adds the winding of p between two angles, by halving. `bend` is the distance of p from the
-  /// chord at the middle. A half counts like its chord if this chord is farther than `bend` from 0.
+  /// Adds the winding of p between two angles by halving the interval. A half counts as its chord
+  /// if the chord is farther from 0 than p is, at the middle, from the undivided chord (`bend`).
   void halve(Turn& turn, const std::pair<Scalar, std::complex<Scalar>>& from,
              const std::pair<Scalar, std::complex<Scalar>>& to) const {
     const Scalar middle = (from.first + to.first) / Scalar(2);
@@ -255,8 +255,8 @@ class UnitCircleCrossings {
          line, found);
   }
 
-  /// Adds a crossing unless the gain hardly moves its root, so that the gain is only round-off.
-  /// Both gains hardly move the root λ = 1 if the drive acts between absorber and conductor.
+  /// Adds a crossing, unless the gain hardly moves the root and its value is only round-off. An
+  /// example is the root λ = 1 if the drive acts between absorber and conductor.
   void keep(const GainPassage<Scalar>& passage, const Line& line,
             std::vector<GainPassage<Scalar>>& found) const {
     const Scalar size = line.free == FreeGain::differential ? size_of_v_ : size_of_z_;
@@ -274,8 +274,8 @@ class UnitCircleCrossings {
          found);
   }
 
-  /// Adds two crossings between which no angle is stored, so that the stored Im X keep their sign.
-  /// They are sought where |Im X| is less at place i than at both neighbouring places.
+  /// Adds two crossings between neighbouring stored angles, whose Im X then has the same sign. They
+  /// are sought where |Im X| is less at place i than at both neighbouring places.
   /// @param at  pointer to Im X at place i, in the array of Im X at all places
   void add_close_pairs(const Line& line, std::size_t i, const Scalar* at, Nearby& nearby,
                        std::vector<GainPassage<Scalar>>& found) const {
@@ -348,8 +348,8 @@ class UnitCircleCrossings {
   Scalar size_of_z_{0}, size_of_v_{0};  // max |G_z| and |G_v| over them
 };
 
-/// The excess ρ − 1 of a loop with spectral radius ρ. If `loop_roots` does not converge, the excess
-/// is found to ten digits: roots outside circles are counted, and the radius is bisected.
+/// The excess ρ − 1 of a loop with spectral radius ρ. If `loop_roots` does not converge, ρ is found
+/// to ten digits by bisecting the radius of a circle, with the roots outside it counted.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P (N/m) and D (N s/m)
 /// @return the excess; NaN if `loop_roots` fails and the response is not a sum over poles

@@ -68,7 +68,7 @@ struct LoopAxis {
 
 /// Chart of a sampled loop over any two of its parameters; all others are those of `point`.
 struct LoopChart {
-  /// The loop whose two axis parameters each cell replaces. A δ on no axis stays proportional to τ.
+  /// The loop in which a cell sets the two axis parameters. If δ is on no axis, δ/τ is constant.
   OperatingPoint point;
   LoopAxis slow;  ///< axis with one value for each row
   LoopAxis fast;  ///< axis with one value for each column

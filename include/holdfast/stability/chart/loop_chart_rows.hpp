@@ -120,8 +120,8 @@ void hurwitz_row(const Eigen::Matrix<double, Eigen::Dynamic, Size>& table, std::
 namespace detail {
 
 /// The characteristic polynomial of a point's sampled loop in powers of λ − 1, affine in P and D.
-/// All called functions are inlined. As this function's name contains the type of the pack, the
-/// matrix exponential of a row is compiled for the pack's instruction set too.
+/// All called functions are inlined. As the pack's type is a template argument, the matrix
+/// exponential is also compiled for the pack's instruction set.
 template <class Scalar>
 [[gnu::flatten, gnu::noinline]] AffinePolynomial<double, 5> polynomial_of(
     const OperatingPoint& point) {
@@ -178,7 +178,7 @@ class StabilityChartRows {
 /// Chart of the spectral radius over any two parameters of the sampled loop. SIMD lanes compute
 /// several rows at once. In a row, the dominant roots of a cell start the search in the next cell
 /// (`DominantFactor`); the first cell starts from the first cell of a previous row. Two packs of
-/// rows alternate, so that one is computed while a division of the other is pending.
+/// rows are computed in turn, one during the divisions of the other.
 /// @tparam Degree  5 if every loop of the chart has δ = 0, otherwise 6 (see `DominantFactor`)
 template <class Scalar, int Degree>
 class RadiusChartRows {

@@ -26,7 +26,7 @@ namespace holdfast {
 enum class ProvedStability {
   stable,     ///< every loop is asymptotically stable
   unstable,   ///< every loop has a root with |λ| > 1, or Re s > 0 in the continuous loop
-  undecided,  ///< neither is proved
+  undecided,  ///< neither of these is proved for all loops
 };
 
 /// Closed rectangle (box) of gains P and D; it may be as small as a segment or a point.

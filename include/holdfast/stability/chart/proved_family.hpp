@@ -40,7 +40,7 @@ struct ProvedFamily {
   double stable_share = 0.0;                           ///< proved stable share of the box's volume
   double undecided_share = 0.0;                        ///< undecided share of the box's volume
   std::optional<std::array<double, N>> unstable_loop;  ///< a loop proved unstable, if one was found
-  std::size_t parts = 0;                               ///< examined boxes and those past the limit
+  std::size_t parts = 0;                               ///< boxes examined, or skipped at the limit
 
   /// The verdict: every loop is stable, some loop is unstable, or undecided.
   ProvedStability verdict() const {
@@ -92,7 +92,7 @@ inline Parts<Enclosure> reciprocal(const Parts<Enclosure>& a) {
 struct AliasSum {
   Parts<Enclosure> proportional, differential;
 
-  /// Adds the term U G of the alias θ + 2πn, with U = 2 sin(θ/2)/(ωτ) e^{−i(θ/2 + ωδ)}.
+  /// Adds the term U G of the alias angle θ + 2πn; U = 2 sin(θ/2)/(ωτ) e^{−i(θ/2 + ωδ)}.
   /// @param hold      U
   /// @param omega     ω (rad/s)
   /// @param response  G(iω) (m/N)
@@ -111,19 +111,19 @@ struct AliasSum {
   }
 };
 
-/// Bounds of a receptance above some frequency ω: |G(iω)| ≤ g/ω² and |G(iω) + μ/ω²| ≤ h/ω³.
+/// Bounds of a receptance G above a frequency: |G(iω)| ≤ g/ω² and |G(iω) + μ/ω²| ≤ h/ω³.
 struct ResponseBounds {
-  Enclosure g;   ///< bound g (1/kg); unknown where not positive
-  Enclosure mu;  ///< inverse μ (1/kg) of the mass that a short force moves
+  Enclosure g;   ///< bound g (1/kg); if not positive, no bound is known
+  Enclosure mu;  ///< limit μ (1/kg) of −ω² G(iω) for ω → ∞, an inverse mass
   Enclosure h;   ///< bound h (m rad³/(N s³))
 };
 
-/// Alias sum P A_P + D A_D = Σ U_n (P + iω_n D) G(iω_n) over the frequencies ω_n = (θ + 2πn)/τ, n ≠
-/// 0, which samples cannot distinguish from ω = θ/τ.
+/// Alias sum P A_P + D A_D = Σ U_n (P + iω_n D) G(iω_n) over all n ≠ 0. Samples cannot distinguish
+/// the frequencies ω_n = (θ + 2πn)/τ from ω = θ/τ. U_n is the U of `AliasSum::add`.
 ///
-/// Terms with |n| ≤ N are added; the rest is bounded by |ω_n| τ ≥ 2π (|n| − t), t = θ/2π < 1, and,
-/// by midpoints, Σ_{n > N} (n − t)^{−k} ≤ (N + 1/2 − t)^{1 − k}/(k − 1). At large θ the leading
-/// part −μ/ω² of G is summed in closed form, with x = δ/τ:
+/// Terms with |n| ≤ N are added; the rest is bounded by |ω_n| τ ≥ 2π (|n| − t), t = θ/2π < 1, and
+/// Σ_{n > N} (n − t)^{−k} ≤ (N + 1/2 − t)^{1 − k}/(k − 1). At large θ the leading part −μ/ω² of G
+/// is summed in closed form, with x = δ/τ:
 ///
 ///     Σ e^{−i(θ + 2πn)x}/(θ + 2πn)² = (1 − x + x e^{−iθ})/(4 sin²(θ/2)),   0 ≤ x ≤ 1.
 ///
@@ -171,7 +171,7 @@ AliasSum alias_sum(const Enclosure& theta, const Enclosure& period, const Enclos
   return sum;
 }
 
-/// Parameter with different values in a box.
+/// Parameter that varies over a box of loops.
 struct MovingParameter {
   std::size_t number;  ///< index of the parameter
   double reach;        ///< largest |value − value at the box's middle|, as an upper bound
@@ -194,7 +194,7 @@ struct CircleAngle {
 };
 
 /// Angle and frequency of a box's loops at a common coordinate v, 0 ≤ v ≤ π. At small v natural
-/// frequencies, which grow with c, lie at the same v in all loops; v = π is θ = π in each loop:
+/// frequencies, which are proportional to c, have equal v in all loops; v = π is θ = π:
 ///
 ///     Ω = (1 − w) v/τ₀ + w v/(τ c),   w = v²/π²
 /// @param c  natural frequencies relative to those of the box's middle, whose period is τ₀
@@ -215,8 +215,8 @@ inline CircleAngle<EnclosedSlope> angle_at(const EnclosedSlope& v, const Enclose
 ///     F(x⁰, v₀) + Σ_k ∂F/∂x_k (x_k − x⁰_k) + ∂F/∂v (v − v₀) − Δ A
 ///
 /// with the derivatives of the base function over box and arc. F is not 0 if, for some direction u,
-/// its part Re(ū F(x⁰, v₀)) exceeds the bounds of all other terms. If u is at a right angle to
-/// ∂F/∂v, the term of v takes nothing away.
+/// its part Re(ū F(x⁰, v₀)) exceeds the bounds of all other terms. A direction u at a right angle
+/// to ∂F/∂v makes the term of v small.
 template <class Loop>
 class ArcExclusion {
  public:
@@ -265,7 +265,7 @@ class ArcExclusion {
     return heaviest;
   }
 
-  /// The corner loop of the box with the F nearest to 0 at the last angle, estimated by the slopes.
+  /// The corner of the box whose loop has the F nearest to 0 at the last angle, by the slopes.
   Parameters<double> nearest_corner(const ParameterBox<parameters>& box) const {
     Parameters<double> corner = middle_loop_;
     for (std::size_t k = 0; k < slopes_.size(); ++k) {
@@ -360,7 +360,7 @@ class ArcExclusion {
   Parts<Enclosure> rate_;                 // ∂F/∂v, likewise
 };
 
-/// Verdict on a box, with an unstable loop if one was found, else the parameter to halve along.
+/// Verdict on a box, with an unstable loop if found, else the parameter along which to halve.
 template <std::size_t N>
 struct LoopVerdict {
   ProvedStability stability;

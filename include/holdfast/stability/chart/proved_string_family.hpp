@@ -79,12 +79,12 @@ class StringFamily {
   /// Data to evaluate F near a frequency: the nearest mode m, and the wave speed of the middle loop
   /// of a box. In the frequency Ω = ω/c (c: see `tuning`) one modal sum serves all wave speeds.
   struct Frame {
-    int nearest;                               ///< index of mode m, from 0
+    int nearest;                               ///< index of the nearest mode m, from 0
     Enclosure squared_speed;                   ///< squared wave speed T/μ, middle loop (m²/s²)
     detail::Parts<Enclosure> others = {};      ///< sum Σ μh_n/d_n over the modes other than m
-    detail::Parts<Enclosure> by_tuned = {};    ///< derivative of the sum by Ω
-    detail::Parts<Enclosure> by_damping = {};  ///< derivative of the sum by ζ
-    detail::Parts<Enclosure> by_tension = {};  ///< derivative of the sum by T
+    detail::Parts<Enclosure> by_tuned = {};    ///< derivative of `others` by Ω
+    detail::Parts<Enclosure> by_damping = {};  ///< derivative of `others` by ζ
+    detail::Parts<Enclosure> by_tension = {};  ///< derivative of `others` by T
 
     /// The ratio c = √((T/μ)/(T₀/μ₀)) of wave speeds; T₀ and μ₀ are those of the middle loop.
     EnclosedSlope tuning(const Parameters<EnclosedSlope>& x) const {

@@ -17,7 +17,7 @@
 
 namespace holdfast::detail {
 
-/// Bound of Σ a_j over j > `order`: a_j > 0, first term `next`, a_{j+1}/a_j ≤ `rate`/(j + 1); or ∞.
+/// Bound of Σ a_j, j > `order`, for a_j > 0, a_{j+1}/a_j ≤ `rate`/(j + 1) and first term `next`.
 inline double tail_beyond(double next, double rate, std::size_t order) {
   const double ratio = rate / static_cast<double>(order + 2);
   return ratio < 1.0 ? next / (1.0 - ratio) : std::numeric_limits<double>::infinity();

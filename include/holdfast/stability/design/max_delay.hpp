@@ -46,7 +46,7 @@ struct MaxDelayOptions {
   DelayCriterion criterion = DelayCriterion::attenuates;  ///< criterion for a feasible period
   ForceHold hold = ForceHold::sampled;  ///< hold of the excitation; used by `attenuates` only
   double delay_fraction = 0.0;  ///< constant δ/τ: 0 … 1, or 0 … 1000 for a conductor given by modes
-  double shortest_period = 1e-5;  ///< start of the search (s), or 1/(1000 f) if that is less
+  double shortest_period = 1e-5;  ///< start of the search (s); 1/(1000 f) if this is less
   /// The end of the search (s), > `shortest_period`; 0: a default. The default is 1/(2f) for
   /// `attenuates`. For `stable` it is the period beyond which the loop with D = 0 is proved stable;
   /// if none is known within 200 periods of the plant's slowest mode, 20 of these periods.
@@ -176,7 +176,7 @@ enum class MaxDelayOutcome {
 enum class MaxDelayLimit {
   none,         ///< no known cause: the outcome is `unlimited` or `beyond_search`
   stability,    ///< no D stabilises, or the stable interval with the best D vanishes
-  attenuation,  ///< stabilising gains no longer bring the amplitude below that without control
+  attenuation,  ///< no stabilising gain brings the amplitude below that without control
   nyquist,      ///< τ = 1/(2f): the samples no longer resolve the vibration
 };
 
@@ -214,8 +214,8 @@ inline double longest_of_stability(const ConductorWithAbsorber& plant, double /*
   return 20.0 * 2.0 * pi<double> / slowest;
 }
 
-/// Search for the end of the feasible periods, in steps. Over each step one D is proved feasible.
-/// For a conductor given by its modes nothing is proved, and the search ratio gives the steps.
+/// Stepwise search for the largest feasible period. Over each step one D is proved feasible. For a
+/// conductor given by its modes nothing is proved, and `search_ratio` determines the steps.
 template <class Plant>
 class DelaySearch {
  public:
@@ -269,7 +269,7 @@ class DelaySearch {
   double gain_at(double period) const { return serving_gain(options_, period, offer_at(period)); }
 
   /// The cause of infeasibility at a period. Where the least amplitude ratio jumps, an interval of
-  /// stabilising D has vanished: the cause is stability.
+  /// stabilising D has vanished, so that the cause is stability.
   /// @param before  least amplitude ratio just below the period, NaN without one
   MaxDelayLimit limit_at(double period, double before) const {
     const DelayOffer offer = offer_at(period);
@@ -343,7 +343,7 @@ class DelaySearch {
     return !gains.empty();
   }
 
-  /// Whether a D feasible at `feasible_` and at `next` is proved to be feasible in between.
+  /// Whether one D is proved to be feasible at all periods from `feasible_` to `next`.
   bool links(double next, const Intervals& gains) {
     Intervals common = intersection(gains_, gains);
     std::sort(common.begin(), common.end(),

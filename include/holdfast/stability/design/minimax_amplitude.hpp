@@ -149,7 +149,7 @@ class AmplitudeBand {
     return points;
   }
 
-  /// Adds frequencies near those of roots 1 + `from_one`, denser for roots nearer the unit circle.
+  /// Adds frequencies at and about the roots 1 + `from_one`, denser for roots nearer the circle.
   void append_about(const std::vector<std::complex<double>>& from_one,
                     std::vector<double>& frequencies) const {
     const double unit = 2.0 * pi<double> * model_.options.sampling.period;
@@ -189,7 +189,7 @@ class AmplitudeBand {
 /// The outcome of the search for one D for a whole band of frequencies.
 enum class MinimaxOutcome {
   found,          ///< `worst_ratio` and `lower_bound` agree to a relative 1e−8
-  not_converged,  ///< they differ by more; `differential_gain` has the ratio `worst_ratio`
+  not_converged,  ///< bounds differ by more than 1e−8; `differential_gain` has `worst_ratio`
   none,           ///< no D is admissible: the numbers are NaN
 };
 

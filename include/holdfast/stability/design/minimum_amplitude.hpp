@@ -53,7 +53,7 @@ struct AmplitudeOptions {
 
 /// The differential gain D of least steady amplitude at one frequency, for a given gain P.
 struct MinimumAmplitude {
-  MinimumAmplitudeOutcome outcome;          ///< location of the D, or why there is none
+  MinimumAmplitudeOutcome outcome;          ///< location of the minimum, or why there is none
   double differential_gain = std::nan("");  ///< differential gain D (N s/m)
   /// The conductor's amplitude with this D over the amplitude without control.
   double ratio_to_uncontrolled = std::nan("");
@@ -73,7 +73,7 @@ inline void validate(const AmplitudeOptions& options) {
 
 namespace detail {
 
-/// Narrows an interval about a minimum of a function in it by golden section, one value a step.
+/// Narrows an interval about a function's minimum by golden section, with one value per step.
 /// @return the middle of the last interval
 template <class Scalar, class Value>
 Scalar narrow_to_minimum(Scalar lower, Scalar upper, int steps, const Value& value) {
@@ -94,7 +94,7 @@ Scalar narrow_to_minimum(Scalar lower, Scalar upper, int steps, const Value& val
   return (lower + upper) / Scalar(2);
 }
 
-/// The interval that contains `from`, shrunk about it by the factor `share`; empty if none does.
+/// The interval that contains `from`, shrunk about this point by a factor `share`; or none.
 template <class Scalar>
 std::vector<Interval<Scalar>> within_share(const std::vector<Interval<Scalar>>& intervals,
                                            const Scalar& from, const Scalar& share) {

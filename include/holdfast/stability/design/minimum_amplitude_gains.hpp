@@ -20,7 +20,7 @@ namespace holdfast {
 /// The pair of gains of least steady amplitude at one frequency.
 struct MinimumAmplitudeGains {
   double proportional_gain;   ///< proportional gain P (N/m); NaN without an admissible pair
-  MinimumAmplitude quietest;  ///< D and its amplitude, or the reason why no pair is admissible
+  MinimumAmplitude quietest;  ///< D and the amplitude, or the reason why no pair is admissible
 };
 
 namespace detail {

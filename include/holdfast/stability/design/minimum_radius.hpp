@@ -57,7 +57,7 @@ void consider_promising(const std::vector<Interval<double>>& intervals,
 ///
 /// The set is a union of intervals known for every r, and grows with r, so that each tested level
 /// bounds the global minimum from above or from below. The next level is ρ at a probable minimum
-/// (`consider_promising`); these become exact for a smooth minimum and for two crossing branches.
+/// (`consider_promising`), exact in the limit for a smooth minimum or two crossing branches.
 /// @tparam Loop  polynomial of the loop in `double`, see `LoopPolynomial`
 template <class Loop>
 class MinimumRadiusSearch {
@@ -102,7 +102,7 @@ class MinimumRadiusSearch {
   }
   double closing_step() const { return 4.0 * tolerance(); }
 
-  /// Starts at a level, raised until some D has a radius below it; false if none has (overflow).
+  /// Raises a level until some D has a smaller radius; false if that fails (overflow).
   bool begin(double level) {
     lower_ = -loop_.centre;
     upper_ = level;
@@ -177,9 +177,9 @@ struct RadiusLevels {
 
 /// The D of minimum spectral radius, min over D of ρ(P, D): a global minimum, without a grid.
 ///
-/// The set {D : ρ(P, D) < r} is a union of intervals. For two masses they are found in closed form
-/// (`stable_intervals`), for a loop of any order from the roots on the circle |λ| = r
-/// (`circle_crossings`). The minimum radius is the r at which the set becomes empty. For a
+/// The set {D : ρ(P, D) < r} is a union of intervals. The intervals are found in closed form for
+/// two masses (`stable_intervals`), and from the roots on the circle |λ| = r for a loop of any
+/// order (`circle_crossings`). The minimum radius is the r at which the set becomes empty; for a
 /// `LoopMap` it is accurate to about 10⁻⁹, since round-off separates coinciding roots. As ρ grows
 /// without bound with |D|, unless D moves no root, the minimum exists.
 /// @tparam Loop              type in `double` with a `loop_polynomial`, or a `LoopMap`

@@ -93,7 +93,7 @@ MinimumRadius minimum_radius(const ModalResponse<Scalar>& response, double propo
 namespace detail {
 
 /// Modulus margin of a loop as a function of D: min |p(e^{iθ})| over θ, p = 1 − P G_z − D G_v. At
-/// one angle |p|² is quadratic in D. Angles between the stored angles are tested where they matter.
+/// one angle |p|² is quadratic in D. Angles between the stored ones are tested where needed.
 template <class Scalar>
 class ModulusLevels {
  public:
@@ -196,7 +196,7 @@ class ModulusLevels {
                              [&](const Scalar& angle) { return -value(angle); });
   }
 
-  /// Moves one end of an interval outward, to its extreme at angles between the place's neighbours.
+  /// Moves an end of an interval outward, to its extreme over all angles near the interval's place.
   /// @return false where this end had been moved before
   bool sharpen(Nearer& of, bool upper, const Scalar& modulus) const {
     bool& done = upper ? of.upper_is_sharp : of.lower_is_sharp;

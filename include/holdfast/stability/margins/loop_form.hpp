@@ -87,8 +87,8 @@ auto loop_of(const Plant& plant, const Sampling<double>& sampling) {
   }
 }
 
-/// The plant in a form with ports: unchanged if it has ports; for two masses their `linear_plant`.
-/// The loop of a plant with ports may have a delay of many samples.
+/// The plant with ports (readings of the drive's two sides): the plant itself, or `linear_plant`
+/// for two masses. The loop of a plant with ports may have a delay of many samples.
 template <class Plant>
 decltype(auto) with_ports(const Plant& plant) {
   if constexpr (has_closed_forms<Plant>) {
@@ -111,7 +111,7 @@ auto continuous_roots(const Plant& plant, const PdGains<double>& gains) {
   }
 }
 
-/// The period 2π/|s| (s) of the plant's slowest mode without control, |s| > 0 being the least.
+/// The period 2π/|s| (s) of the plant's slowest mode, from its pole with the least |s| > 0.
 template <class Plant>
 double slowest_mode_period(const Plant& plant) {
   double slowest = std::numeric_limits<double>::infinity();

@@ -62,8 +62,8 @@ struct StabilityMargins {
   double unit_circle;     ///< 1 − ρ (ρ: spectral radius); ≤ 0 where the loop is not stable
   TwoSidedMargin differential_gain;  ///< margin of D (N s/m)
   TwoSidedMargin proportional_gain;  ///< margin of P (N/m)
-  TwoSidedMargin sampling_period;  ///< margin of τ (s), with δ/τ constant; its range is (0, ∞)
-  TwoSidedMargin processing_delay;  ///< margin of δ (s), with τ constant; its range is [0, ∞)
+  TwoSidedMargin sampling_period;    ///< margin of τ (s) within (0, ∞), with δ/τ constant
+  TwoSidedMargin processing_delay;   ///< margin of δ (s) within [0, ∞), with τ constant
 };
 
 /// The limits of the search for margins.
@@ -75,7 +75,7 @@ struct MarginSearch {
   /// The largest number of steps of the search along τ or δ, ≥ 1. In a step the phase of the
   /// plant's fastest mode grows by about 1 rad; for two masses a step takes some 40 µs.
   int most_steps = 20000;
-  bool of_delay = true;  ///< whether δ is searched; if not, its margins are `undefined`
+  bool of_delay = true;  ///< whether δ is searched; if not, the margins of δ are `undefined`
 };
 
 namespace detail {
@@ -86,7 +86,7 @@ constexpr double smallest_step = 1e-6;
 /// The number of samples beyond δ at which the search for longer delays ends.
 constexpr double most_delays = 10.0;
 
-/// The end at which a root λ crosses the unit circle.
+/// The end of a stable interval at which a root λ crosses the unit circle.
 /// @param from_one  distance |λ − 1|
 inline MarginEnd crossing_end(const std::complex<double>& root, double from_one, double position,
                               double value, double period) {
@@ -98,7 +98,7 @@ inline MarginEnd crossing_end(const std::complex<double>& root, double from_one,
           std::abs(std::arg(root)) / (2.0 * pi<double> * period)};
 }
 
-/// The end at which the root nearest to the unit circle crosses it.
+/// The end of a stable interval at which the root nearest to the unit circle crosses it.
 template <class Loop>
 MarginEnd boundary_end(const Loop& loop, const PdGains<double>& gains, double position,
                        double value) {
@@ -113,7 +113,7 @@ MarginEnd boundary_end(const Loop& loop, const PdGains<double>& gains, double po
   return crossing_end(1.0 + nearest, std::abs(nearest), position, value, loop.sampling.period);
 }
 
-/// The end of a stable range without a boundary.
+/// The end of a stable interval that has no stability boundary there.
 inline MarginEnd no_boundary(double position) {
   return {MarginEndOutcome::none, position, std::numeric_limits<double>::infinity()};
 }
@@ -282,17 +282,17 @@ struct LoopMargins {
   MarginOutcome outcome;  ///< whether stable; if not, all margins but `unit_circle` are NaN
   double unit_circle;     ///< 1 − ρ, ρ: spectral radius; ≤ 0 where the loop is not stable
   double largest_factor =
-      std::nan("");  ///< upper end of the stable interval of x around 1; ∞: it has no end
-  double least_factor = std::nan("");  ///< lower end of this interval; −∞: it has no end
+      std::nan("");  ///< upper end of the stable interval of x around 1; ∞ if unbounded
+  double least_factor = std::nan("");  ///< lower end of this interval of x; −∞ if unbounded
   double phase =
-      std::nan("");  ///< least |φ| (rad) with e^{iφ} L(e^{iθ}) = 1 for some θ; ∞ if no φ has it
+      std::nan("");  ///< least |φ| (rad) with e^{iφ} L(e^{iθ}) = 1 for some θ; ∞ if there is none
   MarginEnd delay = {};  ///< margin towards longer delays δ (s), with τ constant
 };
 
 namespace detail {
 
-/// The phase margin (rad): the least |arg L| on the unit circle where |L| = 1. On the circle w = iy
-/// in the half-plane's variable w, and |a|² − |b|² is a polynomial in Y = y².
+/// The phase margin (rad): the least |arg L| on the unit circle where |L| = 1, with L = −b/a of the
+/// polynomial a + x b. There w = iy, and |a|² − |b|² is a polynomial in Y = y².
 template <class Scalar>
 Scalar phase_margin(const Polynomial<Scalar, 5>& constant_part,
                     const Polynomial<Scalar, 5>& slope_part) {

@@ -101,7 +101,7 @@ struct ModalMargins {
     return beyond_search(inside, value);
   }
 
-  /// The end of the stable range between a stable position and an unstable one beyond it.
+  /// The end of the stable range, sought between a stable position and an unstable one beyond it.
   /// @param of_period  true: the quantity is τ, with δ/τ constant; false: it is δ
   MarginEnd between(Scalar inside, Scalar outside, bool of_period) const {
     const Scalar value = of_period ? sampling.period : sampling.processing_delay;
@@ -153,7 +153,7 @@ struct ModalMargins {
     return {period, sampling.processing_delay / sampling.period * period};
   }
 
-  /// The excess ρ − 1 or, where not all roots are found, a tiny number with its sign (by winding).
+  /// The excess ρ − 1; where not all roots are found, a tiny number with its sign, by winding.
   Scalar excess_of(const Response& other) const {
     const Scalar excess = loop_excess(other, gains, Scalar(1e-3));
     if (std::isfinite(excess)) return excess;
@@ -183,7 +183,7 @@ struct ModalMargins {
 /// @param poles     all `plant_poles`; they must outlive the call
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @param gains     P (N/m) and D (N s/m), finite
-/// @param search    `longest_period_ratio` r: τ is searched from τ/r to τ r; `of_delay`
+/// @param search    limits; τ is searched from τ/r to τ r, r = `longest_period_ratio`
 /// @param has_velocity_sensor  false: D multiplies the backward difference of the readings
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>

@@ -44,7 +44,7 @@ struct ProvedMargin {
 
 /// Resolution and largest work of `proved_margins`.
 struct ProvedMarginsOptions {
-  double resolution = 1e-6;  ///< shortest step over the distance from value to goal, > 0
+  double resolution = 1e-6;  ///< shortest step, as a share of the distance from value to goal; > 0
   int most_steps = 20000;    ///< largest number of steps of the proof in one direction
 };
 

@@ -180,7 +180,7 @@ class SamplingFamily {
   }
 
  private:
-  /// The matrix [A A_d, A_d b, 0], N × (N + k).
+  /// The matrix [A A_d, A_d b, 0], N × (N + k), the factor of (τ′)ʲ in `moving`.
   Eigen::MatrixXd rate_by_period(const LoopMap<double>& map) const {
     const Eigen::Index size = map.size(), n = size - map.held_commands;
     const Eigen::MatrixXd transition = map.open_map.topLeftCorner(n, n);
@@ -190,7 +190,7 @@ class SamplingFamily {
     return rate;
   }
 
-  /// The matrix e^{Ah} b [0, −1, 1], N × (N + k), with K in place of the last column's 1 for k = 1.
+  /// The factor e^{Ah} b [0, −1, 1] of (h′)ʲ in `moving`, N × (N + k); K replaces the 1 for k = 1.
   Eigen::MatrixXd rate_by_action(const LoopMap<double>& map, const PdGains<double>& gains) const {
     const Eigen::Index k = map.held_commands, size = map.size(), n = size - k;
     const Eigen::VectorXd present =

@@ -19,8 +19,8 @@ namespace holdfast {
 /// One-parameter line of samplings of a loop. Its parameter, called position (s), is τ with δ/τ
 /// constant, or δ with τ constant. The number of delayed commands is constant.
 struct EnclosedSamplings {
-  Enclosure fixed_period;  ///< period τ (s) where the delay δ varies, else 0
-  Enclosure last_share;    ///< δ/τ − (k − 1), 0 … 1, where τ varies, else 0
+  Enclosure fixed_period;  ///< period τ (s) if the delay δ varies; 0 if τ varies
+  Enclosure last_share;    ///< δ/τ − (k − 1), 0 … 1, if τ varies; 0 if δ varies
   int commands = 1;        ///< number k of delayed commands
 
   /// The line along which τ varies, for all decimals τ and δ that round to the given doubles.
@@ -170,7 +170,7 @@ class SamplingProof {
   static ComplexEnclosure exact(const std::complex<double>& z) { return {z, 0.0}; }
 
   /// The nodes: approximate roots of the loop, first one for each pole in the order of the poles.
-  /// Empty where the roots are not found. The quality of the nodes does not affect the validity.
+  /// Empty where the roots are not found. Inaccurate nodes do not make the proof invalid.
   Nodes nodes_at(double position, const std::vector<Part>& parts) const {
     using Complex = std::complex<double>;
     const Sampling<double> sampling = line_.next_to(position);
@@ -226,7 +226,7 @@ class SamplingProof {
     bool is_near(double room) const {
       return std::abs(away) < std::min(room, std::max(2.5 * std::abs(drift), 1e-3 * room));
     }
-    /// The unit vector normal to `drift` that points from `point` inwards; arbitrary for drift 0.
+    /// The unit vector normal to `drift` from `point` towards 0; arbitrary for drift 0.
     std::complex<double> aside_from(const std::complex<double>& point, std::size_t i) const {
       if (!(std::abs(drift) > 0.0)) return std::polar(1.0, static_cast<double>(i));
       const std::complex<double> across = drift / std::abs(drift) * std::complex<double>(0.0, 1.0);

@@ -17,8 +17,8 @@ namespace holdfast {
 /// Real quadratic factor μ² + Uμ + V of a characteristic polynomial in powers of μ = λ − 1.
 template <class Scalar>
 struct QuadraticFactor {
-  Scalar linear;    ///< coefficient U
-  Scalar constant;  ///< coefficient V
+  Scalar linear;    ///< coefficient U of μ
+  Scalar constant;  ///< coefficient V, the constant term
 
   /// The larger |λ| of the two roots: √(1 − U + V) if complex, |1 − U/2| + √(U²/4 − V) if real.
   Scalar radius() const {
@@ -42,10 +42,10 @@ struct QuadraticFactor {
 ///
 ///     c₂ δU + c₃ δV = b₁,   (c₁ − b₁) δU + c₂ δV = b₀
 ///
-/// It converges quadratically if factor and quotient have no common root. Liénard and Chipart's
-/// conditions test that no root of the quotient has a larger |λ| than the factor; a lane that fails
-/// is recomputed from all roots. A real dominant root is paired with the root λ = 0. The sampled
-/// loop has this root for δ = 0; multiply other polynomials by λ (`with_root_at_zero`).
+/// The iteration converges quadratically if factor and quotient have no common root. The conditions
+/// of Liénard and Chipart test that no root of the quotient has a larger |λ| than the factor; a
+/// lane that fails is recomputed from all roots. A real dominant root is paired with the root λ =
+/// 0, which the sampled loop has for δ = 0; multiply other polynomials by λ (`with_root_at_zero`).
 ///
 /// Work: 5 Degree multiply-adds and a division per iteration, 45 multiply-adds per call for the
 /// test. Relative error of the radius: round-off times the condition number of the dominant root,

@@ -99,7 +99,7 @@ class ModalResponse {
   }
 
   /// Filter w(λ) = constant + change (1 − 1/λ) of displacement readings, G_v = w(λ) G_z. D
-  /// multiplies its output. Both members are in 1/s, or in N/m where they contain both gains.
+  /// multiplies the filter's output. Both members are in 1/s; in N/m if they contain both gains.
   using Weight = typename PoleSum<Scalar>::Weight;
 
   /// The response of a computer without a velocity sensor, which filters its displacement readings.
@@ -127,7 +127,7 @@ class ModalResponse {
   /// The number k of delayed commands.
   int held_commands() const { return commands_; }
 
-  /// The function 1 − P G_z − D G_v as a sum over all poles; no `parts` if LoopResponse is used.
+  /// The function 1 − P G_z − D G_v as a sum over all poles; no `parts` where LoopResponse serves.
   PoleSum<Scalar> loop_parts(const PdGains<Scalar>& gains) const {
     PoleSum<Scalar> loop;
     loop.power = commands_ - 1;
@@ -261,8 +261,8 @@ class ModalResponse {
   Scalar radius_{1};              // r of G(rλ)
 };
 
-/// Transfer functions at many λ near one point. The terms of the nearest poles, about 3 √N of N,
-/// are computed one by one, the sum of the other terms by its Taylor series to the same accuracy.
+/// Transfer functions at many λ near one point. The terms of the nearest poles (about 3 √N of N)
+/// are computed one by one; the sum of all others comes from its Taylor series, as accurately.
 /// Values at 30 angles per pole then cost order N^{3/2} operations in all, not N².
 template <class Scalar>
 class ModalResponse<Scalar>::Nearby {
@@ -407,9 +407,9 @@ ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduc
       ConductorWithAbsorber{modes, absorber, plant_poles(modes, absorber)}, sampling);
 }
 
-/// All roots λ of the loop, 1 = P G_z(λ) + D G_v(λ), by `pole_sum_roots`. Their number is that of
-/// the plant's states plus the number k of delayed commands. A velocity by difference adds a state,
-/// the previous reading, and a root; for D = 0 this root is 0 and is left out.
+/// All roots λ of the loop, 1 = P G_z(λ) + D G_v(λ), by `pole_sum_roots`. Their number is the
+/// number of the plant's states plus the number k of delayed commands. A velocity by difference
+/// adds a state, the previous reading, and a root; for D = 0 this root is 0 and is left out.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P and D
 /// @param enough    admissible relative error (`pole_sum_roots`); 0: full precision
