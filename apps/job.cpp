@@ -22,7 +22,7 @@
 namespace holdfast::program {
 namespace {
 
-// Options that are kept elsewhere in the context, or do not shape the result.
+// Whether an option is stored elsewhere in the context, or does not affect the result.
 bool is_common(const CLI::Option& option) {
   const std::string name = option.get_name();
   return option.get_group() == question::every_job || name == "--help" || name == "--chunk" ||
@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, std::string>> given_options(const CLI::App& o
   return given;
 }
 
-/// Limits threads to the cores: more gain nothing, and oneTBB would warn.
+/// The number of threads, at most that of the cores: more bring nothing, and oneTBB would warn.
 int at_most_cores(int threads) { return std::min(threads, worker_threads(0)); }
 
 /// Checks one number: finite, from `lowest` to `highest`.
@@ -68,8 +68,8 @@ void doubt(JobContext& context, const std::vector<std::string>& texts) {
   }
 }
 
-/// Computes the plant and reports remarks on it. The job case also explains a case with missing
-/// keys.
+/// Computes the plant and reports remarks on it. If keys are missing, only the job `case` goes on,
+/// with a remark.
 void settle(JobContext& context) {
   try {
     report_warning(modes_warning(context.case_data), context.quiet);
@@ -81,7 +81,7 @@ void settle(JobContext& context) {
   report_warning(context.plant_remark, context.quiet);
 }
 
-/// Computes the plant where the job needs it, and warns of implausible values.
+/// Warns of implausible values, and computes the plant if the job needs it.
 void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   report_warning(wind_warning(context.case_data), context.quiet);
   // Usual values for a plant of the user's own are not known here.
@@ -102,7 +102,7 @@ void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   if (needs_gains) doubt(context, {borrowed_gains_text(context.case_data)});
 }
 
-/// Letters of a warning, by which equal warnings of several members are recognised.
+/// The letters of a warning; warnings of several members with equal letters are reported once.
 std::string letters_of(std::string text) {
   const auto is_other = [](unsigned char c) { return std::isalpha(c) == 0; };
   text.erase(std::remove_if(text.begin(), text.end(), is_other), text.end());
@@ -192,7 +192,7 @@ std::string Job::require_supported(const JobContext& context) const {
                    support.refusal);
 }
 
-/// Computes and checks the parts of the case that this job needs.
+/// Computes and checks those parts of the case that this run of the job needs.
 void Job::examine_for_this(JobContext& context, bool needs_plant) const {
   const CLI::Option* no_control = options_->get_option_no_throw("--no-control");
   const bool controlled = no_control == nullptr || no_control->empty();
@@ -267,7 +267,7 @@ JobContext Job::context_with(const JobContext& whole,
   return context;
 }
 
-/// Does the job for each member of the family, in memory.
+/// Runs the job in memory for each member of the family, and writes the worst rows.
 void Job::answer_family() const {
   const JobContext whole = context();
   std::vector<std::string> arguments = {whole.job};

@@ -88,7 +88,7 @@ class Job {
   };
 
   void require_output(const JobContext& context) const;
-  /// Throws WrongInput where texts/support.toml refuses. @return features the answer leaves out
+  /// Throws WrongInput if texts/support.toml refuses the question. @return features left out
   std::string require_supported(const JobContext& context) const;
   void examine_for_this(JobContext& context, bool needs_plant) const;
   void draw() const;
@@ -131,7 +131,7 @@ void do_job(const std::vector<std::string>& arguments);
 /// Runs the whole program with the arguments of main(); the result is the exit code.
 int run_program(int argument_count, char** arguments);
 
-/// Each adds one job to the program, in the order of `holdfast --help`.
+/// Type of functions that add one job each. They are listed in the order of `holdfast --help`.
 using AddJob = void(CLI::App& program);
 AddJob add_case, add_conductors, add_reduce, add_sag_tension, add_statics, add_modes, add_decay,
     add_peaks, add_fit, add_stability, add_boundary, add_response, add_design, add_margins,

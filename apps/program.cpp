@@ -17,7 +17,7 @@ void print(const std::string& text) {
   output.commit();
 }
 
-/// Texts about the program itself, which take no case.
+/// Adds the subcommands that print texts about the program and take no case.
 void add_texts(CLI::App& program) {
   CLI::App* completion = add_subcommand(program, "completion");
   const auto shell = std::make_shared<std::string>("bash");

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double most_states = 1e7;
 
-/// Propagates a MotionBatch in SIMD lanes of an instruction set.
+/// Propagator of a MotionBatch by the SIMD kernel of an instruction set.
 struct PropagatorOnPacks {
   MotionKernel kernel;
 
@@ -176,12 +176,12 @@ auto basins_of(const BuiltPlant& moving, const JobContext& context, const States
   return find_basins(moving.loop, states, limits, tiles_on(context), begin);
 }
 
-/// Attractor of every initial state of a grid: its number from 1 on in the order of the rows, 0
-/// where the motion diverges, −1 where no orbit is found; and its period.
+/// Options of the job basins. A row of its table has the number of the attractor, from 1 in order
+/// of first appearance; 0 where the motion diverges, −1 where no orbit is found; and the period.
 struct BasinsQuestion {
   std::vector<std::string> axes;          ///< two KEY=MIN:MAX:COUNT over initial.*
   std::vector<std::string> map;           ///< two KEY=MIN:MAX:COUNT: cells in place of states
-  std::int64_t largest_period = 100'000;  ///< samples
+  std::int64_t largest_period = 100'000;  ///< longest period searched (samples)
   bool fractions = false;  ///< a row for each attractor instead of one for each state
   Switching switching = Switching::sampled;
 

@@ -12,11 +12,11 @@ namespace holdfast::program {
 namespace {
 
 struct LyapunovQuestion {
-  double duration = 100.0;             ///< s
-  double discard = 0.0;                ///< s, left out at the start
-  std::string tangent = "consistent";  ///< or "printed"
-  bool largest = false;                ///< the largest exponent alone
-  bool history = false;                ///< the exponents after every sample instead
+  double duration = 100.0;             ///< duration of the motion (s)
+  double discard = 0.0;                ///< time (s) left out at the start
+  std::string tangent = "consistent";  ///< "consistent" or "printed" tangents
+  bool largest = false;                ///< whether only the largest exponent is computed
+  bool history = false;                ///< whether exponents after every sample are written
   Switching switching = Switching::sampled;
 
   void add_to(const Job& job) {
@@ -30,7 +30,7 @@ struct LyapunovQuestion {
   void run(const JobContext& context) const;
 };
 
-/// Sampling for the tangents S and S*: the motion's, or the printed one with δ = τ.
+/// Sampling for the tangent maps S and S*: that of the motion, or δ = τ as printed in the paper.
 Sampling<double> tangent_sampling_of(const Case& the_case, const LyapunovQuestion& options) {
   Sampling<double> sampling = sampling_of(the_case);
   if (options.tangent == "printed") sampling.processing_delay = sampling.period;
@@ -43,7 +43,7 @@ std::int64_t steps_of(const JobContext& context, const LyapunovQuestion& options
   return steps;
 }
 
-/// Refuses all exponents for delays of 20 samples or more; warns of work of days.
+/// Throws WrongInput for all exponents with a delay of 20 samples or more; warns of very long work.
 void require_bearable_modes(const Case& the_case, const MovingLoop& moving,
                             const LyapunovQuestion& options, bool quiet) {
   if (!std::holds_alternative<BuiltPlant>(moving)) return;
@@ -56,7 +56,7 @@ void require_bearable_modes(const Case& the_case, const MovingLoop& moving,
   report_warning(dense_work_warning(the_case, options.switching), quiet);
 }
 
-/// Writes one row with the exponents averaged up to a time.
+/// Writes one row: a time (s), and the exponents averaged up to this time.
 void write_history_row(Table& table, double time, const Vector<double, 5>& exponents) {
   table.writer().cell(time);
   for (const double exponent : exponents) table.writer().cell(exponent);
@@ -98,7 +98,7 @@ void write_history(const Moving& moving, const JobContext& context, const Lyapun
   tell_of_end(context, end_of(motion));
 }
 
-/// One row for each exponent: per sample, per second, standard error.
+/// Writes one row for each exponent: per sample, per second, standard error.
 void write_exponents(const JobContext& context, const MovingLoop& moving,
                      const LyapunovQuestion& options) {
   const double period = context.case_data.control.sampling_period;

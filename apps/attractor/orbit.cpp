@@ -37,15 +37,15 @@ struct OrbitQuestion {
   void run(const JobContext& context) const;
 };
 
-/// Margins of switching between the samples say nothing of a law that decides at the samples alone:
-/// not infinitely far, but not known.
+/// Sets the margins to NaN (unknown): those of switching between samples are meaningless for a law
+/// that switches at samples only.
 void forget_margins(PeriodicOrbit& /*orbit*/) {}
 void forget_margins(EventOrbit& orbit) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   orbit.margins = {unknown, unknown, unknown, unknown, unknown, unknown};
 }
 
-/// Calls `visit` with the orbit of either model.
+/// Calls `visit` with the motion's loop and its certified orbit, in the model of the case.
 template <class Visit>
 void with_orbit(const JobContext& context, const OrbitQuestion& options, const Visit& visit) {
   const std::string& law = context.case_data.backlash.law;
@@ -61,7 +61,7 @@ void with_orbit(const JobContext& context, const OrbitQuestion& options, const V
 }
 
 double border_distance(const PeriodicOrbit& orbit) { return orbit.borders.displacement.distance; }
-/// Least distance (m) of a turn inside the gap from its ends.
+/// Smallest distance (m) from a reversal inside the gap to the ends of the gap.
 double border_distance(const EventOrbit& orbit) { return orbit.margins.border_distance; }
 
 void write_orbit(const JobContext& context, const OrbitQuestion& options) {
@@ -75,7 +75,7 @@ void write_orbit(const JobContext& context, const OrbitQuestion& options) {
 }
 
 /// Writes period, amplitude, engaged share and closure error of an orbit.
-/// @param amplitude  m
+/// @param amplitude  largest displacement (m)
 template <class Orbit>
 void write_size(Table& table, const Orbit& orbit, double amplitude) {
   table.row("coincidence_samples", static_cast<double>(orbit.ratio.denominator), "");
@@ -88,7 +88,7 @@ void write_size(Table& table, const Orbit& orbit, double amplitude) {
   table.row("closure_error", orbit.closure_error, "m");
 }
 
-/// Writes modulus, angle and exponent per sample of each multiplier.
+/// Writes modulus, angle and exponent per sample of each multiplier of an orbit.
 template <class Orbit>
 void write_multipliers(Table& table, const Orbit& orbit) {
   int number = 1;
@@ -114,8 +114,8 @@ void write_radii(Table& table, const CaptureRadii& radii) {
   table.row("capture_radius_largest", radii.largest, "m");
 }
 
-/// Writes distances to switching surfaces, radius of attraction, multipliers; of two masses also
-/// the orbit in extended precision.
+/// Writes period and size of an orbit, and its distances to the two switching surfaces with the
+/// times at which it is nearest to them.
 void write_distances(Table& table, const PeriodicOrbit& orbit) {
   write_size(table, orbit, orbit.amplitude());
   write_border(table, "gap_distance", orbit.borders.displacement, "m", orbit.sampling_period);
@@ -138,7 +138,7 @@ void write_quantities(Table& table, const SampledMasses& moving, const PeriodicO
   table.row("extended_precision_closure_error", wide.closure_error, "m");
 }
 
-/// Writes margins, time shares and counts of contact modes, multipliers with saltation.
+/// Writes margins, time share and number of phases of each contact mode, and the multipliers.
 template <class Built>
 void write_quantities(Table& table, const Built&, const EventOrbit& orbit) {
   write_size(table, orbit, orbit.largest_displacement);
@@ -156,7 +156,7 @@ void write_quantities(Table& table, const Built&, const EventOrbit& orbit) {
   write_multipliers(table, orbit);
 }
 
-/// Writes the whole certificate, one quantity per row.
+/// Writes the certificate of the orbit, one quantity per row.
 void write_certificate(const JobContext& context, const OrbitQuestion& options) {
   Table table(context, columns_of("certificate"));
   with_orbit(context, options, [&](const auto& moving, const auto& orbit) {
@@ -165,7 +165,7 @@ void write_certificate(const JobContext& context, const OrbitQuestion& options) 
   table.commit();
 }
 
-/// Sample j of the orbit, without its time.
+/// Sample j of the orbit; its index and time are 0.
 EventSample sample_of(const PeriodicOrbit& orbit, std::size_t j) {
   const bool engaged = orbit.itinerary[j] != 0;
   const double force = orbit.states[(j + 1) % orbit.states.size()][4];
@@ -177,7 +177,7 @@ EventSample sample_of(const EventOrbit& orbit, std::size_t j) {
   return {{0, 0.0, orbit.states[j], orbit.forces[j], mode == ContactMode::engaged}, mode};
 }
 
-/// Writes the samples of one period, and the closing one, with the columns of `simulate`.
+/// Writes the samples of one period, and the first one again, with the columns of `simulate`.
 void write_orbit_trace(const JobContext& context, const OrbitQuestion& options) {
   Table table(context, motion_columns(options.switching));
   with_orbit(context, options, [&](const auto&, const auto& orbit) {
@@ -195,7 +195,7 @@ constexpr Named<BranchEndOutcome> branch_end_names[] = {
     {BranchEndOutcome::unit_circle, "unit_circle"},
     {BranchEndOutcome::range_end, "range_end"}};
 
-/// Writes two rows: where the orbit ends below and above the case's value of one key, and why.
+/// Writes two rows: the values of a key, below and above the case's, at which the orbit ends.
 /// @param axis  KEY=MIN:MAX
 void write_branch_ends(const JobContext& context, std::int64_t largest_period,
                        const std::string& axis) {
@@ -217,7 +217,7 @@ void write_branch_ends(const JobContext& context, std::int64_t largest_period,
   table.commit();
 }
 
-/// The proved orbit of either model, and how near it is to what was found.
+/// Writes the period of a proved orbit, the bound of its multipliers and the errors of its states.
 template <class Orbit, class Proof>
 void write_proved_errors(Table& table, const Orbit& orbit, const Proof& proof) {
   table.row("period_samples", static_cast<double>(orbit.period_samples()), "");
@@ -227,7 +227,7 @@ void write_proved_errors(Table& table, const Orbit& orbit, const Proof& proof) {
   table.row("velocity_error", proof.velocity_error, "m/s");
 }
 
-/// Writes the theorem on the orbit, one quantity per row.
+/// Writes the results of the orbit's proof for switching at samples, one quantity per row.
 void write_proof(const JobContext& context, std::int64_t largest_period) {
   Table table(context, columns_of("certificate"));
   const PeriodicOrbit orbit =
@@ -244,7 +244,7 @@ void write_proof(const JobContext& context, std::int64_t largest_period) {
   table.commit();
 }
 
-/// Writes the theorem on an orbit whose drive switches between samples.
+/// Writes the results of the orbit's proof for exact switching, one quantity per row.
 void write_event_proof(const JobContext& context, std::int64_t largest_period) {
   Table table(context, columns_of("certificate"));
   const auto found = certified_event_orbit(

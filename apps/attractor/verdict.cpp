@@ -10,7 +10,7 @@
 namespace holdfast::program {
 namespace {
 
-/// A number where it is known, else nan.
+/// A number read from an optional part; NaN if there is no such part.
 template <class Part, class Read>
 double known(const std::optional<Part>& part, const Read& read) {
   return part ? read(*part) : std::numeric_limits<double>::quiet_NaN();
@@ -24,7 +24,7 @@ void warn_of(const OrbitResultOf<Orbit>& search, bool quiet) {
   report_warning(shifted_copies_warning(orbit.period_samples(), orbit.ratio.denominator), quiet);
 }
 
-/// Verdict as one sentence: "periodic(100), 0.1 s: …".
+/// Reports the verdict on standard error as one sentence: "periodic(100), 0.1 s: …".
 void say(const Classification& classification, double period, const JobContext& context) {
   if (!progress_wanted(context)) return;
   const std::string seconds = classification.period > 0 ? ", " + format_rounded(period) + " s" : "";
@@ -32,7 +32,7 @@ void say(const Classification& classification, double period, const JobContext& 
 }
 
 /// Writes one row: the verdict, its indicators and the evidence.
-/// @tparam Found  classification in either model
+/// @tparam Found  classification of a motion in any model
 template <class Found>
 void write(const JobContext& context, Table& table, const Found& found) {
   const Classification& classification = found.classification;

@@ -106,7 +106,7 @@ Derivations derivations_of(const Case& the_case) {
   return derived;
 }
 
-/// The other of the two keys for an absorber's mass, where it stands for this one.
+/// The other key for the absorber's mass, if its value is used for this key too; else empty.
 std::string other_absorber_mass(const std::string& key, const Case& the_case) {
   const std::string other = key == "absorber.mass"         ? "plant.absorber_mass"
                             : key == "plant.absorber_mass" ? "absorber.mass"
@@ -123,7 +123,7 @@ bool is_computed(const CaseKey& key, const Case& the_case) {
           plant_is_reduced(the_case));
 }
 
-/// "built-in", the file with its line, the option, or what else the value comes from.
+/// Origin of a key's value: the file with its line, the option, "built-in", "default" or other.
 std::string origin_of(const CaseKey& key, const Case& the_case) {
   const auto given = the_case.places.find(key.name);
   if (given != the_case.places.end()) return given->second;
@@ -150,7 +150,7 @@ void add_devices(Table& table, const Case& the_case) {
   }
 }
 
-/// Every key of the case with its value and where that comes from, then what follows from them.
+/// Writes every key of the case with value and origin, then the numbers derived from them.
 void write_case_table(const JobContext& context) {
   const Case& the_case = context.case_data;
   Table table(context, columns_of("case"));
@@ -168,13 +168,13 @@ void write_case_table(const JobContext& context) {
   table.commit();
 }
 
-/// Table that makes the plant of the case itself.
+/// Table, [conductor] or [plant], that defines the plant of the case.
 CaseForm form_of(const Case& the_case) {
   return the_case.plant_given && !plant_is_reduced(the_case) ? CaseForm::plant
                                                              : CaseForm::conductor;
 }
 
-/// Refuses to overwrite a case file.
+/// Writes the case file; throws WrongInput if the file exists.
 void write_case_file(const Case& the_case, const std::string& name, CaseForm form) {
   if (name != "-" && std::filesystem::exists(name))
     throw WrongInput("--init " + name + ": this file exists already; give another name");

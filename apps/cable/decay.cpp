@@ -22,7 +22,7 @@ struct CableOptions {
     job.add("--interval", interval);
   }
 
-  /// @param usual_duration  duration (s) if none is given
+  /// The decay options. @param usual_duration  duration (s) if --duration is not given
   CableDecayOptions question(double force, double usual_duration) const {
     const auto reading = absorber == "rigid"    ? AbsorberReading::rigid_mass
                          : absorber == "spring" ? AbsorberReading::spring_mass

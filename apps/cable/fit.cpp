@@ -92,7 +92,7 @@ void require_starts(const fit::DecayFitOptions& options, const TwoMass<double>& 
   }
 }
 
-/// Writes one minimum; the deepest one under the keys' names, others with `_minimum_2`, … appended.
+/// Writes one minimum; keys of the second minimum end in `_minimum_2`, and so on.
 void write_minimum(Table& table, const fit::DecayFitOptions& question,
                    const fit::DecayMinimum& minimum, std::size_t rank) {
   const std::string behind = rank == 1 ? "" : "_minimum_" + std::to_string(rank);
@@ -107,12 +107,12 @@ void write_minimum(Table& table, const fit::DecayFitOptions& question,
   table.row("residual" + behind, minimum.residual, none, history ? "m" : "");
 }
 
-/// Start of a fit: the case's plant, or the plant reduced from its conductor without c2.
+/// Start values of a fit: the case's plant, or the plant reduced from its conductor with c2 = 0.
 TwoMass<double> start_of(const Case& the_case) {
   return plant_is_reduced(the_case) ? plant_without_absorber_damping(the_case) : plant_of(the_case);
 }
 
-/// Warning that the plant misses the record by 30 % or more of its start; else empty.
+/// Warning if the rms residual is 30 % or more of the record's first displacement; else empty.
 std::string course_warning(const fit::DecayMinimum& best, const DecayRecord& record) {
   const double share = best.residual / std::abs(record.displacements.front());
   if (share < 0.3) return "";
@@ -120,7 +120,7 @@ std::string course_warning(const fit::DecayMinimum& best, const DecayRecord& rec
          format_number(std::round(share * 100.0)) + " % (rms) of the record's first displacement";
 }
 
-/// Warning that a record beyond the absorber's reach is probably in millimetres; else empty.
+/// Warning that a record exceeding the absorber's reach is probably in millimetres; else empty.
 std::string unit_warning(const std::string& file, const DecayRecord& record, const Case& the_case) {
   double largest = 0.0;
   for (const double displacement : record.displacements)
@@ -132,7 +132,7 @@ std::string unit_warning(const std::string& file, const DecayRecord& record, con
          " m: the column must be in m; is it in mm (" + format_rounded(1e-3 * largest) + " m)?";
 }
 
-/// Warning that rows farther apart than half a period are probably in milliseconds; else empty.
+/// Warning if rows are over half a period apart, perhaps in milliseconds; else empty.
 std::string time_warning(const std::string& file, const DecayRecord& record,
                          const TwoMass<double>& plant) {
   const double half = pi<double> * std::sqrt(plant.conductor_mass / plant.conductor_stiffness);
@@ -142,7 +142,7 @@ std::string time_warning(const std::string& file, const DecayRecord& record,
          format_rounded(2.0 * half) + " s: is time_s in ms?";
 }
 
-/// Warning of a gap in the record; throws WrongInput where the fit needs its peaks.
+/// Warning of a gap in the record. Throws WrongInput if the target needs all peaks.
 std::string gap_warning(const std::string& file, const DecayRecord& record,
                         const fit::DecayFitOptions& question) {
   const std::string gap = gap_text(record.times);
@@ -154,7 +154,7 @@ std::string gap_warning(const std::string& file, const DecayRecord& record,
   return file + ": " + gap + "; only the rows of the file are fitted";
 }
 
-/// Record of a file; reports doubts about it.
+/// Reads the record of a file, and warns if its unit, its time steps or a gap are doubtful.
 DecayRecord record_of(const std::string& file, const JobContext& context,
                       const TwoMass<double>& plant, const fit::DecayFitOptions& question) {
   DecayRecord record = read_decay_file(file);
@@ -165,7 +165,7 @@ DecayRecord record_of(const std::string& file, const JobContext& context,
   return record;
 }
 
-/// All minima of the fit; with no options given, those of the job reduce.
+/// All minima of the fit; with no options given, the minima of the fit in the job reduce.
 std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const FitQuestion& options,
                                          fit::DecayFitOptions& question) {
   const TwoMass<double> plant = start_of(context.case_data);

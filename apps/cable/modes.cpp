@@ -9,8 +9,8 @@
 namespace holdfast::program {
 namespace {
 
-/// Whether Irvine and Caughey describe a mode: not waves along the conductor, from about
-/// sqrt(EA/mu)/(2 L) on. A slower mode that moves along the span does so because of the sag.
+/// Whether a mode is transverse, as Irvine and Caughey assume. Longitudinal modes begin at about
+/// sqrt(EA/mu)/(2 L); a slower mode moves along the span only because of the sag.
 bool is_across(const ElementsMode& mode, const Conductor<double>& conductor) {
   const double slowest_along =
       std::sqrt(conductor.youngs_modulus * conductor.area / conductor.mass_per_length) /
@@ -18,7 +18,7 @@ bool is_across(const ElementsMode& mode, const Conductor<double>& conductor) {
   return mode.along_share < 0.5 || mode.frequency < 0.5 * slowest_along;
 }
 
-/// Frequencies (Hz) by Irvine and Caughey, in ascending order for each family.
+/// Frequencies (Hz) by Irvine and Caughey, returned in ascending order for each family of modes.
 class IrvineFrequencies {
  public:
   /// Computes the first modes, about equally many of each family.

@@ -10,7 +10,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Value of the quantities of c2 where there is no fit.
+/// Value of the quantities that depend on c2 where no fit was made.
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 void append_plant(Table& table, const TwoMass<double>& plant, double absorber_damping) {

@@ -8,7 +8,7 @@
 namespace holdfast::program {
 namespace {
 
-/// The lowest frequency (Hz) of the case's span under a tension (N), with what hangs on it (kg/m).
+/// First natural frequency (Hz) of the span at a tension (N), for the mass with ice (kg/m).
 double first_frequency(const Case& the_case, double horizontal_tension, double mass_per_length) {
   Conductor<double> conductor = conductor_of(the_case);
   conductor.mass_per_length = mass_per_length;

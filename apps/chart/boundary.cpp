@@ -20,8 +20,8 @@ namespace {
 
 /// Fixed gains for the stable intervals of the other gain.
 struct FixedGains {
-  std::vector<double> proportional;  ///< P (N/m): the intervals of D
-  std::vector<double> differential;  ///< D (N s/m): the intervals of P
+  std::vector<double> proportional;  ///< values of P (N/m) for which intervals of D are sought
+  std::vector<double> differential;  ///< values of D (N s/m) for which intervals of P are sought
 };
 
 constexpr Named<BoundaryFeatureKind> feature_names[] = {
@@ -31,7 +31,7 @@ constexpr Named<BoundaryFeatureKind> feature_names[] = {
     {BoundaryFeatureKind::crossing, "crossing"},
     {BoundaryFeatureKind::end, "end"}};
 
-/// Extended precision gives single points to a double's last digit, unless two nearly coincide.
+/// Number type for single points, exact to a double's last digit unless two points nearly coincide.
 using Precise = long double;
 
 /// Calls `visit` with the characteristic polynomial of the continuous or the sampled loop.
@@ -44,7 +44,7 @@ auto with_polynomial(const Case& the_case, bool continuous, const Visit& visit) 
       sampled_loop(plant, Sampling<Real>{sampling.period, sampling.processing_delay})));
 }
 
-/// Whole range of D (N s/m) that a window admits.
+/// Range of D (N s/m) of a window without bounds.
 constexpr Interval<double> every_gain{-1e150, 1e150};
 
 std::vector<BoundaryFeature<Precise>> precise_features(const Case& the_case,
@@ -64,7 +64,7 @@ struct GainName {
 const GainName proportional{"proportional_gain", "P", "N/m"};
 const GainName differential{"differential_gain", "D", "N s/m"};
 
-/// The stable intervals of one gain at one value of the other.
+/// The stable intervals of one gain for a given value of the other gain.
 struct GainPlane {
   const GainName& gain;
   const GainName& fixed;
@@ -85,7 +85,7 @@ std::vector<Interval<double>> rounded(const std::vector<Interval<Precise>>& inte
   return result;
 }
 
-/// @param stable  (free gain, gains) → the stable intervals of the free one
+/// Stable intervals for all fixed gains. @param stable  function (free gain, gains) → its intervals
 template <class Stable>
 std::vector<GainPlane> answers(const Stable& stable, const FixedGains& fixed) {
   std::vector<GainPlane> result;
@@ -96,7 +96,7 @@ std::vector<GainPlane> answers(const Stable& stable, const FixedGains& fixed) {
   return result;
 }
 
-/// By what has stable intervals.
+/// Stable intervals for all fixed gains, by a loop with a member stable_gains().
 template <class Loop>
 std::vector<GainPlane> answers_by(const Loop& loop, const FixedGains& fixed) {
   return answers(
@@ -116,7 +116,7 @@ std::vector<GainPlane> answers(const Case& the_case, const FixedGains& fixed, bo
       fixed);
 }
 
-/// Warning that another number of modes moves an end by more than 1 %; else empty.
+/// Warning if the end of an interval moves by more than 1 % with other modes; else empty.
 std::string truncation_warning(const Case& the_case, const FixedGains& fixed,
                                const std::vector<GainPlane>& found) {
   const OtherModes other = other_modes_of(the_case);
@@ -144,7 +144,7 @@ std::string truncation_warning(const Case& the_case, const FixedGains& fixed,
   return "";
 }
 
-/// Warns of each gain without a stable interval; throws NoAnswer with all messages if none has one.
+/// Warns of each fixed gain without a stable interval; throws NoAnswer if no gain has one.
 void report_refusals(const std::vector<GainPlane>& all, bool quiet) {
   std::vector<std::string> refusals;
   std::string together;
@@ -157,7 +157,7 @@ void report_refusals(const std::vector<GainPlane>& all, bool quiet) {
   for (const std::string& refusal : refusals) report_warning(refusal, quiet);
 }
 
-/// Replacements of @KEY@ for the columns of angles.
+/// Replacements of @KEY@ in the texts of columns with angles or frequencies.
 Values angle_words(bool continuous) {
   if (continuous) return {{"unit", "rad/s"}, {"angle", "angular frequency of the root pair"}};
   return {{"unit", "rad"}, {"angle", "angle of the root on the unit circle"}};
@@ -179,7 +179,7 @@ void write_boundary(const JobContext& context, const Interval<double>& gains, bo
   table.commit();
 }
 
-/// Writes tangents, cusps, crossings and ends of the curves within the window.
+/// Writes tangents, cusps, crossings and ends of the boundary curves within the window.
 void write_boundary_features(const JobContext& context, const GainWindow& window, bool continuous) {
   const Case& the_case = context.case_data;
   const auto features = precise_features(the_case, window, continuous);
@@ -195,8 +195,8 @@ void write_boundary_features(const JobContext& context, const GainWindow& window
   table.commit();
 }
 
-/// Writes one row per stable interval: of D at each P, then of P at each D. Warns of a gain without
-/// a stable interval.
+/// Writes one row per stable interval: of D at each fixed P, then of P at each fixed D. Warns of a
+/// fixed gain without a stable interval.
 void write_stable_intervals(const JobContext& context, const FixedGains& fixed, bool continuous) {
   const std::vector<GainPlane> all = answers(context.case_data, fixed, continuous);
   Table table(context, columns_of("stable intervals"));
@@ -210,7 +210,7 @@ void write_stable_intervals(const JobContext& context, const FixedGains& fixed, 
   table.commit();
 }
 
-/// Writes one row per region of the window, stable and large ones first.
+/// Writes one row per region of the window; stable regions first, large regions first.
 void write_gain_regions(const JobContext& context, const GainWindow& window, bool continuous) {
   const auto regions = with_polynomial<double>(
       context.case_data, continuous,
@@ -267,7 +267,7 @@ struct BoundaryQuestion {
     const Range range = parse_range("--d", d);
     return {proportional_range(), {range.min, range.max}};
   }
-  /// Gains of the options; the case's own gains where neither is given.
+  /// The fixed gains of the options; the case's own gains if neither option is given.
   FixedGains fixed_gains(const Job& job, const Case& the_case) const {
     const PdGains<double> own = gains_of(the_case);
     if (!job.has("--p") && !job.has("--d")) return {{own.proportional}, {own.differential}};

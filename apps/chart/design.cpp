@@ -30,7 +30,7 @@ std::string no_gain_text(double proportional_gain, double largest_radius) {
          " at P = " + format_rounded(proportional_gain) + " N/m: change P";
 }
 
-/// Warns why a single row has no D of least amplitude.
+/// Warns if there is no D of least amplitude, and gives the reason.
 void warn_of_no_gain(MinimumAmplitudeOutcome outcome, double proportional_gain,
                      double largest_radius, bool quiet) {
   if (outcome == MinimumAmplitudeOutcome::none)
@@ -45,7 +45,7 @@ void warn_of_no_gain(MinimumAmplitudeOutcome outcome, double proportional_gain,
         quiet);
 }
 
-/// Best D at one frequency and P.
+/// Best D at one frequency (Hz) and one P (N/m).
 struct BestRow {
   double frequency, p;  // Hz, N/m
   MinimumAmplitude quietest;
@@ -53,9 +53,9 @@ struct BestRow {
   GainMargins margins;  // with the D of least amplitude
 };
 
-/// Best gains at each frequency, computed on the threads.
-/// @param tuned  P tuned to each frequency by Eq. 6, else P of the case
-/// @param both   search P too
+/// Best gains at each frequency, computed in parallel.
+/// @param tuned  whether P is tuned to each frequency by Eq. 6; otherwise P is that of the case
+/// @param both   whether P is optimised too
 std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions& options,
                                const Axis& axis, bool tuned, bool both) {
   const Case& the_case = context.case_data;
@@ -80,8 +80,8 @@ std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions
   return rows;
 }
 
-/// Writes the best D at each frequency, with P tuned to each by Eq. 6; without frequencies at the
-/// case's frequency and P. With `both`, the best P and D.
+/// Writes the best D at each frequency, with P tuned to that frequency by Eq. 6. Without
+/// frequencies: the best D at the frequency and P of the case; with `both`, the best P and D.
 void write_best_gains(const JobContext& context, const std::optional<Axis>& frequencies,
                       const AmplitudeOptions& options, bool both) {
   const Case& the_case = context.case_data;

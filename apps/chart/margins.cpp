@@ -25,7 +25,7 @@ struct ProofWords {
   double stable_to;     // NaN where nothing is proved
 };
 
-/// Whether everything is proved but at most a hundredth of the way to a loop proved unstable.
+/// Whether the proof leaves at most a hundredth of the way to the proved unstable loop open.
 bool is_whole(const ProvedMarginEnd& proved, double value) {
   const double open = std::abs(proved.unstable_at - proved.stable_to);
   return proved.stop == ProofStop::at_end && !(open > 0.01 * std::abs(proved.unstable_at - value));
@@ -53,7 +53,7 @@ class MarginsTable {
   MarginsTable(const JobContext& context, const std::optional<ProvedMargins>& proved)
       : table_(context, columns_of(proved ? "proved margins" : "margins")), proved_(proved) {}
 
-  /// Writes the two ends of one quantity's stable range.
+  /// Writes the lower and the upper limit of the stable range of one quantity.
   void write(const char* quantity, const char* unit, double value, const TwoSidedMargin& margin,
              ProvedMargin ProvedMargins::*proved) {
     const ProvedMargin ends = proved_ ? (*proved_).*proved : ProvedMargin{};
@@ -61,7 +61,7 @@ class MarginsTable {
     row(quantity, unit, value, "above", margin.above, ends.above);
   }
   void commit() { table_.commit(); }
-  /// Whether every end is proved.
+  /// Whether every limit written so far is proved.
   bool is_proved() const { return is_proved_; }
 
  private:

@@ -39,8 +39,8 @@ struct MaxDelayQuestion {
   }
 
  private:
-  /// Proved periods: from the shortest examined to slightly beyond the longest found, or to one
-  /// period of the excitation where there is no limit.
+  /// Interval of periods (s) proved to be stable for some D. It starts at the shortest examined
+  /// period; the proof tries to reach 1.01 `found`, or one period of the excitation if it is ∞.
   Interval<double> proved_periods(const JobContext& context, const LinearLoop& loop,
                                   const MaxDelayOptions& question, double found) const {
     const double shortest = std::min(question.shortest_period, 1e-3 / question.frequency);
@@ -81,14 +81,14 @@ struct MaxDelayQuestion {
     report_warning(held_force_, context.quiet);
   }
 
-  /// Question at one frequency and its answer.
+  /// Options and answer for one frequency.
   struct Answered {
     MaxDelayOptions question;
     MaxDelay answer;
     Interval<double> proved;  // proved periods (s), with --prove
   };
 
-  /// Answers at all frequencies, computed on the threads.
+  /// Answers at all frequencies, computed in parallel.
   std::vector<Answered> answers_of(const JobContext& context, const LinearLoop& loop,
                                    const Axis& axis) const {
     std::vector<Answered> all(static_cast<std::size_t>(axis.count));
@@ -103,7 +103,7 @@ struct MaxDelayQuestion {
     return all;
   }
 
-  /// Counts D on the stability boundary; notes where the hold of the force affects the attenuation.
+  /// Counts gains D on the stability boundary; notes if holding the force affects the attenuation.
   void note(const LinearLoop& loop, const MaxDelayOptions& question, const MaxDelay& answer,
             const JobContext& context) {
     if (!(answer.sampling_period > 0.0 && std::isfinite(answer.sampling_period))) return;

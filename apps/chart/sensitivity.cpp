@@ -14,7 +14,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Answer with its name and unit in the table.
+/// Name and unit of an answer in the table.
 struct Answered {
   const char* name;
   const char* unit;
@@ -30,7 +30,7 @@ constexpr std::array<Answered, 9> answered = {{{"spectral_radius", ""},
                                                {"max_attenuating_period", "s"}}};
 using AnswerValues = std::array<double, answered.size()>;
 
-/// Largest sampling period at the case's P, with δ/τ kept.
+/// Largest sampling period (s) at the case's P and ratio δ/τ; NaN if none is found.
 double longest_period(const Case& the_case, const LinearLoop& loop, DelayCriterion criterion) {
   MaxDelayOptions question = tuned_delay_question(the_case, excitation_of(the_case).frequency);
   question.proportional_gain = gains_of(the_case).proportional;
@@ -64,7 +64,7 @@ AnswerValues answers_of(const Case& the_case) {
   return values;
 }
 
-/// Keys of the case that its plant and loop depend on.
+/// Keys on which the plant and the loop of the case depend.
 std::vector<std::string> keys_of(const Case& the_case) {
   const bool own = has_own_plant(the_case), masses = is_two_masses(the_case);
   const bool conductor = !own && !masses, endless = is_infinite(the_case);
@@ -96,7 +96,7 @@ std::vector<std::string> keys_of(const Case& the_case) {
   return keys;
 }
 
-/// Case with a key changed; P is kept, or follows Eq. 6 where it is tuned.
+/// The case with one key changed; a tuned P follows Eq. 6, any other P is kept.
 Case moved(const Case& the_case, const std::string& key, double value) {
   Case other = the_case;
   set_case_value(other, key, value);
@@ -105,17 +105,17 @@ Case moved(const Case& the_case, const std::string& key, double value) {
   return other;
 }
 
-/// Step for a key with the value 0, from a size that would be noticeable.
+/// Size of a change of a key whose value is 0, to which the step of the difference is relative.
 double unit_of(const Case& the_case, const std::string& key) {
   if (key == "control.processing_delay") return the_case.control.sampling_period;
   if (key == "absorber.clamp_mass") return 0.01;
   return 1.0;
 }
 
-/// ∂answers/∂key by differences of two steps, a part in 10⁴ and half of it, extrapolated
-/// (Richardson): of five digits and more, and NaN where the two disagree by more than a hundredth,
-/// at a corner of the answer. Where a neighbour is not admissible, or of another kind of loop, the
-/// step is to one side.
+/// Derivatives ∂answers/∂key by Richardson extrapolation of differences with the steps 10⁻⁴ of the
+/// value and half of that: five digits or more. NaN where the two differences disagree by more than
+/// 1 %, as at a kink of the answer. The differences are one-sided where a neighbour is inadmissible
+/// or changes the kind of the loop.
 AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerValues& here) {
   constexpr double step = 1e-4, agreement = 0.01;
   if (the_case.control.proportional_gain_tuned && key == "control.proportional_gain")

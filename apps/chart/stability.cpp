@@ -40,8 +40,8 @@ ProvedChart modal_chart_of(const Case& the_case, const GainGrid& grid, double un
 }
 
 /// The proved chart of a case. Throws Interrupted, InvalidParameter for a grid without cells,
-/// WrongInput for a plant whose poles cannot be proved, and NoAnswer where they are not apart or
-/// one may lie on the boundary.
+/// WrongInput for a plant whose poles cannot be proved, and NoAnswer where two poles cannot be
+/// separated or a pole may lie on the boundary of stability.
 ProvedChart proved_stability_of(const Case& the_case, const GainGrid& grid, bool continuous,
                                 double undecided) {
   if (!has_closed_forms(the_case)) return modal_chart_of(the_case, grid, undecided);

@@ -64,7 +64,7 @@ struct SimulateQuestion {
     table.commit();
   }
 
-  /// Notes the position of the drive in its play at the start.
+  /// Adds a note to the table on where in its play the drive starts.
   void note_first_contact(const Case& the_case, Table& table) const {
     if (no_control || the_case.backlash.width == 0.0) return;
     if (the_case.backlash.law == "none" || the_case.backlash.law == "dead_zone") return;

@@ -27,7 +27,7 @@ struct SpectrumQuestion {
   void run(const JobContext& context) const;
 };
 
-/// Record of z1 without the transient.
+/// Record of z1 without its initial transient.
 struct SteadyRecord {
   std::vector<double> displacement;
   TrustedDigits trusted;  // digits of the samples
@@ -71,7 +71,7 @@ SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& op
   return {record, digits->result()};
 }
 
-/// Warning that the two halves of a record differ in size; else empty.
+/// Warning if the amplitudes of the two halves of a record differ; else empty.
 std::string unsettled_warning(const std::vector<double>& record) {
   const auto middle = record.begin() + static_cast<std::ptrdiff_t>(record.size() / 2);
   const auto root_mean_square = [](auto begin, auto end) {

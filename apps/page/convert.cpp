@@ -24,7 +24,7 @@ struct ConvertQuestion {
 
 }  // namespace
 
-/// Adds the job convert. It takes no case; a host may leave the file out and get the table.
+/// Adds the job `convert`, which takes no case. A JobHost may omit the file and gets the table.
 void add_convert(CLI::App& program) {
   CLI::App* options = add_subcommand(program, "convert");
   const auto question = std::make_shared<ConvertQuestion>();

@@ -10,8 +10,8 @@
 namespace holdfast::program {
 namespace {
 
-/// Z of one device at the outermost one's place that would send back the same, by what that place
-/// sees of it and of the string behind it.
+/// Impedance Z (N s/m) of a single device at the place of the outermost device that would cause the
+/// same reflection: that of the end there plus i Z_c cot ka for the string to the support.
 std::complex<double> impedance_alone(const TautString<double>& string, const SpanEnd& end,
                                      const EndResponse& response, double omega) {
   const double phase = omega * end.distances.back() / string.wave_speed();

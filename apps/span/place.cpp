@@ -82,7 +82,7 @@ struct PlaceQuestion {
   void run(const JobContext& context) const;
 };
 
-/// Note that another device sits at the position of the varied one; else empty.
+/// Note that another device has the same position as the moved device; else empty.
 std::string companion_note(const Case& the_case, std::size_t number) {
   if (number == 0) return "";
   for (std::size_t k = 0; k < the_case.devices.size(); ++k)
@@ -92,7 +92,7 @@ std::string companion_note(const Case& the_case, std::size_t number) {
   return "";
 }
 
-/// Goal without the absorber, which shows its gain over the devices alone.
+/// Value of the goal without the absorber, for comparison.
 double without_absorber(Case the_case, const PlacementQuestion& question) {
   the_case.plant.absorber_mass = 0.0;
   const PlacementLevels levels(the_case, question);

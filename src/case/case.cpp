@@ -13,7 +13,7 @@ namespace holdfast::program {
 
 namespace {
 
-/// Whether the user gave a key of the absorber or its computer.
+/// Whether the user gave a key of the absorber or of its computer.
 bool speaks_of_absorber(const Case& the_case) {
   const auto& places = the_case.places;
   return std::any_of(places.begin(), places.end(), [](const auto& place) {

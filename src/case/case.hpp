@@ -249,7 +249,7 @@ bool has_stringing(const Case& the_case);
 /// Whether a key of [site] differs from its default.
 bool has_site(const Case& the_case);
 
-/// Names of the features that the plain loop of two masses lacks, for a message; "": none.
+/// Names of the case's features that the plain loop of two masses lacks, for a message; "": none.
 std::string modal_words(const Case& the_case);
 
 /// Whether plant.model is "infinite_string", a string without ends.
@@ -264,8 +264,8 @@ bool is_cable(const Case& the_case);
 case_tables::Excitation effective_excitation(const Case& the_case);
 
 /// A wind whose vortices have the frequency of [excitation], for a case without [wind]. The
-/// diameter is the conductor's, if unknown that of a strand of its area; the effective length is
-/// half a wavelength, at most the span. Throws MissingKeys.
+/// diameter is the conductor's or, if unknown, that of a strand of its area. The effective length
+/// is half a wavelength, at most the span. Throws MissingKeys.
 case_tables::Wind wind_for(const Case& the_case);
 
 /// A warning of vortices outside the 3 to 150 Hz of aeolian vibration, with the reason; empty

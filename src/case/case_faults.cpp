@@ -19,7 +19,7 @@ using case_tables::Backlash;
 using case_tables::Excitation;
 using case_tables::Reduction;
 
-/// "conductor.span = 6.4 m".
+/// A key with its value and unit, for a message: "conductor.span = 6.4 m".
 std::string said(const Case& c, const char* key) {
   return std::string(key) + " = " + format_number(case_value(c, key)) + " " +
          find_case_key(key)->unit;

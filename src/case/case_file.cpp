@@ -165,7 +165,7 @@ bool describes_its_own(const toml::table& root) {
          });
 }
 
-/// Discards all built-in values but constants of nature and methods.
+/// Discards all built-in values except constants of nature and numerical methods.
 void CaseReader::stand_alone() {
   case_ = Case{};
   case_.stands_alone = true;
@@ -330,8 +330,8 @@ const Given* CaseReader::last_given(const std::vector<std::string>& keys) const 
   return found == given_.rend() ? nullptr : &*found;
 }
 
-/// The last override among the keys of a fault, else the first of the keys that the file gives: the
-/// order of its lines has no meaning.
+/// The key that a fault's message names: the last override among `keys`, else the first key that
+/// the file gives. The order of the lines in the file has no effect.
 const Given* CaseReader::blamed(const std::vector<std::string>& keys) const {
   const Given* last = last_given(keys);
   if (last == nullptr || last->layer == Layer::override) return last;
@@ -414,8 +414,8 @@ void CaseReader::settle_own() {
   if (!case_.devices.empty() && !given_by_user("plant.model")) case_.plant.model = "string";
 }
 
-/// The built-in frequencies of [reduction] belong to the built-in conductor and absorber.position.
-/// For others they are computed unless given.
+/// Computes the frequencies of [reduction] that are not given. The built-in frequencies remain if
+/// the conductor and absorber.position have their built-in values.
 void CaseReader::settle_frequencies() {
   const auto& keys = case_keys();
   const bool another = std::any_of(keys.begin(), keys.end(), [this](const CaseKey& key) {

@@ -31,7 +31,7 @@ struct HarmonicPart {
   AdmissibleRange range;
 };
 
-/// The numbers of an additional harmonic: amplitude, frequency and phase, which may be left out.
+/// The numbers of an additional harmonic: amplitude, frequency, phase; the phase may be left out.
 const std::array<HarmonicPart, 3>& harmonic_parts();
 
 /// Kind of the value of a key.
@@ -78,7 +78,7 @@ struct CaseKey : KeyForm {
   /// Pointer to the number in a case; null: not a number, or a key of [wind] without wind.
   double* number(Case& the_case) const;
 
-  /// Whether the case has the key's word, "tuned" or one stored as infinity, in place of a number.
+  /// Whether the case has a word in place of the key's number: "tuned", or one stored as infinity.
   bool bears_word(Case& the_case) const;
   void give_word(Case& the_case) const;
 };

@@ -25,7 +25,7 @@ constexpr std::array<Instead, 7> others = {{
     {"reduction.first_frequency", "the whole [conductor]"},
 }};
 
-/// "conductor.sag (m) or conductor.tension (N)".
+/// A key with unit and alternative key: "conductor.sag (m) or conductor.tension (N)".
 std::string key_text(const std::string& name) {
   const std::string& unit = find_case_key(name)->unit;
   const auto* other = std::find_if(others.begin(), others.end(),

@@ -171,7 +171,7 @@ std::vector<std::array<double, 3>> read_harmonics(const KeyForm& key, const toml
 
 std::string in_toml(const std::string& text) { return toml_string(text); }
 
-/// A number with a point or exponent, since a TOML integer has only 64 bits.
+/// TOML text of a number, with a point or exponent, since a TOML integer has only 64 bits.
 std::string in_toml(double value) {
   std::string text = format_number(value);
   const bool whole = text.find_first_of(".e") == std::string::npos;

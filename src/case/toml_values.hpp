@@ -16,7 +16,7 @@ namespace holdfast::program {
 /// Line and message of a nesting that is too deep in a TOML text.
 struct TomlExcess {
   std::size_t line = 0;
-  std::string message;  ///< "brackets are nested deeper than 16 levels"
+  std::string message;  ///< message: "brackets are nested deeper than 16 levels"
 };
 
 /// The first bracket or key (`a.b.c`) of a TOML text nested deeper than 16 levels; none if there is

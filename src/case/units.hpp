@@ -10,11 +10,11 @@ namespace holdfast::program {
 /// A unit in which the value of a key may be written, other than the key's own unit.
 struct Unit {
   const char* own;           ///< unit of the key, in which the case stores it: "N/m"
-  const char* name;          ///< "kN/m"
+  const char* name;          ///< name of the unit: "kN/m"
   double numerator;          ///< one unit is numerator/denominator of the own unit;
   double denominator = 1.0;  ///< two numbers make 5.5 mm2 exactly 5.5e-6 m2
   double offset = 0.0;       ///< added to a temperature before it is scaled
-  bool is_mistaken = true;   ///< whether numbers are often given in it by mistake
+  bool is_mistaken = true;   ///< whether numbers are often given in this unit by mistake
 
   double factor() const { return numerator / denominator; }
   double in_own(double value) const { return (value + offset) * numerator / denominator; }

@@ -51,8 +51,8 @@ std::optional<fs::path> built_page() {
   return std::nullopt;
 }
 
-/// The case file's text, empty for the built-in case. If keys were set or the plant is reduced,
-/// which a browser may not be able to do, the full case.
+/// The text of the case file, empty for the built-in case. The full case, if keys were set or the
+/// plant is reduced, since a browser may be unable to reduce it.
 std::string text_of_case(const Case& the_case, const CaseSource& source) {
   if (source.overrides.empty() && !plant_is_reduced(source.load())) return source.text.value_or("");
   return case_to_toml(the_case);

@@ -19,7 +19,7 @@ std::vector<std::uint8_t> stable_cells(const Case& the_case, const GainGrid& gri
 /// Steady amplitudes of the conductor (m) at a frequency (Hz), without play.
 struct AmplitudesAt {
   double frequency;
-  double controlled;    ///< NaN if unstable, or for at most two samples per period
+  double controlled;    ///< with control; NaN if unstable, or at two samples per period or less
   double uncontrolled;  ///< amplitude without control
 };
 
@@ -29,7 +29,7 @@ struct Amplitudes {
   std::vector<AmplitudesAt> at;
 };
 
-/// @param frequencies  frequencies (Hz), > 0, at which the amplitudes are computed
+/// Computes the amplitudes. @param frequencies  frequencies (Hz), > 0
 Amplitudes amplitudes_over(const Case& the_case, const Axis& frequencies);
 
 }  // namespace holdfast::program

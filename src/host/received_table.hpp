@@ -52,7 +52,7 @@ class ReceivedColumn {
   void set_words(std::vector<std::string> words) { words_ = std::move(words); }
 
   std::vector<double>& numbers() { return numbers_; }
-  /// Whole numbers, or the indices of words.
+  /// The cells as whole numbers, or as indices of words.
   std::vector<std::int64_t>& whole_numbers() { return whole_; }
   const std::vector<std::string>& words() const { return words_; }
 

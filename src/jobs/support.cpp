@@ -22,7 +22,7 @@ Words words_in(const std::string& text) {
   return {parts.begin(), parts.end()};
 }
 
-/// Feature of a case, by its name in the rules.
+/// Feature of a case, with its name in texts/support.toml and the test whether a case has it.
 struct Feature {
   std::string name;
   bool (*is_of)(const Case& the_case);
@@ -67,7 +67,7 @@ const std::vector<Feature>& features() {
   return all;
 }
 
-/// All of them, with the one that is an option.
+/// Names of all features, and of "exact", which is an option.
 Words feature_names() {
   Words names;
   for (const Feature& feature : features()) names.push_back(feature.name);
@@ -117,14 +117,14 @@ bool any_asked(const Words& questions, const Asked& asked) {
                      [&](const std::string& words) { return asked.has(words); });
 }
 
-/// First feature that a case has, of some; empty if it has none.
+/// First of a case's features `there` that is among those `wanted`; empty if none is.
 std::string first_of(const Words& wanted, const Words& there) {
   for (const std::string& name : there)
     if (std::find(wanted.begin(), wanted.end(), name) != wanted.end()) return name;
   return "";
 }
 
-/// Words of the question to which a rule applies.
+/// The part of the question, job or job with options, to which a rule applies.
 std::string asked_words(const Rule& rule, const Asked& asked) {
   for (const std::string& words : rule.asked)
     if (asked.has(words)) return words;
@@ -155,7 +155,7 @@ Support support_of(const Words& there, const Asked& asked) {
   return support;
 }
 
-/// Question of the table as given on a command line.
+/// Question from its text in texts/support.toml: job and options, as on a command line.
 Asked asked_of(const std::string& question) {
   const Words words = words_in(question);
   Asked asked{words[0], {}};
@@ -168,7 +168,7 @@ Asked asked_of(const std::string& question) {
   return asked;
 }
 
-/// Jobs of the table's questions about a feature that no rule refuses for this case.
+/// Jobs that no rule refuses for a feature, separated by commas.
 std::string jobs_that_answer(const std::string& feature, const Words& there) {
   std::map<std::string, bool> answers;
   for (const SupportCell& cell : support_cells())
@@ -214,7 +214,7 @@ Support support_of(const Case& the_case, const Asked& asked) {
 
 namespace {
 
-/// @param named  at most one plant among them, and that first
+/// Cell of the support table. @param named  features; a plant, at most one, comes first
 SupportCell cell_of(const std::string& question, const Words& named) {
   SupportCell cell{question, {}, {}, true, {}};
   Words there = named;
@@ -240,7 +240,7 @@ SupportCell cell_of(const std::string& question, const Words& named) {
   return cell;
 }
 
-/// Options of a question that occur in the rules, each once: "orbit --map".
+/// The question with only those options that occur in the rules, each once: "orbit --map".
 std::string without_numbers(const std::string& question) {
   const Words words = words_in(question);
   std::string kept = words[0];
@@ -260,7 +260,7 @@ std::string without_numbers(const std::string& question) {
   return kept;
 }
 
-/// Numbered texts of the page, each written once.
+/// Footnotes of the support page; equal texts share a number.
 class Footnotes {
  public:
   std::string of(const Support& support) {
@@ -282,7 +282,7 @@ class Footnotes {
   Words texts_;
 };
 
-/// Features that the page asks about, of two masses or a conductor; each is the last of its case.
+/// Features of the page's columns for two masses or a conductor; the last feature names the column.
 std::vector<Words> singles_asked(bool on_conductor) {
   std::vector<Words> asked;
   for (const std::string& name : feature_names()) {
@@ -307,14 +307,14 @@ std::vector<Words> pairs_asked() {
   return pairs;
 }
 
-/// Whether a question admits the option among the features.
+/// Whether a question can have the feature: "exact" needs a job with the option --switching.
 bool knows(const toml::node_view<const toml::node>& group, const std::string& question,
            const std::string& name) {
   return name != "exact" ||
          (group["switching"].value_or(false) && question.find("--switching") == std::string::npos);
 }
 
-/// One table of the page.
+/// One table of the support page, in Markdown.
 std::string table_of(const toml::node_view<const toml::node>& group, bool on_conductor,
                      Footnotes& reasons) {
   const Words all = feature_names();

@@ -25,14 +25,14 @@ struct Support {
   std::string refused_by;  ///< feature that the job refuses with any options; else empty
 };
 
-/// @param the_case  case; its plant need not be computed yet
+/// Support of a question. @param the_case  case, whose plant need not be computed yet
 Support support_of(const Case& the_case, const Asked& asked);
 
 /// Cell of the support table: a question about a case with some features.
 struct SupportCell {
-  std::string question;               ///< a small example: "margins --prove"
-  std::vector<std::string> features;  ///< in words
-  std::vector<std::string> settings;  ///< "KEY=VALUE" that give it the features
+  std::string question;               ///< question in an example: "margins --prove"
+  std::vector<std::string> features;  ///< descriptions of the features
+  std::vector<std::string> settings;  ///< settings KEY=VALUE by which a case has the features
   bool can_be_asked;                  ///< whether a command line can give the features
   Support support;
 };

@@ -37,7 +37,7 @@ class MotionSource {
   virtual void pause() = 0;
 };
 
-/// Test which orbit a motion is guaranteed to tend to, as by AttractorSet.
+/// Test for the orbit that a motion is guaranteed to approach, as in AttractorSet.
 struct AttractionTest {
   std::function<int(const ForcedMotionMemory<double>& memory)> attracted_by;
 };

@@ -13,17 +13,17 @@ class Refusal : public std::runtime_error {
   explicit Refusal(const std::string& message);
 };
 
-/// Invalid input of the user: exit code 2.
+/// Exception for invalid input of the user: exit code 2.
 struct WrongInput : Refusal {
   using Refusal::Refusal;
 };
 
-/// Valid input for which the computation has no answer: exit code 1. The message gives the reason.
+/// Exception for valid input without an answer, with the reason as message: exit code 1.
 struct NoAnswer : Refusal {
   using Refusal::Refusal;
 };
 
-/// A result could not be written: exit code 1. The message contains that of the system.
+/// Exception for a result that could not be written, with the system's message: exit code 1.
 struct OutputError : Refusal {
   using Refusal::Refusal;
 };

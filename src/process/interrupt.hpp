@@ -31,7 +31,7 @@ bool interrupted();
 /// Throws Interrupted if interrupted().
 void throw_if_interrupted();
 
-/// Ask the computation to end as after a signal, and withdraw that request.
+/// Asks the computation to end as after a signal; forget_asking() withdraws the request.
 void request_stop();
 void forget_asking();
 

@@ -25,13 +25,13 @@ struct ProgressCount {
 
 /// Shows on standard error that a job is running, from one second after its start: its name and the
 /// time, or the status of its Progress. On a terminal the line is renewed every second, elsewhere a
-/// line appears after 1, 2, 4, … s. It ends with the object, or when the result goes to the
-/// terminal.
+/// line appears after 1, 2, 4, … s. The display ends with the object, or when the result goes to
+/// the terminal.
 class Ticking {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// @param first  time until the first line
+  /// Begins the display. @param first  time until the first line
   Ticking(std::string job, bool enabled, std::chrono::milliseconds first = std::chrono::seconds(1));
   ~Ticking();
   Ticking(const Ticking&) = delete;
@@ -57,7 +57,7 @@ void yield_terminal_to_result();
 /// status is a new line, and the last line gives the total.
 class Progress {
  public:
-  /// @param label  name of the job and, after a comma, of its steps: "stability", "sweep, cells"
+  /// Begins the count. @param label  job and, after a comma, steps: "stability", "sweep, cells"
   Progress(std::uint64_t total, std::string label, bool enabled);
   ~Progress();
   Progress(const Progress&) = delete;

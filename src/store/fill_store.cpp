@@ -79,8 +79,8 @@ class StoreFilling {
   }
 
  private:
-  /// First ticket of this process. The first process goes in order; later ones start at random
-  /// places, so that they rarely try the same chunk.
+  /// Index of the first chunk, within the part, that this process takes: 0 for the first process, a
+  /// random one for later processes, so that they rarely try the same chunk.
   std::int64_t first_ticket() const {
     if (!store_.has(chunk_of(0))) return 0;
     return static_cast<std::int64_t>(number_of_this_process() %

@@ -28,7 +28,7 @@ struct ChunkWork {
   std::function<ChunkResult(std::int64_t)> compute;
   std::function<void(std::int64_t)> found = nullptr;  ///< called with each chunk already done
   bool verify = false;  ///< whether done chunks are read, and damaged ones computed again
-  StorePart part = {};  ///< chunks to compute
+  StorePart part = {};  ///< part of the store whose chunks are computed
 };
 
 /// Computes the missing chunks of a store on several threads. Other processes may fill the store at

@@ -156,7 +156,7 @@ std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// The root with a checksum of its other content added.
+/// The root document with an added checksum of its other content.
 Json sealed(Json root) {
   // Parsed again, since text_of() has replaced bytes that are not UTF-8.
   root = Json::parse(text_of(root));
@@ -169,7 +169,7 @@ void require(bool holds) {
   if (!holds) throw std::invalid_argument("its description is not one that holdfast writes");
 }
 
-/// The root without its checksum, after the checksum was found right.
+/// The root document without its checksum. Throws std::invalid_argument if the checksum is wrong.
 Json unsealed(Json root) {
   Json& part = root.at("attributes").at("holdfast");
   const auto sum = part.at("checksum").get<std::string>();

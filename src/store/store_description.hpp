@@ -42,7 +42,7 @@ std::size_t size_of(ElementType type);
 struct StoreDescription {
   JobContext origin;  ///< job, options and case of the store
   std::vector<GridAxis> axes;
-  std::vector<CellColumn> columns;  ///< those of the job's table first
+  std::vector<CellColumn> columns;  ///< columns; those of the job's table come first
   std::size_t table_columns = 0;    ///< number of columns of the job's table
   ChunkGrid grid;
   StorePlan plan;
@@ -70,7 +70,7 @@ Documents store_documents(const StoreDescription& store);
 /// Name of the root file of a store.
 inline constexpr const char* store_root = "zarr.json";
 
-/// Description of a store from the text of its root file; the values of the axes are not in it.
+/// Description of a store from the text of its root file, which lacks the values of the axes.
 /// Throws only std::invalid_argument, if the text is damaged or not by holdfast, for example with
 /// paths as array names.
 StoreDescription read_description(std::string_view root);

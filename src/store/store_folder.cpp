@@ -300,7 +300,7 @@ void StoreFolder::read_axes() {
     description_.axes[axis].values = std::move(values[axis]);
 }
 
-/// All files of an array are in one folder, which costs the file system least.
+/// Path of a chunk's file. All files of an array are in one folder, which costs the system least.
 fs::path StoreFolder::file_of(const StoreArray& array, std::int64_t chunk) const {
   if (chunk < 0 || chunk >= array.grid.chunks())
     throw std::out_of_range("no such chunk in the store");

@@ -115,7 +115,7 @@ class ChunkClaim {
     unknown,    ///< a claim file exists; without locks its process may be running or not
   };
 
-  /// @param chunk_file  StoreFolder::file_of() of the chunk
+  /// Tries to claim a chunk. @param chunk_file  StoreFolder::file_of() of the chunk
   /// Throws OutputError where the file cannot be made.
   explicit ChunkClaim(const std::filesystem::path& chunk_file);
   ~ChunkClaim();

@@ -39,12 +39,12 @@ enum class CellOutcome {
   accumulates,  ///< too many changes of contact within one sampling period to follow the motion
 };
 
-/// Whether a cell has a motion, and so metrics.
+/// Whether a cell has a motion and therefore metrics.
 inline bool has_motion(CellOutcome outcome) {
   return outcome == CellOutcome::computed || outcome == CellOutcome::diverges;
 }
 
-/// Results of a cell. A result that was not asked for has the value below.
+/// Results of a cell. A result that was not requested keeps its initial value.
 struct CellResult {
   CellOutcome outcome = CellOutcome::invalid;
   MotionMetrics motion = {};

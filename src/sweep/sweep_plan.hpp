@@ -84,7 +84,7 @@ class SweepPlan {
   std::vector<FamilyMember> members_;
   GridLayout layout_;
   std::vector<std::size_t> shaping_axes_;  // axes that change the reduction of the plant
-  /// Cases with reduced plants (tenths of a second each) by the values on these axes; else null.
+  /// Cache of cases with reduced plants, by the values on these axes; null without such axes.
   std::shared_ptr<Memo<std::vector<std::string>, std::shared_future<Case>>> reduced_cases_;
   double samples_ = 0.0;
   ChunkGrid grid_;

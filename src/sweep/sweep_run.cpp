@@ -58,7 +58,7 @@ struct FaultCounts {
 /// Counter of the cells that diverge, have no motion or are chaotic. Thread-safe.
 class SweepFaults {
  public:
-  /// @param verdicts  verdicts of the same cells; empty if they were not requested
+  /// Counts cells. @param verdicts  verdicts of the same cells; empty if they were not requested
   void add(std::int64_t first_cell, const std::vector<double>& outcomes,
            const std::vector<double>& verdicts) {
     FaultCounts found;

@@ -13,7 +13,7 @@ struct Named {
   const char* name;
 };
 
-/// Name of a value by a list of all enumerators; "" if the list lacks the value.
+/// Name of an enumerator in a list of names; "" if the list lacks the enumerator.
 template <class Enum, std::size_t Count>
 constexpr const char* name_in(const Named<Enum> (&names)[Count], Enum value) {
   for (const Named<Enum>& one : names)

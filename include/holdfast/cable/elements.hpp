@@ -138,8 +138,8 @@ class BasicCableElements {
             state[own + 5]};
   }
 
-  /// Adds `node_velocity` (m/s) to the motion of the absorber's node, `displacement` (m) and
-  /// `velocity` (m/s) to that of the absorber, all downward; only with a spring–mass.
+  /// Adds `node_velocity` (m/s) to the motion of the absorber's node, and `displacement` (m) and
+  /// `velocity` (m/s) to the absorber's motion, all downward; only with a spring–mass.
   void strike(Real* state, Real node_velocity, Real displacement, Real velocity) const {
     const int own = first_state(chain_.loaded_node());
     state[own + 3] += node_velocity;

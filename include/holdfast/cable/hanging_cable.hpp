@@ -75,7 +75,7 @@ struct LoadedCable {
 template <class Scalar>
 class HangingCable {
  public:
-  /// @param conductor  conductor of the cable, one that `validate` accepts
+  /// Computes the bare cable. @param conductor  conductor of the cable, one that `validate` accepts
   explicit HangingCable(const Conductor<Scalar>& conductor)
       : weight_(conductor.weight_per_length()),
         stiffness_(conductor.axial_stiffness()),

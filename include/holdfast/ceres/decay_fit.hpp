@@ -123,7 +123,7 @@ inline double median_deviation(const Eigen::VectorXd& residuals) {
 }
 
 /// Factor of (JᵀJ)⁻¹ in the covariance of p free unknowns, for n residuals r with derivatives J:
-/// Σr²/(n − p), for measures at least (1 %)²; with Huber's loss [Σψ²/(n − p)]/(mean ψ′)², where ψ
+/// Σr²/(n − p) for measures, at least (1 %)²; [Σψ²/(n − p)]/(mean ψ′)² for a time history, where ψ
 /// are the bounded residuals. Source: P. J. Huber, Robust Statistics, 1981, Sect. 7.6.
 inline double variance_factor(const DecayResiduals& residuals, const Linearisation& at) {
   const auto freedom = static_cast<double>(at.residuals.size() - at.jacobian.cols());
@@ -184,7 +184,7 @@ inline bool is_determined(const DecayMinimum& minimum, const DecayFitOptions& fi
   return false;
 }
 
-/// Adds a minimum. If one with the same parameters is known, counts one more start for it.
+/// Adds a minimum, or increments `found_from` of a known minimum with the same parameters.
 inline void collect(std::vector<DecayMinimum>& minima, const DecayMinimum& found,
                     const DecayFitOptions& fit_options) {
   const auto same = [&](const DecayMinimum& known) {
@@ -279,18 +279,18 @@ inline void make_robust(DecayResiduals& residuals, const DecayFitOptions& fit_op
 }  // namespace detail
 
 /// Fits the plant's free decay from rest at z₁ = z₂ = z₀ to a record of z₁. If the absorber's
-/// damping c₂ is free, the fit starts from several values of it and reports all minima: a heavily
+/// damping c₂ is free, the fit starts from several values of c₂ and reports all minima: a heavily
 /// and a lightly damped absorber often fit the same record.
 ///
-/// The unknowns are the logarithms of the parameters. Each parameter stays within a factor 10⁶ of
-/// its value in `plant`, c₂ of the critical damping 2 √(k₂m₂), z₀ of the record's first z₁.
-/// Derivatives are exact (dual numbers).
+/// The unknowns are the logarithms of the parameters. Each parameter stays within a factor 10⁶ of a
+/// reference: its value in `plant`, but the critical damping 2 √(k₂m₂) for c₂ and the record's
+/// first z₁ for z₀. Derivatives are exact (dual numbers).
 /// @param record       at least 8 ascending instants; z₁ ≠ 0 at the first one
 /// @param plant        values of the parameters that are not free, and start values of the others
 /// @param fit_options  free parameters and the quantities that are fitted
 /// @throws InvalidParameter for an inadmissible plant; a record with fewer instants, not ascending,
 ///         not finite, or with z₁ = 0 at its first instant; no free parameter, one listed twice,
-///         one other than c₂ that starts from 0, or at least as many as fitted measures
+///         one other than c₂ that starts from 0, or as many free parameters as measures or more
 inline DecayFit fit_decay(const DecayRecord& record, const TwoMass<double>& plant,
                           const DecayFitOptions& fit_options = {}) {
   detail::validate(record, plant, fit_options);

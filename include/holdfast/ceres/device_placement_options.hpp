@@ -36,9 +36,9 @@ struct PlacementOptions {
 
 /// The position of one value of the result relative to its bounds, to 10⁻⁴ of its range.
 enum class PlacementBound {
-  none,   ///< between its bounds
-  lower,  ///< at its lower bound
-  upper   ///< at its upper bound
+  none,   ///< value between its bounds
+  lower,  ///< value at its lower bound
+  upper   ///< value at its upper bound
 };
 
 /// Result of the search: the device values at which the largest level is lowest.

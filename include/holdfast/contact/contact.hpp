@@ -15,8 +15,8 @@ namespace holdfast {
 
 /// The instants at which the drive may enter and leave its backlash.
 enum class Switching : std::uint8_t {
-  sampled,  ///< at samples only, by the law's rule for sampled values
-  exact,    ///< in continuous time; `kollar`, `immediate` and `play` then agree
+  sampled,  ///< contact changes at samples only, by the law's rule for sampled values
+  exact,    ///< contact changes at any time; `kollar`, `immediate` and `play` then agree
 };
 
 /// The contact of a drive with its load as an automaton of three modes. In each mode the plant is
@@ -156,8 +156,8 @@ class DriveContact {
     // Further zeros at a change of contact are those of the force and the command before the jump.
     zeros_ = std::min(zeros_, mode_ == gap ? 2 : 1);
   }
-  /// Updates the contact after a jump of Δz: stick ends in the gap, and an end of the gap that was
-  /// passed is detected at once, since its guard is negative.
+  /// Updates the contact after a jump of Δz: stick changes to gap. If Δz has jumped past an end of
+  /// the gap, this is detected at once, since the guard of that end is then negative.
   void displaced() {
     if (word_ == ContactMode::stick) change_to(gap, 0);
     zeros_ = 0;

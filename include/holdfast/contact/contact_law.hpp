@@ -65,7 +65,7 @@ inline void validate(const BacklashParameters& backlash) {
 ///     SampledContact contact({ContactLaw::play, 0.002});
 ///     const bool engaged = contact.step(relative_displacement, relative_velocity);
 ///
-/// The decisions equal those of the class named at the law's entry in `ContactLaw`.
+/// The decisions are those of the class that `ContactLaw` names for the law.
 class SampledContact {
  public:
   /// Contact before its first sample. @throws InvalidParameter for inadmissible parameters

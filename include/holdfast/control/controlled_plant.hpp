@@ -67,7 +67,7 @@ Eigen::Index memory_size([[maybe_unused]] const Law& law) {
 }  // namespace detail
 
 /// A user-defined controller in place of u = P z₁ + D ż₁: any type that maps a sample to a force.
-/// Its state, M numbers, is stored by the motion.
+/// Its M states are part of the state of the simulated motion.
 ///
 ///     struct MyController {
 ///       static constexpr int states = 1;  // M ≥ 0

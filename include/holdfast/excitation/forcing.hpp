@@ -50,7 +50,7 @@ class HarmonicForcing {
 template <class Scalar>
 class PhasorForcing {
  public:
-  /// @param table  table; the caller calls turn_to(j) before each period j divisible by `block`
+  /// Uses a table. @param table  table; turn_to(j) precedes each period j divisible by `block`
   explicit PhasorForcing(const PhasorTable<Scalar>& table) : table_(&table) {}
 
   /// Returns the contribution (4 × 1) of the present period and advances to the next one.
@@ -75,7 +75,7 @@ class PeriodicForcing {
                   const Rational& ratio)
       : PeriodicForcing(table_of(input, amplitude, ratio)) {}
 
-  /// @param additions  contributions, one for each of the q sampling periods, not empty
+  /// Shares a table. @param additions  contributions, one for each of the q periods, not empty
   explicit PeriodicForcing(std::vector<Vector<Value, States>> additions)
       : additions_(
             std::make_shared<const std::vector<Vector<Value, States>>>(std::move(additions))) {}

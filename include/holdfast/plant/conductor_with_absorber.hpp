@@ -19,7 +19,7 @@ struct ConductorWithAbsorber {
   bool has_devices = false;      ///< whether the poles include devices on the span
 };
 
-/// False: the loop of a conductor given by modes is analysed by its poles, not in closed form.
+/// Whether such a loop is analysed in closed form: false, since it is analysed by its poles.
 template <>
 inline constexpr bool has_closed_forms<ConductorWithAbsorber> = false;
 

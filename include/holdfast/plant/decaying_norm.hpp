@@ -25,7 +25,7 @@ namespace holdfast {
 template <int States>
 class DecayingNorm {
  public:
-  /// @param a  matrix A of ẋ = A x, N × N (1/s), finite; stable, otherwise exists() is false
+  /// Computes W. @param a  matrix A, N × N (1/s), finite; unless A is stable, exists() is false
   explicit DecayingNorm(const Matrix<double, States>& a) {
     const BalancedMatrix<double, States> similar(a);
     const Matrix<double, States> identity = Matrix<double, States>::Identity(a.rows(), a.cols());

@@ -26,8 +26,8 @@ struct EnclosedPole {
 
 namespace detail {
 
-/// The transfer function n(s)/p(s) from the command to the reading of z for a conductor with its
-/// absorber and hardware. The coefficients of the polynomials are never formed:
+/// The transfer function n(s)/p(s) from the command to the measured displacement of a conductor
+/// with absorber and hardware (symbols of `PlaceMode`, `Absorber`); no coefficients are formed:
 ///
 ///     D = Π d_n,  S = Σ φ_n²/M_n Π_{j≠n} d_j,  d_n = s² + 2ζ_n ω_n s + ω_n²,
 ///     Q = m₂s² + c₂s + k₂,  p = (Q D + (M_c s² Q + m₂ s² (k₂ + c₂ s)) S) h(s),
@@ -180,7 +180,7 @@ inline std::vector<ComplexEnclosure> others_of(const std::vector<ComplexEnclosur
   return others;
 }
 
-/// The radii of discs about the approximate poles that contain all poles, one each where disjoint.
+/// The radii of discs about the approximate poles that contain all poles; disjoint discs: one each.
 inline std::vector<double> disc_radii(const EnclosedTransfer& transfer,
                                       const std::vector<ComplexEnclosure>& centres) {
   std::vector<double> radii;

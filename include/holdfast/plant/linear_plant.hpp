@@ -33,7 +33,7 @@ struct LinearPlant {
   Ports<Number, States> connections;       ///< measured quantities and relative motion at the gap
 
   /// The state matrix A + b f of an engaged drive, N × N.
-  /// @throws InvalidParameter where the sizes of the parts differ; so do the next three functions
+  /// @throws InvalidParameter where the sizes of the parts differ, as the next three functions do
   Matrix<Number, States> state_matrix() const {
     require_one_order();
     return released_matrix + force_input * drive_force;

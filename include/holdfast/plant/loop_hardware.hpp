@@ -117,7 +117,7 @@ struct HardwarePoles {
   }
 };
 
-/// The partial fractions of G(s) Π (−p)/(s − p), from those of G(s) and the poles p of the lags.
+/// The partial fractions of G(s) Π (−p)/(s − p), from the fractions of G(s) and the lags' poles p.
 inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles,
                                      const std::vector<std::complex<double>>& lags) {
   for (const std::complex<double>& p : lags) {
@@ -137,8 +137,8 @@ inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles,
 /// The poles of a plant with hardware, with residues from the command to the measured displacement.
 /// The plant's poles come first, then those of drive and filter.
 /// @param poles     all `plant_poles` of the plant without hardware
-/// @param hardware  hardware. Two equal poles in it are moved apart by a relative 10⁻⁵, three by
-///                  10⁻³; the response then changes by a relative 10⁻¹⁰ or 10⁻⁶
+/// @param hardware  hardware; two equal poles of its lags are moved apart by a relative 10⁻⁵, three
+///                  by 10⁻³. The response then changes by a relative 10⁻¹⁰ or 10⁻⁶
 /// @return no poles where `poles` is empty, or plant and hardware share a pole
 /// @throws InvalidParameter where the hardware is not admissible
 inline std::vector<PlantPole> with_hardware(const std::vector<PlantPole>& poles,

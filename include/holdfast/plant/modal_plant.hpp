@@ -189,7 +189,7 @@ struct ModesAtPlace {
   Vector<Scalar, Eigen::Dynamic> receptive;     // φ/M on the velocities
   Scalar mobility{0};                           // Σ φ²/M, 1/kg
 
-  /// @param order  2N plus the number of further states, whose entries are zero
+  /// Sets the rows of N modes. @param order  2N plus the number of further states, with rows 0
   ModesAtPlace(const std::vector<PlaceMode<Scalar>>& modes, Eigen::Index order)
       : released(Matrix<Scalar, Eigen::Dynamic>::Zero(order, order)),
         z(RowVector<Scalar, Eigen::Dynamic>::Zero(order)),

@@ -51,7 +51,7 @@ class PoleFinder {
   PoleFinder(const std::vector<PlaceMode<double>>& modes, const Absorber<double>& absorber)
       : modes_(modes), absorber_(absorber) {}
 
-  /// One eigenvalue s of a bare mode, with the mode's other eigenvalue.
+  /// One eigenvalue s of a mode of the bare conductor, and the same mode's other eigenvalue.
   struct BarePair {
     Complex s, partner;
     /// The other eigenvalue, with this one as its partner.
@@ -65,7 +65,7 @@ class PoleFinder {
     Complex apart;      ///< s_n minus the mode's other eigenvalue
     Complex residue;    ///< residue ρ of H
     Complex stiffness;  ///< K, the passive stiffness at s_n
-    Complex divisor;    ///< 1 + bK
+    Complex divisor;    ///< divisor 1 + bK of the pole's shift
   };
 
   /// The n-th mode, if it is weakly coupled: |ρK/(1 + bK)| < 10⁻⁸ |s_n|.
@@ -112,7 +112,7 @@ class PoleFinder {
             transmitted_share(absorber_, s) * mode->residue / (mode->divisor * mode->divisor)};
   }
 
-  /// The eigenvalues of a bare mode: first the one with Im s > 0, or the slower real one.
+  /// The eigenvalues of a bare conductor's mode: first the one with Im s > 0, or the slower real.
   static BarePair bare(const PlaceMode<double>& mode) {
     const double omega = mode.angular_frequency, zeta = mode.damping_ratio;
     const double apart = std::sqrt(std::abs(1.0 - zeta * zeta));

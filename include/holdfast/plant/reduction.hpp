@@ -50,8 +50,8 @@ struct ReductionResult {
   ReductionOutcome outcome;  ///< number of plants in `solutions`
   /// The discriminant ((1/ω₁ − 1/ω₂)² k₁/m₂) − 1: 0 for a double solution, negative for none.
   double discriminant;
-  /// The plants, smaller k₂ first: twice the same for a double solution, NaN where none exists. The
-  /// plant of Kollár 2022, Table 1, is the first.
+  /// The plants, smaller k₂ first: the same plant twice for a double solution, NaN where no plant
+  /// exists. The plant of Kollár 2022, Table 1, is the first.
   std::array<ReducedMasses, 2> solutions;
   double largest_absorber_mass;         ///< largest m₂ (kg) for which a plant exists at this k₁
   double smallest_conductor_stiffness;  ///< smallest k₁ (N/m) for which a plant exists at this m₂

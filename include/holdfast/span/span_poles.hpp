@@ -243,8 +243,8 @@ class SpanPoles {
   /// The pole with Im s ≥ 0 of the conjugate pair of s; it represents the pair.
   static Complex upper(const Complex& s) { return s.imag() < 0.0 ? std::conj(s) : s; }
 
-  /// The sum Σ 1/(s − s_k) over the poles s_k that are not NaN, without the pole of index `but`,
-  /// and over the conjugate of each pole of a pair, that of `but` included.
+  /// The sum Σ 1/(s − s_k) over all poles s_k except number `but`, and over the conjugates of all
+  /// poles of pairs, including the conjugate of number `but`. Poles that are NaN are left out.
   template <class Motions>
   static Complex pull(const Motions& motions, const Complex& s, std::size_t but) {
     Complex sum(0.0);

@@ -37,7 +37,7 @@ class SpanWaves {
     return Complex(0.0, n * pi<double> * string_.wave_speed() / string_.span) * turn_;
   }
 
-  /// The deflection y at the right support at s (1/s), divided by its value without devices.
+  /// The deflection y at the right support for a given s (1/s), over its value without devices.
   Complex held(const Complex& s) const {
     const Complex rate = s / (string_.wave_speed() * turn_);
     const Complex tension = string_.tension * turn_ * turn_;

@@ -92,7 +92,7 @@ struct FreeBy {
     Free(handle);
   }
 };
-/// Deleter by a function of SUNDIALS that takes the address of the handle, to set it to null.
+/// Deleter that passes the handle's address to a SUNDIALS function, which sets the handle to null.
 template <auto Free>
 struct FreeByAddress {
   template <class Handle>

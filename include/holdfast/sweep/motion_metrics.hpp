@@ -33,7 +33,7 @@ struct MotionMetrics {
   double force_peak = unknown;        ///< largest control force |u_j| (N) of all samples
   double force_rms = unknown;         ///< √(mean u_j²) (N) of the control force, steady samples
   /// Reversals of the drive per second (1/s): the number of times that Δż changed sign or became 0
-  /// between steady samples, over the time from the first to the last of them; NaN if that is 0 s
+  /// between steady samples, per time from the first to the last steady sample; NaN if this is 0 s
   double reversals_per_s = unknown;
   double absorber_stroke = unknown;  ///< max Δz − min Δz (m) of all samples, Δz = z₂ − z₁
 };

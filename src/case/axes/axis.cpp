@@ -58,7 +58,7 @@ class OptionText {
     return value;
   }
 
-  /// The two sides of KEY=VALUE; the key is not empty.
+  /// The key and the value of a text KEY=VALUE; the key is not empty.
   std::pair<std::string, std::string_view> assignment(std::string_view text) const {
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) refuse("has no \"=\"");

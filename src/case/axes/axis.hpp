@@ -44,8 +44,8 @@ struct WindowOption {
   Range velocity;
 };
 
-/// Parses MIN:MAX. Each of these parse functions reads the text of an option (`--force`) and throws
-/// WrongInput, one line that names the option, the text and the expected form.
+/// Parses MIN:MAX. `option` is the option's name (`--force`), `text` its value. All parse functions
+/// of this header throw WrongInput, one line with the option, the text and the expected form.
 Range parse_range(std::string_view option, std::string_view text);
 /// Parses MIN:MAX:COUNT, 1 <= COUNT <= 1e9 (1: MIN alone), or one number.
 Axis parse_axis(std::string_view option, std::string_view text);

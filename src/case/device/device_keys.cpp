@@ -85,7 +85,7 @@ const std::vector<Kind> kinds = {
 /// The properties of the kind of a device; null if the kind is unknown.
 const Kind* kind_of(const Device& device) { return find_named(kinds, device.kind); }
 
-/// The key that a list replaces in a tuned mass.
+/// The key whose value a list of several values replaces in a tuned mass.
 std::string_view replaced_by(std::string_view list) {
   return list == "frequencies" ? "stiffness" : list == "damping_ratios" ? "damping" : "";
 }
@@ -99,7 +99,7 @@ std::string with_article(const Device& device) {
          (device.kind == "measured" ? " device" : "");
 }
 
-/// For a message: `position, to, damping, ...`.
+/// The names of the keys that a kind uses, for a message: `position, to, damping, ...`.
 std::string used_keys_text(const Kind& kind) {
   std::string text;
   for (const DeviceKey& key : listed_keys)

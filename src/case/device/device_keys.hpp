@@ -38,7 +38,7 @@ std::string device_key_text(std::size_t number, std::string_view key);
 /// keys, empty lists and the mass of a device on the ground.
 std::vector<const DeviceKey*> standing_keys(case_tables::Device device);
 
-/// Sets `to` of a device to the default of its kind if `given` (keys) does not contain it.
+/// Sets the key `to` of a device to its kind's default unless the keys `given` contain it.
 void settle_device(case_tables::Device& device, const std::set<std::string>& given);
 
 /// Fault of one device alone, whose given keys are `given`. The keys of the fault are short names

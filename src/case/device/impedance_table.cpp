@@ -19,7 +19,7 @@ constexpr const char* phase_column = "phase_deg";
 /// Least admissible Re Z/|Z|, for measured phases with errors of about a degree.
 constexpr double smallest_real_share = -0.02;
 
-/// A phase of 90 degrees, as of a mass, has a cosine that rounds to either side of 0.
+/// Size of a cosine that counts as 0: at 90 degrees, as of a mass, it rounds to either side of 0.
 constexpr double round_off = 1e-9;
 
 double real_share(double phase) { return std::cos(phase * pi<double> / 180.0); }

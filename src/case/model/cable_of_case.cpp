@@ -29,7 +29,7 @@ std::string blame_for_range(const Case& the_case, const char* key, const char* r
                 : "";
 }
 
-/// Highest position of the absorber's place in the statics (m, < 0: above its rest).
+/// Displacement (m, downward) of the highest position of the absorber's place in the statics.
 double highest_reading(const Case& the_case) {
   const auto irvine = irvine_statics_of(the_case);
   return irvine.displacement(irvine.lowest_force() * (1.0 - 1e-6));

@@ -36,15 +36,15 @@ double parabolic_tension_of(const Case& the_case);
 double damping_ratio_of(const Case& the_case);
 
 /// The conductor, its statics and the range in which k1 is read, for [conductor], [absorber] and
-/// [reduction]. A missing absorber mass or damping ratio is 0. Each throws MissingKeys for other
-/// keys.
+/// [reduction]. A missing absorber mass or damping ratio is 0. Each of these functions throws
+/// MissingKeys for any other missing key.
 Conductor<double> conductor_of(const Case& the_case);
 StaticsFromRest<IrvinePointLoad<double>> irvine_statics_of(const Case& the_case);
 StaticsFromRest<CatenaryPointLoad<double>> exact_statics_of(const Case& the_case);
 ReadingRange reading_range_of(const Case& the_case);
 
-/// Throws WrongInput, naming the key, if the displacements at which k1 is read exceed the validity
-/// of Eq. 1 of Kollár 2022: upward as for `require_force_within_statics`, downward the sag.
+/// Throws WrongInput, naming the key, if the displacements at which k1 is read exceed the limits of
+/// Eq. 1 of Kollár 2022: upward that of require_force_within_statics(), downward the sag.
 void require_reading_range(const Case& the_case);
 
 /// The conductor stiffness k1 (N/m) from Eq. 1. Throws what require_reading_range() throws.

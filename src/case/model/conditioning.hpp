@@ -10,8 +10,8 @@
 
 namespace holdfast::program {
 
-/// Warnings of results that are sensitive to small changes of the case, or that are not for the
-/// true force. Each is one line, or empty without a warning.
+/// Warnings of results that are sensitive to small changes of the case, or that differ because the
+/// force is held between samples. Each warning is one line, or empty.
 
 /// Warns of a reduction near its double solution, where k2 and m1 are very sensitive.
 std::string sensitive_reduction_warning(const Case& the_case);

@@ -36,8 +36,8 @@ struct MinimaxGains {
 /// poles from the command to the readings. Thread-safe.
 class LinearLoop {
  public:
-  /// Throws MissingKeys. The functions for best gains, margins and longest periods throw NoAnswer
-  /// if two poles nearly coincide.
+  /// Prepares the loop; throws MissingKeys. The functions for best gains, margins and longest
+  /// periods throw NoAnswer if two poles nearly coincide.
   /// @param the_case  case, which must outlive the loop
   explicit LinearLoop(const Case& the_case);
   explicit LinearLoop(Case&&) = delete;
@@ -57,7 +57,7 @@ class LinearLoop {
   /// The stability boundary in the plane of P and D over a range of P (N/m).
   std::vector<BoundaryPoint<double>> boundary(const Interval<double>& proportional) const;
 
-  /// The steady response at f (Hz), relative to the uncontrolled one under the true force.
+  /// The steady response at f (Hz), relative to that without control under the true force.
   SteadyResponse<double> response(double frequency) const;
   /// The D of least steady amplitude at f (Hz) and P.
   MinimumAmplitude quietest(const AmplitudeOptions& options, double frequency, double p) const;
@@ -84,7 +84,7 @@ class LinearLoop {
   /// The spectral radius minus 1 at another sampling period and delay.
   double excess(const Sampling<double>& sampling, const PdGains<double>& gains) const;
 
-  /// The stability limits of D, P, τ and δ, each changed alone; τ by poles up to 100 times.
+  /// Stability limits of D, P, τ and δ, each changed alone; by poles, up to 100 times the case's τ.
   StabilityMargins margins(const PdGains<double>& gains, bool of_delay = true) const;
   /// Gain, phase and delay margins of the whole loop.
   LoopMargins whole_margins(const PdGains<double>& gains) const;

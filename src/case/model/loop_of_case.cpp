@@ -20,7 +20,7 @@ ContactLaw law_of(const std::string& word) {
   return word == "none" ? ContactLaw::none : ContactLaw::kollar;
 }
 
-/// The main harmonic first, then the further ones, then the noise.
+/// Force of a case: the main harmonic first, then the additional harmonics, then the noise.
 MultiHarmonicForce force_of(const Case& the_case) {
   const auto given = effective_excitation(the_case);
   MultiHarmonicForce force = multi_harmonic_force(motion_excitation_of(the_case));

@@ -11,7 +11,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Throws NoAnswer if two poles of conductor and absorber nearly coincide.
+/// Modal loop in the paper's model. Throws NoAnswer if two poles nearly coincide.
 SampledModes sampled_modes_of(const Case& the_case, bool controlled) {
   const std::vector<PlantPole> poles = conductor_with_absorber_of(the_case).poles;
   const IdealLoop<double> ideal = ideal_loop_of(the_case);

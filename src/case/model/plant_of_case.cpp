@@ -21,7 +21,7 @@ void require_two_masses(const Case& the_case) {
                 "plant.absorber_mass", "plant.absorber_stiffness", "plant.absorber_damping"});
 }
 
-/// A value, or `other` for a missing one, on which nothing depends.
+/// The value, or `other` if the value is missing; for values on which the result does not depend.
 double known_or(double other, double value) { return std::isnan(value) ? other : value; }
 
 }  // namespace

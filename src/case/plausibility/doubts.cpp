@@ -21,7 +21,7 @@ namespace {
 using Keys = std::vector<std::string>;
 using Quantities = std::vector<PlausibleQuantity>;
 
-/// Whether a value is outside a range; NaN, an unknown value, never is.
+/// Whether a value is outside a range; false for NaN, an unknown value.
 bool is_beyond(const AdmissibleRange& range, double value) {
   return value < range.lowest || value > range.highest;
 }
@@ -85,7 +85,7 @@ std::string value_of(const Case& the_case, const std::string& key) {
   return format_rounded(case_value(the_case, key)) + (unit.empty() ? "" : " " + unit);
 }
 
-/// "my.toml:3: conductor.area = 546 m2", or the options of the command line.
+/// The given keys for a message: "my.toml:3: conductor.area = 546 m2", or options as given.
 std::string given_text(const Case& the_case, const Keys& keys) {
   std::string text;
   for (const std::string& key : keys) {

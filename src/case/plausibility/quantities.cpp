@@ -76,7 +76,7 @@ constexpr const char* usual_diameters =
 constexpr const char* usual_shares =
     "a rod has 1, a strand 0.75, a sheathed stay 0.3, a model under foam 0.01";
 
-/// Quantities of one key come first, so that a mistake in a key is attributed to that key.
+/// The quantities of a case. Those of one key come first, so that a mistake is blamed on its key.
 const Quantities listed_of_case = {
     number_of(
         "conductor.youngs_modulus", "Pa", [](const Case& c) { return c.conductor.youngs_modulus; },

@@ -22,7 +22,7 @@ struct PlausibleQuantity {
 /// Quantities of conductor, absorber, wind, computer and initial state, known from the case alone.
 const std::vector<PlausibleQuantity>& quantities_of_case();
 
-/// Quantities of the plant, known once it is settled. No value of them is refused.
+/// Quantities of the plant, known once it is computed. Odd values are doubted but not refused.
 const std::vector<PlausibleQuantity>& quantities_of_plant();
 
 /// The reach (m) of the absorber's place, the largest displacement for a model of small motions:

@@ -15,7 +15,7 @@ class OwnFolder {
  public:
   /// Opens a folder; is_open() is false if it does not exist, is a link or belongs to another user.
   explicit OwnFolder(const std::filesystem::path& folder);
-  /// Opens the folder `name` inside `parent`; is_open() is false in those three cases.
+  /// Opens the folder `name` inside `parent`; is_open() is false under the same conditions.
   OwnFolder(const OwnFolder& parent, const std::string& name);
 
   bool is_open() const { return descriptor_.is_open(); }

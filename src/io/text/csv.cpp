@@ -274,7 +274,7 @@ bool is_blank(const std::vector<std::string>& cells) {
                      [](const std::string& cell) { return trimmed(cell).empty(); });
 }
 
-/// Gives the positions of the columns, not their names: the file may not be the user's own.
+/// Throws WrongInput for equal names, with the columns' positions; the names may be confidential.
 void refuse_repeated_names(const std::vector<std::string>& names, const std::string& file) {
   std::vector<std::pair<std::string_view, std::size_t>> sorted;
   for (std::size_t i = 0; i < names.size(); ++i) sorted.emplace_back(names[i], i);

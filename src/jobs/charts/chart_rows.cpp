@@ -22,8 +22,8 @@
 namespace holdfast::program {
 namespace {
 
-/// Values in a row of a chart. Whole rows are held in memory, and between two of them a signal is
-/// looked for, hence not any number of them.
+/// Number of values in a row of a chart. Throws WrongInput above 10⁶ values: rows are kept whole in
+/// memory, and a signal is noticed only between two blocks of rows.
 std::size_t row_length(std::int64_t columns) {
   constexpr std::int64_t most = 1000000;
   if (columns > most)
@@ -33,18 +33,18 @@ std::size_t row_length(std::int64_t columns) {
   return static_cast<std::size_t>(columns);
 }
 
-/// Rows that a thread takes at a time. It depends on the chart alone, as the results may not depend
-/// on the number of threads.
+/// Number of rows in a tile, which one thread computes at a time. It depends on the chart alone, so
+/// that the results do not depend on the number of threads.
 std::int64_t rows_of_tile(std::int64_t columns) { return columns <= 65536 ? 32 : 8; }
 
-/// Rows that are held in memory: many tiles, so that no thread waits long for the last one, but no
-/// more than some tens of megabytes where rows are of a usual length.
+/// Number of rows held in memory at a time: up to 16 tiles, so that no thread waits long for the
+/// last tile, but usually not more than some tens of megabytes.
 std::int64_t rows_of_block(std::int64_t columns) {
   const std::int64_t tiles = (std::int64_t{1} << 21) / (columns * rows_of_tile(columns));
   return rows_of_tile(columns) * std::clamp(tiles, std::int64_t{1}, std::int64_t{16});
 }
 
-/// Some rows of a chart in memory of its own.
+/// A block of rows of a chart with its own memory.
 class ChartBlock {
  public:
   ChartBlock(const ChartRows& chart, std::int64_t rows)
@@ -58,7 +58,7 @@ class ChartBlock {
     return memory;
   }
 
-  /// The first rows, column after column, the flags as numbers.
+  /// The first `rows` rows as one list per column; the stability flags come first, as numbers.
   std::vector<std::vector<double>> values(std::int64_t rows) const {
     const auto end = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(rows) * columns_);
     std::vector<std::vector<double>> all(1);
@@ -75,7 +75,7 @@ class ChartBlock {
   std::vector<std::vector<double>> numbers_;
 };
 
-/// Computes and appends all rows, a block in memory at a time.
+/// Computes all rows block by block and appends them to the output.
 void append_rows(const JobContext& context, const ChartRows& chart, GridOutput& output) {
   Progress progress(static_cast<std::uint64_t>(chart.rows), context.job, progress_wanted(context));
   const std::int64_t block_rows = rows_of_block(chart.columns);
@@ -98,7 +98,7 @@ void append_rows(const JobContext& context, const ChartRows& chart, GridOutput& 
   }
 }
 
-/// Cells of a chunk: whole tiles of rows, and enough chunks for many cores.
+/// Number of cells in a chunk: whole tiles of rows, and enough chunks for many cores.
 std::size_t cells_of_chunk(const ChartRows& chart) {
   constexpr std::int64_t chunks_wanted = 64, most = values_in_chunk;
   const std::int64_t of_tile = rows_of_tile(chart.columns) * chart.columns;
@@ -106,8 +106,8 @@ std::size_t cells_of_chunk(const ChartRows& chart) {
   return static_cast<std::size_t>(of_tile * std::max(share / of_tile, std::int64_t{1}));
 }
 
-/// Rows of which the first begins a tile, by the tiles in which append_rows() has them: they begin
-/// anew, and what a cell gets depends on where that is.
+/// Computes `count` rows from row `first` on, in the same tiles as append_rows(): results depend on
+/// where tiles begin. `first` must be the first row of a tile.
 ChartBlock computed_rows(const ChartRows& chart, std::int64_t first, std::int64_t count) {
   ChartBlock block(chart, count);
   const ChartMemory memory = block.memory();

@@ -19,7 +19,7 @@ std::vector<GridAxis> gain_axes(const GainGrid& grid);
 
 /// Caller's memory for the rows of a chart: stability flags, and the chart's columns of numbers.
 struct ChartMemory {
-  std::size_t columns;  ///< values in a row
+  std::size_t columns;  ///< number of values in a row
   std::uint8_t* first_flags;
   std::vector<double*> first_numbers;
 
@@ -33,8 +33,8 @@ struct ChartMemory {
 /// A chart that is computed row by row.
 struct ChartRows {
   std::int64_t rows;
-  std::int64_t columns;        ///< values in a row
-  std::size_t number_columns;  ///< besides the flags
+  std::int64_t columns;        ///< number of values in a row
+  std::size_t number_columns;  ///< number of columns besides the flags
   /// Computes rows first … first + count − 1 and writes them to the memory from row `offset` on.
   /// Each tile of rows uses its own copy of this function.
   std::function<void(std::int64_t first, std::int64_t count, std::int64_t offset,
@@ -53,18 +53,18 @@ void fill_chart(const ChartRows& chart, const ChartMemory& memory, int threads);
 
 // Charts for write_chart() and fill_chart().
 
-/// Columns: stable and, with `radius`, the spectral radius of the sampled loop.
+/// Chart of a sampled loop; columns: stable and, with `radius`, the spectral radius.
 ChartRows sampled_chart(const LoopChart& chart, bool radius, InstructionSet instructions);
 
 /// Stability chart over P and D of a case's loop, for any plant. Columns as of sampled_chart().
 ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool radius,
                              InstructionSet instructions);
 
-/// Columns: stable and, with `abscissa`, the spectral abscissa (1/s) of the continuous loop.
+/// Chart of a continuous loop; columns: stable and, with `abscissa`, the spectral abscissa (1/s).
 ChartRows continuous_chart(const TwoMass<double>& plant, const GainGrid& grid, bool abscissa);
 
-/// Columns: stable, steady amplitude (m) of z1 and its ratio to the amplitude without control; both
-/// are NaN where the loop is unstable. For any plant of the case.
+/// Chart of the response; columns: stable, steady amplitude (m) of z1 and its ratio to that without
+/// control, both NaN where the loop is unstable. For any plant of the case.
 ChartRows response_chart(const JobContext& context, const SteadyResponse<double>& response,
                          double force_amplitude, const GainGrid& grid);
 

@@ -23,7 +23,7 @@ AmplitudeOptions amplitude_options_of(const Case& the_case,
 /// T. The spectral radius is at most e^{−10 τ/T}, so the transient falls to e^{−5} within T/2.
 class BestGains {
  public:
-  /// @param duration  T (s), > 0
+  /// Prepares searches. @param duration  duration T (s) of the motion, > 0
   explicit BestGains(double duration) : duration_(duration) {}
 
   /// Best D of a two-mass loop; NaN where the outcome says that no D is admissible.
@@ -38,11 +38,11 @@ class BestGains {
   MinimumAmplitude answer_{};
 };
 
-/// Warning that the case's play leaves more vibration than gains chosen without play promise, from
-/// the motions of two masses with and without control. Empty where play adds less than 5 %, or the
-/// case has no play, no two masses or no finite gain.
+/// Warning that play leaves more vibration than promised by gains that were chosen without play,
+/// from the motions of two masses with and without control. Empty where play adds less than 5 %, or
+/// the case has no play, no two masses or no finite gain.
 /// @param gains  P (N/m), D (N s/m)
-/// @param ideal  ratio to the uncontrolled amplitude without play
+/// @param ideal  ratio of the amplitude with the gains, without play, to that without control
 std::string play_warning(const Case& the_case, const PdGains<double>& gains, double ideal,
                          InstructionSet set);
 

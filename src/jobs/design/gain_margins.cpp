@@ -16,7 +16,7 @@ namespace holdfast::program {
 
 namespace {
 
-/// Ends of τ and δ of a modal case are walked; one that was passed over is where the proof ends.
+/// Replaces a limit of τ or δ that a step passed over by the nearer limit that the proof found.
 void correct_by_proof(StabilityMargins& found, const ProvedMargins& proved, const Case& the_case,
                       const PdGains<double>& gains) {
   const auto poles = loop_poles_of(the_case);
@@ -33,7 +33,7 @@ void correct_by_proof(StabilityMargins& found, const ProvedMargins& proved, cons
   end(found.processing_delay.above, proved.processing_delay.above, false);
 }
 
-/// Whether the proof has come as far as the walk, or to an unstable loop.
+/// Whether the proof reaches both limits that the search in steps found, or an unstable loop.
 bool reaches(const ProvedMargin& proved, const TwoSidedMargin& walked, double value) {
   const auto one = [&](const ProvedMarginEnd& known, const MarginEnd& end) {
     return end.outcome == MarginEndOutcome::undefined || std::isfinite(known.unstable_at) ||
@@ -42,8 +42,8 @@ bool reaches(const ProvedMargin& proved, const TwoSidedMargin& walked, double va
   return one(proved.below, walked.below) && one(proved.above, walked.above);
 }
 
-/// Looks at every τ and δ between those of the case and the ends that the walk has found, and puts
-/// these right, as far as a second or so allows; not at all where that is a few steps.
+/// Proves stability for every τ and δ between the case's values and the limits found in steps, for
+/// about a second, and corrects the limits. Does nothing if that time suffices for few steps only.
 bool search_by_proof(StabilityMargins& found, const Case& the_case, const PdGains<double>& gains) {
   const Sampling<double> sampling = sampling_of(the_case);
   const auto roots = static_cast<double>(loop_poles_of(the_case).size()) + held_commands(sampling);

@@ -14,13 +14,13 @@ inline constexpr double usual_margin = 0.5;
 /// Stability margins of a loop with given gains, in the tables' units; NaN where it is not stable.
 struct GainMargins {
   double spectral_radius;
-  double gain_decibels;     ///< of both gains together, dB; ∞: any increase is stable
-  double phase_degrees;     ///< ∞ where the open loop's gain is 1 at no frequency
-  double delay;             ///< s, additional to δ; or the end of the search
+  double gain_decibels;     ///< gain margin (dB) of both gains; ∞: any increase is stable
+  double phase_degrees;     ///< phase margin; ∞ where the open-loop gain is never 1
+  double delay;             ///< delay margin (s) beside δ; or the end of the search
   bool is_delay_of_search;  ///< whether `delay` is the end of the search
 };
 
-/// @param gains  P (N/m), D (N s/m); where one is not finite, all margins are NaN
+/// Margins of a loop. @param gains  P (N/m), D (N s/m); all margins are NaN if one is not finite
 GainMargins gain_margins(const LinearLoop& loop, const PdGains<double>& gains);
 
 /// Warns that gains lie on the stability boundary and have no margin.

@@ -21,7 +21,7 @@ namespace {
 
 using Place = std::vector<double>;  // in the box, 0 … 1 along each key
 
-/// A point of each of so many equal slices of every range, drawn anew within it.
+/// A Latin-hypercube sample: each range is cut into `points` slices, with one random point in each.
 std::vector<Place> latin_hypercube(std::size_t ranges, std::size_t points) {
   std::mt19937_64 random(20260117);
   std::vector<Place> places(points, Place(ranges));
@@ -58,7 +58,7 @@ std::vector<Place> places_in_box(std::size_t ranges, std::size_t draws) {
   return places;
 }
 
-/// A column that decides which member is worst.
+/// A column that decides which member of the family is worst.
 struct Deciding {
   std::string column;
   bool largest;
@@ -79,7 +79,7 @@ std::vector<Deciding> deciding_columns(const std::string& job) {
   return all;
 }
 
-/// A cell as text, and as a number where it is one.
+/// A cell of a table: a text, or a number.
 struct Cell {
   std::string text;
   double number = std::numeric_limits<double>::quiet_NaN();
@@ -93,7 +93,7 @@ Cell cell_of(ReceivedColumn& column, std::size_t row) {
   return {column.words()[static_cast<std::size_t>(whole)]};
 }
 
-/// Columns of a table, those of a grid's axes first, and its rows.
+/// A table as columns and rows; the columns of a grid's axes come first.
 struct Rows {
   std::vector<Column> columns;
   std::vector<Row> rows;
@@ -120,7 +120,7 @@ struct Rows {
   }
 };
 
-/// The worst rows of the members so far.
+/// The worst row over the members added so far, for each row of the table.
 class WorstRows {
  public:
   WorstRows(Rows first, const FamilyMember& member, const std::vector<Deciding>& deciding)
@@ -177,13 +177,13 @@ class WorstRows {
   std::vector<std::pair<std::size_t, bool>> deciding_;  // column, whether the largest is worst
 };
 
-/// An end of an interval and the member that has it there.
+/// An end of an interval, and the member of the family that determines it.
 struct End {
   double value;
   std::string member;
 };
 
-/// Intervals of a gain, ascending, each of a lower and an upper end.
+/// Stable intervals of a gain, ascending; each is a pair of lower and upper end.
 using Intervals = std::vector<std::pair<End, End>>;
 
 Intervals common_part(const Intervals& all, const Intervals& others) {
@@ -197,7 +197,7 @@ Intervals common_part(const Intervals& all, const Intervals& others) {
   return common;
 }
 
-/// Stable intervals of each gain, with the value of the other one.
+/// Stable intervals of one gain, by the name of that gain and the value of the other gain.
 using GainIntervals = std::map<std::pair<std::string, double>, Intervals>;
 
 GainIntervals intervals_of(const Rows& table, const FamilyMember& member) {

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// The members in the order of the schedule, with their loops.
+/// The members of a family, sorted by the key of the schedule, with their loops.
 class DesignedFamily {
  public:
   DesignedFamily(const JobContext& context, const FamilyDesign& question,
@@ -54,13 +54,13 @@ class DesignedFamily {
     if (!question.both_gains) p_ = gains_of(context.case_data).proportional;
   }
 
-  /// A range of members, both counted, that a pair of gains serves.
+  /// A range of members, both ends included, for which one pair of gains is used.
   struct Piece {
     std::size_t first, last;
     MinimaxGains gains;
   };
 
-  /// One piece without a schedule, else the fewest.
+  /// The pieces of the schedule, as few as possible; one piece without a schedule.
   std::vector<Piece> pieces() const {
     const std::size_t last = members_.size() - 1;
     std::vector<Piece> pieces;
@@ -84,7 +84,7 @@ class DesignedFamily {
     return pieces;
   }
 
-  /// A row of the table for a piece.
+  /// Writes the row of one piece to the table.
   void write(Table& table, const Piece& piece, const ContextWith& context_with,
              double& largest_radius) const {
     const auto& [first, last, found] = piece;

@@ -13,7 +13,7 @@ namespace holdfast::program {
 
 /// Options of the search for the best gains of a whole family.
 struct FamilyDesign {
-  FrequencyBand band;  ///< Hz; equal ends: one frequency
+  FrequencyBand band;  ///< frequency band (Hz); equal ends: one frequency
   std::optional<double> largest_radius, margin;
   std::optional<double> largest_ratio;  ///< upper limit of amplitude over amplitude without control
   bool both_gains = false;              ///< whether P is searched too; else only D

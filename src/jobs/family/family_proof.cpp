@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::string_view temperature_key = "weather.temperature";
 
-/// The keys of the parameters of a string's loop, in their order.
+/// The case keys of the parameters of a StringFamily, in the order of these parameters.
 constexpr std::array<const char*, StringFamily::parameters> string_keys = {
     "conductor.tension",         "conductor.mass_per_length", "conductor.damping_ratio",
     "absorber.clamp_mass",       "plant.absorber_mass",       "plant.absorber_stiffness",
@@ -44,7 +44,7 @@ double tension_at(const Case& the_case, double temperature) {
   return parabolic_tension_of(case_with(the_case, temperature_key, temperature));
 }
 
-/// The temperature of a tension between two, which falls as it rises.
+/// The temperature at a given tension, by bisection; tension falls as the temperature rises.
 double temperature_of(const Case& the_case, double tension, double low, double high) {
   for (int k = 0; k < 60; ++k) {
     const double middle = 0.5 * (low + high);
@@ -53,7 +53,7 @@ double temperature_of(const Case& the_case, double tension, double low, double h
   return 0.5 * (low + high);
 }
 
-/// The box of a family's parameters, whose keys are in their order.
+/// The box of uncertain parameters of a family. `keys` names the parameters in the box's order.
 template <std::size_t N>
 class FamilyBox {
  public:
@@ -76,7 +76,7 @@ class FamilyBox {
 
   const ParameterBox<N>& box() const { return box_; }
 
-  /// The member with the parameters of a loop.
+  /// The member of the family whose loop has these parameters.
   FamilyMember member_of(const std::array<double, N>& loop) const {
     FamilyMember member;
     for (const UncertainRange& range : ranges_) {
@@ -110,8 +110,8 @@ class FamilyBox {
   ParameterBox<N> box_;
 };
 
-/// Slice i of a box along its first parameter, the tension or m₁, on which natural frequencies
-/// depend; where that is one number, along the one whose range is widest for its size.
+/// Slice i of a box, cut along its first parameter (tension or m₁), which natural frequencies
+/// depend on. If this parameter is fixed, along the parameter of largest relative range.
 template <std::size_t N>
 ParameterBox<N> slice_of(const ParameterBox<N>& box, int i, int slices) {
   const auto width = [&](std::size_t k) {
@@ -132,7 +132,7 @@ ParameterBox<N> slice_of(const ParameterBox<N>& box, int i, int slices) {
   return slice;
 }
 
-/// The slices of a box, side by side: the same on any number of threads.
+/// Proves a family in eight slices in parallel; the result does not depend on the thread number.
 template <class Family>
 FamilyProof proof_of(const JobContext& context, std::size_t parts, const Family& family,
                      const FamilyBox<Family::parameters>& box) {

@@ -21,7 +21,7 @@ class CaseMotion {
   using State = Vector<double, 4>;  ///< [z1, v1, z2, v2] (m, m/s, m, m/s)
 
   explicit CaseMotion(const MovingLoop& moving);
-  /// Throws WrongInput, NoAnswer or InvalidParameter where the case has no motion of this choice.
+  /// Begins the motion. Throws WrongInput, NoAnswer or InvalidParameter if the case has none.
   CaseMotion(const Case& the_case, const MotionChoice& choice);
 
   EventSample sense();
@@ -44,12 +44,12 @@ class CaseMotion {
 
 /// Time, size and contact changes at the end of a motion.
 struct ReachedState {
-  double time;          ///< s
-  double size;          ///< largest |component| of the state, m and m/s
+  double time;          ///< time (s)
+  double size;          ///< largest |component| of the state (m or m/s)
   SwitchCounts counts;  ///< contact changes of the motion
 };
 
-/// @tparam Motion  CaseMotion or an EventMotion
+/// Time, size and contact changes so far. @tparam Motion  CaseMotion or an EventMotion
 template <class Motion>
 ReachedState end_of(const Motion& motion) {
   return {motion.time(), motion.state().cwiseAbs().maxCoeff(), motion.counts()};

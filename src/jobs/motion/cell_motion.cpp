@@ -22,10 +22,10 @@
 namespace holdfast::program {
 namespace {
 
-/// Motions that are computed at once.
+/// Number of motions that are computed together.
 constexpr std::size_t motions_of_batch = 256;
 
-/// The matrices of a batch's loops; lets it be interrupted.
+/// Source of the loops' matrices for a batch of motions; a signal interrupts the computation.
 class BatchSource final : public MotionSource {
  public:
   const detail::SweepMatrices::Matrices& of(const IdealLoop<double>& loop) override {
@@ -37,7 +37,7 @@ class BatchSource final : public MotionSource {
   detail::SweepMatrices matrices_;
 };
 
-/// Writes the metrics of some motions of the paper's model to their places.
+/// Computes the metrics of motions with switching at samples; those of motion k go to `places[k]`.
 void batch_metrics(const std::vector<SweepMotion>& motions, const std::vector<std::size_t>& places,
                    double duration, InstructionSet set, std::vector<MotionMetrics>& all) {
   const PackKernels& kernels = pack_kernels(set);
@@ -51,7 +51,7 @@ void batch_metrics(const std::vector<SweepMotion>& motions, const std::vector<st
   for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = metrics[k];
 }
 
-/// Likewise of some motions with exact switching.
+/// Computes the metrics of motions with exact switching; those of motion k go to `places[k]`.
 void batch_event_metrics(const std::vector<EventSweepMotion>& motions,
                          const std::vector<std::size_t>& places, double duration,
                          InstructionSet set, std::vector<MotionMetrics>& all) {
@@ -72,7 +72,7 @@ void batch_event_metrics(const std::vector<EventSweepMotion>& motions,
   for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = metrics[k];
 }
 
-/// Along the itinerary of the motion, by the maps of a loop with the tangents' sampling.
+/// Lyapunov exponents by the maps S and S* with the sampling `tangents`, else that of the motion.
 ExponentsOfMotion exponents_along(const SampledMasses& moving, const LyapunovRun& run,
                                   const std::optional<Sampling<double>>& tangents) {
   const auto blocks = std::make_shared<const ItineraryBlocks>(
@@ -87,7 +87,7 @@ ExponentsOfMotion exponents_along(const SampledModes& moving, const LyapunovRun&
   const LyapunovResult result = run_lyapunov(motion, moving.loop, run, throw_if_interrupted);
   return {result, {motion.time(), 0.0, {}}};
 }
-/// With the saltation at its switches.
+/// Lyapunov exponents of a motion with exact switching, with saltation at the contact changes.
 template <class Moving>
 ExponentsOfMotion exponents_along(const Moving& moving, const LyapunovRun& run,
                                   const std::optional<Sampling<double>>&) {

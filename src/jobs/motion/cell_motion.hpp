@@ -20,15 +20,15 @@ namespace holdfast::program {
 /// cannot be told apart.
 MovingLoop cell_motion(const Case& the_case, Switching switching, double duration);
 
-/// Metrics of each motion; those of the paper's model are computed in SIMD lanes of the instruction
-/// set. A motion beyond its loop's divergence_bound() counts as diverged. Throws Interrupted.
+/// Metrics of each motion. Motions in the paper's model are computed in SIMD lanes of `set`. A
+/// motion beyond its loop's divergence_bound() counts as diverged. Throws Interrupted.
 std::vector<MotionMetrics> metrics_of(const std::vector<MovingLoop>& motions, double duration,
                                       InstructionSet set);
 
 /// Metrics of a diverging motion, where the computed samples do not show the divergence.
 MotionMetrics diverging(const MotionMetrics& metrics);
 
-/// Lyapunov exponents of a motion and its end; switching only at samples, only the end's time.
+/// Lyapunov exponents of a motion, and its end: for switching at samples, only the time is set.
 struct ExponentsOfMotion {
   LyapunovResult result;
   ReachedState end;
@@ -52,7 +52,7 @@ std::int64_t period_of(const MovingLoop& motion, const OrbitLimits& limits);
 /// Verdict on a motion and the period of its certified orbit.
 struct CellVerdict {
   AttractorType kind;
-  std::int64_t period;  ///< samples; 0: none
+  std::int64_t period;  ///< period (samples); 0: no certified orbit
 };
 CellVerdict verdict_of(const MovingLoop& motion, const OrbitLimits& limits);
 

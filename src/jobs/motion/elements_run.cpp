@@ -33,7 +33,7 @@ CableElements driven_elements_of(const Case& the_case, int elements) {
           rayleigh_damping(damping_ratio_of(the_case), first, second)};
 }
 
-/// The elements at rest, the absorber's place displaced by z1 (m) under a force; by the secant.
+/// State at rest under a force that displaces the absorber's place by z1 (m); by the secant method.
 Eigen::VectorXd bent_to(const CableElements& cable, double z1) {
   double before = 0.0, force = z1 > 0.0 ? 1e-3 : -1e-3, at_before = -z1;
   auto start = cable.held_by(z1 == 0.0 ? 0.0 : force);
@@ -67,7 +67,7 @@ void require_of_elements(const Case& the_case) {
         "--plant elements needs Rayleigh damping: set conductor.damping = \"rayleigh\"");
 }
 
-/// Throws where the motion has ended.
+/// Throws NoAnswer if the cable has gone slack or CVODE has failed.
 void require_cable(const cvode::ElementsMotion& motion) {
   if (motion.outcome() == cvode::IntegrationOutcome::completed) return;
   if (motion.outcome() == cvode::IntegrationOutcome::model_ended)

@@ -13,7 +13,7 @@ namespace holdfast::program {
 struct ElementsQuestion {
   int elements = 200;
   bool controlled = true;
-  std::int64_t samples = 0;  ///< the motion ends at the last one
+  std::int64_t samples = 0;  ///< number of samples; the motion ends at the last one
 };
 
 /// Simulates a case on the nonlinear cable and calls `visit` at each sample. Throws WrongInput for

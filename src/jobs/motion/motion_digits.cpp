@@ -20,7 +20,7 @@ constexpr Wide largest_share = 1e-6L;  // of digits_taken_for_granted
 
 int whole_digits(double digits) { return static_cast<int>(std::floor(digits)); }
 
-/// The fewest of several quantities and the name of the one that has them.
+/// The smallest number of trusted digits of several quantities, and the name of that quantity.
 class Fewest {
  public:
   void take(const std::string& name, double value, Wide reference) {

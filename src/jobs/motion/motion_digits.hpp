@@ -41,7 +41,7 @@ class MotionDigits {
   /// @param loop           loop of the motion
   /// @param initial_state  z₀, 4 × 1 (m, m/s, m, m/s)
   /// @param kick           kick given to run_trajectory()
-  /// @param from           s; differences at earlier samples do not count
+  /// @param from           time (s) before which differences do not count
   MotionDigits(const IdealLoop<double>& loop, const Vector<double, 4>& initial_state,
                const std::optional<Kick>& kick = std::nullopt, double from = 0.0);
 

@@ -18,13 +18,13 @@ inline void look_for_interrupt(std::int64_t sample) {
   if (sample % samples_between_looks == 0) throw_if_interrupted();
 }
 
-/// Throws NoAnswer: the motion diverged at `time`, s.
+/// Throws NoAnswer for a motion that diverged at `time` (s).
 [[noreturn]] inline void refuse_diverging(double time) {
   throw NoAnswer("the motion diverges: its numbers overflow at t = " + format_number(time) +
                  " s; give a shorter --duration to see how it grows");
 }
 
-/// Throws NoAnswer with the time (s) where the outcome is a diverged motion.
+/// Throws NoAnswer if the outcome says that the motion diverged at `time` (s).
 inline void require_completed(TrajectoryOutcome outcome, double time) {
   if (outcome == TrajectoryOutcome::diverged) refuse_diverging(time);
 }

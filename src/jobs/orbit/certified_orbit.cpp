@@ -30,10 +30,10 @@ constexpr Named<OrbitOutcome> reasons[] = {{OrbitOutcome::incommensurate, "incom
                                            {OrbitOutcome::none_found, "none found"},
                                            {OrbitOutcome::neutral, "neutral"}};
 
-/// Reason why there is no certificate, as a sentence without its end.
-/// @param found   search result of either model
+/// Reason why an orbit has no certificate, as a sentence without its full stop.
+/// @param found   search result for switching at samples or for exact switching
 /// @param cycles  f τ, periods of the excitation per sample
-/// @param ratio   f τ as a fraction, if it is one
+/// @param ratio   f τ as a fraction; nullopt if it is irrational
 template <class Result>
 std::string reason_for(const Result& found, double cycles, const std::optional<Rational>& ratio,
                        std::int64_t largest_period) {
@@ -49,7 +49,7 @@ std::string reason_for(const Result& found, double cycles, const std::optional<R
        {"longest", std::to_string(largest_period)}});
 }
 
-/// Certified orbit of a motion, with the result of its search.
+/// Result of the search for a motion's orbit; throws NoAnswer where it is not certified.
 template <class Moving>
 auto certified_result(const JobContext& context, const Moving& moving,
                       std::int64_t largest_period) {
@@ -64,13 +64,13 @@ auto certified_result(const JobContext& context, const Moving& moving,
   return found;
 }
 
-/// Keeps the ten largest multipliers of a plant of any order.
+/// Keeps the ten largest multipliers.
 void keep_largest(std::vector<Multiplier>& multipliers) {
   constexpr std::size_t most = 10;
   if (multipliers.size() > most) multipliers.resize(most);
 }
 
-/// Orbit in all states of the plant, reduced to the states at the absorber's position.
+/// Orbit with states of conductor and absorber at the absorber's place instead of all plant states.
 template <class Readings>
 EventOrbit as_seen(const EventOrbitOf<Eigen::Dynamic>& orbit, const Readings& readings) {
   EventOrbit seen{};

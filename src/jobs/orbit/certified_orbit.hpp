@@ -21,10 +21,10 @@ auto orbit_of(const Moving& moving, const OrbitLimits& limits) {
     return find_periodic_orbit(moving.loop, moving.state, limits);
 }
 
-/// Certified periodic orbit to which a loop's motion converges. Of a modal conductor it has the ten
-/// largest multipliers and, with exact switching, the states of conductor and absorber. Warns where
-/// a switching surface is near; throws NoAnswer, with the reason, where none is found.
-/// @param largest_period  longest period searched, samples
+/// Certified periodic orbit to which a loop's motion converges. For a modal conductor it has the
+/// ten largest multipliers and, with exact switching, the states of conductor and absorber. Warns
+/// where a switching surface is near; throws NoAnswer, with the reason, where none is found.
+/// @param largest_period  longest period searched (samples)
 PeriodicOrbit certified_orbit(const JobContext& context, const SampledMasses& moving,
                               std::int64_t largest_period);
 EventOrbit certified_orbit(const JobContext& context, const BuiltMasses& moving,
@@ -41,18 +41,18 @@ EventOrbitResult<DriveContact<>> certified_event_orbit(const JobContext& context
 
 /// Radii of capture: every motion within this distance of the orbit converges to it.
 struct CaptureRadii {
-  double smallest;  ///< along the orbit, m; 0: none found; ∞: no backlash
-  double largest;   ///< along the orbit, m
+  double smallest;  ///< smallest radius along the orbit (m); 0: none found; ∞: no backlash
+  double largest;   ///< largest radius along the orbit (m)
 };
 
-/// Radii for a modal conductor: `smallest` of a ball in all states, `largest` of the ellipsoid
-/// around that ball.
+/// Capture radii of a modal conductor: `smallest` belongs to a ball in all states, `largest` to the
+/// ellipsoid around that ball.
 CaptureRadii capture_radii_of(const ModalLoop& loop, const PeriodicOrbit& orbit);
 
 /// Certificate of an orbit.
 struct OrbitCertificate {
   CaptureRadii radii;
-  OrbitVerification verification;  ///< in extended precision
+  OrbitVerification verification;  ///< comparison in extended precision
 };
 
 OrbitCertificate certificate_of(const IdealLoop<double>& loop, const PeriodicOrbit& orbit);

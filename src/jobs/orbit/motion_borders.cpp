@@ -38,7 +38,7 @@ bool moves_the_orbit(const std::string& key) {
          key == "excitation.amplitude";
 }
 
-/// Whether a key changes how sampling and excitation coincide.
+/// Whether a key changes the ratio f τ of sampling period and excitation period.
 bool moves_the_coincidence(const std::string& key) {
   return key == "control.sampling_period" || key == "excitation.frequency";
 }
@@ -64,7 +64,7 @@ std::vector<FollowedKey> map_keys(const Case& the_case, const std::vector<std::s
   return keys;
 }
 
-/// Case at a point of the map; f τ, δ/τ and the tuning of P are kept.
+/// Function from a point of the map to its case; f τ, δ/τ and the gain P stay constant.
 class CaseOfMap {
  public:
   CaseOfMap(const Case& the_case, const std::vector<FollowedKey>& keys)
@@ -107,7 +107,7 @@ std::string meeting_of(const MotionBorder& one, const MotionBorder& other) {
   return a < b ? a + "+" + b : b + "+" + a;
 }
 
-/// Border that begins at the start of a piece, without the last point, a copy of the first.
+/// The points of a closed border, rotated to begin at a corner and without the repeated last point.
 std::vector<MotionBorderPoint> from_a_corner(const MotionRegion& region) {
   std::vector<MotionBorderPoint> points = region.border;
   if (!region.closed || points.size() < 3) return points;
@@ -119,7 +119,7 @@ std::vector<MotionBorderPoint> from_a_corner(const MotionRegion& region) {
   return points;
 }
 
-/// Whether a point is shown: short steps of the search for a corner are not.
+/// Whether point k is written: ends of a piece, and points not too close to the last one written.
 bool is_shown(const std::vector<MotionBorderPoint>& points, std::size_t k,
               const ParameterWindow& window, const MotionBorderPoint& last) {
   const bool begins = k == 0 || !(points[k].border == points[k - 1].border);
@@ -159,7 +159,7 @@ void write_region(const JobContext& context, const std::vector<FollowedKey>& key
                    context.quiet);
 }
 
-/// Follows the border of the motion of a loop; `moving_at(case)` gives the motion at a point.
+/// Traces and writes the border of a periodic motion; `moving_at(case)` gives the motion of a case.
 template <class MovingAt>
 void write_borders_of(const JobContext& context, const std::vector<FollowedKey>& keys,
                       std::int64_t largest_period, const MovingAt& moving_at) {

@@ -14,7 +14,7 @@ namespace holdfast::program {
 struct FollowedKey {
   std::string name;
   Range range;
-  double value;  ///< in the case
+  double value;  ///< value of the key in the case
 };
 
 /// Key, range and case value of an option (`--follow` or `--map`). Throws WrongInput, naming

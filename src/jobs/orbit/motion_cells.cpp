@@ -22,7 +22,7 @@ namespace {
 
 constexpr double most_map_cells = 1e6;
 
-/// Grid over two keys.
+/// Grid over two keys; the first key varies slowest.
 struct MapGrid {
   KeyAxis slow, fast;
 
@@ -84,7 +84,7 @@ std::vector<MapCell> cells_by(const JobContext& context, const MapGrid& grid,
                     options);
 }
 
-/// Whether every cell follows the paper's model, judged by the ends of the axes.
+/// Whether all cells follow the paper's model, as judged from the four corners of the grid.
 bool all_of_the_paper(const Case& the_case, const MapGrid& grid, Switching switching) {
   const std::size_t last = grid.shape().cells() - 1, across = grid.shape().columns - 1;
   for (const std::size_t cell : {std::size_t{0}, across, last - across, last}) {

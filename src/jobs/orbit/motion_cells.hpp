@@ -13,7 +13,7 @@ namespace holdfast::program {
 /// Options of a map of periodic motions over two keys.
 struct MotionCellsQuestion {
   std::vector<std::string> axes;  ///< two texts KEY=MIN:MAX:COUNT
-  std::int64_t largest_period;    ///< longest period, samples
+  std::int64_t largest_period;    ///< longest period searched (samples)
   Switching switching;
   std::vector<Vector<double, 4>> more_starts = {};  ///< further initial states
 };

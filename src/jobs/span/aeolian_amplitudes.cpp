@@ -13,7 +13,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Vibration of an unstable loop: none.
+/// The vibration of an unstable loop, which has no steady amplitude: NaN.
 constexpr Vibration no_vibration{{std::numeric_limits<double>::quiet_NaN(), BalanceRange::within},
                                  std::numeric_limits<double>::quiet_NaN()};
 
@@ -22,14 +22,14 @@ TautString<double> string_in_wind(const Case& the_case) {
   return string_of(the_case);
 }
 
-/// y/d at a point of the amplitude grid.
+/// Relative amplitude y/d (amplitude over diameter) at a point of the amplitude grid.
 double share_of_diameter(const WindPowerLaw& wind, std::size_t point, std::size_t points) {
   if (point + 1 == points) return wind.lowest;
   return wind.highest * std::pow(wind.lowest / wind.highest,
                                  static_cast<double>(point) / static_cast<double>(points - 1));
 }
 
-/// Power that the devices at both ends take of 1 m at the antinodes, over the span (W/m³).
+/// Power absorbed by all devices over span and antinode amplitude squared (W/m³).
 double taken_by_devices(const TautString<double>& string, double angular_frequency,
                         const std::array<EndResponse, 2>& ends) {
   double taken = 0.0;

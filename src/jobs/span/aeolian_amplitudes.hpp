@@ -17,14 +17,14 @@ namespace holdfast::program {
 
 /// Amplitude and strain of a span vibrating at one frequency.
 struct Vibration {
-  BalancedAmplitude amplitude;  ///< at the antinodes of the free span; NaN: unstable loop
-  double strain;                ///< of the outermost wire, zero to peak; NaN: unknown wires
+  BalancedAmplitude amplitude;  ///< antinode amplitude of the free span; NaN: unstable loop
+  double strain;                ///< strain of the outermost wire, zero to peak; NaN: unknown
 };
 
 /// Vibration of a span at one frequency, by one law of wind power and one of self-damping.
 struct AeolianRow {
-  double frequency;   ///< Hz
-  double wind_speed;  ///< m/s
+  double frequency;   ///< frequency (Hz)
+  double wind_speed;  ///< wind speed (m/s)
   std::string wind_law, damping_law;
   Vibration bare, damped;
 };
@@ -32,7 +32,7 @@ struct AeolianRow {
 /// Data of a case's span for the energy balance, independent of its devices.
 class SpanInWind {
  protected:
-  /// Throws WrongInput for a conductor whose diameter is not known.
+  /// Reads the data. Throws WrongInput for a conductor whose diameter is not known.
   explicit SpanInWind(const Case& the_case);
 
   /// Strain of the outermost wire, zero to peak, for an amplitude (m) at the antinodes.
@@ -47,7 +47,7 @@ class SpanInWind {
 /// Energy balance of wind, self-damping and devices on a case's span.
 class AeolianBalance : SpanInWind {
  public:
-  /// Throws WrongInput for a conductor whose diameter is not known.
+  /// Prepares the balance. Throws WrongInput for a conductor whose diameter is not known.
   AeolianBalance(const Case& the_case, bool controlled);
 
   /// Rows at a frequency (Hz), one for each pair of a wind law and a self-damping law.
@@ -60,10 +60,10 @@ class AeolianBalance : SpanInWind {
   double frequency_of(double speed) const { return strouhal_ * speed / diameter_; }
   double speed_of(double frequency) const { return frequency * diameter_ / strouhal_; }
 
-  double diameter() const { return diameter_; }  ///< m
+  double diameter() const { return diameter_; }  ///< diameter of the conductor (m)
   bool knows_strain() const { return bending_.has_value(); }
   bool has_devices() const { return !devices_.empty(); }
-  bool is_growing() const { return grows_; }  ///< with devices; no amplitude then
+  bool is_growing() const { return grows_; }  ///< whether no vibration is steady
   /// Young's modulus of the outer wires (Pa); NaN where it is not known.
   double outer_wire_modulus() const;
 
@@ -77,11 +77,11 @@ class AeolianBalance : SpanInWind {
   bool grows_;  // unstable with the devices: no steady vibration
 };
 
-/// Fast `AeolianBalance::largest` for many sets of devices at fixed frequencies. Wind power and
-/// self-damping by each pair of laws are computed once, on the grid of `balanced_amplitude`.
+/// Fast version of `AeolianBalance::largest` for many sets of devices at fixed frequencies. Wind
+/// power and self-damping are computed once per pair of laws, on the grid of `balanced_amplitude`.
 class LargestVibration : SpanInWind {
  public:
-  /// @param frequencies  Hz
+  /// @param frequencies  frequencies (Hz) at which at() can be called
   LargestVibration(const Case& the_case, const std::vector<double>& frequencies);
 
   /// Largest vibration at the k-th frequency, for given responses of the two ends.
@@ -89,7 +89,7 @@ class LargestVibration : SpanInWind {
 
  private:
   static constexpr std::size_t points = 61;
-  /// Wind power minus self-damping (W/m³), from the wind law's largest amplitude downward.
+  /// Wind power minus self-damping over y² (W/m³), from the largest amplitude y of the law down.
   using Spare = std::array<double, points>;
 
   double spare(const WindPowerLaw& wind, const LossLaw& loss, double frequency, double y) const;

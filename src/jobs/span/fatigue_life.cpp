@@ -16,7 +16,7 @@
 namespace holdfast::program {
 namespace {
 
-/// The year of one pair of laws.
+/// Stresses and cycles of one year by one pair of laws (wind power and self-damping).
 struct LawYear {
   std::vector<StressCycles> at_most, at_least;
   double largest = 0.0, frequency = 0.0;
@@ -32,7 +32,7 @@ struct LawYear {
   }
 };
 
-/// The years of every pair of laws, without the devices or with them.
+/// The LawYear of every pair of laws, either without or with the devices.
 struct Years {
   std::vector<LawYear> of_laws;
 
@@ -59,9 +59,9 @@ struct Years {
         ->frequency;
   }
 
-  /// The part that each group of entries, a wind speed or a temperature, has in damage(), by the
-  /// laws that make up its three numbers.
-  /// @param group_of  the group of each entry
+  /// The contribution of each group of entries to damage(). A group is one wind speed or one
+  /// temperature. Median, lowest and highest are of the same pairs of laws as in damage().
+  /// @param group_of  index of the group of each entry
   std::vector<Band> parts(const SafeBorderLine& line, const std::vector<std::size_t>& group_of,
                           std::size_t groups) const {
     const auto order =
@@ -86,7 +86,7 @@ struct Years {
   }
 
  private:
-  /// The numbers of the laws, ascending by what a law's year has.
+  /// Indices of the pairs of laws in ascending order of a measure of their years.
   template <class Measure>
   std::vector<std::size_t> laws_in_order(const Measure& measure) const {
     std::vector<double> measures;
@@ -115,7 +115,7 @@ void require_wires(const AeolianBalance& balance) {
         " Pa is that of steel: the fatigue life of steel wires cannot be computed");
 }
 
-/// Temperature of the year with its case and hours.
+/// A temperature of the conductor, with the case at this temperature and the yearly hours.
 struct Season {
   Case at;       // the case at it
   double hours;  // a year
@@ -133,7 +133,7 @@ std::vector<Season> seasons_of(const Case& the_case) {
   return seasons;
 }
 
-/// Year of a span, one entry for each wind speed at each temperature.
+/// The stresses of a span in one year, with an entry for each wind speed at each temperature.
 struct SpanYear {
   Years bare, damped;
   std::vector<std::size_t> speed_of, season_of;  // of each entry
@@ -148,7 +148,7 @@ struct SpanYear {
     }
   }
 
-  /// Assigns their shares of the damages to the rows of speeds or temperatures.
+  /// Sets the damage of each row, one per wind speed or per temperature, from its entries.
   template <class Row>
   void share_out(const SafeBorderLine& line, const std::vector<std::size_t>& group_of,
                  std::vector<Row>& rows) const {
@@ -164,7 +164,7 @@ struct SpanYear {
   static inline const Band unknown{std::nan(""), std::nan(""), std::nan("")};
 };
 
-/// Adds the winds at one temperature.
+/// Adds the entries of all wind speeds at one temperature to the year.
 void add_season(const Season& season, std::size_t number, const std::vector<WindHours>& hours,
                 const AeolianBalance& balance, const std::array<double, 2>& counted, SpanYear& year,
                 FatigueLife& life) {

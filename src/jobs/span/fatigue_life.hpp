@@ -16,25 +16,25 @@ Band band_of(std::vector<double> numbers);
 
 /// Yearly damage by the wind of one speed.
 struct SpeedDamage {
-  double speed;  ///< m/s
-  double hours;  ///< per year
+  double speed;  ///< wind speed (m/s)
+  double hours;  ///< hours per year
   double damage_bare;
   Band damage;
 };
 
 /// Yearly damage at one temperature of the conductor.
 struct TemperatureDamage {
-  double temperature;  ///< °C
-  double hours;        ///< per year
-  double tension;      ///< N, horizontal
+  double temperature;  ///< temperature (°C)
+  double hours;        ///< hours per year
+  double tension;      ///< horizontal tension (N)
   double damage_bare;
   Band damage;
 };
 
 /// Fatigue of the conductor at its clamps in the wind of its site.
 struct FatigueLife {
-  double cycles;             ///< of vibration, per year
-  Band damage_bare, damage;  ///< by Miner's rule, per year
+  double cycles;             ///< vibration cycles per year
+  Band damage_bare, damage;  ///< damage per year by Miner's rule
   Band stress_bare, stress;  ///< largest stress (Pa), zero to peak
   double worst_frequency;    ///< frequency (Hz) of the largest stress with devices
   std::vector<SpeedDamage> by_speed;

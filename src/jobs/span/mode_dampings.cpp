@@ -18,7 +18,7 @@ namespace {
 
 constexpr double turn = 2.0 * pi<double>;
 
-/// Krenk's asymptote for the absorber alone at a frequency.
+/// Damping ratio by Krenk's asymptote at a frequency (Hz), for the absorber as only device.
 double asymptote(const Case& the_case, const TautString<double>& string,
                  const std::vector<SpanDevice>& devices, double frequency) {
   TautString<double> damped = string;
@@ -45,7 +45,7 @@ std::vector<ModeRow> rows_of_plant(const Case& the_case, int count, bool control
   return rows;
 }
 
-/// Roots of the sampled loop, each followed from the pole of the mode with all but the computer.
+/// Roots of the sampled loop. Each root is continued from the pole of a mode without control.
 class LoopRoots {
  public:
   explicit LoopRoots(const Case& the_case)

@@ -10,7 +10,7 @@ namespace holdfast::program {
 
 /// Damping of one mode of the conductor, bare and with absorber, controller and devices.
 struct ModeRow {
-  double frequency;           ///< Hz, of the bare conductor
+  double frequency;           ///< frequency (Hz) of the bare conductor
   double bare;                ///< damping ratio ζ of the bare conductor
   std::complex<double> root;  ///< eigenvalue s (1/s); NaN where the search lost it
   double first_order;         ///< ζ by the approximation for light devices

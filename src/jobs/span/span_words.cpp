@@ -16,7 +16,7 @@ namespace holdfast::program {
 
 namespace {
 
-/// To so many digits, for a command line.
+/// The value rounded to `digits` significant digits.
 double with_digits(double value, double digits, double (*rounded)(double) = std::round) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - digits + 1.0);
   return rounded(value / unit) * unit;

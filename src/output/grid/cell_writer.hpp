@@ -25,7 +25,7 @@ class CellWriter {
   CellWriter() = default;
 };
 
-/// A CSV writer with the bytes of a Table of the axes and then the columns, but faster.
+/// A CSV writer with the same bytes as a Table that has the axes as first columns, but faster.
 /// Throws the exceptions of Table.
 std::unique_ptr<CellWriter> csv_cells(const JobContext& context, const GridLayout& layout);
 

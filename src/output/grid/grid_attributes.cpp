@@ -34,7 +34,7 @@ void append_long_name(Attributes& attributes, const Column& column) {
   if (!column.description.empty()) attributes.emplace_back("long_name", column.description);
 }
 
-// Wider instruction sets contract multiply-adds, and the last digit decides irregular motions.
+// Wider instruction sets fuse multiply-adds, and irregular motions depend on the last digit.
 constexpr const char* irregular_motions =
     "Cells of regular motions agree to rounding with all instruction sets; a cell with a chaotic "
     "or undecided motion (metric verdict) may differ with another set";

@@ -19,7 +19,7 @@
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
-// Function of the library by its name; the library is loaded at run time, not linked.
+// Address of a function of the netCDF library, which is loaded at run time and not linked.
 #define NETCDF(function) netcdf_function<decltype(function)>(#function)
 #endif
 
@@ -117,7 +117,7 @@ class NetcdfCells final : public CellWriter {
       check(NETCDF(nc_put_att_text)(file_, variable, name.c_str(), text.size(), text.data()));
   }
 
-  /// @param may_miss  whether values that are not written are NaN
+  /// Defines a variable. @param may_miss  whether values that are not written are NaN
   int add_variable(const Column& column, int type, const std::vector<int>& dimensions,
                    bool may_miss) const {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();

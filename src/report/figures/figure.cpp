@@ -16,7 +16,7 @@ const toml::table& texts() {
   return parsed;
 }
 
-/// The text with values that hold other ones.
+/// The text with every @KEY@ replaced, also each @KEY@ inside the replacing values.
 std::string resolved(std::string text, const Values& values) {
   for (std::string before; before != text;) {
     before = text;
@@ -25,7 +25,7 @@ std::string resolved(std::string text, const Values& values) {
   return text;
 }
 
-/// The suffix of each table's name and its command, without quotes.
+/// Adds tables to a figure; each entry of `tables` has the suffix of its name and its command.
 void add_tables(Figure& figure, const toml::array* tables, const Values& values) {
   if (tables == nullptr) return;
   for (const toml::node& node : *tables) {
@@ -35,7 +35,7 @@ void add_tables(Figure& figure, const toml::array* tables, const Values& values)
   }
 }
 
-/// @param panels  beside those that the row itself has
+/// Figure of a row in texts/figures.toml. @param panels  panels in addition to those of the row
 Figure figure_of(const toml::array& row, const Values& others, std::vector<Values> panels) {
   if (row.size() > 5)
     for (const toml::node& panel : *row[5].as_array())
@@ -58,8 +58,8 @@ std::string quoted(const std::string& argument) {
   return "'" + replaced(argument, "'", "'\\''") + "'";
 }
 
-/// 1, 2 and 5 times the powers of ten: gnuplot's pictures of cells know no logarithmic axis. The
-/// variable tells who measures the panel that its axis counts decades.
+/// Tics at 1, 2 and 5 times powers of ten, since gnuplot's images have no logarithmic axis. They
+/// set a gnuplot variable, which tells the measurement of panels that the axis counts decades.
 std::string tics_of(const std::string& letter, const MapAxis& axis) {
   if (!axis.logarithmic) return "";
   const double lowest = axis.min * axis.scale, highest = axis.max * axis.scale;

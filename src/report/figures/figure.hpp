@@ -29,16 +29,16 @@ struct LengthUnit {
 
 /// Picture of the report: its tables and the gnuplot commands that draw it.
 struct Figure {
-  std::string name;                  ///< "fig06a": pictures/fig06a.svg
-  std::string title;                 ///< heading
+  std::string name;                  ///< name of the files: "fig06a" for pictures/fig06a.svg
+  std::string title;                 ///< title above the picture
   std::string caption;               ///< description that makes the picture understandable alone
   std::vector<TableRequest> tables;  ///< each name begins with the figure's name
   /// gnuplot commands. @@ stands for the file of the table NAME, @-loop@ for that of NAME-loop,
   /// @unit@ for the unit of small lengths, @length@ for the number of these units in a metre.
   std::string plot;
-  double height = 360.0;        ///< of the picture, in points; its width is 640
+  double height = 360.0;        ///< height of the picture in points; its width is 640
   LengthUnit length_unit = {};  ///< unit of small lengths
-  std::string heading = {};     ///< inside the picture; "": the title stands above it
+  std::string heading = {};     ///< heading inside the picture; "": none
 };
 
 /// Concatenation of two lists.
@@ -79,8 +79,8 @@ std::vector<Figure> figures_of(const Case& the_case, bool builtin);
 /// Ranges "P" and "D" of a window of gains around the gains of the case, as wide as these gains.
 Values window_of_gains(const Case& the_case);
 
-/// Range of --p or --d in a chart of gains: the given range, else the paper's. If the case's gains
-/// lie outside this one, or the absorber is of another size: a range around these gains.
+/// Range of --p or --d in a chart of gains: the given range, else the paper's. A range around the
+/// case's gains replaces the paper's if these lie outside it or the absorber is of another size.
 /// @param range  given or paper's range, MIN:MAX or MIN:MAX:COUNT
 std::string shown_gains(const JobContext& context, const std::string& option,
                         const std::string& range);
@@ -95,7 +95,7 @@ std::vector<std::string> words_of(const std::string& command);
 /// Runs one command line, without the program's name; throws what its job throws.
 using CommandRunner = std::function<void(const std::vector<std::string>&)>;
 
-/// Command line of a job with the options that made the case inserted: job, case, own options.
+/// Command line of a job with the case's options after the job's name, before its own options.
 std::vector<std::string> command_of(const std::vector<std::string>& arguments,
                                     const std::vector<std::string>& case_arguments);
 
@@ -143,7 +143,7 @@ Values values_of(const std::string& letter, const MapAxis& axis, const std::stri
 /// other word is its own label.
 std::string label_of(const std::string& key);
 
-/// Displayed value over the key's value, on an axis with the label of label_of().
+/// Ratio of the displayed value to the key's value, on an axis with the label of label_of().
 double scale_of(const std::string& key);
 
 /// Largest finite |value| (m) in the columns of a table with the unit metre; 0 for none.
@@ -159,7 +159,7 @@ bool gnuplot_available();
 
 /// Complete gnuplot script of a figure: style, axes, tables. It runs in the report's folder and
 /// reads data/NAME.csv.
-/// @param ending  of the picture: ".svg", ".png" or ".pdf"
+/// @param ending  file name ending of the picture: ".svg", ".png" or ".pdf"
 std::string gnuplot_script(const Figure& figure, const std::string& ending = ".svg");
 
 /// Bytes of a picture, and its panels.

@@ -28,7 +28,7 @@ MapAxis axis_over(const std::string& key, double min, double max, bool logarithm
   return {key, min, max, logarithmic, label_of(key), scale_of(key)};
 }
 
-/// Sampling periods between two fractions of the forcing period.
+/// Axis of sampling periods between two fractions of the forcing period.
 MapAxis period_axis(const Case& the_case, double from, double to) {
   const double forcing_period = 1.0 / frequency_of(the_case);
   const double shortest = std::max(from * forcing_period, the_case.control.processing_delay);
@@ -36,7 +36,7 @@ MapAxis period_axis(const Case& the_case, double from, double to) {
                    std::max(to * forcing_period, 10.0 * shortest), true);
 }
 
-/// Both ends of the steady z₂ − z₁ without control apart (m): a backlash as wide swallows it.
+/// Range of z₂ − z₁ (m) in the steady motion without control; a play as wide is never crossed.
 double swing_without_control(const Case& the_case) {
   using Complex = std::complex<double>;
   const TwoMass<double> plant = plant_of(the_case);
@@ -62,30 +62,30 @@ MapAxis backlash_axis(const Case& the_case) {
   return axis;
 }
 
-/// The excitation's frequency between two multiples of the case's; with [wind] its speed, to which
-/// the frequency of the vortices is proportional.
+/// Axis of excitation frequencies between two multiples of the case's frequency; with [wind] an
+/// axis of wind speeds, to which the frequency of the vortices is proportional.
 MapAxis frequency_axis(const Case& the_case, double from, double to) {
   const double of_case = the_case.wind ? the_case.wind->speed : frequency_of(the_case);
   return axis_over(the_case.wind ? "wind.speed" : "excitation.frequency", from * of_case,
                    to * of_case);
 }
 
-/// Text (s, four digits) of a number of forcing periods.
+/// Duration (s) of a number of forcing periods, as text with four digits.
 std::string duration_of(const Case& the_case, double forcing_periods) {
   const double exact = forcing_periods / frequency_of(the_case);
   const double unit = std::pow(10.0, std::floor(std::log10(exact)) - 3.0);
   return format_rounded(std::round(exact / unit) * unit);
 }
 
-/// Map of a panel: heading (gnuplot text) and options of the job sweep, for the D with which a
-/// motion settles in the first half of its duration (`BestGains`).
+/// Panel of a map for the D with which a motion settles in the first half of its duration
+/// (`BestGains`): heading for gnuplot, and options of the job sweep.
 Values settling_panel(const std::string& duration) {
   const double settling_time = 0.5 * std::strtod(duration.c_str(), nullptr);
   return {{"heading", "{/:Italic D}\u00a0that settles in " + rounded(settling_time, 4) + " s"},
           {"options", "--duration " + duration}};
 }
 
-/// Values that the texts leave open of a figure with these axes.
+/// Replacements of @KEY@ for a map with these axes and panels.
 Values values_of_chart(const MapAxis& x, const MapAxis& y, const std::vector<Values>& panels,
                        Values values) {
   values.emplace_back("panels", std::to_string(panels.size()));
@@ -120,7 +120,7 @@ std::vector<Values> backlash_panels(const Case& the_case, const std::string& dur
   return panels;
 }
 
-/// Map with the limit of Fig. 5 over the same abscissa.
+/// Map over frequency and sampling period, with the limit of Fig. 5 of Kollár 2022.
 Figure frequency_delay_figure(const Case& the_case, bool builtin) {
   const double lowest = 0.5, highest = 5.0, frequency = frequency_of(the_case);
   const std::string duration = duration_of(the_case, 2000.0);
@@ -145,12 +145,11 @@ Figure frequency_delay_figure(const Case& the_case, bool builtin) {
   return figure;
 }
 
-/// For which delays, backlashes and frequencies control still helps: maps by the job sweep, around
-/// the case's frequency of excitation (with [wind]: of its vortices).
+/// Maps, by the job sweep, of the delays, backlashes and frequencies for which control reduces the
+/// vibration, around the frequency f of the case's excitation (with [wind]: of the vortices).
 ///
-/// The ranges follow the case: f the frequency, the sampling periods are fractions of 1/f but not
-/// shorter than the processing delay, the backlash goes up to where it would swallow the whole
-/// motion without control, the durations are numbers of forcing periods.
+/// Sampling periods are fractions of 1/f, but not shorter than the processing delay. The widest
+/// backlash is as wide as the range of z₂ − z₁ without control. Durations are multiples of 1/f.
 std::vector<Figure> success_figures(const Case& the_case, bool builtin) {
   return {delay_backlash_figure(the_case, builtin), frequency_delay_figure(the_case, builtin)};
 }
@@ -161,7 +160,7 @@ double rms_of(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Replacements of @KEY@ for the caption: agreement of plant and cable in one vibration.
+/// Replacements of @KEY@ that tell how well plant and cable agree in a free vibration.
 Values judged(const DecayRecord& plant, const DecayRecord& cable) {
   constexpr double same_frequency = 0.02, same_motion = 0.2;
   std::vector<double> difference = cable.displacements;
@@ -181,7 +180,7 @@ Values judged(const DecayRecord& plant, const DecayRecord& cable) {
           {"apart after", rounded(0.5 / std::abs(1.0 / of_plant - 1.0 / of_cable), 2)}};
 }
 
-/// Judgement on the vibration in the picture; empty where the cable cannot be simulated.
+/// Replacements as by judged(), for the plant of a case; empty text if the cable is not simulated.
 Values judged_plant(const Case& the_case, const CableDecayOptions& options) {
   try {
     const CableDecay cable = cable_decay(the_case, options);
@@ -210,7 +209,7 @@ std::vector<Figure> figures_of_cable(const Case& the_case) {
                 listed_figures("amplitudes"));
 }
 
-/// Whether the paper's window of gains shows those of the case, and its absorber's stiffness.
+/// Whether the paper's ranges of P, D and absorber stiffness contain those of the case.
 bool is_of_papers_size(const Case& the_case) {
   const PdGains<double> gains = gains_of(the_case);
   const double size = std::max(std::abs(gains.proportional), plant_of(the_case).absorber_stiffness);

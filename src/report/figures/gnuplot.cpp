@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The commands with blanks in the labels of x and y that do not break, as those beside a change of
-/// font are lost in SVG. Inside the braces the blank belongs to gnuplot's syntax.
+/// The gnuplot commands with non-breaking blanks in the labels of x and y, since SVG loses blanks
+/// beside a change of font. The blank after a font's name belongs to gnuplot's syntax and remains.
 std::string with_unbroken_labels(const std::string& plot) {
   std::string text;
   for (const std::string_view line : split(plot, '\n')) {
@@ -42,9 +42,9 @@ std::vector<char*> environment_of_gnuplot() {
   return kept;
 }
 
-/// Runs gnuplot in a folder as it comes, whatever ~/.gnuplot says: commands, then a script or an
-/// option. Its standard output goes to one file, its messages to an open one. Gives its exit
-/// status, or another number than 0 if it could not start.
+/// Runs gnuplot in a folder without the user's settings: first `commands`, then a script or option
+/// `argument`. Standard output goes to the file `output`, messages to the descriptor `messages`.
+/// Returns gnuplot's exit status, or another number than 0 if gnuplot could not start.
 int run_gnuplot(const fs::path& folder, const std::string& commands, const std::string& argument,
                 const fs::path& output, int messages) {
   std::vector<char*> environment = environment_of_gnuplot();
@@ -63,12 +63,12 @@ int run_gnuplot(const fs::path& folder, const std::string& commands, const std::
   });
 }
 
-/// Messages of gnuplot, in a file without a name.
+/// Temporary file without a name that receives the messages of gnuplot.
 class Messages {
  public:
   Messages() : file_(std::tmpfile(), &std::fclose) {}
 
-  /// -1 where there can be no such file.
+  /// Descriptor of the file; −1 if it could not be made.
   int descriptor() const { return file_ ? fileno(file_.get()) : -1; }
 
   std::string text() const {
@@ -82,7 +82,7 @@ class Messages {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
 };
 
-/// Whether a picture is complete: gnuplot does not report a full disk.
+/// Whether a picture has its end mark; on a full disk gnuplot truncates it without an error.
 bool is_whole(std::string_view picture, const std::string& ending) {
   using namespace std::string_view_literals;
   const std::string_view end = ending == ".svg"   ? "</svg>"sv
@@ -101,7 +101,7 @@ std::string heading_line(const Figure& figure) {
          replaced(figure.heading, "'", "''") + "' noenhanced\n";
 }
 
-/// Reason why gnuplot has not drawn a picture, by its first words.
+/// Reason why gnuplot has not drawn a picture: the first 1000 characters of its messages.
 std::string reason_of(int status, const std::string& messages) {
   if (status == 0) return "the picture is incomplete; is the disk full?";
   return one_line(without_panels(messages).substr(0, 1000));

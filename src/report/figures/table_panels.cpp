@@ -11,7 +11,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Column of tables over axes, with its unit and words.
+/// The column of a job's table with this name, with unit and words; without them if not known.
 CellColumn known_column(const std::string& name) {
   for (const char* list :
        {"sweep metrics", "sampled stability", "continuous stability", "response"})
@@ -20,7 +20,7 @@ CellColumn known_column(const std::string& name) {
   return {{name, "", ""}};
 }
 
-/// The magnitudes of a column's finite numbers but zero, ascending.
+/// The absolute values of a column's finite nonzero numbers, ascending.
 std::vector<double> magnitudes(const CsvTable& table, const std::string& name) {
   std::vector<double> values;
   for (const double value : table.numbers(name))
@@ -29,7 +29,7 @@ std::vector<double> magnitudes(const CsvTable& table, const std::string& name) {
   return values;
 }
 
-/// End of the colour scale, so that diverging values do not take all shades; "*": at the largest.
+/// Upper end of the colour scale, at most 30 medians; "*" for the largest value if that is less.
 std::string limit_of(const std::vector<double>& magnitudes, double scale) {
   constexpr double most = 30.0;  // medians
   if (magnitudes.empty()) return "*";
@@ -45,7 +45,7 @@ std::string number_of_word(const std::vector<std::string>& words, const std::str
   return expression + "NaN";
 }
 
-/// 'computed' 0, 'no gain' 1
+/// gnuplot's tics for words: 'computed' 0, 'no gain' 1.
 std::string tics_of(const std::vector<std::string>& words) {
   std::string tics;
   for (std::size_t k = 0; k < words.size(); ++k)
@@ -53,7 +53,7 @@ std::string tics_of(const std::vector<std::string>& words) {
   return tics;
 }
 
-/// "steady peak (mm)"
+/// Label of a column with its unit: "steady peak (mm)".
 std::string column_label(const Column& column, const LengthUnit& unit) {
   const bool is_length = column.unit == "m";
   std::string name = column.name;

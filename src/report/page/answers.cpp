@@ -37,32 +37,32 @@ std::string range_of(double value) {
   return format_number(value) + ":" + format_number(value) + ":1";
 }
 
-/// Amplitude ratio above which control is not worth its drive.
+/// Least amplitude ratio at which control counts as useless.
 constexpr double worthwhile = 0.95;
 
-/// Negligible change of the amplitude ratio.
+/// Largest change of the amplitude ratio that counts as none.
 constexpr double negligible = 0.005;
 
 /// Largest |z₁| of the steady motion with and without control, and the largest commanded force.
 struct LoopVibration {
-  double controlled, free, force;  ///< m, m; N, largest command
+  double controlled, free, force;  ///< |z₁| with and without control (m), command (N)
 
   double ratio() const { return controlled / free; }
 };
 
-/// Seconds of a motion: 20, or as long as the case's force lasts.
+/// Duration (s) of the simulated motions: 20 s, or less if the case's recorded force ends earlier.
 double duration_of(const Case& the_case) { return std::min(20.0, end_of_force(the_case)); }
 
 /// Data common to all answers about a case.
 struct Question {
   const Case& the_case;
   InstructionSet set;
-  MotionRow motion;  ///< what its motion is
+  MotionRow motion;  ///< description of the case's motion
   double free;  ///< largest |z₁| (m) of the steady motion without control, under the true force
   double radius_without_play;  ///< spectral radius of the loop without play
 
   bool is_unstable_without_play() const { return !(radius_without_play < 1.0); }
-  /// Seconds until a twentieth of the slowest natural motion is left; without play, if it decays.
+  /// Time (s) in which the slowest natural motion without play decays to a twentieth.
   double settling() const {
     return std::log(20.0) * the_case.control.sampling_period / -std::log(radius_without_play);
   }
@@ -73,7 +73,7 @@ struct Question {
   }
 };
 
-/// Throws InvalidParameter where the case's loop is not admissible.
+/// Computes the common data. Throws InvalidParameter where the case's loop is not admissible.
 Question question_about(const Case& the_case, InstructionSet set) {
   constexpr double motions = 150.0;  // that the answers compare
   const double duration = duration_of(the_case);
@@ -84,7 +84,7 @@ Question question_about(const Case& the_case, InstructionSet set) {
           LinearLoop(the_case).radius(gains_of(the_case))};
 }
 
-/// The vibration of each case, each the question's but for the value of a key.
+/// The vibration of each of several cases, which differ from the question's case in one key only.
 std::vector<LoopVibration> vibrations_of(const std::vector<Case>& cases, const Question& question,
                                          Switching switching = Switching::sampled) {
   const double duration = duration_of(cases.front());
@@ -98,8 +98,8 @@ std::vector<LoopVibration> vibrations_of(const std::vector<Case>& cases, const Q
   return vibrations;
 }
 
-/// Text of the vibration left; for a loop that is unstable without play it says that only the play
-/// bounds the motion, or that the motion grows.
+/// Text on the vibration left by control. If the loop is unstable without play, the text adds that
+/// only the play bounds the motion, or that the motion grows.
 std::string help_text(const Question& question, const LoopVibration& vibration) {
   const bool unstable = question.is_unstable_without_play();
   const auto& backlash = question.the_case.backlash;
@@ -126,8 +126,8 @@ std::string help_text(const Question& question, const LoopVibration& vibration) 
          page_text(lives_on_play ? "bounded by play" : "grows without play", values);
 }
 
-/// Text of the vibration without control under the force held over a sample; empty if the hold does
-/// not matter.
+/// Text on the vibration without control under the force held between samples; empty if holding
+/// the force has no noticeable effect.
 std::string held_force_text(const Question& question) {
   const Case& the_case = question.the_case;
   if (held_force_warning(the_case, "").empty()) return "";
@@ -141,7 +141,7 @@ std::string force_text(const LoopVibration& vibration) {
   return page_text("force asked for", {{"force", rounded(vibration.force, 3)}});
 }
 
-/// Text of the vibration left with exact switching; empty if not computed.
+/// Text on the vibration left by control with exact switching; empty if that is not computed.
 std::string exact_switching_text(const Question& question) {
   // A conductor by its modes is followed state by state between samples: too slow for an answer.
   if (!(question.the_case.backlash.width > 0.0) ||
@@ -185,7 +185,7 @@ Answer does_it_help(const Question& question) {
   return answer;
 }
 
-/// "from −1 to 3 N/m", "up to 3 N/m".
+/// Text of a stable range: "from −1 to 3 N/m", "up to 3 N/m".
 std::string stretch_text(const TwoSidedMargin& margin, double unit, const std::string& name) {
   const auto is_end = [](const MarginEnd& at) { return at.outcome == MarginEndOutcome::boundary; };
   const auto text = [unit](const MarginEnd& at) { return rounded(unit * at.position, 4); };
@@ -207,7 +207,7 @@ std::string margins_text(const Case& the_case, const PdGains<double>& gains) {
                     {"periods", stretch_text(margins.sampling_period, 1e3, "ms")}});
 }
 
-/// "; gain margin 9 dB, phase margin 15°, delay margin more than 10 ms, spectral radius 0.999".
+/// Text of the margins: "; gain margin 9 dB, phase margin 15°, delay margin more than 10 ms, …".
 std::string gain_margins_text(const Case& the_case, const PdGains<double>& gains) {
   const GainMargins margins = gain_margins(LinearLoop(the_case), gains);
   const auto number = [](double value, const char* unit) {
@@ -272,7 +272,7 @@ Answer which_gain(const Question& question) {
   return answer;
 }
 
-/// "; with the gains of the case up to 12 ms; the case has 1 ms."
+/// Text on the longest period: "; with the gains of the case up to 12 ms; the case has 1 ms."
 std::string own_period_text(const Case& the_case) {
   const auto [margins, everywhere] = stability_margins_of(the_case, gains_of(the_case), false);
   const MarginEnd& longest = margins.sampling_period.above;
@@ -324,13 +324,13 @@ std::vector<double> evenly(double from, double to, int parts) {
   return values;
 }
 
-/// Parts into which the range of plays is divided, and then the part with the limit, once or twice.
-/// Motions of two masses cost little, and many run side by side.
+/// Numbers of equal parts: first of the whole range of plays, then, once or twice, of the part that
+/// contains the limit. For two masses more parts are affordable, as their motions are fast.
 std::vector<int> parts_of_play(const Case& the_case) {
   return is_two_masses(the_case) ? std::vector<int>{120, 20} : std::vector<int>{24, 10, 10};
 }
 
-/// Width up to which all serve, from one known to serve towards one known not to.
+/// Largest play (m) with a reduced vibration, between a play `serving` and a play `failing`.
 double limit_between(const Question& question, double serving, double failing) {
   const std::vector<int> parts = parts_of_play(question.the_case);
   for (auto finer = parts.begin() + 1; finer != parts.end(); ++finer) {
@@ -343,8 +343,8 @@ double limit_between(const Question& question, double serving, double failing) {
   return serving;
 }
 
-/// Text on the range of widths that serve around the case's own, or else on the first such range;
-/// it begins at 0 unless the loop needs its play.
+/// Text on the range of plays, around the case's own, at which control reduces the vibration, or on
+/// the first such range. The range begins at 0 unless the loop needs play for a bounded motion.
 std::string play_text(const Question& question, const std::vector<double>& widths) {
   const std::vector<char> serve = widths_that_serve(question, widths);
   const auto next =
@@ -379,7 +379,7 @@ std::string play_text(const Question& question, const std::vector<double>& width
   return page_text(name, values);
 }
 
-/// Twice the largest |z₂ − z₁| (m) of the steady motion without control: play as wide swallows it.
+/// Range 2 max |z₂ − z₁| (m) of the steady motion without control; a play as wide is never crossed.
 double steady_swing_without_control(const Case& the_case) {
   const double duration = duration_of(the_case);
   double largest = 0.0;
@@ -392,7 +392,7 @@ double steady_swing_without_control(const Case& the_case) {
   return 2.0 * largest;
 }
 
-/// The play that swallows the whole motion without control, and some half as much again.
+/// Widest play examined (m): 1.5 times the range of z₂ − z₁ without control, rounded up.
 double widest_play(const Case& the_case) {
   const double swing = steady_swing_without_control(the_case);
   if (!(swing > 0.0 && std::isfinite(swing))) return 1e-3;
@@ -423,7 +423,7 @@ Answer what_motion(const MotionRow& row) {
           row.rests_on, row.arguments};
 }
 
-/// Answer whether all values of [uncertain] are stable, by a proof where one exists.
+/// Answer whether the loop is stable for all values of [uncertain], with a proof where one exists.
 Answer does_it_hold_for_all(const JobContext& context) {
   Answer answer = asked("family");
   try {

@@ -13,9 +13,9 @@ namespace holdfast::program {
 /// Question of a designer, and the answer of holdfast.
 struct Answer {
   std::string question;
-  std::string answer;                  ///< in a few words
-  std::string detail;                  ///< what was computed, and its limits
-  std::vector<std::string> arguments;  ///< of the command, without the options of the case
+  std::string answer;                  ///< short answer
+  std::string detail;                  ///< method of computation, and its limits
+  std::vector<std::string> arguments;  ///< command line, without the options of the case
 };
 
 /// Question by its name in texts/page.toml, with detail and command but no answer yet.
@@ -41,15 +41,15 @@ void span_answers(const JobContext& context, const std::function<void(const Answ
 struct MotionRow {
   std::string place;                        ///< figure of the paper, or "this case"
   std::string motion;                       ///< sampling period, backlash and start
-  std::string verdict;                      ///< attractor_type_text()
-  std::string period;                       ///< s, samples, forcing periods
-  std::string multiplier = "–";             ///< largest modulus, of one period
-  std::string border = "–";                 ///< nearest change of contact (mm; mm/s)
+  std::string verdict;                      ///< kind of motion, by attractor_type_text()
+  std::string period;                       ///< period: seconds, samples, forcing periods
+  std::string multiplier = "–";             ///< largest modulus of the multipliers
+  std::string border = "–";                 ///< distance to nearest change of contact (mm; mm/s)
   std::string capture = "–";                ///< radius of attraction (mm)
-  std::string precision = "–";              ///< same orbit in extended precision
+  std::string precision = "–";              ///< comparison with extended precision
   std::string rests_on = {};                ///< evidence for the verdict
   std::string neighbour = {};               ///< comparison with the motion from rest; "": none
-  std::vector<std::string> arguments = {};  ///< of the command, without the case's options
+  std::vector<std::string> arguments = {};  ///< command line, without the case's options
   bool diverges = false;                    ///< whether the motion grows without limit
   bool stays_in_play = false;               ///< whether the orbit never leaves the play
 };
@@ -58,7 +58,7 @@ struct MotionRow {
 std::string loop_text(const Case& the_case);
 
 /// The motions of Kollár's Figs. 6–13 with their neighbours, and some beyond them.
-/// @param the_case  the built-in one
+/// @param the_case  the built-in case
 std::vector<MotionRow> paper_motions(const Case& the_case);
 
 /// The motion of a case from its own initial state.

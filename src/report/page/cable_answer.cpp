@@ -29,8 +29,8 @@ Case on_cable(const Case& the_case) {
   return changed;
 }
 
-/// Amplitude ratio to no control under the true force, without play; NaN where sampling does not
-/// show the vibration.
+/// Amplitude relative to that without control under the true force, without play; NaN if there are
+/// at most two samples per period of the force.
 double share_left(const Case& the_case, const PdGains<double>& gains) {
   const double frequency = excitation_of(the_case).frequency;
   if (!(2.0 * frequency * sampling_of(the_case).period < 1.0))
@@ -38,9 +38,9 @@ double share_left(const Case& the_case, const PdGains<double>& gains) {
   return LinearLoop(the_case).response(frequency).ratio_to_uncontrolled(gains);
 }
 
-/// A clamp mass (kg) about which the case's gains become stable, to a percent: before the first of
-/// some that double. Not above half the absorber's mass, nor what a blob of grease weighs; infinite
-/// where there is none, and where fewer modes call the gains stable as they are.
+/// Smallest clamp mass (kg), to 1 %, that makes the case's gains stable, found by doubling and then
+/// by bisection. Infinite if the mass would exceed half the absorber's mass or be below 0.1 % of
+/// that, if there is none, or if the gains are already stable by `is_stable_with_clamp`.
 double least_clamp_mass(const Case& cable) {
   constexpr double none = std::numeric_limits<double>::infinity();
   const double largest = cable.plant.absorber_mass / 2.0;
@@ -63,7 +63,7 @@ double least_clamp_mass(const Case& cable) {
   return serving;
 }
 
-/// Text on how the largest root grows.
+/// Text on the growth of the motion by the largest characteristic root of the loop.
 std::string growth_text(const Case& cable, const std::complex<double>& root) {
   const double turn = std::abs(std::arg(root));
   if (turn > 0.9 * pi<double>) return page_text("grows from sample to sample");
@@ -93,7 +93,7 @@ std::string detail_text(const Case& cable) {
          (doubt.empty() ? "" : page_text("modes doubted", {{"doubt", doubt}}));
 }
 
-/// The interval that holds D, or else the nearest to it.
+/// The interval that contains the gain D, or else the interval nearest to it.
 Interval<double> nearest_interval(const std::vector<Interval<double>>& intervals, double d) {
   const auto away = [&](const Interval<double>& gap) {
     return std::max({0.0, gap.lower - d, d - gap.upper});
@@ -103,7 +103,7 @@ Interval<double> nearest_interval(const std::vector<Interval<double>>& intervals
       [&](const auto& one, const auto& other) { return away(one) < away(other); });
 }
 
-/// Name of the text on the case's gains on the cable.
+/// Name of the text in texts/page.toml on the stability of the case's gains on the cable.
 std::string holding_of(const Case& cable, const std::vector<Interval<double>>& stable) {
   const PdGains<double> gains = gains_of(cable);
   const bool is_stable = std::any_of(stable.begin(), stable.end(), [&](const auto& gap) {
@@ -114,7 +114,7 @@ std::string holding_of(const Case& cable, const std::vector<Interval<double>>& s
   return stable.empty() ? "no gain on the cable" : "unstable on the cable";
 }
 
-/// Text of the vibration left on the cable and on two masses.
+/// Text on the vibration left by control, on the cable and on two masses.
 std::string share_text(const Case& the_case, const Case& cable) {
   const PdGains<double> gains = gains_of(the_case);
   const double there = share_left(cable, gains), here = share_left(the_case, gains);
@@ -123,7 +123,7 @@ std::string share_text(const Case& the_case, const Case& cable) {
                    {{"there", rounded(100.0 * there, 3)}, {"here", rounded(100.0 * here, 3)}});
 }
 
-/// Writes the answer, and adds to its detail.
+/// Sets the answer on the stability of the case's gains on the cable, and completes its detail.
 void judge(const Case& the_case, const Case& cable, Answer& answer) {
   const PdGains<double> gains = gains_of(the_case);
   const auto stable = LinearLoop(cable).stable_gains(FreeGain::differential, gains);

@@ -9,8 +9,8 @@ namespace holdfast::program {
 
 namespace {
 
-/// HTML table that scrolls where it is wider than the page.
-/// @param rows  HTML
+/// HTML table that scrolls if it is wider than the page.
+/// @param rows  rows as HTML
 std::string html_table(const std::vector<std::string>& headings, const std::string& rows) {
   std::string html, all;
   for (const std::string& heading : headings) {
@@ -46,7 +46,7 @@ std::string motions_part(const Page& page) {
                                        rows)}});
 }
 
-/// Axes of the panels of a picture: "displacement z₁ over time t".
+/// Text on the axes of a picture's panels: "displacement z₁ over time t".
 std::string axes_text(const std::vector<PicturePanel>& panels) {
   std::string text;
   for (const PicturePanel& panel : panels) {
@@ -96,7 +96,7 @@ std::string figures_html(const std::vector<DrawnFigure>& figures) {
   return html;
 }
 
-/// Links to figures, folded up.
+/// Foldable HTML list of links to figures.
 std::string list_of_figures(const std::vector<DrawnFigure>& figures) {
   std::string links;
   for (const DrawnFigure& drawn : figures)
@@ -106,7 +106,7 @@ std::string list_of_figures(const std::vector<DrawnFigure>& figures) {
                    {{"count", std::to_string(figures.size())}, {"links", links}});
 }
 
-/// Answers, each with the command that shows it.
+/// HTML of the answers, each with the command that shows its numbers.
 std::string answers_part(const Page& page) {
   std::string html;
   for (const Answer& answer : page.answers)
@@ -118,7 +118,7 @@ std::string answers_part(const Page& page) {
   return html;
 }
 
-/// Text of a file of texts that contains only one.
+/// The only text of a compiled-in file of texts, which has the given name.
 std::string only_text(std::string_view file, const char* name) {
   return text_of(toml::parse(file)[name]);
 }

@@ -14,7 +14,7 @@ struct DrawnFigure {
   Figure figure;
   std::vector<std::string> commands;  ///< the command line of each table
   PagePicture picture;
-  std::string reason;  ///< empty when there is a picture
+  std::string reason;  ///< reason why there is no picture, else empty
 };
 
 /// Everything that the page shows.

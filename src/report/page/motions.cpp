@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* no_value = "–";
 
-/// Motion with all that is known about it.
+/// Loop, start and classification of a motion with switching at samples.
 struct KnownMotion {
   IdealLoop<double> loop;
   Vector<double, 4> initial_state;
@@ -40,13 +40,13 @@ std::string counted(std::int64_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-/// @tparam Found  of either model
+/// The certified orbit; null if there is none. @tparam Found  a classification in any model
 template <class Found>
 auto certified(const Found& found) {
   return found.search.outcome == OrbitOutcome::certified ? &*found.search.orbit : nullptr;
 }
 
-/// @param sampling_period  s
+/// Text of the period: seconds, samples, forcing periods. @param sampling_period  τ (s)
 template <class Found>
 std::string period_text(const Found& found, double sampling_period) {
   const std::int64_t samples = found.classification.period;
@@ -66,7 +66,7 @@ std::string border_text(const Borders& borders) {
   return distance(borders.displacement, " mm") + "; " + distance(borders.velocity, " mm/s");
 }
 
-/// Nearest change of contact, with exact switching.
+/// Text of the distance to the nearest change of contact, with exact switching.
 std::string border_text(const SwitchingMargins& margins) {
   return rounded(1e3 * margins.border_distance, 2) + " mm";
 }
@@ -84,9 +84,9 @@ std::string precision_text(const OrbitVerification& verification) {
   return "same contacts; " + rounded(verification.displacement_difference, 2) + " m";
 }
 
-/// @param sampling_period  s
-/// @param settings         of the command that shows all that is known of the motion
-/// @tparam Found           of either model
+/// @param sampling_period  sampling period τ (s)
+/// @param settings         options of the command in the row, which shows the motion in detail
+/// @tparam Found           a classification in any model
 template <class Found>
 MotionRow row_of(const std::string& place, const std::string& text, const Found& found,
                  double sampling_period, const std::string& settings) {
@@ -107,7 +107,7 @@ MotionRow row_of(const std::string& place, const std::string& text, const Found&
   return row;
 }
 
-/// Adds the certificate's results for two masses.
+/// Row of a motion of two masses, with capture radius and comparison in extended precision.
 MotionRow row_of(const std::string& place, const std::string& text, const KnownMotion& motion,
                  const std::string& settings) {
   MotionRow row = row_of(place, text, motion.found, motion.loop.sampling.period, settings);

@@ -91,12 +91,12 @@ std::string option_text(const PictureRequest& request, const std::string& option
   return filled("@" + option + "@", request.options);
 }
 
-/// Range of gains as the job uses it.
+/// Range of an option for a gain as the picture's job uses it.
 std::string shown_option(const PictureRequest& request, const std::string& option) {
   return shown_gains(request.context, option, option_text(request, option));
 }
 
-/// The row of the list of pictures that says how the table is drawn.
+/// The row of the list `pictures` that describes the picture of the requested table.
 const toml::array& row_for(const PictureRequest& request) {
   const std::string& job = request.context.job;
   std::string needed;
@@ -155,12 +155,12 @@ MapAxis map_axis_of(const KeyValues& axis, bool even) {
   return shown;
 }
 
-/// Both ends of a range as gnuplot reads them.
+/// Range of an axis in gnuplot's notation MIN:MAX.
 std::string ends_of(const Axis& axis) {
   return format_number(axis.min) + ":" + format_number(axis.max);
 }
 
-/// Step of an axis, in displayed units.
+/// Step of an axis in displayed units; 0 for an axis without equal steps.
 double step_of(const KeyValues& axis) {
   const auto* const even = std::get_if<Axis>(&axis.values);
   if (even == nullptr || even->count < 2) return 0.0;
@@ -186,7 +186,7 @@ Values values_of_axes(const std::vector<KeyValues>& axes) {
   return values;
 }
 
-/// Replacements of @KEY@ for any picture.
+/// All replacements of @KEY@ for the requested picture.
 Values picture_values(const PictureRequest& request) {
   const Case& the_case = request.context.case_data;
   const std::string& job = request.context.job;
@@ -206,7 +206,7 @@ Values picture_values(const PictureRequest& request) {
   return joined(joined(values, span_values(the_case)), values_of_axes(axes_of(request)));
 }
 
-/// Command line of a table; "own" means the job's own.
+/// Command line that writes a table; a `command` that begins with "own" extends that of the job.
 std::vector<std::string> command_line(const PictureRequest& request, const std::string& command) {
   std::vector<std::string> words = words_of(command);
   if (command.rfind("own", 0) != 0) {

@@ -58,10 +58,10 @@ class ReportFolders {
   std::vector<fs::path> made_;
 };
 
-/// Report in the making; tables are written by command lines of the program.
+/// Report under construction. Its tables are written by command lines of the program.
 class ReportWork {
  public:
-  /// @param unit  of small lengths
+  /// Begins a report. @param unit  unit of small lengths
   ReportWork(const JobContext& context, const Arguments& case_arguments, const CommandRunner& run,
              LengthUnit unit)
       : context_(context), run_(run), unit_(unit), folders_(*context.output) {
@@ -69,7 +69,7 @@ class ReportWork {
     page.case_text = case_to_toml(context.case_data);
   }
 
-  /// Figure with its picture, or with the reason why there is none.
+  /// Makes a figure: writes its tables and its picture, or records why there is no picture.
   DrawnFigure make(const Figure& figure) const {
     DrawnFigure drawn{figure, {}, {}, ""};
     for (const TableRequest& table : figure.tables)
@@ -137,7 +137,7 @@ class ReportWork {
   OutputFile file_{*context_.output / "report.html"};
 };
 
-/// The unit of the case's displacements. Refuses loops that are too stiff.
+/// Unit for the displacements of a case, from the steady motion without control.
 LengthUnit unit_of(const JobContext& context) {
   const Case& the_case = context.case_data;
   const double duration = std::min(20.0, end_of_force(the_case));
@@ -150,14 +150,14 @@ std::string name_of_case(const JobContext& context, const char* builtin) {
   return stem.empty() ? builtin : stem;
 }
 
-/// "my-line: 21.3 Hz, τ = 5 ms, r₀ = 0.5 mm".
+/// Title of a report on a control loop: "my-line: 21.3 Hz, τ = 5 ms, r₀ = 0.5 mm".
 std::string title_of_loop(const JobContext& context) {
   return name_of_case(context, "A controlled cable") + ": " +
          rounded(effective_excitation(context.case_data).frequency, 4) + " Hz, " +
          loop_text(context.case_data);
 }
 
-/// "my-line: a span of 300 m in the wind".
+/// Title of a report on a span: "my-line: a span of 300 m in the wind".
 std::string title_of_span(const JobContext& context) {
   return page_text("title of span", {{"case", name_of_case(context, "The built-in case")},
                                      {"span", rounded(context.case_data.conductor.span, 4)}});

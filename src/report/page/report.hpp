@@ -30,7 +30,7 @@ void write_span_report(const JobContext& context, const std::vector<std::string>
 
 /// Request for a picture of a job's table.
 struct PictureRequest {
-  JobContext context;                       ///< `output` names the picture
+  JobContext context;                       ///< context of the job; `output` names the picture
   std::vector<std::string> own;             ///< the job's command line, without --output
   Values options;                           ///< the text of each of its options, given or not
   std::vector<std::string> case_arguments;  ///< the options that made the case

@@ -13,7 +13,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Base 64 of RFC 4648.
+/// The bytes encoded in base 64 (RFC 4648).
 std::string base64(const std::string& bytes) {
   constexpr const char* alphabet =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -32,14 +32,14 @@ std::string base64(const std::string& bytes) {
   return result;
 }
 
-/// 14 tenths are "1.4", −4 "-.4".
+/// A number of tenths as a short decimal: 14 is "1.4", −4 is "-.4".
 std::string of_tenths(long tenths) {
   const long size = std::labs(tenths);
   const std::string whole = size < 10 && size != 0 ? "" : std::to_string(size / 10);
   return (tenths < 0 ? "-" : "") + whole + (size % 10 == 0 ? "" : "." + std::to_string(size % 10));
 }
 
-/// gnuplot's curve "M60.45,278.47 L70.20,278.47 …" by steps in tenths of a point; another as it is.
+/// A curve "M60.45,278.47 L70.20,278.47 …" with relative steps of tenths of a point; others as is.
 std::string by_steps(const std::string& curve) {
   std::istringstream words(curve);
   std::string text;
@@ -62,8 +62,8 @@ std::string by_steps(const std::string& curve) {
   return text;
 }
 
-/// The drawing without indents, its blue in few words and long curves by steps; shapes of points
-/// are short and of any size.
+/// The SVG text without indents, with a short name of the colour blue and with long curves written
+/// by relative steps; short curves, the shapes of points, remain since they may be scaled.
 std::string shortened(const std::string& svg) {
   constexpr std::size_t longest_shape = 100;
   const std::string before = " d='";

@@ -13,7 +13,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Digits as indices, all else as it is.
+/// The text with every digit replaced by an index digit: "12" becomes "₁₂".
 std::string lowered(const std::string& index) {
   constexpr std::array<const char*, 10> indices = {"₀", "₁", "₂", "₃", "₄",
                                                    "₅", "₆", "₇", "₈", "₉"};
@@ -26,13 +26,13 @@ std::string lowered(const std::string& index) {
   return text;
 }
 
-/// Index that begins behind "_": the content of braces, or one character.
+/// The index of a gnuplot label that begins at `at`, after "_": text in braces, or one character.
 std::string index_at(const std::string& label, std::size_t at) {
   if (label[at] != '{') return label.substr(at, 1);
   return label.substr(at, label.find('}', at) + 1 - at);
 }
 
-/// Text without braces and without the font named in them.
+/// The label without braces and without the fonts named in them.
 std::string without_braces(const std::string& label) {
   std::string text;
   for (std::size_t at = 0; at < label.size(); ++at) {
@@ -45,7 +45,7 @@ std::string without_braces(const std::string& label) {
 
 constexpr std::string_view of_panel = "panel ", of_logarithms = "logscaling on ";
 
-/// The numbers behind the word "panel"; none where one of them is no number.
+/// The numbers after the word "panel" in a line of gnuplot; empty if one is not a number.
 std::vector<double> numbers_of(std::string_view line) {
   std::vector<double> numbers;
   for (const std::string& word : words_of(std::string(line.substr(of_panel.size())))) {
@@ -56,13 +56,13 @@ std::vector<double> numbers_of(std::string_view line) {
   return numbers;
 }
 
-/// An axis whose ends may be the decades of what it shows.
+/// Axis from its ends; with `decades` the ends are decimal logarithms of the values.
 PanelAxis axis_of(double from, double to, bool decades) {
   if (!decades) return {"", "", from, to, false};
   return {"", "", std::pow(10.0, from), std::pow(10.0, to), true};
 }
 
-/// As `measure` of texts/figures.toml has it, heights from below.
+/// Panel from the numbers that `measure` of texts/figures.toml prints, with heights from below.
 PicturePanel panel_of(const std::vector<double>& described) {
   return {described[0],
           1.0 - described[3],
@@ -73,7 +73,7 @@ PicturePanel panel_of(const std::vector<double>& described) {
           axis_of(described[8], described[9], false)};
 }
 
-/// "displacement (mm)"
+/// Splits a label such as "displacement (mm)" into name and unit of an axis.
 void name_axis(PanelAxis& axis, const std::string& label) {
   const std::size_t unit = label.rfind(" (");
   const bool has_unit = unit != std::string::npos && label.back() == ')';
@@ -81,7 +81,7 @@ void name_axis(PanelAxis& axis, const std::string& label) {
   if (has_unit) axis.unit = label.substr(unit + 2, label.size() - unit - 3);
 }
 
-/// Reads axis labels and scales from a line of gnuplot after "panel".
+/// Reads axis labels and logarithmic scales from a line of gnuplot's messages into the panel.
 void tell(PicturePanel& panel, std::string_view line) {
   if (begins_with(line, of_logarithms)) {
     panel.x.logarithmic |= line.find(" x") != std::string_view::npos;
@@ -112,7 +112,7 @@ void take_name(PanelAxis& axis, const PanelAxis& other) {
 
 bool same(double one, double other) { return std::abs(one - other) < 1e-3; }
 
-/// Shares labels: of the abscissa among stacked panels, of the ordinate among panels side by side.
+/// Gives axes without label the label of a panel above, below or beside that shares the axis.
 void share_names(std::vector<PicturePanel>& panels) {
   for (PicturePanel& panel : panels) {
     for (const PicturePanel& other : panels) {
@@ -130,7 +130,7 @@ void share_names(std::vector<PicturePanel>& panels) {
 
 using Json = nlohmann::ordered_json;
 
-/// A hundred-thousandth of a picture is less than a pixel.
+/// Rounds a fraction of the picture's size to 10⁻⁵, less than a pixel.
 double of_picture(double part) { return std::round(1e5 * part) / 1e5; }
 
 void add_axis(Json& panel, const char* which, const PanelAxis& axis) {

@@ -10,8 +10,8 @@ struct Figure;
 
 /// Axis of a panel: name, and values at its two ends. An axis without a name shows no values.
 struct PanelAxis {
-  std::string name;  ///< "displacement z₁"
-  std::string unit;  ///< "mm", or ""
+  std::string name;  ///< name of the quantity: "displacement z₁"
+  std::string unit;  ///< unit: "mm", or ""
   double from = 0.0, to = 0.0;
   bool logarithmic = false;
 };
@@ -23,7 +23,7 @@ struct PicturePanel {
   PanelAxis x, y, right_axis;
 };
 
-/// gnuplot plots with a request after each, by which gnuplot prints the panel's place and axes.
+/// gnuplot plots, each followed by a command by which gnuplot prints the panel's place and axes.
 std::string with_measured_panels(const std::string& plot);
 
 /// Panels measured by gnuplot, from its messages. A panel without a label gets the label of the
@@ -44,7 +44,7 @@ std::string panels_json(const std::vector<PicturePanel>& panels);
 
 /// Picture as embedded in a page.
 struct PagePicture {
-  std::string url;  ///< "data:image/svg+xml;charset=utf-8,…"
+  std::string url;  ///< data URL: "data:image/svg+xml;charset=utf-8,…"
   std::vector<PicturePanel> panels;
 };
 

@@ -21,7 +21,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Zero to peak; 150 microstrain peak to peak.
+/// Endurance limit of the strain amplitude, zero to peak: 150 microstrain peak to peak.
 constexpr double endurance_limit = 75e-6;
 
 /// Lowest and highest vibration over all pairs of laws at one frequency, without or with devices.
@@ -50,7 +50,7 @@ std::vector<BandAt> bands_of(const AeolianBalance& balance, const Axis& axis,
   return bands;
 }
 
-/// "0.054 d", "less than 0.01 d" or "0.85 d or more".
+/// Text of a relative amplitude: "0.054 d", "less than 0.01 d" or "0.85 d or more".
 std::string amplitude_text(const BalancedAmplitude& amplitude, double diameter) {
   const std::string size = rounded(amplitude.amplitude / diameter, 2);
   if (amplitude.range == BalanceRange::below) return page_text("less than", {{"size", size}});
@@ -58,7 +58,7 @@ std::string amplitude_text(const BalancedAmplitude& amplitude, double diameter) 
   return page_text("as much as", {{"size", size}});
 }
 
-/// "within 6 to 9 Hz", "at 6 Hz": where a strain is above the limit; empty where none is.
+/// Range of frequencies with strains above the limit: "within 6 to 9 Hz", "at 6 Hz"; empty if none.
 std::string beyond_limit(const std::vector<BandAt>& bands, Vibration BandAt::*which) {
   std::vector<double> beyond;
   for (const BandAt& band : bands)
@@ -76,7 +76,7 @@ std::string strain_text(const std::vector<BandAt>& bands) {
   return page_text("strain by every law", {{"some", some}, {"every", every}});
 }
 
-/// Text on the vibration of a span.
+/// Text on the largest vibration of a span over the frequencies of the bands.
 std::string vibration_text(const AeolianBalance& balance, const std::vector<BandAt>& bands) {
   const BandAt& worst =
       *std::max_element(bands.begin(), bands.end(), [](const BandAt& one, const BandAt& other) {
@@ -93,7 +93,7 @@ std::string vibration_text(const AeolianBalance& balance, const std::vector<Band
   return text + (balance.knows_strain() ? strain_text(bands) : page_text("strain unknown"));
 }
 
-/// Completed answer, or the reason why the case has none.
+/// The answer completed by `tell`, or with the reason why the question cannot be answered.
 template <class Tell>
 Answer answered(Answer answer, const Tell& tell) {
   throw_if_interrupted();
@@ -105,13 +105,13 @@ Answer answered(Answer answer, const Tell& tell) {
   return answer;
 }
 
-/// Note that the laws were measured on other conductors; else empty.
+/// Note that the self-damping laws were measured on other conductors; else empty.
 std::string laws_text(const Case& the_case) {
   const std::string note = self_damping_note(the_case);
   return note.empty() ? "" : page_text("note of laws", {{"note", note}});
 }
 
-/// Throws NoAnswer where the loop of the absorber grows, so that nothing with it is steady.
+/// Throws NoAnswer if the absorber's loop is unstable on the span, so that no vibration is steady.
 void require_steady(const Case& the_case) {
   if (is_growing_span(the_case, true)) throw NoAnswer(instability_note(the_case, true));
 }
@@ -131,7 +131,7 @@ Answer what_vibrates(const Case& the_case, const Axis& axis, bool damped) {
   });
 }
 
-/// "by the laws from 3 to 5", "by every law".
+/// Text on the range of a result over the laws: "by the laws from 3 to 5", "by every law".
 std::string by_laws(const std::string& lowest, const std::string& highest) {
   return lowest == highest ? "by every law" : "by the laws " + range_text(lowest, highest, "from ");
 }
@@ -176,7 +176,7 @@ Answer which_frequency(const Case& the_case, const Axis& axis, const Values& val
   });
 }
 
-/// Text on the smallest and largest share of waves that one end absorbs.
+/// Text on the smallest and the largest fraction of wave power that the devices of one end absorb.
 std::string taken_text(const Case& the_case, const SpanEnd& end, const std::string& name,
                        const Axis& axis) {
   if (end.devices.empty()) return page_text("end without device", {{"end", name}});

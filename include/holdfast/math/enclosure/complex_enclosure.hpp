@@ -17,7 +17,7 @@ namespace detail {
 /// terms, each a product of up to four moduli; at most 20 roundings occurred.
 inline double above_roundings(double x) { return rounded_up(x * (1.0 + 0x1.0p-48)); }
 
-/// The modulus |z| up to a few roundings; a value up to 1.5 |z| where |z|² would underflow.
+/// An approximation of |z| to a few roundings; up to 1.5 |z| where |z|² would underflow.
 inline double rounded_modulus(const std::complex<double>& z) {
   const double x = std::abs(z.real()), y = std::abs(z.imag());
   const double most = std::max(x, y);

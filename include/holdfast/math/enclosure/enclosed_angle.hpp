@@ -43,7 +43,7 @@ inline EnclosedPhasor phasor_at(double x) {
   }
 }
 
-/// The cosine and sine of an angle (rad): at the midpoint, widened by the radius as |slope| ≤ 1.
+/// The cosine and sine of an angle (rad): values at its midpoint ± its radius, as |derivative| ≤ 1.
 inline EnclosedPhasor phasor_of(const Enclosure& angle) {
   const Enclosure all(-1.0, 1.0);
   const double x = angle.middle(), radius = angle.radius();

@@ -89,7 +89,7 @@ class ComplexRows {
   using Row = std::array<std::complex<Scalar>, Columns>;    ///< one row of complex numbers
   using Block = std::array<ComplexLanes<Scalar>, Columns>;  ///< one row for each lane
 
-  /// @param first  real value in the first column of the last block's unused rows
+  /// Constructs an empty table. @param first  real part of column 0 in the last block's unused rows
   explicit ComplexRows(const Scalar& first = Scalar(0)) : first_(first) {}
 
   /// Adds a row at the end.

@@ -84,7 +84,7 @@ class EigenBasis {
   using ComplexVector = Vector<Complex, Eigen::Dynamic>;  ///< column of N complex numbers
   using ComplexMatrix = Matrix<Complex, Eigen::Dynamic>;  ///< matrix of N × N complex numbers
 
-  /// @param matrix  matrix A, N × N, finite, N ≥ 1
+  /// Computes the basis. @param matrix  matrix A, N × N, finite, N ≥ 1
   /// @throws InvalidParameter where A is empty or not square
   explicit EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix);
 

@@ -52,8 +52,8 @@ Number inverse_square_norm(const Number (&unit_upper)[Columns][Columns],
 /// relative error of R and the deviation of Q from orthogonality are about round-off times
 /// ‖B‖ ‖R⁻¹‖. Source: Å. Björck, BIT 7 (1967).
 /// @param basis  matrix B, replaced by Q; a column whose flag is false in the end becomes zero
-/// @param alive  flags of the columns; they become false from the first column on whose flag is
-///               false or that depends linearly on earlier columns
+/// @param alive  flags of the columns; all flags become false from the first column on that has a
+///               false flag or depends linearly on earlier columns
 /// @return R_ii² and ‖R⁻¹‖_F²
 template <class Number, int Columns>
 Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, Alive& alive) {

@@ -52,7 +52,7 @@ class MovingSpectrum {
  public:
   using Complex = std::complex<Scalar>;  ///< complex type of the triangular form
 
-  /// @param matrix  matrix S(x); if an entry is not finite, `inside()` is false
+  /// Attempts the proof. @param matrix  matrix S(x); if an entry is not finite, `inside()` is false
   /// @throws InvalidParameter for fewer than two terms, or where the sizes disagree
   explicit MovingSpectrum(const TaylorMatrix& matrix);
 

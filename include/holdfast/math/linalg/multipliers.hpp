@@ -101,8 +101,8 @@ bool decoupled(const Matrix<Scalar, Size>& turn, Eigen::Index leading) {
          turn.bottomLeftCorner(others, leading).cwiseAbs().maxCoeff() < Scalar(1e-10);
 }
 
-/// Whether the rotation W decouples the first 1 or 2, the first 3 or 4, … directions. The two
-/// directions of a conjugate pair usually stay coupled, however many periods follow.
+/// Whether W leaves the first k or the first k + 1 directions invariant, for every odd k. One of
+/// the two suffices, since the directions of a conjugate pair usually stay coupled forever.
 template <class Scalar, int Size>
 bool settled(const Matrix<Scalar, Size>& turn, Eigen::Index rank) {
   for (Eigen::Index k = 1; k == 1 || k < rank; k += 2)

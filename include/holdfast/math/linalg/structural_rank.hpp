@@ -28,7 +28,7 @@ enum class Carried : unsigned {
 /// Work: 16 comparisons for each call of a member function.
 class StructuralRank {
  public:
-  /// @param carried  bitwise OR of the `Carried` quantities that, besides z, enter the first map
+  /// Starts a product. @param carried  bitwise OR of the quantities, besides z, at its first map
   explicit StructuralRank(unsigned carried) : carried_(carried) { least_.fill(none); }
 
   /// Adds an instant. @param directions  number of independent entries of z there: 4, or 3 in stick
@@ -55,7 +55,7 @@ class StructuralRank {
     if ((carried_ & bit(quantity)) != 0) carried_ = (carried_ & ~bit(quantity)) | bit(other);
   }
 
-  /// The rank of the product so far, with z and the stored quantities as outputs; after a `pass`.
+  /// The product's rank so far, with z and the stored quantities as outputs; call after pass().
   int rank() const {
     int least = none;
     for (unsigned set = 0; set < sets; ++set) least = std::min(least, least_[set] + size_of(set));
@@ -71,7 +71,7 @@ class StructuralRank {
     return static_cast<int>((set & 1U) + (set >> 1U & 1U) + (set >> 2U & 1U) + (set >> 3U & 1U));
   }
 
-  /// Replaces a quantity by `other` (bits; 0: none) in all sets and raises their cuts by `cost`.
+  /// Replaces `quantity` by `other` (bits; 0: none) in the sets with it; their cuts grow by `cost`.
   void eliminate(Carried quantity, int cost, unsigned other) {
     for (unsigned set = 0; set < sets; ++set) {
       if ((set & bit(quantity)) == 0 || least_[set] == none) continue;

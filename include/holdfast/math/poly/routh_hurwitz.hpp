@@ -5,8 +5,8 @@
 
 namespace holdfast {
 
-/// Whether all roots s of a polynomial Σ a_k sᵏ have Re s < 0, in every lane. Its degree n is 3, 4
-/// or 5; a_n may be negative. The conditions of Liénard and Chipart are necessary and sufficient
+/// Whether all roots s of a polynomial Σ a_k sᵏ have Re s < 0, in each SIMD lane; degree n = 3,
+/// 4 or 5; a_n may be negative. The conditions of Liénard and Chipart are necessary and sufficient
 /// (Kollár 2022, Eq. (15)). With the Hurwitz determinants H_k they are
 ///
 ///     a_n a_j > 0 for j = 0, 2 and n − 1,

@@ -50,8 +50,8 @@ namespace detail {
 /// The simultaneous iteration for all roots of a PoleSum (Ehrlich 1967, Aberth 1973): each root is
 /// improved by a Newton step for p with all other roots divided out. Except for the extra roots, a
 /// root λ is stored as the difference d = λ − e from a pole e, so that a small d is accurate. A
-/// root is found alone, by the Taylor series of the other poles' sum, if it is nearer to its pole
-/// than half the pole's distance to the next pole and to 0; no two of these are the same root.
+/// root is found separately, with a Taylor series for the other poles, if it is closer to its pole
+/// than half the pole's distance to the next pole and to 0. Such roots are all distinct.
 template <class Scalar>
 class RootIteration {
  public:
@@ -119,9 +119,9 @@ class RootIteration {
   using Row = typename ComplexRows<Scalar, 4>::Row;  // e − 1, a, b and d
   static constexpr Scalar parked{-8};                // an e − 1 that no root is near
 
-  /// The Taylor coefficients Σ a/(λ − e)^{m+1} and Σ b/(λ − e)^{m+1} of the sums over the other
-  /// poles, in powers of −δ at λ + δ, the distance of the nearest of these poles, and a bound of
-  /// the rounding error of the first sum if it is in single precision.
+  /// The Taylor series about a root λ of the sums over all poles e but the root's own: coefficients
+  /// Σ a/(λ − e)^{m+1} and Σ b/(λ − e)^{m+1} of (−δ)^m at λ + δ. `nearest` is the distance of the
+  /// nearest of these poles, `rounding` bounds the error of the first sum in single precision.
   struct Series {
     static constexpr std::size_t terms = 3;
     std::array<Complex, terms> a, b;
@@ -166,8 +166,8 @@ class RootIteration {
     }
   }
 
-  /// The difference of root i from its pole, if it is settled alone, else a first estimate. That is
-  /// off the real axis, since iterates from the axis stay real.
+  /// The difference d of root i from its pole: final if the root is found separately, otherwise a
+  /// first estimate. The estimate is not real, since iterates from the real axis would stay real.
   Complex first_of(std::size_t i) {
     Row own = parts_[i];
     own[3] = Complex(0);
@@ -189,8 +189,8 @@ class RootIteration {
     return std::isfinite(std::abs(first)) ? first : Complex(1e-3, 1e-3);
   }
 
-  /// The root near a pole e, as the difference d from it, by Newton steps with the Taylor series;
-  /// NaN where they do not converge, as from the real axis to a complex root.
+  /// The difference d of a root from its pole e, by Newton steps with the poles' Taylor series;
+  /// NaN without convergence, as from a real start to a complex root.
   Complex near_pole(const Row& own, const Series& others) const {
     Complex d = own[3];
     Scalar before(0);
@@ -206,8 +206,8 @@ class RootIteration {
     return {std::numeric_limits<Scalar>::quiet_NaN(), Scalar(0)};
   }
 
-  /// Whether the terms left out of the series hardly move the root: they are at most about as large
-  /// as the last two, each times the ratio of d's change to the distance of the nearest pole.
+  /// Whether truncation of the Taylor series hardly moves the root. The omitted terms are estimated
+  /// from the last two terms by powers of the ratio of d's change to the nearest pole's distance.
   bool is_settled_alone(const Row& own, const Series& others, const Complex& d) const {
     constexpr std::size_t last = Series::terms - 1;
     const Scalar change = std::abs(d - own[3]), ratio = change / others.nearest;
@@ -223,7 +223,7 @@ class RootIteration {
     return is_negligible(Scalar(10) * error, d, Complex(1) + (own[0] + d));
   }
 
-  /// Restarts unconverged roots of conjugate poles one by one: they may be real, not conjugate.
+  /// Restarts unconverged roots of conjugate poles separately, since they may be real and unequal.
   void part_mirrors() {
     for (std::size_t i = 0; i < poles_; ++i) {
       const std::size_t other = std::exchange(mirrors_[i], i);
@@ -245,8 +245,8 @@ class RootIteration {
     return {std::complex<float>(increment), std::complex<float>(present)};
   }
 
-  /// The series of all other poles about the root that belongs to pole i. The first one of a root
-  /// has its sums of a in single precision where the roots need not be accurate.
+  /// The Taylor series, over all other poles, about the root that belongs to pole i. For the first
+  /// estimate (d = 0) the sums of a are in single precision if the roots need not be accurate.
   Series series_about(std::size_t i, const Row& own) {
     Series series{};
     if (enough_ > Scalar(0) && own[3] == Complex(0)) {
@@ -265,8 +265,8 @@ class RootIteration {
     return series;
   }
 
-  /// Computes the series of one column of residues from a block on.
-  /// @param size  if given, set to the sum of the first sum's terms without their signs
+  /// Computes the Taylor series with one column of residues (a or b), from block `from` on.
+  /// @param size  if given, set to Σ (|Re| + |Im|) over the terms of the first sum
   /// @return the distance of the nearest pole
   template <class Real, std::size_t column, class Rows>
   static Scalar add_series(const Rows& rows, const Row& own, std::size_t from,
@@ -386,7 +386,7 @@ class RootIteration {
   }
 
   /// Changes `unknown`, a root λ or its difference from a pole, by one step; a root at 0 stays.
-  /// @return whether the root has converged: this step, or the shorter one to follow, is negligible
+  /// @return whether the root has converged: this step or the next one, as predicted, is negligible
   bool take(std::size_t i, Complex& unknown, const Value& p, const Sums& others,
             const Complex& lambda) {
     const Complex divided_out = others.divided_out + extras_divided_out(i, lambda);

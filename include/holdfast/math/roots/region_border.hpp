@@ -39,7 +39,7 @@ struct RegionBorder {
   std::vector<BorderPoint<Label>> points;  ///< if closed, the last point repeats the first one
   bool closed = false;  ///< whether the trace returned to its start; if not, the trace lost the
                         ///< border, changed to a touching part of the region or reached the limit
-  int looks = 0;        ///< number of points examined; `most_looks` after a loss or such a change
+  int looks = 0;        ///< points examined; `most_looks` if the border was lost or part changed
 };
 
 /// The step lengths, accuracies and limits for following a border.
@@ -128,7 +128,7 @@ class BorderWalk {
     return BorderPoint<Label>{last, inner.margin > steps_.jump ? outer.label : inner.label};
   }
 
-  /// The first border point on a ray from an inner point; none within the limit of looks.
+  /// The first border point on a ray from an inner point; none if the limit of points is reached.
   std::optional<BorderPoint<Label>> ray(const PlanePoint& from, double angle) {
     for (double near = 0.0; border_.looks < steps_.most_looks;) {
       const double far = near + steps_.longest;

@@ -80,8 +80,8 @@ class SettledBatches {
     return high - low;
   }
 
-  /// The difference of the means over the second quarter and second half of the batches used; if
-  /// over a quarter of all is left out, over the later half of those left out and over all used.
+  /// The difference of the means over the second quarter and the second half of the used batches.
+  /// If over a quarter is left out: of the means over the later half of these and over all others.
   Means drift() const {
     const std::size_t all = sums_.complete_batches(), half = (from_ + all) / 2;
     if (from_ > all / 4) return (mean(from_ / 2, from_) - mean(from_, all)).cwiseAbs();

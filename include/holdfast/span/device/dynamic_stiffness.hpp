@@ -36,8 +36,8 @@ inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
   return sum;
 }
 
-/// The eigenvalues (1/s) of a device whose clamp is held fixed: the nonzero ones, and one of each
-/// conjugate pair, that with Im s > 0.
+/// The nonzero eigenvalues (1/s) of a device whose clamp is held fixed. A conjugate pair is listed
+/// once, by its eigenvalue with Im s > 0.
 inline std::vector<std::complex<double>> own_motions(const LumpedDevice& device) {
   std::vector<std::complex<double>> motions;
   for (const DeviceBranch& branch : device.branches) {

@@ -55,7 +55,7 @@ CablePlaceModes chain_modes_of(const Case& the_case, int bars, int steps) {
                  [&] { return cable_place_modes(BarChain(conductor, place, bars), mass, steps); });
 }
 
-/// Modes of the bare conductor with the case's damping, added to the width of each bundle.
+/// Adds the bare conductor's damping ratio to that of each mode or bundle (root of the squares).
 ConductorModes damped(const Case& the_case, std::vector<PlaceMode<double>> modes, int apart,
                       int bars) {
   for (PlaceMode<double>& mode : modes)
@@ -86,8 +86,8 @@ double twice_the_rate_of(const Case& the_case) {
   return 4.0 * pi<double> / the_case.control.sampling_period;
 }
 
-/// The number of modes, `n` to `most`, up to `highest` (rad/s) whose waves keep at least `share` of
-/// their amplitude after travelling `way` spans forth and back.
+/// The number of modes, `n` to `most`, with frequencies below `highest` (rad/s) whose waves keep at
+/// least `share` of their amplitude on the way over `way` spans and back.
 int returning_modes(const Case& the_case, int n, double highest, int most = most_judged,
                     double way = 1.0, double share = 0.05) {
   const TautString<double> string = string_of(the_case);
@@ -98,8 +98,8 @@ int returning_modes(const Case& the_case, int n, double highest, int most = most
   return n;
 }
 
-/// The number of single modes. A force that jumps at samples excites waves above the sampling rate;
-/// returning waves may end stability at up to five times the frequency of the absorber.
+/// The number of single modes of a case. A force that jumps at samples excites waves above half the
+/// sampling rate. Returning waves may destabilise the loop up to five times absorber frequency.
 int chosen_modes(const Case& the_case) {
   const int most = is_cable(the_case) ? most_modes_of_cable : most_modes_of_string;
   constexpr double sharpness = 5.0, decisive = 5.0, hardly = 0.1;
@@ -112,7 +112,7 @@ int chosen_modes(const Case& the_case) {
                          decisive * std::sqrt(plant.absorber_stiffness / plant.absorber_mass));
 }
 
-/// Phase (rad) of the fastest relevant wave along the span, reduced for damping: bars needed.
+/// Number of bars needed: phase (rad) of the fastest relevant wave over the span, less for damping.
 double radians_of(const Case& the_case, int apart) {
   const TautString<double> string = string_of(the_case);
   const double omega = std::max(seen_frequency(the_case), string.angular_frequency(2.0 * apart));
@@ -141,7 +141,7 @@ ConductorModes all_modes_of_string(const Case& the_case, int apart) {
                 apart, 0);
 }
 
-/// The single mode of one mass on spring and dashpot, or of a string without ends.
+/// The only mode of a mass on a spring and a dashpot, or of a string without ends.
 ConductorModes one_mode_of(const Case& the_case) {
   if (is_infinite(the_case)) {
     require_keys(the_case, {"control.sampling_period"});

@@ -150,7 +150,7 @@ std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>
   return largest_loop_root(command_response_of(the_case), gains);
 }
 
-/// Number of single modes if all modes are included.
+/// Number of single modes with which all modes of a conductor are modelled; others are bundled.
 constexpr int enough = 60;
 
 bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {

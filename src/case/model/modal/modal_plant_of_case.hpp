@@ -72,7 +72,7 @@ struct JudgedLoop {
   bool is_stable(const PdGains<double>& gains) const { return circle.roots_outside(gains) == 0; }
 };
 
-/// Throws what `conductor_with_absorber_of` throws, and WrongInput for a measured device.
+/// The JudgedLoop of a case. Throws WrongInput for a measured device, NoAnswer if poles coincide.
 JudgedLoop judged_loop_of(const Case& the_case);
 
 /// The JudgedLoop of a case without its modes above twice the sampling rate, for comparison.
@@ -81,7 +81,7 @@ JudgedLoop cut_loop_of(const Case& the_case);
 /// Whether plant.model is "string" and the program chooses the number of modes.
 bool has_chosen_modes(const Case& the_case);
 
-/// A warning that a loop that is stable with the modes of the case is unstable by `judged_loop_of`;
+/// A warning if the loop is stable with the modes of the case, but unstable by `judged_loop_of`;
 /// empty if both agree, and if !has_chosen_modes().
 std::string judged_otherwise(const Case& the_case);
 
@@ -91,8 +91,8 @@ SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<d
                                           ForceHold hold, double angular_frequency);
 double true_amplitude_of(const Case& the_case, double angular_frequency);
 
-/// The loop of a modal case with all its features. The controller is part of the plant; its memory
-/// are the delayed commands. Throws WrongInput for a string without ends and without clamp mass.
+/// The loop of a modal case with all its features. The plant includes the controller, whose memory
+/// is the delayed commands. Throws WrongInput for a string without ends and without clamp mass.
 ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
                                                      const MotionChoice& choice);
 

@@ -11,7 +11,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Σ φ²/M (1/kg): acceleration of the place without its clamp per newton.
+/// The sum Σ φ²/M (1/kg): acceleration per newton of the absorber's place without its clamp.
 double mobility_of(const std::vector<PlaceMode<double>>& modes) {
   double sum = 0.0;
   for (const PlaceMode<double>& mode : modes) sum += mode.shape * mode.shape / mode.mass;

@@ -21,9 +21,9 @@ using OwnForce =
 
 /// User-defined parts of a case, which a calling program supplies; a case file cannot.
 struct OwnParts {
-  std::optional<LinearPlant<double>> plant;  ///< replaces conductor and absorber
+  std::optional<LinearPlant<double>> plant;  ///< plant instead of conductor and absorber
   Vector<double, Eigen::Dynamic> state;      ///< initial state of that plant
-  OwnForce controller;                       ///< empty: P and D
+  OwnForce controller;                       ///< control law; empty: P and D
 };
 
 /// Throws WrongInput if a key contradicts the user-defined plant or controller, or has no effect.
@@ -37,7 +37,7 @@ void require_counts(const Case& the_case, std::string_view key, const std::strin
 /// and the instant of the sample.
 struct OwnLaw {
   static constexpr int states = 2;
-  OwnForce force;  ///< empty: no force
+  OwnForce force;  ///< control law; empty: no force
   double period;   ///< τ (s) of regular samples; 0: instants are sums of elapsed times
 
   double command(const ControlSample& sample, Vector<double, 2>& memory) const {

@@ -20,10 +20,10 @@ std::string absent_absorber_note(const Case& the_case);
 /// A device as masses, springs and dashpots; not for kind "measured".
 LumpedDevice lumped_device_of(const case_tables::Device& device);
 
-/// The absorber with its computer as a device; not `controlled`: with gains 0.
+/// The absorber with its computer as a device; its gains are 0 unless `controlled`.
 SpanDevice active_device_of(const Case& the_case, bool controlled);
 
-/// Devices and active absorber, if any, of the span, by position; not `controlled`: gains 0.
+/// Devices and active absorber, if any, of the span, by position; gains are 0 unless `controlled`.
 std::vector<SpanDevice> span_devices_of(const Case& the_case, bool controlled = true);
 
 /// Whether the string with its devices is statically stable, negative stiffnesses being multiplied

@@ -17,7 +17,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Displacement of the conductor at the absorber for 1 m at the antinodes.
+/// Amplitude of the conductor at the absorber for an antinode amplitude of 1 m.
 double motion_at_absorber(const TautString<double>& string, const std::vector<SpanDevice>& devices,
                           double omega) {
   for (const SpanEnd& end : span_ends(devices, string.span))

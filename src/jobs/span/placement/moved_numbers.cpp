@@ -13,7 +13,7 @@ namespace {
 
 using case_tables::Device;
 
-/// Strength, searched by its logarithm between two bounds, which are widened to the current value.
+/// Varied strength with a logarithmic scale; the bounds are widened to contain the current value.
 placement::MovableValue strength(double lower, double upper, double present, int places) {
   placement::MovableValue value{lower, upper};
   value.by_ratio = true;
@@ -25,7 +25,7 @@ placement::MovableValue strength(double lower, double upper, double present, int
   return value;
 }
 
-/// Writes a number into one device.
+/// Function that writes a number of one device.
 std::function<void(Case&, double)> into(std::size_t device, double Device::*place,
                                         double sign = 1.0) {
   return [=](Case& variant, double value) { variant.devices[device - 1].*place = sign * value; };
@@ -34,7 +34,7 @@ std::function<void(Case&, double)> into(std::size_t device, std::vector<double> 
   return [=](Case& variant, double value) { variant.devices[device - 1].*place = {value}; };
 }
 
-/// Factors around the value that matches the conductor's wave impedance.
+/// Bounds of the strength relative to the value that matches the conductor's wave impedance.
 constexpr double weakest = 1e-2, strongest = 1e2;
 
 void add_mass(std::vector<MovedNumber>& numbers, const Case& the_case, std::size_t number,
@@ -50,7 +50,7 @@ void add_mass(std::vector<MovedNumber>& numbers, const Case& the_case, std::size
                      into(number, &Device::damping_ratios)});
 }
 
-/// Adds the strength of a device of a kind that has one.
+/// Adds the strength of a device, if its kind has a free one.
 void add_strength(std::vector<MovedNumber>& numbers, const Case& the_case, std::size_t number,
                   double lowest, double highest) {
   const Device& device = the_case.devices[number - 1];

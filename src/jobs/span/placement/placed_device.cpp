@@ -52,7 +52,7 @@ double worst_of(const std::vector<double>& levels) {
   return levels.empty() ? std::nan("") : *std::max_element(levels.begin(), levels.end());
 }
 
-/// Gains varied over a rectangle; one start of the search is 0 if the case's own are inadmissible.
+/// The gains as varied numbers, starting from the case's gains, or from 0 if they are inadmissible.
 std::vector<MovedNumber> moved_gains(const Case& the_case, const StableGains& stable,
                                      const PdGains<double>& most) {
   const GainWindow around = stable.around(most);

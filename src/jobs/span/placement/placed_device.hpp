@@ -12,8 +12,8 @@ namespace holdfast::program {
 
 /// Number of a case that a placement varies; a negative number by its absolute value.
 struct MovedNumber {
-  std::string quantity;                    ///< "damping"
-  std::string unit;                        ///< of the quantity
+  std::string quantity;                    ///< name of the number: "damping"
+  std::string unit;                        ///< unit of the number
   placement::MovableValue value;           ///< its bounds and current value
   std::function<void(Case&, double)> put;  ///< sets the number in a case
   double sign = 1.0;                       ///< the case's number is sign × value
@@ -32,16 +32,16 @@ Case with_values(Case the_case, const std::vector<MovedNumber>& numbers,
 
 /// Result of the placement of one device, the other devices unchanged.
 struct PlacedDevice {
-  Case the_case;                     ///< with the best values
+  Case the_case;                     ///< case with the best values
   std::vector<MovedNumber> numbers;  ///< the varied numbers
   placement::Placement found;        ///< best values, in the order of `numbers`
   double before;           ///< goal with the case's own values; NaN where the loop is unstable
   double after;            ///< goal with the best values
-  double worst_frequency;  ///< Hz, with the best values
+  double worst_frequency;  ///< frequency (Hz) of the worst level, with the best values
   bool is_better;          ///< whether `after` is better than `before`
   /// Whether 1 % more negative stiffness would violate the 10 % reserve of stability at rest.
   bool is_at_limit_of_rest;
-  std::string range_note;  ///< worst vibration outside the wind law's range; else empty
+  std::string range_note;  ///< note if the worst vibration is outside the wind law's range
 };
 
 /// Throws NoAnswer, naming the package to install, in a program built without Ceres Solver.

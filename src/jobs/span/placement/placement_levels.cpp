@@ -10,8 +10,8 @@
 namespace holdfast::program {
 namespace {
 
-/// Level of a ratio to be maximised: its inverse; below an irrelevant ratio, and where it is
-/// negative, the tangent of the inverse.
+/// Least ratio whose level, the quantity to be minimised, is 1/ratio. Below it, and for negative
+/// ratios, the level continues along the tangent of 1/ratio.
 constexpr double poor = 1e-5;
 double level_of_ratio(double ratio) {
   return ratio >= poor ? 1.0 / ratio : (2.0 * poor - ratio) / (poor * poor);

@@ -20,7 +20,7 @@ enum class PlacementGoal {
 
 /// Options of the placement of one device of a case.
 struct PlacementQuestion {
-  std::size_t device = 0;  ///< number, from 1 on; 0: the absorber with its computer
+  std::size_t device = 0;  ///< number of the device, from 1 on; 0: absorber with its computer
   PlacementGoal goal = PlacementGoal::strain;
   Axis frequencies{5.0, 60.0, 56};    ///< frequencies of the band, Hz
   int first_mode = 1, last_mode = 1;  ///< modes of the goal `modes`
@@ -32,7 +32,7 @@ struct PlacementQuestion {
 /// Objective values (levels) that a placement minimises, one for each frequency or mode.
 class PlacementLevels {
  public:
-  /// Throws WrongInput where the case lacks what the goal needs.
+  /// Prepares the levels. Throws WrongInput where the case lacks what the goal needs.
   PlacementLevels(const Case& the_case, const PlacementQuestion& question);
 
   /// Levels (> 0) of a variant of the case, one per frequency or mode; smaller is better. Empty
@@ -41,12 +41,12 @@ class PlacementLevels {
 
   /// Physical value of a level (strain or ratio), described by name() and unit().
   double value_of(double level) const;
-  std::string name() const;  ///< "largest_strain"
-  std::string unit() const;  ///< of the value
+  std::string name() const;  ///< name of that value: "largest_strain"
+  std::string unit() const;  ///< unit of that value
 
-  /// Frequency (Hz) of the level with an index from 0 on; of a mode, on the bare conductor.
+  /// Frequency (Hz) of the level with index `number` from 0; for a mode, of the bare conductor.
   double frequency_of(std::size_t number) const { return frequencies_[number]; }
-  const std::vector<double>& frequencies() const { return frequencies_; }  ///< Hz, ascending
+  const std::vector<double>& frequencies() const { return frequencies_; }  ///< all of these (Hz)
 
   /// Note that the vibration at a frequency (Hz) is outside the measured range of the wind law;
   /// empty if it is inside or the goal is not strain.

@@ -16,7 +16,7 @@ namespace holdfast::program {
 /// rate must be stable, so that the result does not depend on the number of modes.
 class StableGains {
  public:
-  /// @param margin  0 … 1; 0: stability alone
+  /// Prepares the tests. @param margin  modulus margin, 0 … 1; 0: stability alone
   /// Throws what `judged_loop_of` throws.
   StableGains(const Case& the_case, double margin);
 
@@ -24,18 +24,18 @@ class StableGains {
     return judge_.is_stable(gains) && cut_.is_stable(gains);
   }
 
-  int judged_modes() const { return judge_.modes; }            ///< computed singly
-  double highest_frequency() const { return judge_.highest; }  ///< Hz, of the last of these
+  int judged_modes() const { return judge_.modes; }            ///< number of single modes
+  double highest_frequency() const { return judge_.highest; }  ///< highest frequency (Hz) of these
 
   /// Whether gains are stable and keep the margin.
   bool admits(const PdGains<double>& gains) const;
 
-  /// Bounded open intervals of one gain, the other fixed, that are stable and keep the margin, or
-  /// 0.01 where the margin is less; ascending.
+  /// Bounded open intervals of one gain, with the other gain fixed, in which the loop is stable and
+  /// keeps the margin, or a margin of 0.01 if that is larger; ascending.
   std::vector<Interval<double>> along(FreeGain free, const PdGains<double>& held) const;
 
-  /// Window around the admissible gains: alternate searches of D at several P and of P at several
-  /// D, from gains of 0, then a tenth wider.
+  /// Window around the admissible gains, a tenth wider than these. The search starts at gains of 0
+  /// and seeks in turn D at several P and P at several D.
   /// @param most  bounds of |P| and |D|
   GainWindow around(const PdGains<double>& most) const;
 
