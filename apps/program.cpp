@@ -139,14 +139,16 @@ std::string unexpected_text(const CLI::App& job) {
   std::error_code ignored;
   if (std::filesystem::exists(word, ignored))
     return "unexpected word " + word + "; did you mean " + option + word + "?";
-  return "unexpected word " + word + "; a name with blanks needs quotes";
+  return "unexpected word " + word + ": remove it, or put a name with blanks in quotes";
 }
 
-/// Message of the parser; for an option given twice it says so instead of counting values.
+/// Message of the parser, in other words where it counts the values of an option.
 std::string text_of(const CLI::ParseError& outcome) {
   const std::string text = one_line(outcome.what());
-  const std::size_t twice = text.find(": At Most 1 required");
-  return twice == std::string::npos ? text : text.substr(0, twice) + " is given more than once";
+  const std::size_t twice = text.find(": At Most 1 required"), none = text.find(": 1 required ");
+  return twice != std::string::npos  ? text.substr(0, twice) + " is given more than once"
+         : none != std::string::npos ? text.substr(0, none) + " needs a value after it"
+                                     : text;
 }
 
 }  // namespace

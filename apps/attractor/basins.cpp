@@ -78,7 +78,8 @@ StateGrid grid_of(const std::vector<std::string>& axes) {
         "--axis: basins need two axes over initial.*, for example --axis "
         "initial.z1=-0.005:0.005:101 --axis initial.z2=-0.005:0.005:101");
   StateGrid grid{initial_axis(axes[0]), initial_axis(axes[1])};
-  if (grid.slow.key == grid.fast.key) throw WrongInput("--axis: both axes are " + grid.slow.key);
+  if (grid.slow.key == grid.fast.key)
+    throw WrongInput("--axis: both axes are " + grid.slow.key + ": change one");
   const double count =
       static_cast<double>(grid.slow.axis.count) * static_cast<double>(grid.fast.axis.count);
   if (count > most_states)

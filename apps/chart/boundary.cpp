@@ -133,11 +133,11 @@ std::string truncation_warning(const Case& the_case, const FixedGains& fixed,
     const std::string at = std::string("at ") + found[i].fixed.symbol + " = " +
                            format_number(found[i].value) + " " + found[i].fixed.unit + " ";
     if (here.size() != there.size())
-      return "the result depends on the modes kept: " + at + other.words + " there are " +
+      return "the result depends on the modes used: " + at + other.words + " there are " +
              std::to_string(there.size()) + " stable intervals";
     for (std::size_t k = 0; k < here.size(); ++k)
       if (moved(k))
-        return "the result depends on the modes kept: " + at + other.words + " the interval is " +
+        return "the result depends on the modes used: " + at + other.words + " the interval is " +
                range_text(format_rounded(there[k].lower), format_rounded(there[k].upper)) + " " +
                found[i].gain.unit;
   }

@@ -23,7 +23,8 @@ constexpr Named<MinimumAmplitudeOutcome> amplitude_names[] = {
     {MinimumAmplitudeOutcome::none, "none"},
     {MinimumAmplitudeOutcome::aliased, "aliased"}};
 
-constexpr const char* ratios_shown = "ratios refer to the vibration under the force not held";
+constexpr const char* ratios_shown =
+    "ratios are relative to the vibration without control under the continuous force";
 
 std::string no_gain_text(double proportional_gain, double largest_radius) {
   return "no D keeps the spectral radius below " + format_rounded(largest_radius) +

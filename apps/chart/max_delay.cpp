@@ -58,10 +58,11 @@ struct MaxDelayQuestion {
     Table table(context, columns_of(prove ? "proved max-delay" : "max-delay"));
     for (const auto& [question, answer, proved] : answers_of(context, loop, axis)) {
       if (answer.outcome == MaxDelayOutcome::beyond_search)
-        report_warning("at " + format_rounded(question.frequency) +
-                           " Hz every sampling period is feasible up to the search's end, " +
-                           format_rounded(answer.sampling_period) + " s",
-                       context.quiet);
+        report_warning(
+            "at " + format_rounded(question.frequency) +
+                " Hz the search found no limit: every sampling period meets --criterion up to " +
+                format_rounded(answer.sampling_period) + " s, where the search ended",
+            context.quiet);
       note(loop, question, answer, context);
       const bool has_proof = proved.upper >= proved.lower;
       if (prove)
@@ -75,8 +76,8 @@ struct MaxDelayQuestion {
     table.commit();
     if (on_boundary_ > 0)
       report_warning(std::to_string(on_boundary_) + " of " + std::to_string(axis.count) +
-                         " values of differential_gain lie on the boundary of stability: take "
-                         "a shorter sampling period, and for it the D that holdfast design finds",
+                         " values of differential_gain lie on the boundary of stability: give "
+                         "a shorter control.sampling_period and find its best D by holdfast design",
                      context.quiet);
     report_warning(held_force_, context.quiet);
   }
@@ -112,7 +113,7 @@ struct MaxDelayQuestion {
     if (question.criterion == DelayCriterion::attenuates && held_force_.empty())
       held_force_ = held_force_warning(
           context.case_data, answer.sampling_period, question.frequency,
-          "--criterion attenuates compares with the vibration under the force not held");
+          "--criterion attenuates compares with no control under the continuous force");
   }
 
   std::vector<EnclosedPole> poles_;  // for the proofs; empty without --prove

@@ -24,8 +24,8 @@ struct ResponseQuestion {
     report_warning(
         held_force_warning(
             context.case_data,
-            "amplitude_m is computed with the held force, the ratios compare it with the "
-            "amplitude without control under the force not held"),
+            "amplitude_m is computed with the held force; the ratios are relative to the "
+            "amplitude without control under the continuous force"),
         context.quiet);
     const GainGrid grid{parse_axis("--p", shown_gains(context, "--p", p)),
                         parse_axis("--d", shown_gains(context, "--d", d))};

@@ -110,7 +110,7 @@ void StabilityQuestion::run_over_axes(const JobContext& context) const {
     throw WrongInput("--axis: give two axes KEY=MIN:MAX:COUNT, not " + std::to_string(axes.size()));
   }
   const KeyAxis slow = admissible_axis(axes[0]), fast = admissible_axis(axes[1]);
-  if (slow.key == fast.key) throw WrongInput("--axis: both axes are " + slow.key);
+  if (slow.key == fast.key) throw WrongInput("--axis: both axes are " + slow.key + ": change one");
   const LoopChart chart{operating_point_of(context.case_data),
                         {parameter_of(slow.key), slow.axis},
                         {parameter_of(fast.key), fast.axis}};

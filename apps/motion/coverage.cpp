@@ -37,7 +37,7 @@ PhaseWindow window_of(const JobContext& context, const CoverageQuestion& options
   CaseMotion motion(context.case_data, {options.switching});
   run_to_completion(motion, samples, {}, extent);
   if (!(extent.displacement() > 0) || !(extent.velocity() > 0)) {
-    throw NoAnswer("the motion stays at rest, so it spans no default window: give --window");
+    throw NoAnswer("the motion stays at rest, so there is no default window: give --window");
   }
   return {-extent.displacement(), extent.displacement(), -extent.velocity(), extent.velocity()};
 }

@@ -27,7 +27,7 @@ struct DeviationQuestion {
     require_within_span("--offset", offset, context.case_data);
     Table table(context, columns_of("deviation"));
     const std::int64_t samples = samples_of(context.case_data, duration);
-    require_text_meant(context, samples, "rows", "a shorter --duration leaves fewer");
+    require_text_meant(context, samples, "rows", "give a shorter --duration");
     double last = 0.0, told_until = -1.0;
     const MovingLoop moving = moving_loop_of(context.case_data, {switching});
     CaseMotion first(moving), second = first;

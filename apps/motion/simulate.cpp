@@ -40,7 +40,7 @@ struct SimulateQuestion {
       throw WrongInput("the time of --kick is after --duration: give an earlier time");
     const std::int64_t samples = samples_of(context.case_data, duration);
     require_text_meant(context, samples_of(context.case_data, duration - from), "rows",
-                       "a later --from or a shorter --duration leaves fewer");
+                       "give a later --from or a shorter --duration");
     Table table(context, motion_columns(switching));
     table.expect(samples_of(context.case_data, duration - from));
     if (elements && plant != "elements") throw WrongInput("--elements: add --plant elements too");
@@ -69,8 +69,7 @@ struct SimulateQuestion {
     if (no_control || the_case.backlash.width == 0.0) return;
     if (the_case.backlash.law == "none" || the_case.backlash.law == "dead_zone") return;
     table.note("play_at_start",
-               "at neither end: the drive transmits a force at the start, and its first reversal "
-               "crosses the whole play");
+               "the drive is engaged at the start: its first reversal crosses the whole play");
   }
 
   /// Writes the rows of the nonlinear cable.

@@ -51,7 +51,7 @@ struct AbsorptionQuestion {
     if (end.empty() && !ends[0].devices.empty() && !ends[1].devices.empty())
       report_warning("the left end is shown; give --end right for the devices at the right end",
                      context.quiet);
-    require_text_meant(context, axis.count, "rows", "give fewer by --frequency");
+    require_text_meant(context, axis.count, "rows", "give a smaller COUNT in --frequency");
     report_warning(instability_note(the_case, !no_control), context.quiet);
     Table table(context, columns_of("absorption"));
     for (std::int64_t k = 0; k < axis.count; ++k) {

@@ -28,7 +28,7 @@ struct AeolianQuestion {
     const AeolianBalance balance(the_case, !no_control);
     report_warning(self_damping_note(the_case), context.quiet);
     report_warning(unknown_strain_note(balance), context.quiet);
-    require_text_meant(context, axis.count, "rows", "give fewer by --frequency");
+    require_text_meant(context, axis.count, "rows", "give a smaller COUNT in --frequency");
     Table table(context, columns_of("aeolian"));
     RangeCount ranges;
     for (std::int64_t k = 0; k < axis.count; ++k) {

@@ -88,7 +88,7 @@ std::string companion_note(const Case& the_case, std::size_t number) {
   for (std::size_t k = 0; k < the_case.devices.size(); ++k)
     if (k + 1 != number && the_case.devices[k].position == the_case.devices[number - 1].position)
       return "device " + std::to_string(k + 1) + " is at the same position as device " +
-             std::to_string(number) + " and stays there: if both form one damper, move both";
+             std::to_string(number) + " but is not moved: if both form one damper, move it too";
   return "";
 }
 

@@ -59,7 +59,7 @@ std::string_view value_of_line(std::string_view text, std::size_t line) {
 /// Guess at the mistake in a value that is not TOML; empty without a guess.
 std::string guess_of_value(std::string_view value) {
   if (value.empty() || value.front() == '[' || value.front() == '"') return "";
-  if (has_decimal_comma(value)) return "; write a decimal point, not a comma: 0.5";
+  if (has_decimal_comma(value)) return "; write a decimal point, not a comma, as in 0.5";
   const std::size_t blank = value.find_first_of(" \t");
   const bool number_first = parse_number(value.substr(0, blank)).has_value();
   if (number_first && blank != std::string_view::npos)

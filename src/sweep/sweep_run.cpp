@@ -79,7 +79,7 @@ class SweepFaults {
     if (all_.diverging > 0) text = std::to_string(all_.diverging) + " diverge";
     if (all_.without_motion > 0)
       text += (text.empty() ? "" : ", ") + std::to_string(all_.without_motion) +
-              " have no motion, the first because: " + fault_of_cell(plan, all_.first);
+              " have no motion; reason of the first: " + fault_of_cell(plan, all_.first);
     return text.empty() ? text : "of " + std::to_string(plan.cells()) + " cells, " + text;
   }
 
@@ -134,7 +134,7 @@ std::string held_force_warning_of(const SweepPlan& plan) {
       largest = difference;
       warning = held_force_warning(
           the_case,
-          "ratios are relative to the vibration without control under the force not held");
+          "ratios are relative to the vibration without control under the continuous force");
     } catch (const Refusal&) {  // not admissible: the outcome of its cell
     } catch (const InvalidParameter&) {
     }

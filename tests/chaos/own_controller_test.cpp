@@ -314,7 +314,7 @@ TEST(OwnController, WhatIsNotAdmissibleIsRefusedByName) {
   EXPECT_NE(refusal(loop).find("gain D in addition to"), std::string::npos) << refusal(loop);
   loop = sound;
   loop.digital.limits.largest_force = 1.0;
-  EXPECT_NE(refusal(loop).find("limits (1: set)"), std::string::npos) << refusal(loop);
+  EXPECT_NE(refusal(loop).find("controller limits (1: set)"), std::string::npos) << refusal(loop);
   loop = sound;
   loop.plant.controller = OwnController();
   EXPECT_NE(refusal(loop).find("controller"), std::string::npos) << refusal(loop);

@@ -123,7 +123,7 @@ void expect_what_the_motions_are(const fs::path& report) {
                {"periodic(2100)", "meet: the same orbit", "--set initial.z1=1e-5"});
   // Five forcing periods: five copies of the motion, each one of them later.
   expect_holds(motion_named(page, "as Fig. 11a, farther apart"),
-               {"periodic(500)", "stay apart: the same orbit", "of 5<"});
+               {"periodic(500)", "stay apart: the same orbit", "of its 5 coincidences"});
   EXPECT_EQ(count_of(page, "<strong>different orbits</strong>"), 1U);  // with 3 ms
 }
 

@@ -259,9 +259,9 @@ inline void validate(const std::vector<MovableValue>& values, const PlacementOpt
       require_within("present value of a varied quantity", value.present, "", value.lower,
                      value.upper);
   }
-  require_within("number of runs", options.runs, "", 1, 1000);
+  require_within("number of search runs", options.runs, "", 1, 1000);
   for (const double power : options.norms) require_within("exponent of a norm", power, "", 2, 1000);
-  require_within("resolution of a placement", options.resolution, "", 1e-14, 0.5);
+  require_within("smallest step as a share of a value's range", options.resolution, "", 1e-14, 0.5);
 }
 
 /// Point of the unit cube for the present values; empty where a present value is NaN.

@@ -219,8 +219,8 @@ class Classifier {
     const bool floor = indicators_.lines && !has_lines_alone();
     if (indicators_.forcing_incommensurate && is_regular() && !floor) {
       return weighed(AttractorType::quasi_periodic,
-                     "The state follows its forcing, whose period and the sampling period have no "
-                     "common multiple");
+                     "The state follows a forcing whose period has no common multiple with the "
+                     "sampling period");
     }
     if (!searched_in_vain())
       return undecided("Neighbouring motions converge, but repetition was not searched for");

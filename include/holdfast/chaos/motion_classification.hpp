@@ -399,7 +399,7 @@ EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<
     found.classification.rests_on +=
         " A multiplier is 1: a deviation of state variable " +
         std::to_string(*found.search.neutral_state) +
-        " (counted from 0) does not decay, so the motion belongs to a family.";
+        " (counted from 0) does not decay, so the motion is one of a continuum of motions.";
   return found;
 }
 /// Classifies a motion of an implemented loop from an initial state given as any Eigen column.

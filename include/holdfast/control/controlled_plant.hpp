@@ -42,7 +42,7 @@ constexpr bool is_controller() {
                 "a controller declares its number of states: `static constexpr int states`");
   static_assert(!HasStates<Law>::value || HasCommand<Law>::value,
                 "a controller has `double command(const ControlSample&, Vector<double, states>&) "
-                "const`; its whole state is in that vector");
+                "const` and keeps its whole state in the second argument");
   return HasCommand<Law>::value;
 }
 
@@ -176,7 +176,7 @@ struct ControlledPlant : LinearPlant<double> {
 template <class Plant>
 std::enable_if_t<std::is_same_v<Plant, ControlledPlant>> validate(const Plant& plant) {
   if (!plant.controller.exists())
-    throw InvalidParameter("number of controllers", 0.0, "", "1: see with_controller()");
+    throw InvalidParameter("number of controllers", 0.0, "", "1: use with_controller()");
   validate<Eigen::Dynamic>(plant);
 }
 

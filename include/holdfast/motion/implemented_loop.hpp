@@ -49,8 +49,8 @@ void validate(const ImplementedLoopOf<Plant>& loop) {
     require_within("gain D in addition to a user-defined controller", gains.differential, "N s/m",
                    0.0, 0.0);
     if (!is_ideal(loop.digital.limits))
-      throw InvalidParameter("limits (1: set) in addition to a user-defined controller", 1.0, "",
-                             "0: set no quantisation, no differenced velocity, no largest force");
+      throw InvalidParameter("controller limits (1: set) in addition to a user-defined controller",
+                             1.0, "", "0: program quantisation and limits in that controller");
   }
 }
 

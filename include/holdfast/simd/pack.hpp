@@ -71,7 +71,7 @@ struct Lanes<xsimd::batch<Number, Architecture>> {
   using Pack = xsimd::batch<Number, Architecture>;  ///< type of the pack
   using Value = Number;                             ///< type of the number in one lane
   static constexpr std::size_t count = Pack::size;  ///< number of lanes
-  static_assert(count <= 8, "a mask is spread to one 64-bit word");
+  static_assert(count <= 8, "a pack has at most 8 lanes, a byte each of a 64-bit mask");
 
   /// Reads `count` consecutive numbers; the address needs only the alignment of a `Value`.
   static Pack load(const Value* values) { return Pack::load_unaligned(values); }

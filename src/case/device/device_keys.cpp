@@ -123,7 +123,7 @@ CaseFault missing_key_fault(const Device& device, const Kind& kind,
   if (device.kind == "tuned_mass" && !has(given, "stiffness") && !has(given, "frequencies"))
     return {{}, "stiffness or frequencies is missing: a tuned_mass needs one of them"};
   if (device.to == "conductor" && kind.uses("mass") && !has(given, "mass"))
-    return missing("mass", ", which to = \"conductor\" needs");
+    return missing("mass", ", needed with to = \"conductor\"");
   return {};
 }
 

@@ -15,7 +15,7 @@ std::string sensitive_reduction_warning(const Case& the_case) {
   const ReductionResult result = reduction_of(the_case);
   const ReducedMasses& taken = result.solutions[0];
   if (result.outcome != ReductionOutcome::double_solution && !taken.is_ill_conditioned()) return "";
-  return "the reduction to two masses is near its double solution (discriminant " +
+  return "the reduction to two masses has two nearly equal solutions (discriminant " +
          format_rounded(result.discriminant) +
          "): an error of 1 % in k1, m2 and the two frequencies may become " +
          format_rounded(taken.stiffness_condition) + " % in k2 and " +
@@ -35,7 +35,7 @@ std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& f
 std::string near_border_warning(double border_share) {
   if (!(border_share < near_border)) return "";
   return "the orbit passes a switching surface at a distance of " + format_rounded(border_share) +
-         " of the orbit's size: a relative change this small of a parameter may destroy the orbit";
+         " of the orbit's size: a parameter that changes by this share may destroy the orbit";
 }
 
 std::string shifted_copies_warning(std::int64_t period, std::int64_t coincidence) {
@@ -85,9 +85,9 @@ std::string held_force_warning(const Case& the_case, double sampling_period, dou
   constexpr double noticeable = 0.02;
   const double share = held_share(the_case, sampling_period, frequency);
   if (std::abs(share - 1.0) <= noticeable) return "";
-  return "excitation.hold = \"sampled\": held over samples of " + format_rounded(sampling_period) +
+  return "excitation.hold = \"sampled\": held over " + format_rounded(sampling_period) +
          " s, the force of " + format_rounded(frequency) + " Hz gives " + format_rounded(share) +
-         " times the amplitude without control of the force that is not held; " + shown;
+         " times the amplitude of the continuous force, both without control; " + shown;
 }
 
 std::string held_force_warning(const Case& the_case, const std::string& shown) {

@@ -120,7 +120,7 @@ const Quantities listed_of_case = {
     number_of("wind.lift_coefficient", "", of_wind<&Wind::lift_coefficient>, at_most(5),
               "a cylinder at rest has 0.3 to 0.6, a moving cylinder up to 2"),
     number_of("wind.air_density", "kg/m3", of_wind<&Wind::air_density>, {0.3, 1100},
-              "air has 0.4 at 10 km to 1.4, water 1000"),
+              "air has 0.4 (at a height of 10 km) to 1.4, water 1000"),
     number_of(
         "site.weibull_scale", "m/s", [](const Case& c) { return known(c.site.weibull_scale); },
         {0.5, 25},
@@ -141,7 +141,7 @@ const Quantities listed_of_case = {
         "control.processing_delay / control.sampling_period", "",
         {"control.processing_delay", "control.sampling_period"},
         [](const Case& c) { return c.control.processing_delay / c.control.sampling_period; },
-        at_most(10), "computers answer within a sampling period, with a bus or a camera in a few"),
+        at_most(10), "computers answer within a sampling period, over a bus or a camera in a few"),
     number_of(
         "backlash.width", "m", [](const Case& c) { return c.backlash.width; }, at_most(0.01),
         "belts and gears have 1e-5 to 0.005"),
@@ -356,10 +356,10 @@ const Quantities listed_of_plant = {
         at_most(1), "at 0.5 or more the samples show none of the plant's vibrations"),
     quantity("control.proportional_gain / the P of the paper's Eq. 6", "",
              {"control.proportional_gain"}, proportional_share, {1.6e-3, 200},
-             "a gain far below this range has no effect, a gain far above it only disturbs"),
+             "a far smaller gain has no effect, a far larger gain only disturbs the motion"),
     quantity("control.differential_gain / (m2 omega)", "", {"control.differential_gain"},
              differential_share, {3e-3, 500},
-             "a gain far below this range has no effect, a gain far above it only disturbs"),
+             "a far smaller gain has no effect, a far larger gain only disturbs the motion"),
     quantity(
         "the vibration amplitude without control divided by the reach of the absorber", "",
         {"excitation.amplitude", "wind.speed", "wind.diameter", "wind.effective_length",

@@ -203,7 +203,7 @@ class CsvScanner {
     position_ = begin;
     const std::size_t end = end_of_cell(std::string{separator_, '\r', '\n'});
     std::string cell(text_.substr(position_, end - position_));
-    if (cell.find('"') != std::string::npos) refuse("a quote inside a cell without quotes");
+    if (cell.find('"') != std::string::npos) refuse("quote in a cell that begins without a quote");
     position_ = end;
     return cell;
   }

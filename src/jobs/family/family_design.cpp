@@ -149,7 +149,7 @@ class DesignedFamily {
     std::string remedy = p_ ? "; --both-gains also searches for P" : "";
     if (!alone)
       remedy += whole_.key.empty() ? "; --schedule KEY divides the range of KEY"
-                                   : "; more --draws make successive members more alike";
+                                   : "; give more --draws, so that successive members differ less";
     return "design --family: no " +
            std::string(p_ ? "D at the case's P" : "P and D that were tried") +
            " meets --margin and --largest-ratio for " + whom + remedy;

@@ -203,8 +203,8 @@ FamilyProof family_proof_of(const JobContext& context, std::size_t parts) {
     return proof_of_string(context, parts);
   throw WrongInput(
       "--family --prove works only for plant.model = \"two_masses\", or \"string\" with "
-      "conductor.damping = \"ratio\"; without [[device]], under an ideal computer and drive "
-      "(docs/support.md); leave --prove out to compare members of any loop");
+      "conductor.damping = \"ratio\", in both cases without [[device]] and with an ideal computer "
+      "and drive (docs/support.md); leave --prove out to compare members of any loop");
 }
 
 std::optional<Interval<double>> proved_interval(JobContext context, const std::string& gain,

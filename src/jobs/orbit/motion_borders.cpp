@@ -50,7 +50,8 @@ std::vector<FollowedKey> map_keys(const Case& the_case, const std::vector<std::s
                      "control.differential_gain=-20:0");
   std::vector<FollowedKey> keys{followed_key(the_case, "--map", axes[0]),
                                 followed_key(the_case, "--map", axes[1])};
-  if (keys[0].name == keys[1].name) throw WrongInput("--map: both keys are " + keys[0].name);
+  if (keys[0].name == keys[1].name)
+    throw WrongInput("--map: both keys are " + keys[0].name + ": change one");
   if (moves_the_coincidence(keys[0].name) && moves_the_coincidence(keys[1].name))
     throw WrongInput(
         "--map: control.sampling_period and excitation.frequency cannot both be keys, since their "

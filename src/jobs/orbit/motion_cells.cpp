@@ -50,12 +50,13 @@ MapGrid map_grid(const Case& the_case, const std::vector<std::string>& axes) {
                      ", for example --map backlash.width=0.0005:0.002:31 --map "
                      "control.sampling_period=0.001:0.012:12");
   MapGrid grid{map_axis(the_case, axes[0]), map_axis(the_case, axes[1])};
-  if (grid.slow.key == grid.fast.key) throw WrongInput("--map: both keys are " + grid.slow.key);
+  if (grid.slow.key == grid.fast.key)
+    throw WrongInput("--map: both keys are " + grid.slow.key + ": change one");
   const double cells =
       static_cast<double>(grid.slow.axis.count) * static_cast<double>(grid.fast.axis.count);
   if (cells > most_map_cells)
     throw WrongInput("--map: " + format_number(cells) + " cells are more than the limit of " +
-                     format_number(most_map_cells));
+                     format_number(most_map_cells) + ": give smaller COUNTs");
   return grid;
 }
 

@@ -55,8 +55,8 @@ std::string meeting_text(const IdealLoop<double>& loop, const SettledMotion& ref
   const auto copies = first->states.size() / static_cast<std::size_t>(first->ratio.denominator);
   const std::size_t later = (phase(reference) + copies - phase(other)) % copies;
   if (later == 0) return "meet: the same orbit in the same phase";
-  return "stay apart: the same orbit, shifted in time by " + std::to_string(later) +
-         (later == 1 ? " coincidence" : " coincidences") + ", of " + std::to_string(copies);
+  return "stay apart: the same orbit, shifted in time by " + std::to_string(later) + " of its " +
+         std::to_string(copies) + " coincidences of sampling and forcing";
 }
 
 std::string apart_text(const IdealLoop<double>& loop, const Vector<double, 4>& reference,

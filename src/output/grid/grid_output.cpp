@@ -66,7 +66,7 @@ GridOutput::GridOutput(const JobContext& context, const GridLayout& layout)
     : columns_(require_writable(layout).columns), cells_(layout.cells()) {
   if (!is_netcdf_name(context.output) && !is_store_name(context.output))
     require_text_meant(context, cells_, "cells",
-                       "a name that ends in .nc writes them as netCDF, in .zarr as a Zarr store");
+                       "give an --output that ends in .nc (netCDF) or .zarr (Zarr store)");
   if (is_received(context))
     writer_ = memory_cells(context, layout);
   else if (is_store_name(context.output))
@@ -82,10 +82,10 @@ GridOutput::~GridOutput() = default;
 void GridOutput::append(std::int64_t cells, const std::vector<const double*>& columns) {
   throw_if_interrupted();
   if (columns.size() != columns_.size() || cells < 0 || cells > cells_ - cells_done_)
-    throw std::logic_error("cells that do not fit their grid");
+    throw std::logic_error("the grid received too many cells, or a wrong number of columns");
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (!fits(columns_[i], columns[i], cells))
-      throw std::logic_error("values that do not fit the column " + columns_[i].column.name);
+      throw std::logic_error("inadmissible value in the column " + columns_[i].column.name);
   }
   writer_->append(static_cast<std::size_t>(cells), columns);
   cells_done_ += cells;
@@ -93,7 +93,7 @@ void GridOutput::append(std::int64_t cells, const std::vector<const double*>& co
 
 void GridOutput::commit() {
   if (cells_done_ != cells_) {
-    throw std::logic_error("a grid of " + std::to_string(cells_) + " cells has " +
+    throw std::logic_error("a grid of " + std::to_string(cells_) + " cells received " +
                            std::to_string(cells_done_));
   }
   writer_->commit();

@@ -127,7 +127,7 @@ TEST(Devices, MissingKeysAreAskedForByNameAndKind) {
            {"kind = \"dashpot\"\ndamping = 3\n", "position is missing"},
            {"kind = \"dashpot\"\nposition = 3\n", "damping is missing, which a dashpot needs"},
            {"kind = \"dashpot\"\nposition = 3\ndamping = 1\nto = \"conductor\"\n",
-            "mass is missing, which to = \"conductor\" needs"},
+            "mass is missing, needed with to = \"conductor\""},
            {"kind = \"tuned_mass\"\nposition = 3\nstiffness = 1\n", "mass is missing"},
            {"kind = \"tuned_mass\"\nposition = 3\nmass = 1\n",
             "stiffness or frequencies is missing: a tuned_mass needs one of them"},

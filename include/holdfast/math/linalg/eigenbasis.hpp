@@ -146,7 +146,7 @@ EigenBasis<Scalar>::EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix) {
 template <class Scalar>
 auto EigenBasis<Scalar>::coordinates(const Vector<Scalar, Eigen::Dynamic>& b) const
     -> ComplexVector {
-  require_size("size of an input", b.size(), factors_.size());
+  require_size("entries of an input column", b.size(), factors_.size());
   const Vector<Scalar, Eigen::Dynamic> balanced = factors_.cwiseInverse().cwiseProduct(b);
   return vectors_.template triangularView<Eigen::UnitUpper>().solve(basis_.adjoint() * balanced);
 }
@@ -154,7 +154,7 @@ auto EigenBasis<Scalar>::coordinates(const Vector<Scalar, Eigen::Dynamic>& b) co
 template <class Scalar>
 auto EigenBasis<Scalar>::readings(const RowVector<Scalar, Eigen::Dynamic>& h) const
     -> ComplexVector {
-  require_size("size of a reading", h.size(), factors_.size());
+  require_size("entries of a reading row", h.size(), factors_.size());
   const RowVector<Scalar, Eigen::Dynamic> balanced = h.cwiseProduct(factors_.transpose());
   return ((balanced.template cast<Complex>() * basis_) * vectors_).transpose();
 }

@@ -271,8 +271,8 @@ template <class Scalar>
 MovingSpectrum<Scalar>::MovingSpectrum(const TaylorMatrix& matrix) {
   require_within("number of terms", static_cast<double>(matrix.terms.size()), "", 2.0, 1e6);
   for (const Eigen::MatrixXd& term : matrix.terms) {
-    require_size("rows of a term", term.rows(), matrix.remainder.rows());
-    require_size("columns of a term", term.cols(), matrix.remainder.cols());
+    require_size("rows of a Taylor term", term.rows(), matrix.remainder.rows());
+    require_size("columns of a Taylor term", term.cols(), matrix.remainder.cols());
   }
   if (!matrix.terms.front().allFinite()) return;
   take(matrix);
@@ -289,7 +289,7 @@ std::vector<TaylorNumber> MovingSpectrum<Scalar>::responses(const TaylorNumber& 
                static_cast<Eigen::Index>(terms_.size()));
   require_size("number of terms", static_cast<Eigen::Index>(source.terms.size()),
                static_cast<Eigen::Index>(terms_.size()));
-  require_size("width of a row", rows.cols(), size());
+  require_size("columns of the rows", rows.cols(), size());
   std::vector<Eigen::VectorXcd> y;
   std::vector<Eigen::VectorXd> beyond(order() + 1, Eigen::VectorXd::Zero(size()));
   for (std::size_t k = 0; k <= order(); ++k) {

@@ -205,7 +205,7 @@ namespace detail {
 /// The coefficients of the even (parity 0) or odd (parity 1) part of a(iy), in powers of Y = y².
 template <class Scalar, int Size>
 Vector<Scalar, 3> parity_part(const Vector<Scalar, Size>& a, int parity) {
-  static_assert(Size == 5 || Size == 6, "the loop has 4 (continuous) or 5 (sampled) roots");
+  static_assert(Size == 5 || Size == 6, "a must have 5 or 6 coefficients (4 or 5 roots)");
   Vector<Scalar, 3> part = Vector<Scalar, 3>::Zero();
   Scalar sign(1);
   for (int k = parity; k < Size; k += 2, sign = -sign) part[k / 2] = sign * a[k];

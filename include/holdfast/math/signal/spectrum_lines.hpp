@@ -56,7 +56,7 @@ inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lin
                                             std::size_t samples,
                                             const SubharmonicOptions& options) {
   require_positive("base frequency", options.base_frequency, "Hz");
-  require_within("largest division", options.largest_division, "", 1.0, 1e5);
+  require_within("largest divisor of the base frequency", options.largest_division, "", 1.0, 1e5);
   require_within("share of the power", options.share, "", 1e-9, 1.0);
   const std::vector<double> powers = line_powers(lines, samples);
   double total = 0.0;

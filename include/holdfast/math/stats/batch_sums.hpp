@@ -20,7 +20,7 @@ namespace holdfast {
 /// @tparam Batches  number of batches at which they are merged, even, ≥ 4
 template <class Number, int Series, std::size_t Batches = 64>
 class BatchSums {
-  static_assert(Batches % 2 == 0 && Batches >= 4, "batches are merged in pairs");
+  static_assert(Batches % 2 == 0 && Batches >= 4, "Batches must be even and at least 4");
 
  public:
   using Sums = Vector<Number, Series>;  ///< one sum for each series

@@ -67,7 +67,7 @@ inline void validate_ratio(const IdealLoop<double>& loop, const Rational& ratio)
   if (!(cycles * Enclosure(static_cast<double>(ratio.denominator)))
            .contains(static_cast<double>(ratio.numerator)))
     throw InvalidParameter("f tau", cycles.middle(), "",
-                           "equal to p/q of the orbit but for the rounding of f and tau");
+                           "equal to p/q of the orbit within the rounding of f and tau");
 }
 
 /// Rejects an orbit whose length is no multiple of q, or a loop whose f τ is not the orbit's p/q.

@@ -74,9 +74,9 @@ inline void validate(const MaxDelayOptions& options) {
   require_positive("shortest sampling period", options.shortest_period, "s");
   require_finite("longest sampling period", options.longest_period, "s");
   if (options.longest_period != 0.0)
-    require_positive("search span", options.longest_period - options.shortest_period, "s");
+    require_positive("range of periods", options.longest_period - options.shortest_period, "s");
   require_positive("search ratio minus one", options.search_ratio - 1.0, "");
-  require_positive("most steps", options.most_steps, "");
+  require_positive("largest number of steps", options.most_steps, "");
 }
 
 namespace detail {

@@ -228,7 +228,7 @@ TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling
 /// Validates the search. @throws InvalidParameter outside the ranges stated at its members
 inline void validate(const MarginSearch& search) {
   require_positive("longest period ratio minus one", search.longest_period_ratio - 1.0, "");
-  require_positive("most steps", search.most_steps, "");
+  require_positive("largest number of steps", search.most_steps, "");
 }
 
 /// The stability margins of D, P, τ and δ: how far each may change alone while the loop is stable.

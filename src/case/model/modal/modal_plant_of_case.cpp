@@ -175,8 +175,8 @@ OtherModes other_modes_of(const Case& the_case) {
   if (other.apart == kept.apart) other = coarser_modes_of(the_case, kept);
   const std::string fewer_bars =
       is_cable(the_case) ? " and " + std::to_string(other.bars) + " bars" : "";
-  return {circle_by(other), "with " + std::to_string(other.apart) + " single modes" + fewer_bars +
-                                " instead of " + std::to_string(kept.apart) +
+  return {circle_by(other), "with " + std::to_string(other.apart) + " modes computed singly" +
+                                fewer_bars + " instead of " + std::to_string(kept.apart) +
                                 (fewer_bars.empty() ? "" : " and " + std::to_string(kept.bars))};
 }
 

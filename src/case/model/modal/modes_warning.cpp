@@ -68,7 +68,7 @@ std::string bundles_warning(const Case& the_case, const ConductorModes& conducto
   const KeptModes kept = kept_modes(the_case, conductor);
   if (returned < 0.05 && (kept.faster.empty() || is_cable(the_case))) return "";
   return kept.words +
-         "are computed singly, faster modes in bundles without waves returning from the supports" +
+         "are computed singly, faster modes in groups without waves returning from the supports" +
          (returned < 0.05 ? ""
                           : "; with the damping of the case up to " +
                                 format_rounded(100.0 * returned) + " % of such a wave returns") +
@@ -101,7 +101,7 @@ std::string modes_warning(const Case& the_case) {
   if (std::isfinite(the_case.control.drive_damping) &&
       !std::isfinite(the_case.control.drive_bandwidth))
     said += (said.empty() ? "" : "; ") +
-            std::string("control.drive_damping: no effect without control.drive_bandwidth");
+            std::string("control.drive_damping needs control.drive_bandwidth: give both");
   if (is_two_masses(the_case) || is_infinite(the_case)) return said;
   const ConductorModes conductor = conductor_modes_of(the_case);
   const auto warning = std::isfinite(the_case.plant.modes) ? cut_warning : bundles_warning;
@@ -128,8 +128,8 @@ std::string dense_work_warning(const Case& the_case, Switching switching) {
   constexpr std::size_t soon = 50;
   if (modes <= soon) return "";
   return std::to_string(modes) +
-         " modes and bundles are computed, which takes minutes, since the work grows with the cube "
-         "of their number; plant.modes = 40 takes seconds, but leaves faster modes out";
+         " modes and groups of modes take minutes to compute; set plant.modes = 40 to compute in "
+         "seconds, but without the faster modes";
 }
 
 }  // namespace holdfast::program

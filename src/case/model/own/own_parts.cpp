@@ -31,11 +31,11 @@ void require_consistent_controller(const Case& the_case) {
   const auto& control = the_case.control;
   if (control.processing_delay > control.sampling_period)
     throw WrongInput(
-        "control.processing_delay exceeds control.sampling_period: a controller of your own must "
-        "delay commands by whole samples itself; lower control.processing_delay");
+        "control.processing_delay exceeds control.sampling_period: give a shorter "
+        "control.processing_delay, and delay commands by whole samples in your controller");
   for (const char* key : {"control.displacement_quantum", "control.velocity_quantum",
                           "control.velocity", "control.largest_force"})
-    refuse_key(the_case, key, "remove it: a controller of your own does this itself");
+    refuse_key(the_case, key, "remove this key, and program its effect in your controller");
 }
 
 }  // namespace

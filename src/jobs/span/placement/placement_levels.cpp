@@ -97,11 +97,11 @@ std::string PlacementLevels::range_note(const Case& variant, double frequency) c
   switch (AeolianBalance(variant, true).largest(frequency).amplitude.range) {
     case BalanceRange::below:
       return "with the values found the vibration is below the measured range of the wind law in "
-             "the whole band; the lower end of that range, a hundredth of the diameter, is used "
-             "instead: other values may be as good";
+             "the whole band: the goal is computed at the lower end of this range, a hundredth of "
+             "the diameter, and other values may be as good";
     case BalanceRange::above:
       return "even with the values found the worst vibration is above the measured range of the "
-             "wind law; the upper end of that range is used instead";
+             "wind law: the goal is computed at the upper end of this range";
     default:
       return "";
   }
