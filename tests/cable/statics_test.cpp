@@ -47,24 +47,6 @@ TYPED_TEST(StaticsOf, ForceUndoesDisplacement) {
   }
 }
 
-TYPED_TEST(StaticsOf, TheStiffnessIsTheDerivativeOfTheForce) {
-  const auto statics = resting_statics<TypeParam>();
-  for (const double force : {-1.0, 0.0, 0.7}) {
-    const double step = 1e-4;
-    const double slope =
-        (statics.displacement(force + step) - statics.displacement(force - step)) / (2 * step);
-    EXPECT_NEAR(statics.stiffness(force) * slope, 1.0, 1e-6);
-  }
-}
-
-TYPED_TEST(StaticsOf, TheCableStiffensDownwardAndTheDisplacementRises) {
-  const auto statics = resting_statics<TypeParam>();
-  for (double force = -1.5; force < 2.0; force += 0.1) {
-    EXPECT_LT(statics.displacement(force), statics.displacement(force + 0.1)) << force;
-    EXPECT_LT(statics.stiffness(force), statics.stiffness(force + 0.1)) << force;
-  }
-}
-
 TYPED_TEST(StaticsOf, ADisplacementBelowTheLowestForceIsRefused) {
   const auto statics = resting_statics<TypeParam>();
   const double lowest = statics.lowest_force();

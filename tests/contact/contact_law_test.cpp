@@ -1,6 +1,5 @@
 #include "holdfast/contact/contact_law.hpp"
 
-#include "support/kollar_case.hpp"
 #include "support/random.hpp"
 
 namespace holdfast {
@@ -126,116 +125,6 @@ TEST(SampledContact, DecidesAsTheClassOfItsLaw) {
     ASSERT_EQ(contacts[3].side(), zone.side(displacement));
     for (const std::size_t k : {0U, 1U, 2U, 4U}) ASSERT_EQ(contacts[k].side(), 0) << k;
   }
-}
-
-TEST(SampledContact, FromRestEveryLawButTheDeadZoneTransmitsAtTheFirstSample) {
-  for (const ContactLaw law : every_law) {
-    SampledContact contact({law, 0.002});
-    EXPECT_FALSE(contact.inside()) << "before the first sample";
-    EXPECT_EQ(contact.side(), 0);
-    EXPECT_EQ(contact.step(0.0, 0.0), law != ContactLaw::dead_zone);
-  }
-}
-
-TEST(SampledContact, WithoutWidthEveryLawAlwaysTransmits) {
-  test::Random random(733);
-  for (const ContactLaw law : every_law) {
-    SampledContact contact({law, 0.0});
-    ContactSample sample{0.0, 0.0};
-    for (int j = 0; j < 2000; ++j) {
-      ASSERT_TRUE(contact.step(sample.displacement, sample.velocity)) << static_cast<int>(law);
-      sample = next_of_lattice(random, sample);
-    }
-  }
-}
-
-TEST(ImmediateBacklash, FromTheSameMemoryDiffersWhereALeavingSampleReversesAndNowhereElse) {
-  test::Random random(734);
-  ImmediateBacklash<double> law(0.25);
-  ContactSample sample{0.0, 0.0};
-  int differing = 0, leaving = 0;
-  for (int j = 0; j < 100000; ++j) {
-    const double before = sample.velocity;
-    sample = next_of_lattice(random, sample);
-    const auto memory = law.memory();
-    Backlash<double> paper(law.width(), memory);
-    const bool transmits = law.step(sample.displacement, sample.velocity);
-    const bool transmits_in_paper = paper.step(sample.displacement, sample.velocity);
-    const bool leaves =
-        memory.inside && (sample.displacement < memory.lower || sample.displacement > memory.upper);
-    const bool reverses = before != 0.0 && before * sample.velocity <= 0.0;
-    ASSERT_EQ(transmits != transmits_in_paper, leaves && reverses) << j;
-    leaving += leaves ? 1 : 0;
-    differing += transmits != transmits_in_paper ? 1 : 0;
-    if (!leaves || !reverses) continue;
-    ASSERT_EQ(before > 0.0 ? law.upper() : law.lower(), sample.displacement);
-    ASSERT_EQ(law.upper() - law.lower(), 0.25);
-  }
-  EXPECT_GT(differing, 1000);
-  EXPECT_GT(leaving - differing, 1000);
-}
-
-TEST(ImmediateBacklash, FromRestIsAnotherMotionThanThatOfFigure8) {
-  const auto paper = test::record(test::KollarCase{}, 9.1);
-  const auto immediate = test::record<ImmediateBacklash<double>>(test::KollarCase{}, 9.1);
-  const auto engaged = [](const auto& samples, std::size_t ms) { return samples[ms].engaged; };
-  // The paper's drive is in at 9.065 s; this one is in at 9.064 s and out at 9.086 s.
-  EXPECT_TRUE(engaged(paper, 9064));
-  EXPECT_TRUE(engaged(immediate, 9063));
-  for (std::size_t ms = 9064; ms < 9086; ++ms) EXPECT_FALSE(engaged(immediate, ms)) << ms;
-  EXPECT_TRUE(engaged(immediate, 9086));
-}
-
-/// Δz and Δż of a smooth motion with large and small loops.
-ContactSample smooth_motion(double time) {
-  return {std::sin(time) + 0.4 * std::sin(2.7 * time + 0.3),
-          std::cos(time) + 1.08 * std::cos(2.7 * time + 0.3)};
-}
-
-/// Samples of 60 s at which the two laws decide differently.
-int disagreements(ContactLaw one, ContactLaw other, double width, double period) {
-  SampledContact first({one, width}), second({other, width});
-  int count = 0;
-  for (int j = 0; j * period < 60.0; ++j) {
-    const auto sample = smooth_motion(j * period);
-    const bool transmits = first.step(sample.displacement, sample.velocity);
-    count += transmits != second.step(sample.displacement, sample.velocity) ? 1 : 0;
-  }
-  return count;
-}
-
-TEST(ContactLaw, FastSampledKollarImmediateAndPlayAreOneLaw) {
-  // A sample or two at each entry and each exit, however many samples lie between: in 60 s the
-  // motion reverses less than 60 times.
-  for (const double width : {0.1, 0.5, 1.5}) {
-    for (const double period : {0.01, 0.001, 0.0001}) {
-      for (const ContactLaw other : {ContactLaw::immediate, ContactLaw::play}) {
-        EXPECT_LE(disagreements(ContactLaw::kollar, other, width, period), 2 * 60) << period;
-      }
-      EXPECT_GT(disagreements(ContactLaw::kollar, ContactLaw::dead_zone, width, period), 1 / period)
-          << "the dead zone is another law";
-    }
-  }
-}
-
-TEST(SampledContact, ServesTheSampledMotionAsItsLawDoes) {
-  const test::KollarCase which;
-  const auto loop = which.loop();
-  SampledMotion<double, SampledContact> any(
-      loop, which.gains, held_harmonic(loop), which.excitation,
-      SampledContact({ContactLaw::play, which.width}), which.initial_state);
-  auto play = which.motion<PlayBacklash<double>>();
-  int idle = 0;
-  for (int j = 0; j < 3000; ++j) {
-    const auto found = any.sense(), expected = play.sense();
-    ASSERT_EQ(found.state, expected.state);
-    ASSERT_EQ(found.engaged, expected.engaged);
-    idle += found.engaged ? 0 : 1;
-    any.advance();
-    play.advance();
-  }
-  EXPECT_GT(idle, 500);
-  EXPECT_LT(idle, 2500);
 }
 
 TEST(BacklashParameters, WhatIsOutOfRangeIsRefusedByNameWhateverTheLaw) {

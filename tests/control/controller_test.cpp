@@ -1,7 +1,5 @@
 #include "holdfast/control/controller.hpp"
 
-#include "holdfast/control/loop_input.hpp"
-#include "holdfast/motion/sampled_motion.hpp"
 #include "support/message_of.hpp"
 #include "support/random.hpp"
 
@@ -62,20 +60,6 @@ TEST(Controller, WithoutLimitsIsThePlainLawToTheLastBit) {
   }
 }
 
-TEST(Controller, WithoutLimitsCommandsWhatTheSampledMotionDoes) {
-  const PdGains<double> gains{-557.0, -13.0};
-  const auto loop = sampled_loop(kollar2022_plant(), Sampling<double>{0.001});
-  SampledMotion<double> motion(loop, gains, held_harmonic(loop), {0.5, 10.0}, Backlash<double>(0.0),
-                               Vector<double, 4>::Zero());
-  Controller controller(gains, {});
-  for (int sample = 0; sample < 5000; ++sample) {
-    const auto sensed = motion.sense();
-    ASSERT_NEAR(controller.command(sensed.state[0], sensed.state[1], 0.001), sensed.control_force,
-                fusion_slack(gains, sensed.state[0], sensed.state[1]));
-    motion.advance();
-  }
-}
-
 TEST(Controller, AMeasuredVelocityNeedsNoElapsedTime) {
   Controller controller({-557.0, -13.0}, {});
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -90,58 +74,6 @@ TEST(Controller, ReadsMultiplesOfItsQuanta) {
   Controller controller({3.0, 10.0}, limits);
   EXPECT_EQ(controller.command(0.9, 1.7, 1.0), 3.0 * 1.0 + 10.0 * 1.5);
   EXPECT_EQ(controller.command(-0.1, 0.2, 1.0), 0.0);
-}
-
-TEST(Controller, TheErrorIsAtMostThatOfHalfAQuantumEach) {
-  test::Random random(712);
-  double largest_share = 0;
-  for (int draw = 0; draw < 20000; ++draw) {
-    const auto gains = drawn_gains(random);
-    ControllerLimits limits;
-    limits.displacement_quantum = random.log_uniform(1e-6, 1e-2);
-    limits.velocity_quantum = random.log_uniform(1e-4, 1e-1);
-    const auto reading = drawn_reading(random);
-    Controller coarse(gains, limits), ideal(gains, {});
-    const double bound = (std::abs(gains.proportional) * limits.displacement_quantum +
-                          std::abs(gains.differential) * limits.velocity_quantum) /
-                         2;
-    const double error = std::abs(command_of(coarse, reading) - command_of(ideal, reading));
-    ASSERT_LE(error, bound * (1 + 1e-9));
-    largest_share = std::max(largest_share, error / bound);
-  }
-  EXPECT_GT(largest_share, 0.9);
-}
-
-TEST(Controller, TheDifferenceOfALinearMotionIsItsVelocity) {
-  test::Random random(713);
-  for (int draw = 0; draw < 1000; ++draw) {
-    // Numbers with few bits, so that the displacements and their differences are exact.
-    const double velocity = std::round(random.uniform(-1000, 1000)) / 64;
-    const double start = std::round(random.uniform(-1000, 1000)) / 64;
-    const double period = 1.0 / 1024;
-    Controller controller({0.0, 1.0}, velocity_by_difference());
-    EXPECT_EQ(controller.command(start, 99.0, period), 0.0) << "there is no earlier sample";
-    for (int sample = 1; sample < 20; ++sample) {
-      ASSERT_EQ(controller.command(start + velocity * sample * period, 99.0, period), velocity);
-    }
-  }
-}
-
-TEST(Controller, TheDifferenceOfASmoothMotionErrsInProportionToThePeriod) {
-  // d/dt sin ωt at t: the backward difference is off by h ω² sin(ωt) / 2 to first order.
-  const double omega = 20.0, time = 0.04;
-  double before = 0;
-  for (double period = 1e-2; period > 1e-5; period /= 2) {
-    Controller controller({0.0, 1.0}, velocity_by_difference());
-    controller.command(std::sin(omega * (time - period)), 0, period);
-    const double estimate = controller.command(std::sin(omega * time), 0, period);
-    const double error = (estimate - omega * std::cos(omega * time)) / period;
-    if (period < 1e-4) {
-      EXPECT_NEAR(error, omega * omega / 2 * std::sin(omega * time), omega * omega * 1e-2);
-      EXPECT_NEAR(error, before, omega * omega * 1e-2);
-    }
-    before = error;
-  }
 }
 
 TEST(Controller, TheDifferenceIsThatOfTheDisplacementsAsRead) {
@@ -183,18 +115,6 @@ TEST(Controller, TheForceNeverExceedsTheLargestAndIsElseThatOfTheLaw) {
   }
   EXPECT_GT(saturated, 1000);
   EXPECT_LT(saturated, 19000);
-}
-
-TEST(Controller, AMirroredMotionGivesMirroredForces) {
-  test::Random random(716);
-  auto limits = velocity_by_difference(1e-3);
-  limits.largest_force = 5;
-  Controller controller({-557.0, -13.0}, limits), mirror({-557.0, -13.0}, limits);
-  for (int sample = 0; sample < 10000; ++sample) {
-    const auto [displacement, velocity, elapsed] = drawn_reading(random);
-    ASSERT_EQ(controller.command(displacement, velocity, elapsed),
-              -mirror.command(-displacement, -velocity, elapsed));
-  }
 }
 
 constexpr double slope_step = 1e-7;

@@ -54,20 +54,6 @@ TEST(SamplingClock, StartsOnTheGridAndStraysByNoMoreThanTheHalfWidth) {
   EXPECT_LT(least, -0.999 * half_width);
 }
 
-TEST(SamplingClock, DeviationsHaveTheMomentsOfAUniformVariable) {
-  const SamplingClock clock(1.0, {0.25, 5});
-  double sum = 0, squares = 0;
-  for (std::int64_t index = 1; index <= jitter_draws; ++index) {
-    const double share = clock.deviation(index) / 0.25;
-    sum += share;
-    squares += share * share;
-  }
-  // Five standard deviations of the means: the variance of a share is 1/3, that of its square 4/45.
-  const auto count = static_cast<double>(jitter_draws);
-  EXPECT_NEAR(sum / count, 0, 5 * std::sqrt(1.0 / 3 / count));
-  EXPECT_NEAR(squares / count, 1.0 / 3, 5 * std::sqrt(4.0 / 45 / count));
-}
-
 TEST(SamplingClock, DeviationsFillTheirRangeEvenly) {
   const SamplingClock clock(1.0, {0.25, 6});
   constexpr std::size_t cells = 200;
@@ -108,29 +94,6 @@ TEST(SamplingClock, DeviationsOfOtherSamplesAndOtherSeedsAreUncorrelated) {
   EXPECT_NEAR(jitter_correlation(clock, clock, 0), 1, limit);
 }
 
-TEST(SamplingClock, SamplesMayBeAskedForInAnyOrder) {
-  const Jitter jitter{3e-4, 42};
-  const SamplingClock clock(1e-3, jitter);
-  constexpr std::size_t count = 1000;
-  std::vector<double> in_order;
-  for (std::size_t index = 0; index < count; ++index) {
-    in_order.push_back(clock.time(static_cast<std::int64_t>(index)));
-  }
-  test::Random random(732);
-  const SamplingClock again(1e-3, jitter);
-  for (int draw = 0; draw < 10000; ++draw) {
-    const std::size_t index = random.index(count);
-    ASSERT_EQ(again.time(static_cast<std::int64_t>(index)), in_order[index]);
-  }
-}
-
-TEST(SamplingClock, TheSeedChoosesTheSequence) {
-  const SamplingClock clock(1e-3, {3e-4, 1}), other(1e-3, {3e-4, 2});
-  for (std::int64_t index = 1; index < 1000; ++index) {
-    ASSERT_NE(clock.deviation(index), other.deviation(index));
-  }
-}
-
 TEST(SamplingClock, TheHalfWidthScalesTheSameSequence) {
   const SamplingClock narrow(1.0, {0.125, 3}), wide(1.0, {0.25, 3});
   for (std::int64_t index = 0; index < 1000; ++index) {
@@ -158,15 +121,6 @@ TEST(SamplingClock, EveryForceIsAppliedBeforeTheNextSample) {
     shortest = std::min(shortest, clock.period_of(index));
   }
   EXPECT_LT(shortest, 1.1 * delay) << "the bound was never tried";
-}
-
-TEST(SamplingClock, TimesIncreaseUpToTheWidestJitter) {
-  constexpr double period = 1e-3;
-  const SamplingClock clock(period, {std::nextafter(period / 2, 0.0), 11});
-  for (std::int64_t index = 0; index < 100000; ++index) {
-    ASSERT_LT(clock.time(index), clock.time(index + 1));
-    ASSERT_GT(clock.period_of(index), 0.0);
-  }
 }
 
 std::string refused_jitter(const Sampling<double>& sampling, double half_width) {

@@ -29,13 +29,6 @@ TEST(ZeroOrderHold, DoubleIntegratorIsTheParabolaOfHandCalculation) {
   }
 }
 
-TEST(ZeroOrderHold, FirstOrderLagIsTheExponential) {
-  const Matrix<double, 1> a(-3.0), b(2.0);
-  const auto step = zero_order_hold<double, 1, 1>(a, b, 0.4);
-  EXPECT_NEAR(step.transition(0, 0), std::exp(-1.2), 1e-15);
-  EXPECT_NEAR(step.input(0, 0), -2.0 / 3.0 * std::expm1(-1.2), 1e-15);
-}
-
 TEST(ZeroOrderHold, OscillatorTurnsByItsAngle) {
   Matrix2 a;
   a << 0, 5, -5, 0;
@@ -45,23 +38,6 @@ TEST(ZeroOrderHold, OscillatorTurnsByItsAngle) {
   EXPECT_LE((step.transition - rotation).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_NEAR(step.input[0], (1 - std::cos(4.5)) / 5, 1e-14);
   EXPECT_NEAR(step.input[1], std::sin(4.5) / 5, 1e-14);
-}
-
-TEST(ZeroOrderHold, TwoStepsAreOneLongerStep) {
-  test::Random random(61);
-  for (int draw = 0; draw < 300; ++draw) {
-    const auto a = random_generator(random);
-    const auto b = random.matrix<Matrix<double, 4, 2>>();
-    const double first = random.log_uniform(1e-4, 0.2), second = random.log_uniform(1e-4, 0.2);
-    const auto one = zero_order_hold<double, 4, 2>(a, b, first);
-    const auto two = zero_order_hold<double, 4, 2>(a, b, second);
-    const auto both = zero_order_hold<double, 4, 2>(a, b, first + second);
-    const double scale = std::max(1.0, one.transition.norm() * two.transition.norm());
-    EXPECT_LE((both.transition - two.transition * one.transition).cwiseAbs().maxCoeff(),
-              1e-12 * scale);
-    EXPECT_LE((both.input - two.transition * one.input - two.input).cwiseAbs().maxCoeff(),
-              1e-12 * scale);
-  }
 }
 
 TEST(ZeroOrderHold, InputIsTheIntegralThatTheGeneratorUndoes) {
@@ -84,18 +60,6 @@ TEST(ZeroOrderHold, NoTimeChangesNothing) {
                                                   random.matrix<Vector<double, 4>>(), 0.0);
   EXPECT_EQ(step.transition, (Matrix<double, 4>::Identity()));
   EXPECT_TRUE(step.input.isZero(0.0));
-}
-
-TEST(ZeroOrderHold, TheDeterminantIsTheExponentialOfTheTrace) {
-  test::Random random(64);
-  for (int draw = 0; draw < 300; ++draw) {
-    const auto a = random_generator(random);
-    const double h = random.log_uniform(1e-4, 0.05);
-    const auto step = zero_order_hold<double, 4, 1>(a, Vector<double, 4>::Zero(), h);
-    // Relative to the product of the four columns, of which the determinant is a small rest.
-    const double scale = step.transition.colwise().norm().prod();
-    EXPECT_NEAR(step.transition.determinant(), std::exp(a.trace() * h), 1e-12 * scale);
-  }
 }
 
 }  // namespace

@@ -78,63 +78,6 @@ TEST(MultiHarmonicForce, ItsSeriesIsTheForceWithinAPiece) {
   EXPECT_LT(worst_of_series(random, harmonic, 1e6), 1e-14);
 }
 
-TEST(MultiHarmonicForce, ItsCoefficientsAreTheDerivativesOfTheCosine) {
-  const Harmonic harmonic{0.8, 3.0, 0.4};
-  const MultiHarmonicForce force{{harmonic}, nullptr};
-  Eigen::VectorXd coefficients(13);
-  const double time = 0.37, length = 0.09;
-  force.expand(time, length, coefficients);
-  for (int k = 0; k < 13; ++k) {
-    const double turn = harmonic.angular_frequency() * length;
-    const double size = 0.8 * std::pow(turn, k) / std::tgamma(k + 1.0);
-    const double phase = harmonic.angular_frequency() * time + 0.4 + 0.5 * k * pi<double>;
-    EXPECT_NEAR(coefficients[k], size * std::cos(phase), 1e-14 * size) << k;
-  }
-}
-
-/// The integral of the force from `start` to `end` by the series of one step after the other, no
-/// step across a break; also counts the breaks met.
-double integral_by_series(const MultiHarmonicForce& force, double start, double end, int& breaks) {
-  double sum = 0.0;
-  Vector<double, 20> coefficients;
-  for (double time = start; time < end;) {
-    const double stop = std::min({end, force.next_break(time), time + 1.0 / 512.0});
-    force.expand(time, stop - time, coefficients);
-    for (int k = 0; k < 20; ++k) sum += coefficients[k] * (stop - time) / (k + 1);
-    breaks += stop == force.next_break(time) ? 1 : 0;
-    time = stop;
-  }
-  return sum;
-}
-
-double integral_of_harmonic(const Harmonic& harmonic, double start, double end) {
-  const double omega = harmonic.angular_frequency();
-  return harmonic.amplitude / omega *
-         (std::sin(omega * end + harmonic.phase) - std::sin(omega * start + harmonic.phase));
-}
-
-TEST(MultiHarmonicForce, ItsIntegralFromBreakToBreakIsTheClosedForm) {
-  test::Random random(712);
-  for (const auto interpolation : {RecordInterpolation::linear, RecordInterpolation::held}) {
-    const MultiHarmonicForce force{three_harmonics(random), rough_record(random, interpolation)};
-    const double start = -1.0, end = force.record->last_time() + 1.0;
-    const auto& times = force.record->times();
-    const auto& forces = force.record->forces();
-    double exact = 0.0;
-    for (std::size_t row = 0; row + 1 < times.size(); ++row) {
-      const bool held = interpolation == RecordInterpolation::held;
-      const double mean = held ? forces[row] : 0.5 * (forces[row] + forces[row + 1]);
-      exact += mean * (times[row + 1] - times[row]);
-    }
-    for (const Harmonic& harmonic : force.harmonics) {
-      exact += integral_of_harmonic(harmonic, start, end);
-    }
-    int breaks = 0;
-    EXPECT_NEAR(integral_by_series(force, start, end, breaks), exact, 1e-12);
-    EXPECT_EQ(breaks, 60);
-  }
-}
-
 TEST(MultiHarmonicForce, ABreakBelongsToThePieceAfterIt) {
   test::Random random(713);
   const MultiHarmonicForce force{three_harmonics(random),

@@ -26,21 +26,6 @@ RecordedForce random_record(test::Random& random, std::size_t rows,
   return RecordedForce(uneven_times(random, rows), forces, interpolation);
 }
 
-TEST(RecordedForce, LinearInterpolationReproducesALinearFunctionExactly) {
-  test::Random random(701);
-  const auto times = uneven_times(random, 300);
-  const auto line = [](double time) { return 0.75 - 2.5 * time; };
-  std::vector<double> forces;
-  for (const double time : times) forces.push_back(line(time));
-  const RecordedForce record(times, forces, RecordInterpolation::linear);
-  for (int trial = 0; trial < 5000; ++trial) {
-    const double span = record.last_time() - record.first_time();
-    const double time = record.first_time() + std::floor(random.unit() * span * 4096.0) / 4096.0;
-    ASSERT_EQ(record.at(time), line(time)) << time;
-    ASSERT_EQ(record.piece(time).slope, -2.5) << time;
-  }
-}
-
 TEST(RecordedForce, GoesThroughItsRows) {
   test::Random random(702);
   for (const auto interpolation : {RecordInterpolation::linear, RecordInterpolation::held}) {

@@ -1,5 +1,5 @@
 // A conductor by its modes with the absorber: the state matrix against the receptance, which forms
-// none, and against the two masses, which are one mode.
+// none.
 
 #include <Eigen/Eigenvalues>
 
@@ -58,35 +58,6 @@ TEST(ModalPlant, AnswersAsTheReceptanceSays) {
     const Complex velocity = transfer(plant, ports.velocity, plant.force_input, s);
     EXPECT_LT(std::abs(velocity - s * expected.to_drive), 1e-10 * std::abs(velocity)) << draw;
   }
-}
-
-TEST(ModalPlant, OfOneModeIsTheTwoMasses) {
-  const TwoMass<double> masses = kollar2022_plant();
-  const double omega = std::sqrt(masses.conductor_stiffness / masses.conductor_mass);
-  const LinearPlant<double> plant = modal_plant<double>(
-      {{omega, masses.conductor_damping / (2.0 * omega * masses.conductor_mass), 1.0,
-        masses.conductor_mass}},
-      {masses.absorber_mass, masses.absorber_stiffness, masses.absorber_damping});
-  const LinearPlant<double, 4> expected = linear_plant(masses);
-  const double size = expected.released_matrix.cwiseAbs().maxCoeff();
-  EXPECT_LT((plant.released_matrix - expected.released_matrix).cwiseAbs().maxCoeff(), 1e-13 * size);
-  EXPECT_LT((plant.force_input - expected.force_input).cwiseAbs().maxCoeff(), 1e-13);
-  EXPECT_LT((plant.excitation - expected.excitation).cwiseAbs().maxCoeff(), 1e-13);
-  EXPECT_EQ(plant.ports().relative_displacement, expected.ports().relative_displacement);
-  EXPECT_EQ(plant.ports().measured_velocity, expected.ports().measured_velocity);
-}
-
-/// Part of the clamp in the mode's own mass or apart makes no difference.
-TEST(ModalPlant, AClampOnOneModeAddsToItsMass) {
-  const double mass = 0.08, clamp = 0.03, stiffness = 50.0;
-  const auto mode_of = [&](double m) {
-    const double omega = std::sqrt(stiffness / m);
-    return std::vector<PlaceMode<double>>{{omega, 0.4 / (2.0 * omega * m), 1.0, m}};
-  };
-  const auto apart = modal_plant<double>(mode_of(mass), {0.16, 74.4, 4.0, clamp});
-  const auto within = modal_plant<double>(mode_of(mass + clamp), {0.16, 74.4, 4.0, 0.0});
-  EXPECT_LT((apart.released_matrix - within.released_matrix).cwiseAbs().maxCoeff(), 1e-11);
-  EXPECT_LT((apart.excitation - within.excitation).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(ModalPlant, RefusesWhatIsNotAdmissible) {

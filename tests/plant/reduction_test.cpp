@@ -62,25 +62,6 @@ TEST(Reduction, TheRootsSolveTheQuadraticAndTheirProductIsFixed) {
   }
 }
 
-TEST(Reduction, APlantIsFoundAgainFromItsOwnFrequencies) {
-  test::Random random(383);
-  for (int draw = 0; draw < 200; ++draw) {
-    const Asked unknown{random.log_uniform(1, 1000), random.log_uniform(0.01, 10), 0.0, 0.0};
-    const ReducedMasses plant{random.log_uniform(1, 1000), random.log_uniform(0.01, 10), 0, 0, 0};
-    const auto squared = squared_frequencies(unknown, plant);
-    Asked asked = unknown;
-    asked.first_frequency = std::sqrt(squared[0]) / (2 * pi<double>);
-    asked.second_frequency = std::sqrt(squared[1]) / (2 * pi<double>);
-    const auto result = reduce_to_frequencies(asked);
-    if (result.discriminant < 1e-3) continue;  // the root answers to round-off there
-    const bool larger = std::abs(result.solutions[1].absorber_stiffness -
-                                 plant.absorber_stiffness) < 1e-6 * plant.absorber_stiffness;
-    const auto& solution = result.solutions[larger ? 1 : 0];
-    EXPECT_NEAR(solution.absorber_stiffness / plant.absorber_stiffness, 1.0, 1e-8);
-    EXPECT_NEAR(solution.conductor_mass / plant.conductor_mass, 1.0, 1e-8);
-  }
-}
-
 TEST(Reduction, TheConditionNumbersAreTheSumsOfTheRelativeDerivatives) {
   test::Random random(384);
   double Asked::*const inputs[] = {&Asked::conductor_stiffness, &Asked::absorber_mass,

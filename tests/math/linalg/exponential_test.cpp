@@ -23,25 +23,6 @@ Matrix<double, 4> random_matrix(test::Random& random, double size) {
   return random.matrix<Matrix<double, 4>>() * size;
 }
 
-TEST(Exponential, OfARotationIsTheRotation) {
-  Matrix<double, 2> spin;
-  spin << 0.0, -1.0, 1.0, 0.0;
-  for (const double angle : {1e-9, 0.01, 0.2, 0.3, 2.0, 40.0}) {
-    const Matrix<double, 2> turned = exponential<double, 2>(spin * angle);
-    EXPECT_NEAR(turned(0, 0), std::cos(angle), 1e-15 * (1.0 + angle));
-    EXPECT_NEAR(turned(1, 0), std::sin(angle), 1e-15 * (1.0 + angle));
-  }
-}
-
-TEST(Exponential, OfANilpotentMatrixIsItsShortSeries) {
-  Matrix<double, 3> shift = Matrix<double, 3>::Zero();
-  shift(0, 1) = shift(1, 2) = 7.0;
-  const Matrix<double, 3> power = exponential(shift);
-  EXPECT_NEAR(power(0, 2), 24.5, 1e-13);
-  EXPECT_NEAR(power(0, 1), 7.0, 1e-14);
-  EXPECT_EQ(power(2, 0), 0.0);
-}
-
 TEST(Exponential, OfZeroIsTheIdentity) {
   EXPECT_EQ((exponential<double, 3>(Matrix<double, 3>::Zero())), (Matrix<double, 3>::Identity()));
 }
@@ -68,32 +49,6 @@ TEST(Exponential, InExtendedPrecisionHasItsDigits) {
     EXPECT_LE((exponential<long double, 4>(matrix.cast<long double>()) - series).norm(),
               2e-18L * series.norm())
         << size;
-  }
-}
-
-TEST(Exponential, OfADiagonalisableMatrixHasTheExponentialsOfItsEigenvalues) {
-  test::Random random(2313);
-  for (int draw = 0; draw < 50; ++draw) {
-    const Matrix<double, 4> vectors = random_matrix(random, 0.2) + Matrix<double, 4>::Identity();
-    const Vector<double, 4> values = random.matrix<Vector<double, 4>>() * 3.0;
-    const auto with = [&](const Vector<double, 4>& diagonal) {
-      return eliminated<Matrix<double, 4>, Matrix<double, 4>>(
-          vectors.transpose(), (vectors * diagonal.asDiagonal()).transpose());
-    };
-    const Matrix<double, 4> power = exponential<double, 4>(with(values).transpose());
-    const Matrix<double, 4> expected = with(values.array().exp()).transpose();
-    EXPECT_LE((power - expected).norm(), 1e-13 * expected.norm());
-  }
-}
-
-TEST(Exponential, ItsInverseIsThatOfTheOppositeMatrix) {
-  test::Random random(2314);
-  for (const double size : {0.003, 0.1, 0.5, 2.0}) {
-    const Matrix<double, 4> matrix = random_matrix(random, size);
-    const Matrix<double, 4> power = exponential(matrix);
-    const Matrix<double, 4> opposite = exponential<double, 4>(-matrix);
-    EXPECT_LE((power * opposite - Matrix<double, 4>::Identity()).norm(),
-              1e-15 * power.norm() * opposite.norm());
   }
 }
 

@@ -73,17 +73,6 @@ TEST(Resolvent, AgreesWithLongDoubleOnBadlyScaledMatrices) {
   }
 }
 
-TEST(Resolvent, TheConstantCoefficientIsTheDeterminantOfMinusM) {
-  test::Random random(34);
-  for (int draw = 0; draw < 1000; ++draw) {
-    const auto m = random.matrix<Matrix<double, 5>>();
-    const auto computed = resolvent<double, 5>(m);
-    EXPECT_NEAR(computed.determinant[0], (-m).determinant(), 1e-13);
-    EXPECT_EQ(computed.determinant[5], 1.0);
-    EXPECT_NEAR(computed.determinant[4], -m.trace(), 1e-14);
-  }
-}
-
 TEST(Resolvent, BetweenARowAndAColumnSolvesTheLinearSystem) {
   test::Random random(35);
   for (int draw = 0; draw < 1000; ++draw) {
