@@ -154,5 +154,15 @@ TEST(CatenaryPointLoad, TheStiffnessIsTheDerivativeOfTheLoad) {
   }
 }
 
+TEST(CatenaryPointLoad, SmallLoadsObeyReciprocity) {
+  const CatenaryPointLoad<double> here(kollar2022_conductor(), 0.64);
+  const CatenaryPointLoad<double> there(kollar2022_conductor(), 4.1);
+  const double load = 1e-3;
+  const double forth = here.deflection(4.1, load) - here.deflection(4.1, -load);
+  const double back = there.deflection(0.64, load) - there.deflection(0.64, -load);
+  EXPECT_NEAR(forth / back, 1.0, 1e-6);
+  EXPECT_GT(std::abs(back), 1e-6);
+}
+
 }  // namespace
 }  // namespace holdfast

@@ -134,13 +134,6 @@ TEST(LyapunovRun, KnowsTheSignThatItsStandardErrorLeavesNoDoubtOf) {
   EXPECT_TRUE(result.sign_is_known());
 }
 
-TEST(LyapunovRun, HasStandardErrorsFromFourBatchesOn) {
-  for (const std::int64_t words : {3, 4, 7, 8, 16}) {
-    const auto result = run_of(flickering(0.011), {6 * words});
-    EXPECT_EQ(std::isnan(result.standard_errors[0]), words < 4) << words;
-  }
-}
-
 /// The largest exponent of a loop that always transmits, from all tangent vectors or from one, the
 /// tangents from any start.
 ExponentEstimate of_linear_loop(const IdealLoop<double>& loop, LyapunovScope scope,

@@ -60,20 +60,6 @@ TEST(Lyapunov, TriangularProductsHaveTheMeanLogarithmsOfTheirDiagonals) {
   EXPECT_LE((spectrum.exponents() - sum).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-TEST(Lyapunov, TheSumIsTheMeanLogarithmOfTheDeterminants) {
-  test::Random random(132);
-  LyapunovSpectrum<double, 5> spectrum;
-  double sum = 0;
-  const int steps = 3000;
-  for (int n = 0; n < steps; ++n) {
-    const Matrix<double, 5> map = random.matrix<Matrix<double, 5>>();
-    sum += test::log_moduli_of(map).sum() / steps;  // ln |det|
-    spectrum.push(map);
-  }
-  EXPECT_NEAR(spectrum.exponents().sum(), sum, 1e-11);
-  for (int i = 0; i < 4; ++i) EXPECT_GT(spectrum.exponents()[i], spectrum.exponents()[i + 1]);
-}
-
 TEST(Lyapunov, ANullDirectionHasExactlyMinusInfinity) {
   test::Random random(133);
   LyapunovSpectrum<double, 5> spectrum;

@@ -173,15 +173,6 @@ TEST(SwitchingComplexity, OfAPeriodicSequenceIsZero) {
   EXPECT_EQ(found.switches, 20000U / 7 * 4) << "three inside a period, one to the next";
 }
 
-TEST(SwitchingComplexity, OfAMarkovChainIsThatOfItsSteps) {
-  // Changes with probability 0.1: entropy h(0.1) a symbol though both symbols are equally likely.
-  auto sequence = coins(200000, 0.1, 733);
-  for (std::size_t n = 1; n < sequence.size(); ++n) sequence[n] = sequence[n] != sequence[n - 1];
-  const SwitchingComplexity found = switching_complexity(sequence);
-  EXPECT_NEAR(found.entropy, entropy_of_share(0.1), 0.01);
-  EXPECT_NEAR(block_entropy(sequence, 1), 1.0, 0.01);
-}
-
 TEST(BlockEntropy, CountsEachWord) {
   const auto sequence = word("00110");  // 00, 01, 11, 10
   EXPECT_EQ(block_entropy(sequence, 0), 0.0);

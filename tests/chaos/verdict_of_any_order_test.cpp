@@ -26,44 +26,6 @@ ImplementedLoopOf<Plant> without_common_period(ImplementedLoopOf<Plant> loop) {
   return loop;
 }
 
-TEST(VerdictOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMasses) {
-  const TwoMass<double> plant = kollar2022_plant();
-  for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    const auto masses = test::lagging_loop(plant, switching);
-    const auto ported = test::lagging_loop(test::through_ports(plant), switching);
-    const LyapunovRun run{2000, 500};
-    const LyapunovResult first = exponents_from_rest(masses, run);
-    const LyapunovResult second = exponents_from_rest(ported, run);
-    for (int i = 0; i < 5; ++i) {
-      if (std::isinf(first.exponents[i])) {
-        EXPECT_EQ(first.exponents[i], second.exponents[i]);
-      } else {
-        EXPECT_NEAR(first.exponents[i], second.exponents[i], 1e-9);
-      }
-    }
-    const EventClassification one = classify_motion(masses, rest_of_plant(masses));
-    const auto other = classify_motion(ported, rest_of_plant(ported));
-    EXPECT_EQ(one.classification.kind, AttractorType::periodic);
-    EXPECT_EQ(one.classification.kind, other.classification.kind);
-    EXPECT_EQ(one.classification.period, other.classification.period);
-  }
-}
-
-TEST(VerdictOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMassesByItsSamplesToo) {
-  const TwoMass<double> plant = kollar2022_plant();
-  const auto masses = without_common_period(test::lagging_loop(plant, Switching::exact));
-  const auto ported =
-      without_common_period(test::lagging_loop(test::through_ports(plant), Switching::exact));
-  const EventClassification one = classify_motion(masses, rest_of_plant(masses));
-  const auto other = classify_motion(ported, rest_of_plant(ported));
-  ASSERT_EQ(one.search.outcome, OrbitOutcome::incommensurate);
-  ASSERT_EQ(other.search.outcome, OrbitOutcome::incommensurate);
-  EXPECT_EQ(one.classification.kind, other.classification.kind);
-  EXPECT_EQ(one.classification.kind, AttractorType::quasi_periodic);
-  EXPECT_NEAR(one.indicators.largest_exponent->value, other.indicators.largest_exponent->value,
-              1e-9);
-}
-
 TEST(VerdictOfAnyOrder, OfSevenIsPeriodicWithTheExponentOfItsMultiplier) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     const auto loop = test::lagging_loop(test::lagging_plant(), switching);

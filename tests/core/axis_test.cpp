@@ -23,6 +23,8 @@ TEST(Axis, StepsAreEqualToRoundOff) {
 TEST(Axis, WholeNumbersBetweenWholeEndsStayWhole) {
   const Axis axis{-600.0, 100.0, 701};
   for (std::int64_t k = 0; k < axis.count; ++k) EXPECT_EQ(axis.at(k), static_cast<double>(k - 600));
+  EXPECT_EQ((Axis{-0.7, 0.7, 15}.at(7)), 0.0);
+  EXPECT_EQ((Axis{0.1, 0.5, 5}.at(2)), 0.3);
 }
 
 TEST(Axis, NeverLeavesItsEndsHoweverCloseTheyAre) {

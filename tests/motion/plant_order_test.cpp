@@ -250,27 +250,6 @@ TEST(PlantOrder, KnownAtRunTimeAloneIsTheSame) {
   }
 }
 
-// What filter and drive take away falls as the inverse of their bandwidth.
-TEST(PlantOrder, OfSevenTendsToTheTwoMassesAsFilterAndDriveBecomeFast) {
-  OrderSetting setting;
-  for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    std::array<double, 3> apart{};
-    for (std::size_t k = 0; k < apart.size(); ++k) {
-      const double bandwidth = 1e3 * std::pow(10.0, static_cast<double>(k));
-      const Order7 fast = order_seven(setting.plant, {bandwidth, bandwidth, 0.7});
-      auto masses = event_motion(loop_of(setting, setting.plant, ContactLaw::play, switching),
-                                 Vector<double, 4>::Zero());
-      auto seven =
-          event_motion(loop_of(setting, fast, ContactLaw::play, switching), State7::Zero());
-      apart[k] = largest_difference(masses, seven, 60);
-    }
-    std::cout << apart[0] << ", " << apart[1] << ", " << apart[2] << "\n";
-    EXPECT_LT(apart[2], 1e-3);
-    EXPECT_LT(apart[1], 0.2 * apart[0]);
-    EXPECT_LT(apart[2], 0.2 * apart[1]);
-  }
-}
-
 // The tangent over some samples, changes of contact included, against central differences of
 // motions that begin a little apart; δg is none while the drive is engaged at both ends.
 TEST(PlantOrder, OfSevenHasTheDerivativeOfItsMotion) {

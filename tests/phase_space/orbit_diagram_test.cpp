@@ -96,23 +96,6 @@ TEST(OrbitDiagram, StrobesAreThoseOfMatrixExponentials) {
   }
 }
 
-TEST(OrbitDiagram, OfTheTwoMassesAsALinearPlantIsTheSame) {
-  const std::vector<double> widths{0.0, 0.0005};
-  const DiagramOptions options{5.0, 20};
-  const auto expected = diagram_of(0.001, widths, options);
-  std::vector<StrobePoint> points;
-  const auto path = [](double width) {
-    const ImplementedLoop loop = implemented_loop(test::kollar_loop(0.001, width));
-    return ImplementedLoopOf<LinearPlant<double>>{test::through_ports(loop.plant), loop.digital,
-                                                  loop.backlash, loop.switching};
-  };
-  run_orbit_diagram(path, widths, Vector<double, 4>::Zero(), options,
-                    [&](const StrobePoint& point) { points.push_back(point); });
-  ASSERT_EQ(points.size(), expected.size());
-  for (std::size_t k = 0; k < points.size(); ++k)
-    EXPECT_LE((points[k].state - expected[k].state).cwiseAbs().maxCoeff(), 1e-11) << k;
-}
-
 TEST(OrbitDiagram, StrobesBetweenJitteringSamplesAreThoseOfTheResponse) {
   // Without control the samples are of no effect, wherever they fall: the strobes of the steady
   // response to an exactly integrated force are all one.

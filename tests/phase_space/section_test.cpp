@@ -151,23 +151,6 @@ TEST(Section, NoTurnIsMissedOnAnyLoop) {
   }
 }
 
-TEST(Section, OfTheTwoMassesAsALinearPlantIsTheSame) {
-  for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    const ImplementedLoop loop = section_loop(0.001, 0.0005, switching);
-    const ImplementedLoopOf<LinearPlant<double>> same{test::through_ports(loop.plant), loop.digital,
-                                                      loop.backlash, loop.switching};
-    const auto expected = section_of(loop, 2000);
-    const auto points = section_of(same, 2000);
-    ASSERT_EQ(points.size(), expected.size());
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      EXPECT_NEAR(points[k].time, expected[k].time, 1e-10);
-      EXPECT_LE((points[k].state - expected[k].state).cwiseAbs().maxCoeff(), 1e-10);
-      EXPECT_EQ(points[k].rising, expected[k].rising);
-      EXPECT_EQ(points[k].engaged, expected[k].engaged);
-    }
-  }
-}
-
 TEST(Section, OfALinearPlantGoesOnWhereItEndedInAStick) {
   const ImplementedLoop loop = section_loop(0.001, 0.0005, Switching::exact);
   const ImplementedLoopOf<LinearPlant<double>> same{test::through_ports(loop.plant), loop.digital,

@@ -273,6 +273,10 @@ TEST(Entries, OfMotionAndOrbitRefuseByName) {
 
 TEST(Entries, OfCableAndExcitationRefuseByName) {
   expect_refused({
+      {"validate(HarmonicExcitation)", "amplitude", negative_too,
+       [](double x) {
+         validate(HarmonicExcitation<double>{x, 10.0});
+       }},
       {"validate(HarmonicExcitation)", "frequency", not_positive,
        [](double x) {
          validate(HarmonicExcitation<double>{0.5, x});

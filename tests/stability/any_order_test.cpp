@@ -102,15 +102,6 @@ TEST(AnyOrder, ChartIsThatOfTheEigenvalues) {
   }
 }
 
-TEST(AnyOrder, ChartOfTwoMassesIsTheClosedForms) {
-  const TwoMass<double> plant = kollar2022_plant();
-  const Sampling<double> sampling{0.01, 0.004};
-  const GainGrid grid{{-600.0, 100.0, 71}, {-30.0, 10.0, 81}};
-  const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
-  const UnitCircleCrossings<double> circle({through_ports(plant), sampling});
-  EXPECT_EQ(stability_chart(circle, grid), stability_chart(polynomial, grid));
-}
-
 /// G_z and G_v at λ = e^{iθ}, by a dense solution.
 CommandResponse<double> dense_response(const LoopMap<double>& map, double angle) {
   Eigen::MatrixXcd matrix = -map.open_map.cast<Complex>();
@@ -153,25 +144,6 @@ TEST(AnyOrder, BoundaryPointsHaveARootOnTheCircle) {
     pairs += point.curve == BoundaryCurve::complex_pair ? 1 : 0;
   }
   EXPECT_GT(pairs, 100);
-}
-
-TEST(AnyOrder, BoundaryOfTwoMassesPassesWhereTheClosedFormsDo) {
-  const TwoMass<double> plant = kollar2022_plant();
-  const Sampling<double> sampling{0.01, 0.002};
-  const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
-  int compared = 0;
-  for (const auto& point :
-       stability_boundary(ModalResponse<double>(plant, sampling), {-1000.0, 200.0})) {
-    if (point.curve != BoundaryCurve::complex_pair) continue;
-    const auto gains = test::complex_pair_gains(polynomial, point.angle);
-    ASSERT_TRUE(gains.has_value());
-    const double size = std::abs(gains->proportional) + 1.0;
-    EXPECT_NEAR(point.gains.proportional, gains->proportional, 1e-7 * size);
-    EXPECT_NEAR(point.gains.differential, gains->differential,
-                1e-7 * (std::abs(gains->differential) + 1.0));
-    ++compared;
-  }
-  EXPECT_GT(compared, 100);
 }
 
 TEST(AnyOrder, DelaysOfManySamplesAreCommandsOnTheirWay) {

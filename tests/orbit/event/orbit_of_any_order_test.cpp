@@ -13,43 +13,6 @@ auto orbit_from_rest(const ImplementedLoopOf<Plant>& loop) {
   return find_event_orbit(event_motion(loop, StateOf<Plant>(StateOf<Plant>::Zero(order))));
 }
 
-void expect_same_multipliers(const std::vector<Multiplier>& first,
-                             const std::vector<Multiplier>& second) {
-  ASSERT_EQ(first.size(), second.size());
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    if (std::isinf(first[i].log_modulus)) {
-      EXPECT_EQ(first[i].log_modulus, second[i].log_modulus) << i;
-    } else if (first[i].log_modulus > std::log(1e-6)) {
-      EXPECT_NEAR(first[i].log_modulus, second[i].log_modulus, 1e-9) << i;
-    }
-  }
-}
-
-TEST(OrbitOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMasses) {
-  for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    for (const double delay : {0.0, 0.001}) {
-      const TwoMass<double> plant = kollar2022_plant();
-      const auto masses = orbit_from_rest(test::lagging_loop(plant, switching, delay));
-      const auto ported =
-          orbit_from_rest(test::lagging_loop(test::through_ports(plant), switching, delay));
-      ASSERT_EQ(masses.outcome, OrbitOutcome::certified);
-      ASSERT_EQ(ported.outcome, OrbitOutcome::certified);
-      ASSERT_EQ(ported.orbit->period_samples(), masses.orbit->period_samples());
-      EXPECT_EQ(ported.orbit->modes, masses.orbit->modes);
-      ASSERT_EQ(ported.orbit->switches.size(), masses.orbit->switches.size());
-      const double size = masses.orbit->extent.displacement;
-      EXPECT_LE((ported.orbit->states.front() - masses.orbit->states.front()).norm(), 1e-9 * size);
-      EXPECT_NEAR(ported.orbit->amplitude(), masses.orbit->amplitude(), 1e-9 * size);
-      EXPECT_NEAR(ported.orbit->largest_displacement, masses.orbit->largest_displacement,
-                  1e-9 * size);
-      if (switching == Switching::exact) {
-        EXPECT_NEAR(ported.orbit->border_share(), masses.orbit->border_share(), 1e-9);
-      }
-      expect_same_multipliers(masses.orbit->multipliers, ported.orbit->multipliers);
-    }
-  }
-}
-
 template <class Plant>
 void expect_closes_with_multiplier(const ImplementedLoopOf<Plant>& loop) {
   const auto found = orbit_from_rest(loop);

@@ -10,28 +10,6 @@ namespace {
 
 using tests::message_of;
 
-TEST(Axis, EndsAreExactAndPointsRise) {
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> uniform(-1e3, 1e3);
-  for (int i = 0; i < 2000; ++i) {
-    Axis axis{uniform(random), uniform(random), 2 + i % 97};
-    if (axis.min > axis.max) std::swap(axis.min, axis.max);
-    ASSERT_EQ(axis.at(0), axis.min);
-    ASSERT_EQ(axis.at(axis.count - 1), axis.max);
-    const double step = (axis.max - axis.min) / static_cast<double>(axis.count - 1);
-    for (std::int64_t j = 1; j < axis.count; ++j) {
-      ASSERT_NEAR(axis.at(j) - axis.at(j - 1), step, 1e-11);
-    }
-  }
-}
-
-TEST(Axis, WholeStepsAreWholeAndTheMiddleOfASymmetricAxisIsZero) {
-  const Axis whole{-600.0, 0.0, 601};
-  for (std::int64_t i = 0; i < whole.count; ++i) EXPECT_EQ(whole.at(i), -600.0 + double(i));
-  EXPECT_EQ((Axis{-0.7, 0.7, 15}).at(7), 0.0);
-  EXPECT_EQ((Axis{0.1, 0.5, 5}).at(2), 0.3);
-}
-
 TEST(Axis, ReadsMinMaxCount) {
   const Axis axis = parse_axis("--p", "-6e2:+0.5:41");
   EXPECT_EQ(axis.min, -600.0);

@@ -271,20 +271,6 @@ MaxDelayOptions roughly_tuned_to(double frequency, DelayCriterion criterion, dou
   return options;
 }
 
-TEST(AnyOrderDelay, OfTwoMassesIsThatOfTheClosedForms) {
-  const TwoMass<double> plant = kollar2022_plant();
-  for (const auto criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
-    for (const double frequency : {8.0, 20.0}) {
-      const auto options = roughly_tuned_to(frequency, criterion, frequency > 10.0 ? 0.5 : 0.0);
-      const MaxDelay closed = max_sampling_period(plant, options);
-      const MaxDelay general = max_sampling_period(test::through_ports(plant), options);
-      EXPECT_EQ(general.outcome, closed.outcome);
-      EXPECT_EQ(general.limit, closed.limit);
-      EXPECT_NEAR(general.sampling_period, closed.sampling_period, 1e-7 * closed.sampling_period);
-    }
-  }
-}
-
 /// Whether one of many D serves, by the eigenvalues of the map.
 template <class Plant>
 bool feasible_in_a_scan(const Plant& plant, const MaxDelayOptions& options, double period) {

@@ -129,19 +129,6 @@ TEST(AnyOrderAmplitude, OfSevenStatesIsTheLeastOfAScan) {
   EXPECT_GT(least.ratio_to_uncontrolled, 0.98 * scanned);
 }
 
-TEST(AnyOrderRadius, OfTwoMassesIsThatOfTheClosedForms) {
-  const TwoMass<double> plant = kollar2022_plant();
-  for (const Sampling<double>& sampling :
-       {Sampling<double>{0.001, 0.0}, {0.005, 0.002}, {0.02, 0.02}}) {
-    for (const double p : {-300.0, -20.0}) {
-      const MinimumRadius closed = minimum_radius(sampled_loop(plant, sampling), p);
-      const MinimumRadius general = minimum_radius(loop_map(plant, sampling), p);
-      EXPECT_NEAR(general.radius, closed.radius, 1e-8);
-      EXPECT_LE(general.lower_bound, general.radius);
-    }
-  }
-}
-
 TEST(AnyOrderRadius, OfSevenStatesIsTheLeastOfAScan) {
   const auto plant = test::lagging_plant(100.0, 150.0);
   for (const double delay : {0.001, 0.005}) {

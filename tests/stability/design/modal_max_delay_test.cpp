@@ -1,5 +1,5 @@
-// The slowest computer on a conductor by its modes, against the link by link search of two masses
-// and of a plant of any order.
+// The slowest computer on a conductor by its modes, against the link by link search of a plant of
+// any order.
 
 #include "holdfast/stability/design/max_delay.hpp"
 
@@ -23,23 +23,6 @@ void expect_same(const MaxDelay& found, const MaxDelay& expected, double toleran
   EXPECT_EQ(found.limit, expected.limit);
   EXPECT_NEAR(found.sampling_period, expected.sampling_period,
               tolerance * expected.sampling_period);
-}
-
-/// A string of one mode is two masses.
-TEST(ModalMaxDelay, OfOneModeIsThatOfTwoMasses) {
-  const ConductorWithAbsorber plant = string_with(1, 0.0);
-  const Absorber<double>& absorber = plant.absorber;
-  const TwoMass<double> masses = two_masses_of(plant.modes.front(), absorber);
-  for (const double frequency : {4.0, 10.0, 25.0, 50.0}) {
-    for (const double share : {0.0, 0.5}) {
-      MaxDelayOptions question = tuned_to(frequency, absorber);
-      question.delay_fraction = share;
-      question.shortest_period = 1e-4;
-      SCOPED_TRACE(testing::Message() << frequency << " Hz, " << share);
-      expect_same(modal_max_sampling_period(plant, question), max_sampling_period(masses, question),
-                  1e-7);
-    }
-  }
 }
 
 TEST(ModalMaxDelay, OfSomeModesIsThatOfTheirMatrices) {

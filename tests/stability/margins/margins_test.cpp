@@ -100,48 +100,6 @@ TEST(AnyOrderMargins, OfSevenStatesAreTheFirstLossesOfStability) {
   EXPECT_GE(late, 1);
 }
 
-void expect_same_end(const MarginEnd& general, const MarginEnd& closed, double value) {
-  EXPECT_EQ(general.outcome, closed.outcome);
-  if (general.outcome != closed.outcome) return;
-  if (!std::isfinite(closed.position)) {
-    EXPECT_EQ(general.position, closed.position);
-    return;
-  }
-  EXPECT_NEAR(general.position, closed.position,
-              1e-7 * std::max(std::abs(value), std::abs(closed.position)));
-  if (closed.outcome != MarginEndOutcome::boundary) return;
-  EXPECT_EQ(general.curve, closed.curve);
-  EXPECT_NEAR(general.frequency, closed.frequency, 1e-6 * closed.frequency);
-}
-
-TEST(AnyOrderMargins, OfTwoMassesAreTheClosedForms) {
-  test::Random random(20263);
-  int stable = 0, boundaries = 0;
-  for (int draw = 0; draw < 400 && stable < 40; ++draw) {
-    const TwoMass<double> plant = test::random_plant(random);
-    const Sampling<double> sampling = test::random_sampling(plant, random);
-    const PdGains<double> gains = test::random_gains(plant, sampling.period, random);
-    const StabilityMargins closed = stability_margins(plant, sampling, gains);
-    if (closed.outcome != MarginOutcome::stable || closed.unit_circle < 1e-4) continue;
-    ++stable;
-    SCOPED_TRACE(draw);
-    const auto general = stability_margins(test::through_ports(plant), sampling, gains);
-    ASSERT_EQ(general.outcome, MarginOutcome::stable);
-    EXPECT_NEAR(general.unit_circle, closed.unit_circle, 1e-9);
-    const auto expected = test::all_moved(closed, plant, sampling, gains);
-    const auto found = test::two_sided_of(general);
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      SCOPED_TRACE(expected[k].name);
-      const auto& [below, above] = expected[k].margin;
-      expect_same_end(found[k].below, below, expected[k].value);
-      expect_same_end(found[k].above, above, expected[k].value);
-      boundaries += above.outcome == MarginEndOutcome::boundary ? 1 : 0;
-    }
-  }
-  EXPECT_EQ(stable, 40);
-  EXPECT_GT(boundaries, 40);
-}
-
 /// Lightly damped plants at periods at which a mode is sampled twice a cycle: a pair meets at −1,
 /// one root passes it and comes back within about one per cent of the period.
 TEST(Margins, ARealRootThatPassesMinusOneAndComesBackIsSeen) {

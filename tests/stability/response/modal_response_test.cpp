@@ -193,16 +193,6 @@ TEST(ModalDamping, IsThatOfTheFirstOrderLawForALightDevice) {
   EXPECT_GT(compared, 40);
 }
 
-/// s = −ω e^{±iφ} of the one mode that a place sees: the two masses' own eigenvalues.
-TEST(ModalDamping, OfOneModeIsThatOfTwoMasses) {
-  const PlaceMode<double> mode{12.0, 0.03, 0.5, 0.4};
-  const Absorber<double> absorber{0.05, 6.0, 0.02};
-  const Eigen::VectorXcd expected = two_masses_of(mode, absorber).state_matrix().eigenvalues();
-  std::vector<Complex> eigenvalues(expected.begin(), expected.end());
-  const auto found = modal_damping({mode}, absorber, {0.001, 0.0}, {0.0, 0.0});
-  EXPECT_LT(distance_taken(eigenvalues, found.front().root), 1e-10);
-}
-
 TEST(ModalDamping, AModeWithANodeAtTheAbsorberIsLeftAlone) {
   const auto modes = string_modes(taut_string(kollar2022_conductor()), 3.2, 4);  // mid-span
   const auto found = modal_damping(modes, papers_absorber(0.01), {0.001, 0.0}, {-557.0, -4.0});
