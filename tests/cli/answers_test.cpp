@@ -172,19 +172,14 @@ TEST(Answers, OfASpanWhoseAbsorberNobodyGaveAreOfTheWindAndItsDevicesAlone) {
   }
 }
 
-TEST(Answers, SayThatAMotionDivergesAndNotWhatIsLeftOfIt) {
+TEST(Answers, SayThatAMotionDivergesAndRecommendNoGainThatIsNotWorthItsDrive) {
   const auto answers = table_of("answers --set control.sampling_period=0.03");
-  const std::string text = answers.text(help, "answer");
+  const std::string text = answers.text(help, "answer"), advice = answers.text(gain, "answer");
   expect_holds(text, {"diverges"});
   EXPECT_FALSE(holds(text, "%")) << text;
   expect_holds(answers.text(motion, "answer"), {"diverges"});
-}
-
-TEST(Answers, RecommendNoGainThatIsNotWorthItsDrive) {
-  const auto answers = table_of("answers --set control.sampling_period=0.03");
-  const std::string text = answers.text(gain, "answer");
-  EXPECT_EQ(text.rfind("No D is worth a drive", 0), 0U) << text;
-  EXPECT_GT(number_behind(text, "leaves "), 95.0);
+  EXPECT_EQ(advice.rfind("No D is worth a drive", 0), 0U) << advice;
+  EXPECT_GT(number_behind(advice, "leaves "), 95.0);
   EXPECT_EQ(table_of("answers").text(gain, "answer").rfind("D = ", 0), 0U);
 }
 

@@ -10,43 +10,6 @@ bool is_stable_cell(double p, double d, const std::string& more) {
   return cell_of("stability", p, d, more).number(0, "stable") == 1.0;
 }
 
-void expect_end_between_stable_and_not(const CsvTable& table, std::size_t row,
-                                       const std::string& end, const std::string& more) {
-  const double value = table.number(row, end), other = table.number(row, "other_gain");
-  if (!std::isfinite(value)) return;
-  const bool d_varies = table.text(row, "gain") == "differential_gain";
-  const double inward = (end == "lower" ? 1e-4 : -1e-4) * std::max(1.0, std::abs(value));
-  for (const double step : {inward, -inward}) {
-    const bool stable = d_varies ? is_stable_cell(other, value + step, more)
-                                 : is_stable_cell(value + step, other, more);
-    EXPECT_EQ(stable, step == inward) << more << ' ' << value << ' ' << step;
-  }
-}
-
-TEST(Boundary, ReachesTheEndsOfItsRange) {
-  const CsvTable table = table_of("boundary --p -600:-500 --set control.sampling_period=0.01");
-  int ends = 0;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (table.text(row, "curve") != "complex_pair") continue;
-    const double p = table.number(row, "proportional_gain");
-    ends += p == -600.0 || p == -500.0 ? 1 : 0;
-  }
-  EXPECT_EQ(ends, 4) << "two branches";
-}
-
-TEST(Boundary, StableIntervalsEndWhereTheChartSaysSo) {
-  for (const std::string more : {"", " --continuous"}) {
-    const auto table = table_of("boundary --stable-interval" + more);
-    ASSERT_GE(table.rows(), 2U);
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-      const bool d_varies = table.text(row, "gain") == "differential_gain";
-      EXPECT_EQ(table.number(row, "other_gain"), d_varies ? -557.0 : -13.0);
-      expect_end_between_stable_and_not(table, row, "lower", more);
-      expect_end_between_stable_and_not(table, row, "upper", more);
-    }
-  }
-}
-
 TEST(Boundary, StableIntervalsAreOfTheGainsThatAreGiven) {
   const CsvTable table = table_of("boundary --stable-interval --p -557,-100 --continuous");
   ASSERT_EQ(table.rows(), 2U);
@@ -60,23 +23,6 @@ TEST(Boundary, StableIntervalsAreOfTheGainsThatAreGiven) {
       table_of("boundary --stable-interval --p -557 --set control.sampling_period=0.01");
   ASSERT_EQ(slow.rows(), 1U);
   EXPECT_NEAR(slow.number(0, "lower"), -15.5, 0.05) << "Kollár 2022, Fig. 4a";
-}
-
-TEST(Boundary, StableIntervalsLieOnTheBoundary) {
-  const std::string more = " --set control.sampling_period=0.01";
-  const CsvTable table = table_of("boundary --stable-interval --p -600,-500" + more);
-  const CsvTable curve = table_of("boundary --p -600:-500" + more);
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    for (const std::string end : {"lower", "upper"}) {
-      double nearest = 1.0;
-      for (std::size_t point = 0; point < curve.rows(); ++point) {
-        if (curve.number(point, "proportional_gain") != table.number(row, "other_gain")) continue;
-        nearest = std::min(
-            nearest, std::abs(curve.number(point, "differential_gain") - table.number(row, end)));
-      }
-      EXPECT_LE(nearest, 1e-10 * std::abs(table.number(row, end)));
-    }
-  }
 }
 
 TEST(Boundary, AGainWithoutAStableIntervalIsWarnedOf) {
@@ -145,24 +91,6 @@ TEST(Boundary, FeaturesOfTheContinuousLoopAreOneTangent) {
   EXPECT_EQ(table.text(0, "first_curve"), "imaginary_pair");
   EXPECT_EQ(table.text(0, "second_curve"), "imaginary_pair");
   EXPECT_EQ(table.number(0, "first_angle_rad"), table.number(0, "second_angle_rad"));
-}
-
-TEST(Boundary, TheStableRegionEndsAtAVerticalTangent) {
-  // τ = δ = 10 ms: the stable region is closed to both sides.
-  const std::string more =
-      " --set control.sampling_period=0.01 --set control.processing_delay=0.01";
-  const CsvTable features = table_of("boundary --features" + more);
-  const CsvTable regions = table_of("boundary --regions" + more);
-  ASSERT_EQ(regions.number(0, "unstable_roots"), 0.0);
-  int seen = 0;
-  for (std::size_t row = 0; row < features.rows(); ++row) {
-    const double p = features.number(row, "proportional_gain");
-    EXPECT_TRUE(p >= -1000.0 && p <= 200.0);
-    if (features.text(row, "feature") != "vertical_tangent") continue;
-    seen += std::abs(p - regions.number(0, "proportional_min")) < 1e-9 ? 1 : 0;
-    seen += std::abs(p - regions.number(0, "proportional_max")) < 1e-9 ? 1 : 0;
-  }
-  EXPECT_EQ(seen, 2);
 }
 
 TEST(Boundary, FeaturesWhereLinesAndPairsMeetNameBothCurves) {

@@ -142,19 +142,6 @@ TEST(BuiltLoop, ASweepOverTheFilterIsItsCases) {
   }
 }
 
-TEST(BuiltLoop, LongestPeriodIsOneOfTheChart) {
-  const std::string drive = " --quiet --set control.drive_bandwidth=50";
-  const CsvTable longest = table_of("max-delay --criterion stable --frequency 10:10:1" + drive);
-  const double period = longest.number(0, "max_sampling_period_s");
-  for (const double share : {0.98, 1.02}) {
-    const Outcome outcome =
-        run_holdfast("boundary --stable-interval" + drive +
-                     " --set control.sampling_period=" + program::format_number(share * period) +
-                     " --p " + longest.text(0, "proportional_gain"));
-    EXPECT_EQ(outcome.exit_code, share < 1.0 ? 0 : 1) << share << outcome.errors;
-  }
-}
-
 /// By the poles what the closed forms say of two masses.
 TEST(BuiltLoop, SensitivitiesByPolesAreThoseOfTheClosedForms) {
   const std::string at = "sensitivity --quiet --set control.differential_gain=-4";

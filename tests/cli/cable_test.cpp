@@ -101,29 +101,6 @@ TEST(Cable, OfNextToNoSagIsAString) {
   }
 }
 
-/// The chart's radii, by roots of the poles, against the eigenvalues of the map; a motion with play
-/// grows where the gains are unstable.
-TEST(Cable, ChartMarginsAndMotionAgree) {
-  const std::string cable = on_cable + " --set plant.modes=20 --set control.sampling_period=0.01";
-  const CsvTable chart = table_of("stability --radius --p -900:100:5 --d -20:10:7" + cable);
-  int stable = 0;
-  for (std::size_t row = 0; row < chart.rows(); ++row) {
-    EXPECT_EQ(chart.number(row, "stable") == 1.0, chart.number(row, "spectral_radius") < 1.0);
-    stable += chart.number(row, "stable") == 1.0 ? 1 : 0;
-  }
-  EXPECT_GT(stable, 3);
-  const double limit = lowest_stable_gain(" --set control.sampling_period=0.01");
-  const auto last = [&](double gain) {
-    const CsvTable motion = table_of(
-        "simulate --duration 4 --set control.sampling_period=0.01 --set backlash.width=0"
-        " --set excitation.amplitude=0 --set initial.z1=1e-4 --set control.differential_gain=" +
-        std::to_string(gain) + on_cable);
-    return std::abs(motion.number(motion.rows() - 1, "z1_m"));
-  };
-  EXPECT_LT(last(0.8 * limit), 1e-5);
-  EXPECT_GT(last(1.2 * limit), 1e-3);
-}
-
 TEST(Cable, AnswersAlikeByHalfItsModes) {
   const auto asked = run_holdfast("boundary --stable-interval --p -557 --set plant.model=cable");
   EXPECT_EQ(asked.errors.find("warning"), std::string::npos) << asked.errors;
@@ -165,14 +142,6 @@ TEST(Conductors, AreFoundByEveryWord) {
   expect_refused("conductors --find 'drake hawk'", {"drake hawk"}, 1);
   expect_refused("conductors --find " + std::string(3000, 'x'), {"xxx...: no conductor"}, 1);
   expect_refused("conductors drake", {"did you mean --find drake?"});
-}
-
-TEST(Conductors, GoToAFileWithMetadata) {
-  const TemporaryFolder folder;
-  const Outcome outcome = run_holdfast("conductors --output c.csv", "", folder.path().string());
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_NE(read_text(folder / "c.csv").find("Drake"), std::string::npos);
-  EXPECT_NE(read_text(folder / "c.csv-metadata.json").find("\"kg/m\""), std::string::npos);
 }
 
 TEST(Conductors, ANameInACaseShowsWhereItsValuesComeFrom) {

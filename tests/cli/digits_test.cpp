@@ -73,12 +73,6 @@ TEST(DigitsInMetadata, OfASweepAreThoseOfItsChaoticCells) {
   EXPECT_EQ(run_holdfast(sweep + " --metric verdict --quiet").errors, "");
 }
 
-TEST(DigitsInMetadata, OfAnIrregularMotionsBeginningAreEnough) {
-  std::string errors;
-  const std::string job = std::string("simulate --duration 1") + irregular;
-  EXPECT_EQ(metadata_of(job, errors).find("trusted"), std::string::npos);
-}
-
 // An answer that a small change of the question would change much comes with one line that says so,
 // and one that is safe comes without.
 

@@ -81,18 +81,6 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
             "time_s,lambda1,lambda2,lambda3,lambda4,lambda5");
 }
 
-TEST(Stability, FirstAxisIsSlowestAndRadiusAgreesWithTheVerdict) {
-  const CsvTable table = table_of(
-      "stability --radius --p -1000:200:7 --d -40:20:5 --set control.sampling_period=0.01");
-  ASSERT_EQ(table.rows(), 35U);
-  EXPECT_EQ(table.number(0, "proportional_gain"), table.number(4, "proportional_gain"));
-  EXPECT_EQ(table.number(1, "differential_gain"), -25.0);
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    EXPECT_EQ(table.number(row, "stable") == 1.0, table.number(row, "spectral_radius") < 1.0)
-        << "row " << row;
-  }
-}
-
 /// Two masses, a string, and two masses whose force comes two samples late.
 TEST(Stability, ItsProofAgreesWithTheVerdict) {
   const std::string range = " --p -600:100:15 --d -20:10:7 --set control.sampling_period=0.008";
@@ -215,13 +203,6 @@ TEST(Boundary, NamesItsCurves) {
   EXPECT_EQ(continuous.text(0, "curve"), "imaginary_pair");
 }
 
-TEST(Simulate, RowsStandAtEverySampleUpToTheDuration) {
-  const CsvTable table = table_of("simulate --duration 0.3 --set control.sampling_period=0.1");
-  ASSERT_EQ(table.rows(), 4U);
-  EXPECT_DOUBLE_EQ(table.number(3, "time_s"), 0.3);
-  EXPECT_EQ(table.number(0, "z1_m"), 0.0);
-}
-
 TEST(Simulate, FromDropsTheRowsBeforeAndNothingElse) {
   const CsvTable whole = table_of("simulate --duration 1");
   const CsvTable tail = table_of("simulate --duration 1 --from 0.5");
@@ -238,14 +219,6 @@ TEST(Simulate, FromKeepsTheSampleThatIsMeantInSpiteOfRounding) {
 
 TEST(Coverage, OfAMotionAtRestHasNoAnswer) {
   expect_refused("coverage --set excitation.amplitude=0 --durations 1,2", {"stays at rest"}, 1);
-}
-
-TEST(MaxDelay, NeverPassesHalfAForcingPeriodWhereItShallAttenuate) {
-  const CsvTable table = table_of("max-delay --frequency 3:4:11 --quiet");
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    EXPECT_LE(table.number(row, "max_sampling_period_s"), 0.5 / table.number(row, "frequency_Hz"));
-    EXPECT_GT(table.number(row, "max_sampling_period_s"), 0.0);
-  }
 }
 
 TEST(Simulate, WithoutControlThereIsNoForceAndNoBacklash) {
@@ -407,18 +380,6 @@ TEST(Spectrum, OfAMotionThatHasNotSettledSaysSo) {
       "spectrum --duration 3 --discard 0 --set excitation.amplitude=0 --set initial.z1=0.001 "
       "--set backlash.width=0",
       {settled});
-}
-
-TEST(Lyapunov, IsNotMisledByTheStartOfItsTangents) {
-  // ln rho = -4.8e-6 a sample.
-  for (const char* scope : {"", " --largest"}) {
-    const CsvTable exponents = table_of(
-        std::string(
-            "lyapunov --quiet --set backlash.width=0 --set control.differential_gain=5.579") +
-        scope);
-    EXPECT_NEAR(exponents.number(0, "per_sample"), -4.8e-6,
-                2.6 * exponents.number(0, "standard_error"));
-  }
 }
 
 TEST(Jobs, RefuseAnOutputWhoseNamePromisesAnotherFormat) {

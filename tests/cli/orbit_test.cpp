@@ -8,15 +8,6 @@ using program::CsvTable;
 const std::string slow = " --set control.sampling_period=0.011 --set backlash.width=0.002";
 const std::string neighbour = " --set control.sampling_period=0.003 --set backlash.width=0.002";
 
-TEST(OrbitJob, FindsTheLongPeriodOfTheIrregularMotion) {
-  const CsvTable table = table_of("orbit" + slow);
-  ASSERT_EQ(table.rows(), 1U);
-  EXPECT_EQ(table.number(0, "period_samples"), 2100.0);
-  EXPECT_NEAR(table.number(0, "period_s"), 23.1, 1e-9);
-  EXPECT_EQ(table.number(0, "forcing_periods"), 231.0);
-  EXPECT_LE(table.number(0, "closure_error"), 1e-12);
-}
-
 TEST(OrbitJob, TheTraceClosesAndIsWhatSimulateComesTo) {
   const CsvTable trace = table_of("orbit --trace" + slow);
   ASSERT_EQ(trace.rows(), 2101U);
@@ -29,16 +20,6 @@ TEST(OrbitJob, TheTraceClosesAndIsWhatSimulateComesTo) {
     nearest = std::min(nearest, std::abs(motion.number(row, "z1_m") - trace.number(0, "z1_m")) +
                                     std::abs(motion.number(row, "z2_m") - trace.number(0, "z2_m")));
   EXPECT_LE(nearest, 1e-9);
-}
-
-TEST(OrbitJob, CertifiesInExtendedPrecision) {
-  const CsvTable table = table_of("orbit --certificate" + slow);
-  EXPECT_EQ(value_of(table, "extended_precision_same_contacts"), 1.0);
-  EXPECT_LE(value_of(table, "extended_precision_displacement_difference"), 1e-12);
-  EXPECT_GT(value_of(table, "gap_distance"), 0.0);
-  EXPECT_GT(value_of(table, "reversal_distance"), 0.0);
-  EXPECT_GT(value_of(table, "capture_radius_smallest"), 0.0);
-  EXPECT_EQ(value_of(table, "multiplier_5_modulus"), 0.0);
 }
 
 TEST(OrbitJob, ProvesWhatItCertifies) {
@@ -277,16 +258,6 @@ TEST(VerdictJob, SaysWhatTheMotionIsAndOnWhatThatRests) {
   EXPECT_NE(slow_motion.text(0, "rests_on").find("Certified"), std::string::npos);
   EXPECT_EQ(table_of("verdict --set control.processing_delay=0.011" + slow).text(0, "verdict"),
             "diverges");
-}
-
-TEST(DiagramJob, ShowsFiveLevelsOfTheSubharmonicMotion) {
-  const CsvTable table =
-      table_of("diagram --axis backlash.width=0.002:0.002:1 --transient 40 --strobes 20");
-  std::set<long> levels;
-  for (std::size_t row = 0; row < table.rows(); ++row)
-    levels.insert(std::lround(table.number(row, "z1_m") * 1e9));
-  EXPECT_EQ(table.rows(), 40U);
-  EXPECT_EQ(levels.size(), 5U);
 }
 
 TEST(SectionJob, ItsPointsLieBetweenTheSamplesOfSimulate) {

@@ -72,26 +72,6 @@ TEST(String, OfOneModeIsTwoMasses) {
           {"z1_m", "v1_m_per_s", "z2_m", "in_backlash"}, 1e-8);
 }
 
-TEST(String, ChartAndIntervalsAreThoseOfTheEigenvalues) {
-  const std::string string =
-      " --quiet --set plant.model=string --set plant.modes=12 --set absorber.clamp_mass=0.01"
-      " --set control.sampling_period=0.01";
-  const CsvTable chart = table_of("stability --radius --p -900:100:9 --d -30:10:17" + string);
-  std::size_t stable = 0;
-  for (std::size_t row = 0; row < chart.rows(); ++row) {
-    EXPECT_EQ(chart.number(row, "stable") == 1.0, chart.number(row, "spectral_radius") < 1.0)
-        << row;
-    stable += chart.number(row, "stable") == 1.0 ? 1U : 0U;
-  }
-  EXPECT_GT(stable, 10U);
-  EXPECT_LT(stable, chart.rows() - 10U);
-  const CsvTable interval = table_of("boundary --stable-interval --p -557" + string);
-  for (const char* end : {"lower", "upper"}) {
-    const CsvTable edge = cell_of("stability --radius", -557.0, interval.number(0, end), string);
-    EXPECT_NEAR(edge.number(0, "spectral_radius"), 1.0, 1e-9) << end;
-  }
-}
-
 /// On each boundary point a root of modulus 1.
 TEST(String, BoundaryHasARootOnTheCircle) {
   const std::string string = " --quiet --set plant.model=string --set plant.modes=6";
@@ -107,32 +87,6 @@ TEST(String, BoundaryHasARootOnTheCircle) {
     on_edge += cell.number(0, "spectral_radius") < 1.0 + 1e-8 ? 1U : 0U;
   }
   EXPECT_GT(on_edge, 0U);
-}
-
-TEST(String, BeginsWithTheInitialStateOfTheCase) {
-  const CsvTable motion = table_of(
-      "simulate --duration 0.01 --quiet --set plant.model=string --set plant.modes=30"
-      " --set initial.z1=0.002 --set initial.v1=-0.03 --set initial.z2=0.001 --set "
-      "initial.v2=0.02");
-  EXPECT_NEAR(motion.number(0, "z1_m"), 0.002, 1e-15);
-  EXPECT_NEAR(motion.number(0, "v1_m_per_s"), -0.03, 1e-15);
-  EXPECT_NEAR(motion.number(0, "z2_m"), 0.001, 1e-15);
-  EXPECT_NEAR(motion.number(0, "v2_m_per_s"), 0.02, 1e-15);
-}
-
-/// A motion in the unstable part grows, in the stable part it decays; a motion is of the string.
-TEST(String, MotionGrowsWhereTheChartSaysSo) {
-  const std::string string =
-      "simulate --duration 4 --quiet --set plant.model=string --set plant.modes=40"
-      " --set control.sampling_period=0.003 --set backlash.width=0 --set excitation.amplitude=0"
-      " --set initial.z1=0.001";
-  const auto last = [&](const std::string& settings) {
-    const CsvTable motion = table_of(string + settings);
-    return std::abs(motion.number(motion.rows() - 1, "v2_m_per_s"));
-  };
-  EXPECT_LT(last(" --set control.differential_gain=-4"), 1e-3);
-  EXPECT_GT(last(" --set control.differential_gain=-7.5"), 1.0);
-  EXPECT_LT(last(" --set control.differential_gain=-7.5 --set absorber.clamp_mass=0.01"), 1e-3);
 }
 
 TEST(String, ModalDampingTellsWhichRootGrows) {
@@ -306,19 +260,6 @@ TEST(String, OfAnotherTensionNeedsNoTwoMasses) {
   }
   const std::string errors = run_holdfast(ask + "conductor.tension=9").errors;
   expect_holds(errors, {"plant.absorber_stiffness, plant.absorber_damping not given"});
-}
-
-/// H and the sag that it leaves are one thing given in two ways.
-TEST(String, TensionStandsForTheSag) {
-  const double tension = taut_string(kollar2022_conductor()).tension * 1.5;
-  const CsvTable by_tension =
-      table_of("statics --force -0.1:0.1:3 --quiet --set conductor.tension=" +
-               program::format_number(tension));
-  const CsvTable by_sag = table_of("statics --force -0.1:0.1:3 --quiet --set conductor.sag=" +
-                                   program::format_number(0.29 / 1.5));
-  ASSERT_EQ(by_tension.rows(), by_sag.rows());
-  EXPECT_NEAR(by_tension.number(2, by_tension.names().back()),
-              by_sag.number(2, by_sag.names().back()), 1e-12);
 }
 
 }  // namespace

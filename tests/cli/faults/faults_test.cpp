@@ -3,14 +3,6 @@
 namespace holdfast::tests {
 namespace {
 
-TEST(WrongInput, CaseValuesAreNamedWithTheirRange) {
-  expect_refused("simulate --set plant.conductor_mass=-1", {"plant.conductor_mass"});
-  expect_refused("simulate --set excitation.amplitude=nan", {"finite"});
-  expect_refused("simulate --set excitation.frequency=inf", {"finite"});
-  expect_refused("simulate --set initial.z1=fast", {"initial.z1"});
-  expect_refused("simulate --set backlash.law=kolar", {"kollar"});
-}
-
 TEST(WrongInput, UnknownKeysComeWithTheNearestKnownOne) {
   expect_refused("simulate --set control.sampling_perod=0.1", {"control.sampling_period"});
   const TemporaryFolder folder;

@@ -53,17 +53,6 @@ TEST(SweepJob, OneWarningCountsTheCellsThatFailedUnlessItShallBeQuiet) {
   EXPECT_EQ(quiet.output, outcome.output);
 }
 
-TEST(SweepJob, AValueThatItsKeyDoesNotAdmitMakesAnInvalidCellToo) {
-  const Outcome outcome = run_holdfast("sweep --axis plant.absorber_mass=-1,0,0.16 --duration 0.5");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  expect_holds(outcome.errors, {"plant.absorber_mass"});
-  const CsvTable table = program::parse_csv(outcome.output, "sweep");
-  ASSERT_EQ(table.rows(), 3U);
-  EXPECT_EQ(table.text(0, "outcome"), "invalid");
-  EXPECT_EQ(table.text(1, "outcome"), "invalid");
-  EXPECT_EQ(table.text(2, "outcome"), "computed");
-}
-
 TEST(SweepJob, RefusesAxesThatAreNone) {
   expect_refused("sweep ", {"--axis"});
   expect_refused("sweep --axis backlash.widht=0:1:2", {"backlash.width"});

@@ -54,16 +54,6 @@ TEST(SweepJob, AnAxisIsTheListOfItsValues) {
   }
 }
 
-TEST(SweepJob, ALogarithmicAxisHasItsEndsAndEqualRatios) {
-  const CsvTable table =
-      table_of("sweep --quiet --duration 0.1 --axis control.sampling_period=log:0.001:0.016:5");
-  const auto periods = table.numbers("control.sampling_period");
-  ASSERT_EQ(periods.size(), 5U);
-  EXPECT_EQ(periods.front(), 0.001);
-  EXPECT_EQ(periods.back(), 0.016);
-  for (std::size_t i = 1; i < 5; ++i) EXPECT_NEAR(periods[i] / periods[i - 1], 2.0, 1e-13);
-}
-
 TEST(SweepJob, ADryRunOfAHundredMillionCellsComputesNothingAndLeavesNothing) {
   const TemporaryFolder folder;
   const std::string sweep =
