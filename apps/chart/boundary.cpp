@@ -1,12 +1,10 @@
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "case/axes/axis.hpp"
-#include "case/model/conditioning.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/boundary/boundary_features.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/boundary/stable_regions.hpp"
@@ -24,34 +22,15 @@ struct FixedGains {
   std::vector<double> differential;  ///< values of D (N s/m) for which intervals of P are sought
 };
 
-constexpr Named<BoundaryFeatureKind> feature_names[] = {
-    {BoundaryFeatureKind::vertical_tangent, "vertical_tangent"},
-    {BoundaryFeatureKind::horizontal_tangent, "horizontal_tangent"},
-    {BoundaryFeatureKind::cusp, "cusp"},
-    {BoundaryFeatureKind::crossing, "crossing"},
-    {BoundaryFeatureKind::end, "end"}};
-
 /// Number type for single points, exact to a double's last digit unless two points nearly coincide.
 using Precise = long double;
 
 /// Calls `visit` with the characteristic polynomial of the continuous or the sampled loop.
-template <class Real, class Visit>
+template <class Visit>
 auto with_polynomial(const Case& the_case, bool continuous, const Visit& visit) {
-  const TwoMass<Real> plant = converted<Real>(plant_of(the_case));
+  const TwoMass<double> plant = plant_of(the_case);
   if (continuous) return visit(characteristic_polynomial(plant));
-  const Sampling<double> sampling = sampling_of(the_case);
-  return visit(characteristic_polynomial(
-      sampled_loop(plant, Sampling<Real>{sampling.period, sampling.processing_delay})));
-}
-
-/// Range of D (N s/m) of a window without bounds.
-constexpr Interval<double> every_gain{-1e150, 1e150};
-
-std::vector<BoundaryFeature<Precise>> precise_features(const Case& the_case,
-                                                       const GainWindow& window, bool continuous) {
-  return with_polynomial<Precise>(the_case, continuous, [&](const auto& polynomial) {
-    return boundary_features(polynomial, window);
-  });
+  return visit(characteristic_polynomial(sampled_loop(plant, sampling_of(the_case))));
 }
 
 /// Name, symbol and unit of one of the two gains.
@@ -165,9 +144,6 @@ Values angle_words(bool continuous) {
 
 void write_boundary(const JobContext& context, const Interval<double>& gains, bool continuous) {
   const Case& the_case = context.case_data;
-  if (has_closed_forms(the_case))
-    report_warning(near_cusp_warning(precise_features(the_case, {gains, every_gain}, continuous)),
-                   context.quiet);
   const auto points = continuous
                           ? stability_boundary(characteristic_polynomial(plant_of(the_case)), gains)
                           : LinearLoop(the_case).boundary(gains);
@@ -175,22 +151,6 @@ void write_boundary(const JobContext& context, const Interval<double>& gains, bo
   for (const auto& point : points) {
     table.row(name_in(curve_names, point.curve), point.angle, point.gains.proportional,
               point.gains.differential);
-  }
-  table.commit();
-}
-
-/// Writes tangents, cusps, crossings and ends of the boundary curves within the window.
-void write_boundary_features(const JobContext& context, const GainWindow& window, bool continuous) {
-  const Case& the_case = context.case_data;
-  const auto features = precise_features(the_case, window, continuous);
-  Table table(context, columns_of("boundary features", angle_words(continuous)));
-  report_warning(near_cusp_warning(features), context.quiet);
-  for (const BoundaryFeature<Precise>& feature : features) {
-    table.row(name_in(feature_names, feature.kind), name_in(curve_names, feature.first.curve),
-              static_cast<double>(feature.first.angle), name_in(curve_names, feature.second.curve),
-              static_cast<double>(feature.second.angle),
-              static_cast<double>(feature.gains.proportional),
-              static_cast<double>(feature.gains.differential));
   }
   table.commit();
 }
@@ -212,9 +172,9 @@ void write_stable_intervals(const JobContext& context, const FixedGains& fixed, 
 
 /// Writes one row per region of the window; stable regions first, large regions first.
 void write_gain_regions(const JobContext& context, const GainWindow& window, bool continuous) {
-  const auto regions = with_polynomial<double>(
-      context.case_data, continuous,
-      [&](const auto& polynomial) { return gain_regions(polynomial, window); });
+  const auto regions = with_polynomial(context.case_data, continuous, [&](const auto& polynomial) {
+    return gain_regions(polynomial, window);
+  });
   Table table(context, columns_of("gain regions"));
   for (const GainRegion<double>& region : regions) {
     table.row(region.unstable_roots, region.area, region.inside.proportional,
@@ -227,7 +187,7 @@ void write_gain_regions(const JobContext& context, const GainWindow& window, boo
 struct BoundaryQuestion {
   std::string p = "-1000:200";
   std::string d = "-40:20";
-  bool continuous = false, stable_interval = false, regions = false, features = false;
+  bool continuous = false, stable_interval = false, regions = false;
   bool prove = false;
 
   void add_to(const Job& job) {
@@ -236,7 +196,6 @@ struct BoundaryQuestion {
     job.add("--continuous", continuous);
     job.add("--stable-interval", stable_interval);
     job.add("--regions", regions);
-    job.add("--features", features);
     job.add("--prove", prove);
   }
 
@@ -250,10 +209,8 @@ struct BoundaryQuestion {
       write_stable_intervals(context, fixed_gains(job, context.case_data), continuous);
     } else if (regions) {
       write_gain_regions(context, window(), continuous);
-    } else if (features) {
-      write_boundary_features(context, window(), continuous);
     } else if (job.has("--d")) {
-      throw WrongInput("--d needs --stable-interval, --regions or --features: add one of them");
+      throw WrongInput("--d needs --stable-interval or --regions: add one of them");
     } else {
       write_boundary(context, proportional_range(), continuous);
     }

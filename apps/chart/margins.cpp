@@ -96,13 +96,13 @@ void MarginsQuestion::run(const JobContext& context) const {
     throw NoAnswer("the loop is not stable, so it has no margins: its spectral radius is " +
                    format_rounded(LinearLoop(the_case).radius(gains_of(the_case))));
   if (const std::string otherwise = judged_otherwise(the_case); !otherwise.empty())
-    throw NoAnswer(otherwise + ": the loop has no margins");
+    throw NoAnswer("no margins can be given: " + otherwise);
   std::optional<ProvedMargins> proved;
   if (prove) proved = proved_margins_of(the_case, gains, margins);
   if (!prove && !looked_everywhere) {
     std::string doubt =
         "sampling_period was searched in steps of 5 % and processing_delay in eighths of a sample: "
-        "an unstable interval narrower than a step is missed";
+        "an unstable interval narrower than a step may be missed";
     if (may_be_proved(the_case)) doubt += "; --prove checks every value";
     report_warning(doubt, context.quiet);
   }

@@ -5,7 +5,6 @@
 #include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/motion_digits.hpp"
 #include "jobs/motion/motion_run.hpp"
-#include "jobs/orbit/neighbours.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -45,19 +44,10 @@ struct DeviationQuestion {
     tell_of_end(context, end_of(first));
     table.trust(trusted_digits_of_deviation(moving, offset, samples));
     table.commit();
-    if (last >= std::abs(offset)) tell_why_apart(context, moving, last);
-  }
-
-  /// Warns why two neighbours have not come together within the duration, from their orbits.
-  void tell_why_apart(const JobContext& context, const MovingLoop& moving, double last) const {
-    const auto* first = std::get_if<SampledMasses>(&moving);
-    if (first == nullptr) return;
-    Vector<double, 4> second = first->state;
-    second[0] += offset;
-    report_warning("after " + format_rounded(duration) +
-                       " s the states of the two motions still differ by " + format_rounded(last) +
-                       " (norm in SI units): " + apart_text(first->loop, first->state, second),
-                   context.quiet);
+    if (last >= std::abs(offset))
+      report_warning("the states of the two motions still differ by " + format_rounded(last) +
+                         " in the end: holdfast orbit finds the orbit of each",
+                     context.quiet);
   }
 };
 

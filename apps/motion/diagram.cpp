@@ -45,9 +45,9 @@ struct DiagramQuestion {
       const MotionKind kind = motion_kind_of(there, switching);
       sampled = sampled && is_sampled(kind);
       if (is_of_masses(kind) != masses)
-        throw WrongInput("--axis " + axis + ": some values give " +
+        throw WrongInput("--axis " + axis + ": some values have " +
                          modal_words(masses ? there : context.case_data) +
-                         ", the others two masses: give a range with only one of these models");
+                         ", the others do not: give a range of one kind only");
     }
     report_warning(dense_work_warning(context.case_data, switching), context.quiet);
     const auto diagram_of = [&](const auto& moving_at) {

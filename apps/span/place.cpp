@@ -35,8 +35,7 @@ std::size_t device_named(const std::optional<std::string>& word, const Case& the
 }
 
 struct PlaceQuestion {
-  std::optional<std::string> device, goal, modes, keep;
-  std::string frequency = "5:60:56";
+  std::optional<std::string> device, goal, modes, keep, frequency;
   std::optional<double> margin;
 
   void add_to(const Job& job) {
@@ -65,10 +64,12 @@ struct PlaceQuestion {
   PlacementQuestion question_of(const Case& the_case) const {
     PlacementQuestion question;
     question.device = device_named(device, the_case);
-    question.frequencies = parse_frequencies("--frequency", frequency);
+    question.frequencies = aeolian_frequencies(the_case);
+    question.frequencies.count = 56;
+    if (frequency) question.frequencies = parse_frequencies("--frequency", *frequency);
     constexpr std::int64_t most = 100000;
     if (question.frequencies.count > most)
-      throw WrongInput("--frequency " + one_line(frequency) + ": give at most 100000 frequencies");
+      throw WrongInput("--frequency " + one_line(*frequency) + ": give at most 100000 frequencies");
     if (goal == "damping") question.goal = PlacementGoal::ratio;
     if (modes) read_modes(question);
     question.moves_position = !question.is_absorber() && !keep;
@@ -81,16 +82,6 @@ struct PlaceQuestion {
 
   void run(const JobContext& context) const;
 };
-
-/// Note that another device has the same position as the moved device; else empty.
-std::string companion_note(const Case& the_case, std::size_t number) {
-  if (number == 0) return "";
-  for (std::size_t k = 0; k < the_case.devices.size(); ++k)
-    if (k + 1 != number && the_case.devices[k].position == the_case.devices[number - 1].position)
-      return "device " + std::to_string(k + 1) + " is at the same position as device " +
-             std::to_string(number) + " but is not moved: if both form one damper, move it too";
-  return "";
-}
 
 /// Value of the goal without the absorber, for comparison.
 double without_absorber(Case the_case, const PlacementQuestion& question) {
@@ -135,7 +126,6 @@ void PlaceQuestion::run(const JobContext& context) const {
   const PlacementLevels levels(the_case, question);
   require_measured(the_case, levels.frequencies().front(), levels.frequencies().back());
   report_warning(absent_absorber_note(the_case), context.quiet);
-  report_warning(companion_note(the_case, question.device), context.quiet);
   Table table(context, columns_of("place"));
   const PlacedDevice placed = placed_device(the_case, question);
   table.row(std::string("position"),

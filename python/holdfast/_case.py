@@ -470,17 +470,6 @@ class Case:
         words = ["--regions", *_interval("p", p), *_interval("d", d), *_options.arguments({"continuous": continuous})]
         return self._run("boundary", words, how)
 
-    def boundary_features(
-        self, p: Interval = None, d: Interval = None, *, continuous: bool = False, **how: Unpack[How]
-    ) -> Table:
-        """Tangents, cusps, crossings and ends of the boundary's curves within a window of P and D.
-
-        :param p: (min, max) of P, N/m
-        :param d: (min, max) of D, N s/m
-        """
-        words = ["--features", *_interval("p", p), *_interval("d", d), *_options.arguments({"continuous": continuous})]
-        return self._run("boundary", words, how)
-
     def response(
         self,
         p: Range = (-1000.0, 200.0, 61),

@@ -164,14 +164,6 @@ class Case:
         ...
 
     @overload
-    def boundary_features(self, p: Interval=None, d: Interval=None, *, continuous: bool=False, **how: Unpack[How]) -> Table:
-        ...
-
-    @overload
-    def boundary_features(self, p: Interval=None, d: Interval=None, *, output: Path, continuous: bool=False, **how: Unpack[How]) -> None:
-        ...
-
-    @overload
     def response(self, p: Range=(-1000.0, 200.0, 61), d: Range=(-40.0, 20.0, 61), *, store: None=None, **how: Unpack[How]) -> Table:
         ...
 

@@ -84,7 +84,6 @@ SAME = [
         lambda case: case.proved_chart((-600, 100, 8), (-20, 10, 4), undecided=0.01),
     ),
     (["orbit", "--prove"], lambda case: case.orbit(prove=True)),
-    (["boundary", "--features", "--p=-600:0", "--d=-30:10"], lambda case: case.boundary_features((-600, 0), (-30, 10))),
     (["margins"], lambda case: case.margins()),
     (["margins", "--prove"], lambda case: case.margins(prove=True)),
     (

@@ -22,7 +22,7 @@ SCRIPTS = sorted((ROOT / "docs" / "python").glob("*.py"))
 #: Options that a method has under another name, or does as another method.
 OTHER_NAMES = {"axis": "axes", "case": "", "follow": "key", "for": "for_", "from": "from_", "map": "keys",
                "metric": "metrics", "motions": "each"}  # fmt: skip
-OTHER_METHODS = {"axis", "features", "fractions", "history", "prove", "regions", "stable_interval", "init", "check", "wind", "dry_run",
+OTHER_METHODS = {"axis", "fractions", "history", "prove", "regions", "stable_interval", "init", "check", "wind", "dry_run",
                  "undecided", "family"}  # fmt: skip
 
 

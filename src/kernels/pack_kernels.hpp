@@ -42,7 +42,7 @@ struct AttractionTest {
   std::function<int(const ForcedMotionMemory<double>& memory)> attracted_by;
 };
 
-/// Kernel that advances motions on a MotionBatch. Each tile of initial states has its own copy.
+/// Kernel that advances `count` motions over `samples` samples. Each thread uses its own copy.
 using MotionKernel = std::function<void(ActiveTrajectory* motions, std::size_t count,
                                         std::int64_t samples, const AttractionTest& test)>;
 

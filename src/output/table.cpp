@@ -54,8 +54,9 @@ void Table::require_numbers() {
     if (columns_[i].may_be_nan() || nans(i) == 0) continue;
     const std::string said = columns_[i].name + " is nan in " + std::to_string(nans(i)) + " of " +
                              std::to_string(writer_.rows()) +
-                             " rows: values of the case are too many orders of magnitude apart";
-    if (10 * nans(i) > writer_.rows()) throw NoAnswer(said);
+                             " rows, where differences of two sizes disagree: the answer jumps or "
+                             "bends there";
+    if (4 * nans(i) > writer_.rows()) throw NoAnswer(said);
     report_warning(said, context_.quiet);
   }
 }

@@ -45,7 +45,7 @@ class Table {
   }
 
   /// Warns of NaN cells in columns whose description does not mention `nan`. Throws NoAnswer if
-  /// more than a tenth of the cells of such a column are NaN. Call before commit().
+  /// more than a quarter of the cells of such a column are NaN. Call before commit().
   void require_numbers();
 
   void commit();

@@ -7,6 +7,7 @@
 
 #include "case/axes/axis.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/model/conditioning.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
@@ -152,6 +153,7 @@ void SweepPlan::settle_case() {
     report_warning(borrowed_gains_text(context_.case_data), context_.quiet);
     report_warning(modes_warning(context_.case_data), context_.quiet);
     report_warning(drift_warning(context_.case_data), context_.quiet);
+    report_warning(transient_warning(context_.case_data, options_.duration), context_.quiet);
     report_warning(dense_work_warning(context_.case_data, options_.switching), context_.quiet);
   } else {
     constexpr std::size_t most_known = 1000;  // a few megabytes

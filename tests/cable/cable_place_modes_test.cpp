@@ -151,6 +151,27 @@ TEST(CablePlaceModes, OfATautCableAreTheStrings) {
   }
 }
 
+/// A long process finds each mode once: without exact orthogonality to the vectors before, slow
+/// modes come again. A line has the modes of its string and those of waves along the conductor.
+TEST(CablePlaceModes, NoneComesTwice) {
+  Conductor<double> line = kollar2022_conductor();
+  line.mass_per_length = 1.829;
+  line.span = 350.0;
+  line.sag = line.weight() * line.span / (8.0 * 30070.0);
+  line.area = 5.47e-4;
+  line.youngs_modulus = 6.9e10;
+  const auto found = cable_place_modes(BarChain(line, 1.5, 1500), {5.0}, 400);
+  const double across = pi<double> / line.span * std::sqrt(30070.0 / line.mass_per_length);
+  const double along =
+      pi<double> / line.span * std::sqrt(line.axial_stiffness() / line.mass_per_length);
+  ASSERT_GT(found.apart, 110);
+  for (int n = 1; n <= 100; ++n) {
+    const int slower = n - 1 + static_cast<int>(n * across / along);
+    EXPECT_NEAR(found.modes[static_cast<std::size_t>(slower)].angular_frequency, n * across,
+                1.5 * across);
+  }
+}
+
 /// No wave may come back from a bundle as from a mode: it is as wide as the way to its neighbours.
 TEST(CablePlaceModes, BundlesAreWideAndModesAreNot) {
   const auto found = cable_place_modes(papers_chain(200), {0.16}, 80);

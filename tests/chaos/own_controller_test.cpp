@@ -154,7 +154,7 @@ TEST(OwnController, AnIntegratorWithALeakHasOneOrbit) {
 TEST(OwnController, TheVerdictNamesWhatIsNotBroughtBack) {
   const OwnLoop loop = integrating_loop(1.0, Switching::exact);
   const auto found = classify_motion(loop, rest_of(loop));
-  EXPECT_NE(found.classification.rests_on.find("state variable 4"), std::string::npos)
+  EXPECT_NE(found.classification.rests_on.find("state variable 5"), std::string::npos)
       << found.classification.rests_on;
 }
 

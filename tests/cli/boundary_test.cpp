@@ -79,44 +79,10 @@ TEST(Boundary, RegionsOfTheContinuousLoopAreKnownToo) {
   EXPECT_EQ(table.number(1, "unstable_roots"), 2.0);
 }
 
-TEST(Boundary, FeaturesOfTheContinuousLoopAreOneTangent) {
-  const Outcome outcome =
-      run_holdfast("boundary --features --continuous --p -1e5:1e5 --d -1e4:1e4");
-  EXPECT_EQ(lines_of(outcome.output).at(0),
-            "feature,first_curve,first_angle_rad,second_curve,second_angle_rad,proportional_gain,"
-            "differential_gain");
-  const CsvTable table = program::parse_csv(outcome.output, "features");
-  ASSERT_EQ(table.rows(), 1U) << outcome.errors;
-  EXPECT_EQ(table.text(0, "feature"), "vertical_tangent");
-  EXPECT_EQ(table.text(0, "first_curve"), "imaginary_pair");
-  EXPECT_EQ(table.text(0, "second_curve"), "imaginary_pair");
-  EXPECT_EQ(table.number(0, "first_angle_rad"), table.number(0, "second_angle_rad"));
-}
-
-TEST(Boundary, FeaturesWhereLinesAndPairsMeetNameBothCurves) {
-  const CsvTable table =
-      table_of("boundary --features --p -1e5:1e5 --d -1e4:1e4 --set control.sampling_period=0.01");
-  int ends = 0;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (table.text(row, "feature") != "end") continue;
-    ++ends;
-    EXPECT_EQ(table.text(row, "first_curve"), "complex_pair");
-    EXPECT_EQ(table.text(row, "second_curve"), "minus_one");
-    EXPECT_NEAR(table.number(row, "second_angle_rad"), 3.141592653589793, 1e-15);
-  }
-  EXPECT_EQ(ends, 1) << "the two-mass plant has no line λ = +1";
-}
-
-TEST(Boundary, AWindowWithoutFeaturesIsAnEmptyTable) {
-  EXPECT_EQ(table_of("boundary --features --continuous --p 1000:1001 --d 0:1").rows(), 0U);
-}
-
 TEST(Boundary, RefusesOptionsThatDoNotGoTogether) {
   for (const std::string arguments :
-       {"--regions --stable-interval", "--features --stable-interval", "--features --regions",
-        "--d -40:20", "--regions --p 3:3", "--regions --d 5", "--regions --d 2:1",
-        "--features --d 1:1", "--features --p -557", "--stable-interval --p -1000:200",
-        "--stable-interval --d inf"}) {
+       {"--regions --stable-interval", "--d -40:20", "--regions --p 3:3", "--regions --d 5",
+        "--regions --d 2:1", "--stable-interval --p -1000:200", "--stable-interval --d inf"}) {
     expect_refused("boundary " + arguments, {});
   }
 }

@@ -266,21 +266,6 @@ TEST(SectionJob, ItsPointsLieBetweenTheSamplesOfSimulate) {
   for (std::size_t row = 0; row < table.rows(); ++row) EXPECT_GE(table.number(row, "time_s"), 1.0);
 }
 
-/// What `deviation` says of neighbours that stay apart is what `orbit` finds from each.
-TEST(DeviationJob, SaysWhyNeighboursStayApartBesideCertifiedOrbits) {
-  const auto period_from = [](const std::string& settings) {
-    return table_of("orbit --quiet" + settings).text(0, "period_samples") + " samples";
-  };
-  const std::string copies = " --set backlash.width=0.002";
-  const std::string shifted = run_holdfast("deviation --offset 1e-3" + copies).errors;
-  const std::string coexisting = copies + " --set control.sampling_period=0.003";
-  const std::string apart = run_holdfast("deviation --offset 1e-5" + coexisting).errors;
-  expect_holds(apart, {"two different certified orbits", "of " + period_from(coexisting)});
-  expect_holds(shifted, {"one certified orbit of " + period_from(copies)});
-  const std::string together = run_holdfast("deviation --set backlash.width=0").errors;
-  EXPECT_EQ(together.find("still differ"), std::string::npos) << together;
-}
-
 TEST(VerdictJob, SaysThatAnOrbitHasCopiesShiftedInTime) {
   const CsvTable orbit = table_of("orbit --quiet --set backlash.width=0.002");
   const double copies = orbit.number(0, "period_samples") / 100.0;  // 10 Hz at 1 ms

@@ -114,8 +114,7 @@ TEST(String, JobsOfTwoMassesRefuseIt) {
        {"stability --continuous",
         "stability --axis control.sampling_period=0.001:0.01:2"
         " --axis control.differential_gain=-9:0:2",
-        "boundary --regions", "boundary --features", "boundary --continuous",
-        "orbit --follow backlash.width=0:0.001",
+        "boundary --regions", "boundary --continuous", "orbit --follow backlash.width=0:0.001",
         "orbit --map backlash.width=0.0001:0.001 --map control.differential_gain=-20:0",
         "basins --map backlash.width=0:0.001:2 --map control.differential_gain=-20:0:2",
         "lyapunov --tangent printed", "sweep --axis backlash.width=0:0.001:2 --best-gain"})

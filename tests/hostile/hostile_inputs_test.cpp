@@ -112,7 +112,7 @@ std::vector<std::string> some_option(Random& random) {
       "--max-period --follow --transient --strobes --tangent --metric --chunk "
       "--init --check --resume --dry-run --quiet --progress --radius --continuous --plain "
       "--largest --history --trace --certificate --fractions --details --best-gain --no-control "
-      "--help --version --regions --features --stable-interval --both-gains "
+      "--help --version --regions --stable-interval --both-gains "
       "--equal-displacement -v -h");
   static const std::vector<std::string> values = between_bars(
       "out.csv|out.nc|out|no/such/folder.csv|.|/dev/full|/dev/null|a b.csv|new\nline.csv|-|"

@@ -30,27 +30,6 @@ TEST(PhaseExtent, LeavesOutWhatCameBefore) {
   EXPECT_EQ(extent.displacement(), 2.0);
 }
 
-TEST(FirstPeaks, AreTheFirstMaximumAndTheFirstMinimum) {
-  FirstPeaks peaks;
-  show(peaks, {0.0, 1.0, 3.0, 2.0, -1.0, -4.0, 0.0, 9.0, 0.0, -9.0, 0.0});
-  EXPECT_EQ(peaks.below_equilibrium(), 3.0);
-  EXPECT_EQ(peaks.above_equilibrium(), -4.0);
-}
-
-TEST(FirstPeaks, AreNotANumberUntilTheyHavePassed) {
-  FirstPeaks peaks;
-  show(peaks, {0.0, 1.0, 2.0, 3.0});
-  EXPECT_TRUE(std::isnan(peaks.below_equilibrium()));
-  EXPECT_TRUE(std::isnan(peaks.above_equilibrium()));
-}
-
-TEST(FirstPeaks, TheFirstSampleIsNoPeak) {
-  FirstPeaks peaks;
-  show(peaks, {5.0, 1.0, 2.0});
-  EXPECT_TRUE(std::isnan(peaks.below_equilibrium()));
-  EXPECT_EQ(peaks.above_equilibrium(), 1.0);
-}
-
 TEST(SwitchLog, NotesEachChangeOfContactAtItsSample) {
   SwitchLog log;
   std::int64_t index = 0;

@@ -142,10 +142,9 @@ TEST(Trajectory, AStateBeyondTheNumbersIsReportedAsDiverged) {
 TEST(Trajectory, TheLoopOverSamplesAllocatesNothing) {
   auto motion = KollarCase{}.motion();
   PhaseExtent peak(0.0);
-  FirstPeaks first;
   Recorder recorder(10'000);
   const std::size_t before = allocations;
-  run_trajectory(motion, 10'000, Kick{0.95, 0.003}, peak, first, recorder);
+  run_trajectory(motion, 10'000, Kick{0.95, 0.003}, peak, recorder);
   EXPECT_EQ(allocations, before);
   EXPECT_GT(before, 0U) << "the counter must be the one in use";
   EXPECT_EQ(recorder.samples().size(), 10'000U);

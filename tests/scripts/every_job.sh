@@ -30,7 +30,6 @@ a stability --prove --p -600:0:7 --d -20:0:5 --undecided 0.01
 a stability --prove --p -600:0:7 --d -20:0:5 --undecided 0.01 --set plant.model=string --set plant.modes=10
 a boundary --p -600:0
 a boundary --regions
-a boundary --features
 a boundary --stable-interval
 a response --p -600:0:3 --d -20:0:3
 t max-delay --frequency 5:8:3 --threads 3

@@ -35,9 +35,11 @@ struct CablePlaceModes {
 
 namespace detail {
 
-/// Lanczos' process on K⁻¹M (stiffness K, masses M) in the inner product of K, started from the
-/// deflection under a unit force. The result is a tridiagonal matrix T (s²): the receptance is the
-/// static one times the (1, 1) entry of (I + s²T)⁻¹. Vectors are orthogonalised up to twice.
+/// Lanczos' process on C⁻¹MC⁻ᵀ, with the stiffness K = CCᵀ and the masses M, started from C⁻¹e: Cᵀ
+/// times the deflection under a unit force e. The result is a tridiagonal matrix T (s²): the
+/// receptance is the static one times the (1, 1) entry of (I + s²T)⁻¹. Each vector is made
+/// orthogonal to its two predecessors first; what round-off leaves of the others is then small, and
+/// one pass over them is enough unless it changes the vector's length.
 template <class Real>
 class FlexibilityLanczos {
  public:
@@ -52,26 +54,31 @@ class FlexibilityLanczos {
                      const Eigen::SparseMatrix<Real>& masses, Eigen::Index degree,
                      Eigen::Index steps)
       : diagonal_(steps), beside_(steps) {
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> solver(stiffness);
+    const Eigen::SimplicialLLT<Eigen::SparseMatrix<Real>> root(stiffness);
     const Eigen::Index size = stiffness.rows();
-    Square basis(size, steps), pressed(size, steps);  // q and K q
-    Column next = solver.solve(Column::Unit(size, degree));
-    deflection_ = next[degree];
-    Real norm = std::sqrt(deflection_);
+    Square basis = Square::Zero(size, (steps + 3) / 4 * 4);
+    Column next = root.matrixL().solve(root.permutationP() * Column::Unit(size, degree));
+    deflection_ = next.squaredNorm();
+    Real norm = next.norm();
     do {
       basis.col(count_) = next / norm;
-      pressed.col(count_) = stiffness * basis.col(count_);
-      const Column inertia = masses * basis.col(count_);
-      diagonal_[count_] = inertia.dot(basis.col(count_));
-      next = solver.solve(inertia);
-      const Eigen::Index known = count_ + 1;
+      const Column shape = root.permutationPinv() * root.matrixU().solve(basis.col(count_)).eval();
+      const Column inertia = masses * shape;
+      diagonal_[count_] = shape.dot(inertia);
+      next = root.matrixL().solve(root.permutationP() * inertia);
+      next -= diagonal_[count_] * basis.col(count_);
+      if (count_ > 0) next -= norm * basis.col(count_ - 1);
       Real before;
       int passes = 0;
       do {
         before = next.norm();
-        next -= basis.leftCols(known) * (pressed.leftCols(known).transpose() * next).eval();
+        const Column shares = basis.leftCols(count_ / 4 * 4 + 4).transpose() * next;
+        // Four columns at a time: a product with the whole basis takes twice as long.
+        for (Eigen::Index k = 0; k <= count_; k += 4)
+          next -= shares[k] * basis.col(k) + shares[k + 1] * basis.col(k + 1) +
+                  shares[k + 2] * basis.col(k + 2) + shares[k + 3] * basis.col(k + 3);
       } while (++passes < 2 && next.norm() < 0.1 * before);
-      norm = std::sqrt(std::fmax(next.dot(stiffness * next), 0.0));
+      norm = next.norm();
       beside_[count_++] = norm;
     } while (count_ < steps && norm > 1e-12 * diagonal_[0]);
   }

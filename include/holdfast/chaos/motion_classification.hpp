@@ -254,7 +254,7 @@ std::optional<IndicatorOptions> indicator_options(const ImplementedLoopOf<Plant>
   return options;
 }
 
-/// The conditions under which the samples of a motion are examined.
+/// Data of classify() besides the samples: is the motion forced, may more samples be taken?
 struct Weighing {
   bool is_forced;               ///< whether a harmonic force acts, whose periods are counted
   bool may_look_longer = true;  ///< whether to use more samples if the planned ones do not decide
@@ -398,8 +398,8 @@ EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<
   if (found.search.outcome == OrbitOutcome::neutral)
     found.classification.rests_on +=
         " A multiplier is 1: a deviation of state variable " +
-        std::to_string(*found.search.neutral_state) +
-        " (counted from 0) does not decay, so the motion is one of a continuum of motions.";
+        std::to_string(*found.search.neutral_state + 1) +
+        " does not decay, so the motion is one of a continuum of motions.";
   return found;
 }
 /// Classifies a motion of an implemented loop from an initial state given as any Eigen column.

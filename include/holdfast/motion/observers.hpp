@@ -54,37 +54,6 @@ class PhaseExtent {
   double velocity_ = 0.0;
 };
 
-/// An observer that finds the first local maximum and minimum of z₁ (m), the first peaks of a
-/// vibration. z₁ is positive downward, so that the minimum is the peak above the equilibrium.
-class FirstPeaks {
- public:
-  /// Adds the next sample. A peak is recognised one sample later. The first sample is never a peak;
-  /// an extremum with two equal successive samples is not recognised.
-  void operator()(const MotionSample<double>& sample) {
-    const double value = sample.state[0];
-    if (count_ >= 2) {
-      const bool rising = previous_ > before_, falls = value < previous_;
-      if (rising && falls && std::isnan(below_)) below_ = previous_;
-      if (previous_ < before_ && value > previous_ && std::isnan(above_)) above_ = previous_;
-    }
-    before_ = previous_;
-    previous_ = value;
-    ++count_;
-  }
-
-  /// The first local maximum of z₁ (m, positive downward), below the equilibrium; NaN until found.
-  double below_equilibrium() const { return below_; }
-  /// The first local minimum of z₁ (m, positive downward), above the equilibrium; NaN until found.
-  double above_equilibrium() const { return above_; }
-
- private:
-  double before_ = 0.0;
-  double previous_ = 0.0;
-  double below_ = std::numeric_limits<double>::quiet_NaN();
-  double above_ = std::numeric_limits<double>::quiet_NaN();
-  std::int64_t count_ = 0;
-};
-
 /// An observer that records the samples at which the drive enters or leaves its backlash.
 class SwitchLog {
  public:

@@ -61,6 +61,35 @@ struct PeriodicSolution {
   double state_error;
 };
 
+namespace detail {
+
+/// The periodic solution by Newton steps from rest; each after the first is iterative refinement.
+/// @param correction  function from the closure error of a state to the correction of that state
+template <class Maps, class Correction>
+PeriodicSolution<Maps> refined_solution(const Maps& maps, const Itinerary& itinerary,
+                                        const Correction& correction) {
+  PeriodicSolution<Maps> solution;
+  solution.first = maps.rest();
+  solution.states.resize(itinerary.size());
+  typename Maps::State open = maps.rest(), change = open;
+  for (int turn = 0; turn < 4; ++turn) {
+    solution.first += change;
+    open = maps.follow(solution.first, itinerary, solution.states) - solution.first;
+    change = correction(open);
+  }
+  solution.closure_error = maps.seen(open).template head<4>().norm();
+  solution.state_error = StateScale(solution.states).share_of(maps.seen(change));
+  return solution;
+}
+
+}  // namespace detail
+
+/// The periodic solution of an itinerary whose maps have no blocks: none.
+template <class Maps>
+std::optional<PeriodicSolution<Maps>> solution_without_blocks(const Maps&, const Itinerary&) {
+  return std::nullopt;
+}
+
 /// Solves z̃_N = z̃₀ for an itinerary: (I − M) z̃₀ = g. Here M is the product of the period's maps and
 /// g the state after one period from z̃₀ = 0. Two steps of iterative refinement follow.
 /// @param maps       maps of the loop
@@ -71,21 +100,13 @@ struct PeriodicSolution {
 template <class Maps>
 std::optional<PeriodicSolution<Maps>> periodic_solution(
     const Maps& maps, const Itinerary& itinerary, const std::vector<typename Maps::Map>& blocks) {
-  if (blocks.empty()) return std::nullopt;
+  if (blocks.empty()) return solution_without_blocks(maps, itinerary);
   const typename Maps::System system(blocks);
   if (system.is_singular()) return std::nullopt;
-  PeriodicSolution<Maps> solution;
-  solution.first = maps.rest();
-  solution.states.resize(itinerary.size());
-  typename Maps::State open = maps.rest(), correction = open;
-  for (int turn = 0; turn < 4; ++turn) {
-    solution.first += correction;
-    open = maps.follow(solution.first, itinerary, solution.states) - solution.first;
-    correction = maps.units().cwiseProduct(system.correction(open.cwiseQuotient(maps.units())));
-  }
-  solution.closure_error = maps.seen(open).template head<4>().norm();
-  solution.state_error = StateScale(solution.states).share_of(maps.seen(correction));
-  return solution;
+  return detail::refined_solution(maps, itinerary, [&](const typename Maps::State& open) {
+    const typename Maps::State scaled = open.cwiseQuotient(maps.units());
+    return typename Maps::State(maps.units().cwiseProduct(system.correction(scaled)));
+  });
 }
 
 /// The five multipliers of one period of a two-mass loop.

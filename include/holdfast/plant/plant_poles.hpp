@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "holdfast/math/roots/pole_sum_roots.hpp"
 #include "holdfast/math/roots/root_from_pole.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 
@@ -94,22 +95,17 @@ class PoleFinder {
     return weak(n, bare(modes_[n]).other());
   }
 
-  /// Whether the k-th of `plant_poles` or its conjugate is continued from a weakly coupled mode.
-  bool stays(std::size_t k) const {
-    const std::size_t n = k < modes_.size() ? k : k - modes_.size();
-    if (n >= modes_.size()) return false;
-    return weak_of_pole(modes_[n].damping_ratio < 1.0 ? n : k).has_value();
+  /// The pole of a weakly coupled mode to first order, s = s_n − ρK/(1 + bK).
+  PlantPole of_weak(const Weak& mode, const Complex& s) const {
+    return {s - mode.residue * mode.stiffness / mode.divisor,
+            transmitted_share(absorber_, s) * mode.residue / (mode.divisor * mode.divisor)};
   }
 
-  /// The pole that is continued from one eigenvalue s_n of the n-th mode; for a weakly coupled mode
-  /// to first order, s = s_n − ρK/(1 + bK).
+  /// The pole that is continued from one eigenvalue s_n of the n-th mode.
   /// @param begin  one of the two eigenvalues of `bare`
   PlantPole of_mode(std::size_t n, const BarePair& begin) const {
-    const Complex s = begin.s;
     const std::optional<Weak> mode = weak(n, begin);
-    if (!mode) return from(s);
-    return {s - mode->residue * mode->stiffness / mode->divisor,
-            transmitted_share(absorber_, s) * mode->residue / (mode->divisor * mode->divisor)};
+    return mode ? of_weak(*mode, begin.s) : from(begin.s);
   }
 
   /// The eigenvalues of a bare conductor's mode: first the one with Im s > 0, or the slower real.
@@ -134,16 +130,6 @@ class PoleFinder {
     }
     if (std::abs(s.imag()) < 1e-15 * std::abs(s)) s.imag(0.0);  // a real one, but for rounding
     return {s, transmitted_share(absorber_, s) / slope};
-  }
-
-  /// The quotient p′/p of the polynomial with the poles as roots, p = Π (s − b_k) (1 + HK), b_k
-  /// being the eigenvalues of the bare modes and of the absorber on a fixed conductor.
-  Complex logarithmic_derivative(const std::vector<Complex>& bare_motions, const Complex& s) const {
-    const Complex h = receptance(modes_, s), k = passive_stiffness(absorber_, s);
-    Complex sum =
-        (receptance_slope(modes_, s) * k + h * passive_slope(absorber_, s)) / (1.0 + h * k);
-    for (const Complex& b : bare_motions) sum += 1.0 / (s - b);
-    return sum;
   }
 
   /// The pole continued from a pole of the bare conductor or of the absorber on a fixed conductor.
@@ -175,90 +161,96 @@ inline bool are_all_poles(const std::vector<PlantPole>& poles, double accelerati
   return std::abs(sum) < 1e-7 * size && std::abs(moment - acceleration) < 1e-8 * moment_size;
 }
 
-/// Separates poles that coincide or were not found: a pole not distinct from an earlier pole is
-/// sought again near its starting value. Then all poles are improved together, each by Newton's
-/// step for the polynomial divided by the other roots (Ehrlich 1967, Aberth 1973). Poles of weakly
-/// coupled modes are not changed.
-/// @param begins  starting value of each pole
-inline void separate(std::vector<PlantPole>& poles, const std::vector<std::complex<double>>& begins,
-                     const PoleFinder& finder) {
+/// The number of the other pole of a pair, in the order of `plant_poles` for a number of modes.
+inline std::size_t partner_of(std::size_t k, std::size_t modes) {
+  return k < 2 * modes ? (k + modes) % (2 * modes) : 4 * modes + 1 - k;
+}
+
+/// The roots s_k (1/s) of 1 + HK = 0 by `pole_sum_roots`, each belonging to one of the points b_k.
+/// With D(s) = s² + (c₂ s + k₂)/m₂, H = Σ ρ_k/(s − b_k) and the absorber's points b, b′,
+///
+///     (1 + HK) D/((s − b)(s − b′)) = C + Σ R_k/(s − b_k),   C the limit as |s| → ∞
+///     R_k = ρ_k (KD)(b_k)/((b_k − b)(b_k − b′)) of a mode,   (D + HKD)(b)/(b − b′) of the absorber
+///
+/// @param begins  b_k: one eigenvalue of each mode, the other ones, then b and b′, which are the
+///                roots of D unless one of these is also another b_k
+inline std::vector<std::complex<double>> coupled_roots(
+    const std::vector<PlaceMode<double>>& modes, const Absorber<double>& absorber,
+    const std::vector<std::complex<double>>& begins, double limit) {
   using Complex = std::complex<double>;
-  std::vector<std::size_t> moving;
-  moving.reserve(poles.size());
-  for (std::size_t k = 0; k < poles.size(); ++k) {
-    if (finder.stays(k)) continue;
-    moving.push_back(k);
-    bool apart = std::isfinite(std::abs(poles[k].s));
-    for (std::size_t j = 0; j < k; ++j)
-      apart = apart && std::abs(poles[k].s - poles[j].s) > 1e-6 * std::abs(poles[k].s);
-    if (!apart) poles[k].s = 1.001 * begins[k];
+  double scale = std::abs(begins.front());
+  for (const Complex& begin : begins) scale = std::min(scale, std::abs(begin));
+  PoleSum<double> sum;
+  for (std::size_t k = 0; k < begins.size(); ++k) {
+    const Complex b = begins[k], apart = b - begins[partner_of(k, modes.size())];
+    const Complex spring = absorber.stiffness + absorber.damping * b;
+    const Complex own = b * b + spring / absorber.mass;                    // D
+    const Complex coupled = b * b * (absorber.clamp_mass * own + spring);  // KD
+    const PlaceMode<double>& mode = modes[k % modes.size()];
+    const Complex residue =
+        k < 2 * modes.size()
+            ? mode.shape * mode.shape / mode.mass * coupled /
+                  ((b - begins[2 * modes.size()]) * (b - begins[2 * modes.size() + 1]))
+            : own + receptance(modes, b) * coupled;
+    sum.parts.push_back({b / scale - 1.0, -residue / (apart * limit * scale), 0.0});
+    if (!std::isfinite(std::abs(sum.parts.back().present))) return {};
   }
-  constexpr int most_sweeps = 60;
-  double largest = 1.0;
-  for (int sweep = 0; sweep < most_sweeps && largest > 1e-10; ++sweep) {
-    largest = 0.0;
-    for (const std::size_t k : moving) {
-      Complex& s = poles[k].s;
-      Complex slope = finder.logarithmic_derivative(begins, s);
-      for (std::size_t j = 0; j < poles.size(); ++j)
-        if (j != k) slope -= 1.0 / (s - poles[j].s);
-      const double share = 1.0 / (std::abs(slope) * std::abs(s));
-      if (!std::isfinite(share)) continue;
-      s -= std::min(1.0, 0.3 / share) / slope;
-      largest = std::max(largest, std::min(share, 0.3));
-    }
-  }
-  for (const std::size_t k : moving) poles[k] = finder.near(poles[k].s);
-  const std::size_t modes = poles.size() / 2 - 1;
-  for (std::size_t n = 0; n < modes; ++n)
-    if (poles[n].s.imag() < 0.0 && poles[n + modes].s.imag() > 0.0)
-      std::swap(poles[n], poles[n + modes]);
+  std::vector<Complex> roots = pole_sum_roots(std::move(sum), false);
+  for (Complex& root : roots) root *= scale;
+  return roots;
 }
 
 }  // namespace detail
 
-/// All 2N + 2 poles of a conductor, given by N modes, with the absorber. Each pole is traced from
-/// its value without coupling of conductor and absorber (`root_from_pole`). The first N poles
-/// belong to the modes in turn: the pole with Im s > 0, or the slower pole of an overdamped mode.
-/// The modes' other poles and the absorber's two follow. Where two traces end at one pole, all
-/// poles are refined together, and their assignment to modes is arbitrary. Two sums over the poles
-/// test that none is missing. Work: order N²; the eigenvalues of `modal_plant` take order N³.
-/// @return no poles where not all were found, for example with critical damping or equal poles
+/// All 2N + 2 poles of a conductor, given by N modes, with the absorber, found by `pole_sum_roots`.
+/// The first N poles belong to the modes in turn: the pole with Im s > 0, or one of two real poles.
+/// The modes' other poles and the absorber's two follow. A weakly coupled mode has its own pole;
+/// the assignment of strongly coupled poles to modes is arbitrary. Two sums over the poles test
+/// that none is missing. Work: order N²; the eigenvalues of `modal_plant` take order N³.
+/// @return no poles where not all were found, for example with a critically damped mode or equal
+///         poles
 /// @throws InvalidParameter where modes or absorber are not admissible
 inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& modes,
                                           const Absorber<double>& absorber) {
   using Complex = std::complex<double>;
   validate(modes, absorber);
   const detail::PoleFinder finder(modes, absorber);
-  // A pair's second pole: the conjugate or, if the first became real, that continued from `begin`.
-  const auto partner = [&](const PlantPole& first, const Complex& begin) {
-    const bool met = !(std::abs(first.s.imag()) > 1e-9 * std::abs(first.s));
-    return met ? finder.from(begin) : PlantPole{std::conj(first.s), std::conj(first.residue)};
-  };
-  std::vector<PlantPole> poles(2 * modes.size());
-  std::vector<Complex> begins(poles.size());
+  std::vector<Complex> begins(2 * modes.size());
   double mobility = 0.0;
-  for (std::size_t n = 0, other = modes.size(); n < modes.size(); ++n, ++other) {
+  for (std::size_t n = 0; n < modes.size(); ++n) {
     mobility += modes[n].shape * modes[n].shape / modes[n].mass;
     const auto begin = detail::PoleFinder::bare(modes[n]);
     begins[n] = begin.s;
-    begins[other] = begin.partner;
-    poles[n] = finder.of_mode(n, begin);
-    poles[other] = modes[n].damping_ratio < 1.0 ? partner(poles[n], begin.partner)
-                                                : finder.of_mode(n, begin.other());
+    begins[n + modes.size()] = begin.partner;
   }
   const double decay = absorber.damping / (2.0 * absorber.mass);
   const Complex turn = std::sqrt(Complex(decay * decay - absorber.stiffness / absorber.mass));
-  begins.push_back(-decay + turn);
-  begins.push_back(-decay - turn);
-  poles.push_back(finder.from(-decay + turn));
-  poles.push_back(turn.imag() != 0.0 ? partner(poles.back(), -decay - turn)
-                                     : finder.from(-decay - turn));
-  const double acceleration = mobility / (1.0 + absorber.clamp_mass * mobility);
-  if (detail::are_all_poles(poles, acceleration)) return poles;
-  detail::separate(poles, begins, finder);
-  if (!detail::are_all_poles(poles, acceleration)) return {};
-  return poles;
+  Complex own = -decay + turn, other = -decay - turn;
+  const auto meets = [&](const Complex& b) {
+    return std::abs(b - own) < 1e-3 * std::abs(own) || std::abs(b - other) < 1e-3 * std::abs(other);
+  };
+  if (std::abs(own - other) < 1e-3 * std::abs(own) ||
+      std::any_of(begins.begin(), begins.end(), meets)) {
+    own *= std::polar(1.0, 0.5);
+    other = std::conj(own);
+  }
+  begins.push_back(own);
+  begins.push_back(other);
+  const double limit = 1.0 + absorber.clamp_mass * mobility;
+  const auto roots = detail::coupled_roots(modes, absorber, begins, limit);
+  std::vector<PlantPole> poles;
+  poles.reserve(begins.size());
+  for (std::size_t k = 0; k < roots.size(); ++k) {
+    const std::size_t partner = detail::partner_of(k, modes.size());
+    if (partner < k && roots[k] == std::conj(roots[partner]) && poles[partner].s.imag() != 0.0) {
+      poles.push_back({std::conj(poles[partner].s), std::conj(poles[partner].residue)});
+      if (poles[k].s.imag() > 0.0) std::swap(poles[k], poles[partner]);
+      continue;
+    }
+    const auto mode = finder.weak_of_pole(k);
+    poles.push_back(mode ? finder.of_weak(*mode, begins[k]) : finder.near(roots[k]));
+  }
+  return detail::are_all_poles(poles, mobility / limit) ? poles : std::vector<PlantPole>{};
 }
 
 /// The longest sampling period (s) that resolves all poles: π / max |s|; infinite without poles.

@@ -52,8 +52,10 @@ inline PdGains<double> perfect_absorption(const TautString<double>& string, doub
   const double area = (std::conj(by_p) * by_d).imag();
   if (!(std::abs(area) > 1e-9 * std::abs(by_p) * std::abs(by_d)) ||
       !(std::abs(by_p) * angular_frequency > 1e-9))
-    throw InvalidParameter("angular frequency", angular_frequency, "rad/s",
-                           "no multiple of pi/tau, where P and D cannot set the force's phase");
+    throw InvalidParameter(
+        "angular frequency", angular_frequency, "rad/s",
+        "no multiple of 2 pi/tau (of pi/tau where the velocity is a difference), "
+        "where P and D cannot set the force's phase");
   return {(std::conj(wanted) * by_d).imag() / area, (std::conj(by_p) * wanted).imag() / area};
 }
 

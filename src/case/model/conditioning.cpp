@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/linear_loop.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/resolved_plant.hpp"
 #include "holdfast/orbit/loop_orbit.hpp"
@@ -20,16 +22,6 @@ std::string sensitive_reduction_warning(const Case& the_case) {
          "): an error of 1 % in k1, m2 and the two frequencies may become " +
          format_rounded(taken.stiffness_condition) + " % in k2 and " +
          format_rounded(taken.mass_condition) + " % in m1";
-}
-
-std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& features) {
-  const auto near = std::find_if(features.begin(), features.end(),
-                                 [](const auto& feature) { return feature.nearly_cusp; });
-  if (near == features.end()) return "";
-  return "the boundary nearly has a cusp at P = " +
-         format_rounded(static_cast<double>(near->gains.proportional)) +
-         " N/m, D = " + format_rounded(static_cast<double>(near->gains.differential)) +
-         " N s/m: near these gains small changes make stable intervals appear or vanish";
 }
 
 std::string near_border_warning(double border_share) {
@@ -69,6 +61,20 @@ std::string short_average_warning(const Case& the_case, double averaged) {
   return "the exponents are averaged over only " + format_rounded(periods) +
          " forcing periods: averages over fewer than 20 describe the transient, not the settled "
          "motion; give a longer --duration";
+}
+
+double settling_time(double radius, double sampling_period) {
+  return std::log(20.0) * sampling_period / -std::log(radius);
+}
+
+std::string transient_warning(const Case& the_case, double duration) {
+  if (is_two_masses(the_case) || the_case.own) return "";
+  const double radius = LinearLoop(the_case).radius(gains_of(the_case));
+  const double settling = settling_time(radius, the_case.control.sampling_period);
+  if (!(radius < 1.0 && settling > 0.5 * duration)) return "";
+  return "a motion of this loop takes " + format_rounded(settling) +
+         " s to settle: steady values from the second half of " + format_rounded(duration) +
+         " s still contain transients; give a longer --duration, or ask holdfast response";
 }
 
 double held_share(const Case& the_case, double sampling_period, double frequency) {

@@ -6,7 +6,6 @@
 
 #include "case/case.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
-#include "holdfast/stability/boundary/boundary_point.hpp"
 
 namespace holdfast::program {
 
@@ -15,9 +14,6 @@ namespace holdfast::program {
 
 /// Warns of a reduction near its double solution, where k2 and m1 are very sensitive.
 std::string sensitive_reduction_warning(const Case& the_case);
-
-/// Warns of a stability boundary that nearly has a cusp.
-std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& features);
 
 /// Warns of an orbit near a switching surface.
 /// @param border_share  distance / size of the orbit, from PeriodicOrbit or EventOrbit
@@ -38,6 +34,13 @@ std::string stepped_reading_warning(const Case& the_case);
 /// Warns of Lyapunov exponents averaged over fewer than 20 forcing periods.
 /// @param averaged  duration of the average (s)
 std::string short_average_warning(const Case& the_case, double averaged);
+
+/// Time (s) in which the slowest natural motion of a stable loop decays to a twentieth.
+/// @param radius  spectral radius of the loop, below 1
+double settling_time(double radius, double sampling_period);
+
+/// Warns that motions of a conductor do not settle within half of a duration (s).
+std::string transient_warning(const Case& the_case, double duration);
 
 /// Ratio of the amplitudes without control under the force held over a sampling period τ (s) and
 /// under the true force, at f (Hz); 1 if the case integrates the force exactly or has none.

@@ -69,7 +69,7 @@ ImplementedLoopOf<Plant> uncontrolled(ImplementedLoopOf<Plant> loop) {
   return loop;
 }
 
-/// A size (m, m/s) that no bounded motion of the case reaches, also if displaced by `kick` (m).
+/// Bound of the state (m, m/s) in bounded motions of the case, even if kicked by `kick` (m).
 double divergence_bound(const Case& the_case, double kick);
 
 /// A warning that a motion diverges: its size exceeds divergence_bound(), or the loop is unstable

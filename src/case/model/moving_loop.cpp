@@ -87,6 +87,10 @@ MovingLoop smooth_loop_of(const Case& the_case, Switching switching) {
     throw WrongInput("with " + modal_words(the_case) +
                      ", orbits, basins, exponents and verdicts need an ideal computer: set the "
                      "quanta of [control] to 0, largest_force = \"none\", velocity = \"measured\"");
+  // Without gains there is no force that play could interrupt.
+  auto* const modes = std::get_if<SampledModes>(&moving);
+  if (modes && modes->loop.gains.proportional == 0.0 && modes->loop.gains.differential == 0.0)
+    modes->loop.backlash_width = 0.0;
   return moving;
 }
 

@@ -24,7 +24,7 @@ bool has_load(const Case& the_case);
 /// The ruling span with its measured tension or sag. Throws MissingKeys.
 StrungSpan strung_span_of(const Case& the_case);
 
-/// The tension of the span in a weather; the sag is that of conductor.span. Throws WrongInput,
+/// The ruling span's tension in given weather, with the sag of conductor.span. Throws WrongInput,
 /// naming the weather, if the conductor would break or leave its stress–strain curves.
 /// @param is_new  whether the conductor is new, before creep and the heaviest load
 SpanTension tension_in(const Case& the_case, const StrungSpan& span, const SpanWeather& weather,

@@ -79,9 +79,9 @@ std::string play_warning(const Case& the_case, const PdGains<double>& gains, dou
       duration, set);
   const double left = metrics[0].steady_peak / metrics[1].steady_peak;
   if (left <= noticeable * ideal) return "";
-  return "D = " + format_rounded(gains.differential) + " N s/m leaves " + format_rounded(ideal) +
-         " of the uncontrolled vibration without play, but " + format_rounded(left) +
-         " of this vibration with the case's play of " + format_rounded(backlash.width) +
+  return "D = " + format_rounded(gains.differential) + " N s/m leaves the share " +
+         format_rounded(ideal) + " of the vibration if there is no play, but " +
+         format_rounded(left) + " with the case's play of " + format_rounded(backlash.width) +
          " m, computed over " + format_rounded(duration) + " s";
 }
 

@@ -38,9 +38,9 @@ class BestGains {
   MinimumAmplitude answer_{};
 };
 
-/// Warning that play leaves more vibration than promised by gains that were chosen without play,
-/// from the motions of two masses with and without control. Empty where play adds less than 5 %, or
-/// the case has no play, no two masses or no finite gain.
+/// Warning that the case's play leaves more vibration than the ratio `ideal` of gains chosen
+/// without play; two masses are simulated with and without control. Empty if the ratio rises by at
+/// most 5 %, without play, finite D or force, and for a plant other than two masses.
 /// @param gains  P (N/m), D (N s/m)
 /// @param ideal  ratio of the amplitude with the gains, without play, to that without control
 std::string play_warning(const Case& the_case, const PdGains<double>& gains, double ideal,

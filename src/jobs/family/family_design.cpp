@@ -146,13 +146,13 @@ class DesignedFamily {
                              : alone
                                  ? members_[first].text()
                                  : members_[first].text() + " and " + members_[first + 1].text();
-    std::string remedy = p_ ? "; --both-gains also searches for P" : "";
+    std::string remedy = p_ ? "; give --both-gains to search for P too" : "";
     if (!alone)
-      remedy += whole_.key.empty() ? "; --schedule KEY divides the range of KEY"
+      remedy += whole_.key.empty() ? "; give --schedule KEY to divide the range of KEY"
                                    : "; give more --draws, so that successive members differ less";
     return "design --family: no " +
            std::string(p_ ? "D at the case's P" : "P and D that were tried") +
-           " meets --margin and --largest-ratio for " + whom + remedy;
+           " satisfies --margin and --largest-ratio for " + whom + remedy;
   }
 
   FamilyDesign question_;

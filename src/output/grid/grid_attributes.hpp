@@ -16,7 +16,7 @@ using Attributes = std::vector<std::pair<std::string, std::string>>;
 /// job gives equal attributes.
 Attributes origin_attributes(const JobContext& context);
 
-/// The attributes `long_name` and `units` of an axis, and `key` if its name differs in the file.
+/// The attributes `long_name` and `units` of an axis; `key`: its key of the case, if renamed.
 Attributes axis_attributes(const Column& column);
 
 /// The attributes `long_name` and `units` of a column; for a column of words `flag_meanings`

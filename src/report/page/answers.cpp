@@ -6,13 +6,18 @@
 #include <utility>
 
 #include "case/case_keys.hpp"
+#include "case/model/cable_of_case.hpp"
 #include "case/model/conditioning.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/conductor_modes.hpp"
 #include "case/model/plant_of_case.hpp"
+#include "case/model/span/span_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/motion/instant.hpp"
+#include "holdfast/orbit/modal/modal_orbit_search.hpp"
+#include "holdfast/span/end_response.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "jobs/design/best_gains.hpp"
@@ -60,17 +65,72 @@ struct Question {
   MotionRow motion;  ///< description of the case's motion
   double free;  ///< largest |z₁| (m) of the steady motion without control, under the true force
   double radius_without_play;  ///< spectral radius of the loop without play
+  bool begins_steady;          ///< whether motions begin as steady ones without play
 
   bool is_unstable_without_play() const { return !(radius_without_play < 1.0); }
   /// Time (s) in which the slowest natural motion without play decays to a twentieth.
   double settling() const {
-    return std::log(20.0) * the_case.control.sampling_period / -std::log(radius_without_play);
+    return settling_time(radius_without_play, the_case.control.sampling_period);
   }
-  bool is_transient() const { return settling() > 0.5 * duration_of(the_case); }
+  bool settles_slowly() const { return settling() > 0.5 * duration_of(the_case); }
+  bool is_transient() const { return settles_slowly() && !begins_steady; }
   bool asks_for_no_force() const {
     const PdGains<double> gains = gains_of(the_case);
     return gains.proportional == 0.0 && gains.differential == 0.0;
   }
+};
+
+/// Start of motions of a conductor in the paper's model: the steady motion without play. A start
+/// from rest excites slow natural motions, which take minutes to decay.
+class SteadyStart {
+ public:
+  /// Sets the initial state, unless the case has one. Where the play is so wide that the motion
+  /// without control does not cross it, the drive is idle, and this is the motion.
+  /// @return whether the motion has this start
+  bool give_to(MovingLoop& moving) {
+    auto* const modes = std::get_if<SampledModes>(&moving);
+    if (modes == nullptr || modes->poles.empty() || !modes->state.isZero(0.0)) return false;
+    const ModalLoop& loop = modes->loop;
+    const std::optional<Rational> ratio = forcing_ratio(loop);
+    if (!ratio) return false;
+    if (!gains_ || gains_->proportional != loop.gains.proportional ||
+        gains_->differential != loop.gains.differential) {
+      ModalLoop alone = loop;
+      alone.gains = {0.0, 0.0};
+      const ModalItineraryMaps maps(alone, modes->poles, *ratio);
+      // The phasor of Δz, from its values at two samples; twice its size is not exceeded at any.
+      std::vector<Vector<double, 5>> seen(2);
+      maps.follow(maps.steady(), {1, 1}, seen);
+      const double turn = 2.0 * pi<double> * loop.excitation.frequency * loop.sampling.period;
+      const double first = seen[0][2] - seen[0][0], second = seen[1][2] - seen[1][0];
+      swing_ = 2.0 * std::hypot(first, (first * std::cos(turn) - second) / std::sin(turn));
+      free_ = full_state(alone, modes->poles, maps.steady());
+      driven_ =
+          full_state(loop, modes->poles, ModalItineraryMaps(loop, modes->poles, *ratio).steady());
+      gains_ = loop.gains;
+    }
+    const bool idle = loop.backlash_width >= swing_;
+    const ModalMotion::Full& start = idle ? free_ : driven_;
+    if (!start.allFinite()) return false;
+    modes->state = start;
+    if (idle) modes->loop.gains = {0.0, 0.0};
+    return true;
+  }
+
+ private:
+  static ModalMotion::Full full_state(const ModalLoop& loop, const std::vector<PlantPole>& poles,
+                                      const ModalItineraryMaps::State& steady) {
+    const NaturalMotions natural(loop, poles);
+    const auto count = static_cast<Eigen::Index>(natural.size());
+    const auto pairs = static_cast<Eigen::Index>(natural.pairs());
+    Eigen::VectorXcd amplitudes = steady.head(count).cast<std::complex<double>>();
+    amplitudes.head(pairs).imag() = steady.segment(count, pairs);
+    return natural.state_of(amplitudes);
+  }
+
+  std::optional<PdGains<double>> gains_;  // of the known states
+  ModalMotion::Full driven_, free_;       // with and without control
+  double swing_ = 0.0;                    // range of z₂ − z₁ without control (m)
 };
 
 /// Computes the common data. Throws InvalidParameter where the case's loop is not admissible.
@@ -79,18 +139,24 @@ Question question_about(const Case& the_case, InstructionSet set) {
   const double duration = duration_of(the_case);
   require_bearable(motions * duration / the_case.control.sampling_period);
   MotionRow motion = motion_of_the_case(the_case);
-  const MovingLoop alone = motion_without_control(the_case, duration);
-  return {the_case, set, std::move(motion), metrics_of({alone}, duration, set).front().steady_peak,
-          LinearLoop(the_case).radius(gains_of(the_case))};
+  MovingLoop alone = motion_without_control(the_case, duration);
+  const double radius = LinearLoop(the_case).radius(gains_of(the_case));
+  const bool steady = SteadyStart().give_to(alone) && radius < 1.0;
+  return {
+      the_case, set,   std::move(motion), metrics_of({alone}, duration, set).front().steady_peak,
+      radius,   steady};
 }
 
 /// The vibration of each of several cases, which differ from the question's case in one key only.
-std::vector<LoopVibration> vibrations_of(const std::vector<Case>& cases, const Question& question,
-                                         Switching switching = Switching::sampled) {
+std::vector<LoopVibration> vibrations_of(const std::vector<Case>& cases, const Question& question) {
   const double duration = duration_of(cases.front());
   std::vector<MovingLoop> motions;
   motions.reserve(cases.size());
-  for (const Case& the_case : cases) motions.push_back(cell_motion(the_case, switching, duration));
+  SteadyStart start;
+  for (const Case& the_case : cases) {
+    motions.push_back(cell_motion(the_case, Switching::sampled, duration));
+    if (question.begins_steady) start.give_to(motions.back());
+  }
   std::vector<LoopVibration> vibrations;
   vibrations.reserve(cases.size());
   for (const MotionMetrics& metrics : metrics_of(motions, duration, question.set))
@@ -138,18 +204,8 @@ std::string held_force_text(const Question& question) {
 }
 
 std::string force_text(const LoopVibration& vibration) {
+  if (vibration.force == 0.0) return "";
   return page_text("force asked for", {{"force", rounded(vibration.force, 3)}});
-}
-
-/// Text on the vibration left by control with exact switching; empty if that is not computed.
-std::string exact_switching_text(const Question& question) {
-  // A conductor by its modes is followed state by state between samples: too slow for an answer.
-  if (!(question.the_case.backlash.width > 0.0) ||
-      !is_of_masses(motion_kind_of(question.the_case, Switching::exact)))
-    return "";
-  const auto exact = vibrations_of({question.the_case}, question, Switching::exact).front();
-  if (!std::isfinite(exact.ratio())) return "";
-  return page_text("left by exact switching", {{"ratio", percent(exact.ratio())}});
 }
 
 Answer what_is_doubtful(const std::vector<std::string>& doubts) {
@@ -175,9 +231,10 @@ Answer does_it_help(const Question& question) {
     answer.answer = page_text("no gains", {{"free", millimetres(vibration.free)}});
   } else {
     answer.answer = help_text(question, vibration);
-    answer.detail += force_text(vibration) + exact_switching_text(question);
-    if (question.is_transient())
-      answer.detail += page_text("not settled", {{"time", rounded(question.settling(), 2)}});
+    answer.detail += force_text(vibration);
+    if (question.settles_slowly())
+      answer.detail += page_text(question.begins_steady ? "begun steady" : "not settled",
+                                 {{"time", rounded(question.settling(), 2)}});
   }
   const std::string names = borrowed_control(the_case);
   answer.detail +=
@@ -217,7 +274,7 @@ std::string gain_margins_text(const Case& the_case, const PdGains<double>& gains
                                        {"phase", number(margins.phase_degrees, "°")},
                                        {"delay", (margins.is_delay_of_search ? "at least " : "") +
                                                      milliseconds(margins.delay)},
-                                       {"radius", rounded(margins.spectral_radius, 6)}});
+                                       {"radius", rounded(margins.spectral_radius, 10)}});
 }
 
 std::string gain_of_case_text(const Case& the_case) {
@@ -227,6 +284,26 @@ std::string gain_of_case_text(const Case& the_case) {
   return page_text("gains of case", {{"D", damping(gains.differential)},
                                      {"P", rounded(gains.proportional, 4)},
                                      {"tuned", rounded(tuned, 4)}});
+}
+
+/// Adds how much of a wave on the conductor its end with the absorber takes at the excitation
+/// frequency: to the answer if these gains take clearly less of it than the absorber alone.
+void add_waves(Answer& answer, const Case& the_case, double differential_gain) {
+  if (!has_own_cable(the_case) || is_two_masses(the_case)) return;
+  const Case changed = case_with(the_case, "control.differential_gain", differential_gain);
+  const TautString<double> string = string_of(changed);
+  const double omega = 2.0 * pi<double> * excitation_of(changed).frequency;
+  const auto ratio = [&](bool controlled) {
+    const std::vector<SpanDevice> devices = span_devices_of(changed, controlled);
+    const auto ends = span_ends(devices, string.span);
+    const SpanEnd& end = ends[ends[0].devices.empty() ? 1 : 0];
+    return end_response(string, end, omega).inverse_standing_wave_ratio();
+  };
+  const double alone = ratio(false), with = ratio(true);
+  const bool worse = with < 0.9 * alone;
+  (worse ? answer.answer : answer.detail) +=
+      page_text(worse ? "waves left" : "waves taken",
+                {{"alone", rounded(alone, 3)}, {"with", rounded(with, 3)}});
 }
 
 /// Adds the effect of the play on a gain to the detail, or to the answer if play spoils the gain.
@@ -267,6 +344,7 @@ Answer which_gain(const Question& question) {
     answer.detail = page_text(must_settle ? "best of settling" : "best of stable", values) +
                     margins_text(the_case, gains);
     add_play(answer, question, best.differential_gain, best.ratio_to_uncontrolled);
+    add_waves(answer, the_case, best.differential_gain);
   }
   answer.detail += gain_of_case_text(the_case);
   return answer;
@@ -383,8 +461,9 @@ std::string play_text(const Question& question, const std::vector<double>& width
 double steady_swing_without_control(const Case& the_case) {
   const double duration = duration_of(the_case);
   double largest = 0.0;
-  for (CaseMotion motion(motion_without_control(the_case, duration)); motion.time() < duration;
-       motion.advance()) {
+  MovingLoop alone = motion_without_control(the_case, duration);
+  SteadyStart().give_to(alone);
+  for (CaseMotion motion(alone); motion.time() < duration; motion.advance()) {
     const EventSample sample = motion.sense();
     if (not_before(motion.time(), 0.5 * duration))
       largest = std::max(largest, std::abs(relative_displacement(sample.state)));

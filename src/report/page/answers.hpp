@@ -46,9 +46,7 @@ struct MotionRow {
   std::string multiplier = "–";             ///< largest modulus of the multipliers
   std::string border = "–";                 ///< distance to nearest change of contact (mm; mm/s)
   std::string capture = "–";                ///< radius of attraction (mm)
-  std::string precision = "–";              ///< comparison with extended precision
   std::string rests_on = {};                ///< evidence for the verdict
-  std::string neighbour = {};               ///< comparison with the motion from rest; "": none
   std::vector<std::string> arguments = {};  ///< command line, without the case's options
   bool diverges = false;                    ///< whether the motion grows without limit
   bool stays_in_play = false;               ///< whether the orbit never leaves the play

@@ -9,6 +9,7 @@
 #include "case/model/cable_of_case.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/conductor_modes.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
 #include "case/model/plant_of_case.hpp"
@@ -22,9 +23,12 @@ namespace {
 
 std::string gain_text(double gain) { return rounded(gain, 4); }
 
+/// The case on the cable. The damping of a string stays, as nothing but the model is in question.
 Case on_cable(const Case& the_case) {
   Case changed = the_case;
   changed.plant.model = "cable";
+  if (!is_two_masses(the_case) && changed.conductor.damping == "chosen")
+    changed.conductor.damping = "ratio";
   changed.plant.modes = std::numeric_limits<double>::quiet_NaN();
   return changed;
 }
@@ -39,8 +43,8 @@ double share_left(const Case& the_case, const PdGains<double>& gains) {
 }
 
 /// Smallest clamp mass (kg), to 1 %, that makes the case's gains stable, found by doubling and then
-/// by bisection. Infinite if the mass would exceed half the absorber's mass or be below 0.1 % of
-/// that, if there is none, or if the gains are already stable by `is_stable_with_clamp`.
+/// by bisection. Infinite if the mass would be above half the absorber's mass or below 0.1 % of
+/// this half, if there is none, or if the gains are already stable by `is_stable_with_clamp`.
 double least_clamp_mass(const Case& cable) {
   constexpr double none = std::numeric_limits<double>::infinity();
   const double largest = cable.plant.absorber_mass / 2.0;
@@ -104,8 +108,10 @@ Interval<double> nearest_interval(const std::vector<Interval<double>>& intervals
 }
 
 /// Name of the text in texts/page.toml on the stability of the case's gains on the cable.
-std::string holding_of(const Case& cable, const std::vector<Interval<double>>& stable) {
+/// @param end  highest frequency (Hz) of a single mode
+std::string holding_of(const Case& cable, const std::vector<Interval<double>>& stable, double end) {
   const PdGains<double> gains = gains_of(cable);
+  if (lacks_bars(cable) || end < excitation_of(cable).frequency) return "unresolved on the cable";
   const bool is_stable = std::any_of(stable.begin(), stable.end(), [&](const auto& gap) {
     return gap.contains(gains.differential);
   });
@@ -128,8 +134,9 @@ void judge(const Case& the_case, const Case& cable, Answer& answer) {
   const PdGains<double> gains = gains_of(the_case);
   const auto stable = LinearLoop(cable).stable_gains(FreeGain::differential, gains);
   throw_if_interrupted();
-  const std::string holding = holding_of(cable, stable);
-  Values values = {{"D", gain_text(gains.differential)}};
+  const double end = conductor_modes_of(cable).highest_frequency();
+  const std::string holding = holding_of(cable, stable, end);
+  Values values = {{"D", gain_text(gains.differential)}, {"end", rounded(end, 3)}};
   if (!stable.empty()) {
     const Interval<double> nearest = nearest_interval(stable, gains.differential);
     values.emplace_back("stretch",
@@ -150,15 +157,18 @@ void judge(const Case& the_case, const Case& cable, Answer& answer) {
 }  // namespace
 
 Answer does_it_hold_on_the_cable(const Case& the_case) {
-  Answer answer{page_text("cable question"), "", "",
-                words_of(page_text("cable command",
-                                   {{"P", format_number(gains_of(the_case).proportional)}}))};
+  const Case cable = on_cable(the_case);
+  Answer answer{
+      page_text("cable question"), "", "",
+      words_of(page_text("cable command", {{"P", format_number(gains_of(the_case).proportional)},
+                                           {"damping", cable.conductor.damping == "ratio"
+                                                           ? " --set conductor.damping=ratio"
+                                                           : ""}}))};
   if (!has_own_cable(the_case)) {
     answer.answer = page_text("no conductor");
     answer.arguments = {"case"};
     return answer;
   }
-  const Case cable = on_cable(the_case);
   try {
     answer.detail = detail_text(cable);
     judge(the_case, cable, answer);

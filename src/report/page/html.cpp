@@ -25,7 +25,6 @@ std::string motions_part(const Page& page) {
   if (page.motions.empty()) return "";
   std::string rows;
   for (const MotionRow& row : page.motions) {
-    const std::string beside = page_text("beside rest", {{"neighbour", escaped(row.neighbour)}});
     rows +=
         page_text("motion", {{"place", escaped(row.place)},
                              {"motion", escaped(row.motion)},
@@ -34,16 +33,14 @@ std::string motions_part(const Page& page) {
                              {"multiplier", escaped(row.multiplier)},
                              {"border", escaped(row.border)},
                              {"capture", escaped(row.capture)},
-                             {"precision", escaped(row.precision)},
-                             {"beside", row.neighbour.empty() ? "" : beside},
                              {"rests on", escaped(row.rests_on)},
                              {"command", escaped(shell_text(row.arguments, page.case_arguments))}});
   }
   return page_text(
-      "motions", {{"table", html_table({"figure", "case", "verdict", "period", "largest multiplier",
-                                        "distance to the nearest change of contact",
-                                        "radius of attraction", "confirmed in extended precision"},
-                                       rows)}});
+      "motions",
+      {{"table", html_table({"figure", "case", "verdict", "period", "largest multiplier",
+                             "distance to the nearest change of contact", "radius of attraction"},
+                            rows)}});
 }
 
 /// Text on the axes of a picture's panels: "displacement z₁ over time t".

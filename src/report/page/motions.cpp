@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <type_traits>
 
 #include "case/case_keys.hpp"
@@ -11,7 +10,6 @@
 #include "holdfast/chaos/modal_classification.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
-#include "jobs/orbit/neighbours.hpp"
 #include "process/interrupt.hpp"
 #include "report/figures/figure.hpp"
 #include "report/page/html.hpp"
@@ -22,19 +20,6 @@ namespace holdfast::program {
 namespace {
 
 constexpr const char* no_value = "–";
-
-/// Loop, start and classification of a motion with switching at samples.
-struct KnownMotion {
-  IdealLoop<double> loop;
-  Vector<double, 4> initial_state;
-  SampledClassification found;
-};
-
-KnownMotion known_motion(const Case& the_case) {
-  const IdealLoop<double> loop = ideal_loop_of(the_case);
-  const Vector<double, 4> start = initial_state_of(the_case);
-  return {loop, start, classify_motion(loop, start)};
-}
 
 std::string counted(std::int64_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -79,11 +64,6 @@ std::string capture_text(const CaptureRadii& radii) {
   return (from == to ? from : from + " … " + to) + " mm";
 }
 
-std::string precision_text(const OrbitVerification& verification) {
-  if (!verification.same_itinerary) return "other contacts";
-  return "same contacts; " + rounded(verification.displacement_difference, 2) + " m";
-}
-
 /// @param sampling_period  sampling period τ (s)
 /// @param settings         options of the command in the row, which shows the motion in detail
 /// @tparam Found           a classification in any model
@@ -107,15 +87,14 @@ MotionRow row_of(const std::string& place, const std::string& text, const Found&
   return row;
 }
 
-/// Row of a motion of two masses, with capture radius and comparison in extended precision.
-MotionRow row_of(const std::string& place, const std::string& text, const KnownMotion& motion,
-                 const std::string& settings) {
-  MotionRow row = row_of(place, text, motion.found, motion.loop.sampling.period, settings);
-  const PeriodicOrbit* orbit = certified(motion.found);
-  if (orbit == nullptr) return row;
-  const OrbitCertificate certificate = certificate_of(motion.loop, *orbit);
-  row.capture = capture_text(certificate.radii);
-  row.precision = precision_text(certificate.verification);
+/// Row of a case's motion of two masses that switches at samples, with its radius of attraction.
+MotionRow row_of_masses(const std::string& place, const std::string& text, const Case& the_case,
+                        const std::string& settings) {
+  const IdealLoop<double> loop = ideal_loop_of(the_case);
+  const auto found = classify_motion(loop, initial_state_of(the_case));
+  MotionRow row = row_of(place, text, found, loop.sampling.period, settings);
+  if (const PeriodicOrbit* const orbit = certified(found))
+    row.capture = capture_text(certificate_of(loop, *orbit).radii);
   return row;
 }
 
@@ -128,7 +107,6 @@ std::string loop_text(const Case& the_case) {
 
 std::vector<MotionRow> paper_motions(const Case& the_case) {
   std::vector<MotionRow> rows;
-  std::optional<KnownMotion> from_rest;
   const toml::table texts = toml::parse(page_texts);
   for (const toml::node& node : *texts["paper motions"].as_array()) {
     const toml::array& entry = *node.as_array();
@@ -143,15 +121,8 @@ std::vector<MotionRow> paper_motions(const Case& the_case) {
       set_case_value(changed, "initial.z1", *parse_number(displacement));
       settings += " --set initial.z1=" + displacement;
     }
-    const KnownMotion motion = known_motion(changed);
     const std::string text = loop_text(changed) + ", from " + (rests ? "rest" : text_of(entry[4]));
-    rows.push_back(row_of(text_of(entry[0]), text, motion, settings));
-    if (rests)
-      from_rest = motion;
-    else
-      rows.back().neighbour =
-          meeting_text(motion.loop, {from_rest->initial_state, from_rest->found.search},
-                       {motion.initial_state, motion.found.search});
+    rows.push_back(row_of_masses(text_of(entry[0]), text, changed, settings));
   }
   return rows;
 }
@@ -160,7 +131,7 @@ MotionRow motion_of_the_case(const Case& the_case) {
   const std::string text = loop_text(the_case) + ", from its initial state";
   const MovingLoop loop = smooth_loop_of(the_case, Switching::sampled);
   if (std::holds_alternative<SampledMasses>(loop))
-    return row_of("this case", text, known_motion(the_case), "");
+    return row_of_masses("this case", text, the_case, "");
   const OrbitLimits limits{OrbitLimits{}.largest_period, 0, throw_if_interrupted};
   const auto row = [&](const auto& moving) {
     return row_of("this case", text, classify_motion(moving.loop, moving.state, limits),

@@ -272,6 +272,48 @@ TEST(ModalAttraction, OfADriveThatNeverLeavesItsGapCountsClearance) {
   EXPECT_TRUE(std::isfinite(region->radius));
 }
 
+/// An idle drive leaves the natural motions to themselves: each is solved for alone, as all are by
+/// their matrix. Of what begins within the region nothing leaves the gap.
+TEST(ModalOrbit, OfAnIdleDriveIsSolvedMotionByMotion) {
+  ModalLoop loop = loops_with_orbits().front();
+  loop.backlash_width = 0.1;
+  loop.excitation.amplitude = 0.01;
+  ModalMotion::Full swinging = at_rest(loop);
+  swinging.head(swinging.size() - 2)(Eigen::seq(0, Eigen::last, 2)) =
+      1e-2 * bent_conductor(loop.modes);
+  const PeriodicOrbit orbit = certified_orbit(loop, swinging);
+  ASSERT_TRUE(is_idle(orbit.itinerary));
+  const ModalItineraryMaps maps = maps_of(loop, orbit);
+  ModalDeviations flow = maps.deviations();
+  flow.begin(Eigen::MatrixXd::Identity(flow.order(), flow.order()));
+  for (std::size_t j = 0; j < orbit.itinerary.size(); ++j) flow.advance(false);
+  const std::vector<Eigen::MatrixXd> whole = {flow.columns()};
+  const auto expected = periodic_solution(maps, orbit.itinerary, whole);
+  ASSERT_TRUE(expected.has_value());
+  const Vector<double, 5> way = expected->states.front() - orbit.states.front();
+  EXPECT_LT(way.norm(), 1e-12 * orbit.states.front().norm());
+  double largest = 0.0;
+  for (const std::complex<double>& value : eigenvalues(whole.front()))
+    largest = std::max(largest, std::abs(value));
+  EXPECT_NEAR(orbit.multipliers.front().log_modulus, std::log(largest), 1e-9);
+  const auto region = modal_attraction(loop, maps, orbit);
+  ASSERT_TRUE(region.has_value());
+  Random random(20261130);
+  for (int k = 0; k < 50; ++k) {
+    // A deviation of norm `radius` for a clearance of 1 m.
+    Eigen::VectorXd away(maps.units().size() + 1);
+    for (double& entry : away) entry = random.uniform(-1.0, 1.0);
+    away *= region->radius / (region->root * away).norm();
+    ModalItineraryMaps::State state =
+        region->first + away.head(maps.units().size()).cwiseProduct(maps.units());
+    std::vector<Vector<double, 5>> moved(orbit.itinerary.size());
+    maps.follow(state, orbit.itinerary, moved);
+    for (std::size_t j = 0; j < moved.size(); ++j)
+      EXPECT_LT(std::abs(relative_displacement(Vector<double, 5>(moved[j] - orbit.states[j]))),
+                1.0);
+  }
+}
+
 TEST(ModalOrbit, WithoutBacklashEveryMotionComesToIt) {
   ModalLoop loop = loops_with_orbits().front();
   loop.backlash_width = 0.0;

@@ -157,16 +157,6 @@ AffinePolynomial<double, Degree> with_cusp(double angle, const PdGains<double>& 
   return test::through<Degree>(test::product<Degree>(pair, pair, 0.4), gains, random);
 }
 
-/// Of either kind of tangent one that is marked; a third, of another cusp's making, may be far.
-bool tangents_are_nearly_a_cusp(const std::vector<BoundaryFeature<double>>& features) {
-  const auto is_marked = [&](Kind kind) {
-    return std::any_of(features.begin(), features.end(), [kind](const auto& feature) {
-      return feature.kind == kind && feature.nearly_cusp;
-    });
-  };
-  return is_marked(Kind::vertical_tangent) && is_marked(Kind::horizontal_tangent);
-}
-
 template <int Degree>
 void expect_cusps_are_told(std::uint64_t seed) {
   test::Random random(seed);
@@ -183,25 +173,10 @@ void expect_cusps_are_told(std::uint64_t seed) {
     EXPECT_EQ(count(exact, Kind::cusp), 1) << draw;
     EXPECT_NEAR(cusp->first.angle, angle, 1e-9);
     EXPECT_NEAR(cusp->gains.proportional, gains.proportional, 1e-9);
-    bool nearly = false;
-    for (const double change : {1e-7, 1e-6, 1e-5}) {
-      auto other = polynomial;
-      other.base[1] += change;
-      const auto near = boundary_features(other, window);
-      const bool is_cusp = count(near, Kind::cusp) > 0;
-      nearly = nearly || (!is_cusp && tangents_are_nearly_a_cusp(near));
-      EXPECT_FALSE(is_cusp && change == 1e-5) << draw;
-    }
-    EXPECT_TRUE(nearly) << draw;
+    auto other = polynomial;
+    other.base[1] += 1e-5;
+    EXPECT_EQ(count(boundary_features(other, window), Kind::cusp), 0) << draw;
   }
-}
-
-TEST(BoundaryFeatures, TangentsFarFromEachOtherAreNotNearlyACusp) {
-  const auto polynomial =
-      characteristic_polynomial(sampled_loop(kollar2022_plant(), Sampling<double>{0.01}));
-  const auto features = boundary_features(polynomial, {{-1e6, 1e6}, {-1e6, 1e6}});
-  EXPECT_GT(count(features, Kind::vertical_tangent) + count(features, Kind::horizontal_tangent), 0);
-  for (const auto& feature : features) EXPECT_FALSE(feature.nearly_cusp);
 }
 
 TEST(BoundaryFeatures, ACuspIsToldFromTwoTangentsCloseTogether) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "holdfast/core/types.hpp"
 
@@ -83,13 +84,17 @@ inline Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& basis) {
   Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(basis.cols(), basis.cols());
   for (Eigen::Index i = 0; i < basis.cols(); ++i) {
     auto column = basis.col(i);
+    const double round_off = 8.0 * std::numeric_limits<double>::epsilon() * column.norm();
     for (int turn = 0; turn < 2; ++turn) {
       const Eigen::VectorXd along = basis.leftCols(i).transpose() * column;
       column -= basis.leftCols(i) * along;
       upper.col(i).head(i) += along;
     }
     upper(i, i) = column.norm();
-    if (upper(i, i) > 0.0) column /= upper(i, i);
+    if (upper(i, i) > round_off)
+      column /= upper(i, i);
+    else
+      column.setZero();
   }
   return upper;
 }

@@ -175,10 +175,10 @@ class RootIteration {
     const Factors at = factors_at(own[0]);
     const Complex first = std::polar(Scalar(1), Scalar(0.1)) * at.of(own[1], own[2]) /
                           rest(at, sums_near(others, Complex(0))).value;
-    const Scalar reach = std::min(others.nearest, std::abs(Complex(1) + own[0])) / Scalar(2);
+    const Scalar reach = std::min(others.nearest, size_of(Complex(1) + own[0])) / Scalar(2);
     for (int turn = 0; turn < 3; ++turn) {
       const Complex d = near_pole(own, others);
-      if (!(std::abs(d) < reach)) break;
+      if (!(size_of(d) < reach)) break;
       if (is_settled_alone(own, others, d)) {
         settled_[i] = settled_[mirrors_[i]] = 1;
         return d;
@@ -199,8 +199,8 @@ class RootIteration {
           without_pole(own, d, factors_at(own[0] + d), sums_near(others, d - own[3]));
       const Complex change = left.value / left.slope;
       d -= change;
-      const Scalar size = std::abs(change), shrinking = std::min(Scalar(1), size / before);
-      if (size * shrinking <= tolerance_ * std::abs(d) + floor_) return d;
+      const Scalar size = size_of(change), shrinking = std::min(Scalar(1), size / before);
+      if (size * shrinking <= tolerance_ * size_of(d) + floor_) return d;
       before = size;
     }
     return {std::numeric_limits<Scalar>::quiet_NaN(), Scalar(0)};
@@ -210,16 +210,16 @@ class RootIteration {
   /// from the last two terms by powers of the ratio of d's change to the nearest pole's distance.
   bool is_settled_alone(const Row& own, const Series& others, const Complex& d) const {
     constexpr std::size_t last = Series::terms - 1;
-    const Scalar change = std::abs(d - own[3]), ratio = change / others.nearest;
+    const Scalar change = size_of(d - own[3]), ratio = change / others.nearest;
     const auto left_out = [&](const std::array<Complex, Series::terms>& of) {
       return std::pow(change, Scalar(last - 1)) * ratio *
-             (std::abs(of[last - 1]) * ratio + std::abs(of[last]) * change);
+             (size_of(of[last - 1]) * ratio + size_of(of[last]) * change);
     };
     const Factors at = factors_at(own[0] + d);
     const Value left = without_pole(own, d, at, sums_near(others, d - own[3]));
-    const Scalar error = std::abs(d) / std::abs(left.slope) *
-                         (std::abs(at.a) * (left_out(others.a) + others.rounding) +
-                          std::abs(at.b) * left_out(others.b));
+    const Scalar error = size_of(d) / size_of(left.slope) *
+                         (size_of(at.a) * (left_out(others.a) + others.rounding) +
+                          size_of(at.b) * left_out(others.b));
     return is_negligible(Scalar(10) * error, d, Complex(1) + (own[0] + d));
   }
 
@@ -233,6 +233,9 @@ class RootIteration {
       for (const std::size_t k : {i, other}) set_distance(k, first_of(k));
     }
   }
+
+  /// The absolute value, without the care of std::abs() for overflow.
+  static Scalar size_of(const Complex& z) { return std::sqrt(std::norm(z)); }
 
   void set_distance(std::size_t i, const Complex& d) {
     Row row = parts_[i];
@@ -403,8 +406,8 @@ class RootIteration {
   }
 
   bool is_negligible(const Scalar& error, const Complex& unknown, const Complex& lambda) const {
-    return error <= tolerance_ * std::abs(unknown) + floor_ ||
-           error < enough_ * std::min(std::abs(Scalar(1) - std::abs(lambda)), std::abs(unknown));
+    return error <= tolerance_ * size_of(unknown) + floor_ ||
+           error < enough_ * std::min(std::abs(Scalar(1) - size_of(lambda)), size_of(unknown));
   }
 
   /// Whether the roots z have the right sum: the sum of the poles, plus w(∞) (g + Σ a) where n = 0.

@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
@@ -20,6 +23,7 @@
 #include "holdfast/motion/modal/natural_motions.hpp"
 #include "holdfast/orbit/cyclic_system.hpp"
 #include "holdfast/orbit/itinerary_maps.hpp"
+#include "holdfast/orbit/periodic_orbit.hpp"
 
 namespace holdfast {
 
@@ -87,6 +91,23 @@ class ModalItineraryMaps {
     State state(units().size());
     state << first.real(), first.head(pairs_).imag(), (u * back).real();
     return state;
+  }
+
+  /// The factors e^{sτ} of all natural motions; those that stand for a conjugate pair come first.
+  const Eigen::VectorXcd& decay() const { return decay_; }
+  /// The number of natural motions that stand for a conjugate pair.
+  Eigen::Index pairs() const { return pairs_; }
+
+  /// The correction of a state whose motion in the backlash is open by `gap` after some samples:
+  /// each natural motion ξ then is multiplied by e^{sτ} per sample.
+  State correction_in_backlash(const State& gap, std::size_t samples) const {
+    const Eigen::Index count = decay_.size();
+    Eigen::ArrayXcd natural = gap.head(count).cast<std::complex<double>>().array();
+    natural.head(pairs_).imag() = gap.segment(count, pairs_).array();
+    natural /= 1.0 - decay_.array().pow(static_cast<double>(samples));
+    State correction = gap;
+    correction.head(count + pairs_) << natural.real(), natural.head(pairs_).imag();
+    return correction;
   }
 
   /// The characteristic roots of the sampled loop with the drive always engaged. Empty where the
@@ -177,13 +198,31 @@ class ModalItineraryMaps {
   std::function<void()> watch_;
 };
 
+/// Whether the drive transmits at no sample: natural motions are then independent.
+inline bool is_idle(const Itinerary& itinerary) {
+  return std::all_of(itinerary.begin(), itinerary.end(), [](auto contact) { return contact == 0; });
+}
+
+/// The periodic solution of an idle drive, each natural motion for itself; nullopt if it drives.
+inline std::optional<PeriodicSolution<ModalItineraryMaps>> solution_without_blocks(
+    const ModalItineraryMaps& maps, const Itinerary& itinerary) {
+  if (!is_idle(itinerary)) return std::nullopt;
+  auto solution =
+      detail::refined_solution(maps, itinerary, [&](const ModalItineraryMaps::State& open) {
+        return maps.correction_in_backlash(open, itinerary.size());
+      });
+  return solution.first.allFinite() ? std::optional(solution) : std::nullopt;
+}
+
 /// The products of the maps of an itinerary, one for each block of samples, in the units of `maps`.
 /// A block ends at most sixteen samples after an entry of its product has reached 1000. Work per
 /// sample: 2 n² multiply-adds, n being the number of coordinates of a deviation.
-/// @return empty if more than 64 blocks are needed: no orbit can then be solved for
+/// @return empty if more than 64 blocks are needed: no orbit can then be solved for; empty also for
+///         an idle drive, whose orbit is solved for without them
 inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& maps,
                                                    const Itinerary& itinerary) {
   constexpr std::size_t between_looks = 16, most = 64;
+  if (is_idle(itinerary)) return {};
   ModalDeviations flow = maps.deviations();
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(flow.order(), flow.order());
   std::vector<Eigen::MatrixXd> blocks;
@@ -200,6 +239,28 @@ inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& map
   return blocks;
 }
 
+/// The largest of some multipliers, by descending modulus.
+inline std::vector<Multiplier> largest_of(std::vector<Multiplier> all, Eigen::Index most) {
+  std::stable_sort(all.begin(), all.end(), Multiplier::is_larger);
+  all.resize(std::min(all.size(), static_cast<std::size_t>(most)));
+  return all;
+}
+
+/// The largest multipliers e^{sτN} of N samples in the backlash.
+inline std::vector<Multiplier> idle_multipliers(const ModalItineraryMaps& maps, std::size_t samples,
+                                                Eigen::Index most) {
+  std::vector<Multiplier> found;
+  const auto times = static_cast<double>(samples);
+  for (Eigen::Index k = 0; k < maps.decay().size(); ++k) {
+    const double size = times * std::log(std::abs(maps.decay()[k]));
+    const double turn = std::remainder(times * std::arg(maps.decay()[k]), 2.0 * pi<double>);
+    found.push_back({size, turn});
+    if (k < maps.pairs()) found.push_back({size, -turn});
+  }
+  found.push_back({-std::numeric_limits<double>::infinity(), 0.0});  // the last command
+  return largest_of(std::move(found), most);
+}
+
 /// The ten largest multipliers of one period, or all where there are fewer.
 ///
 /// If the period is one block, they are computed as eigenvalues of its map, provided that all ten
@@ -212,7 +273,8 @@ template <class Maps, std::enable_if_t<std::is_same_v<Maps, ModalItineraryMaps>,
 std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itinerary,
                                        const std::vector<typename Maps::Map>& blocks) {
   constexpr Eigen::Index leading = 10, beside = 6;
-  constexpr std::size_t between = 8, most_samples = 40000, fewest_turns = 3, most_turns = 20;
+  constexpr std::size_t between = 8, most_samples = 40000, most_turns = 20;
+  if (is_idle(itinerary)) return idle_multipliers(maps, itinerary.size(), leading);
   ModalDeviations flow = maps.deviations();
   const Eigen::Index order = flow.order(), count = std::min(order, leading + beside);
   const auto shown = std::min(count, leading);
@@ -220,8 +282,7 @@ std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itiner
     std::vector<Multiplier> found;
     for (const std::complex<double>& value : eigenvalues(blocks.front()))
       found.push_back({std::log(std::abs(value)), std::arg(value)});
-    std::sort(found.begin(), found.end(), Multiplier::is_larger);
-    found.resize(static_cast<std::size_t>(shown));
+    found = largest_of(std::move(found), shown);
     if (found.back().log_modulus > std::log(1e-9 * blocks.front().norm())) return found;
   }
   const auto most = std::max(most_turns * itinerary.size(), most_samples);
@@ -230,8 +291,8 @@ std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itiner
   Eigen::MatrixXd turn;
   detail::ScaledTriangle<double, Eigen::Dynamic> triangle(count);
   bool spans = false;
-  for (std::size_t turns = 0; turns * itinerary.size() < most && !(spans && turns >= fewest_turns);
-       ++turns) {
+  for (std::size_t turns = 0, fewest = count < order ? 3 : 5;
+       turns * itinerary.size() < most && !(spans && turns >= fewest); ++turns) {
     const Eigen::MatrixXd before = basis;
     triangle = detail::ScaledTriangle<double, Eigen::Dynamic>(count);
     flow.begin(basis);
@@ -245,11 +306,10 @@ std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itiner
       flow.begin(basis);
     }
     turn = before.transpose() * basis;
-    spans = (basis.leftCols(shown) - before * turn.leftCols(shown)).norm() < 1e-9;
+    spans = (basis.leftCols(shown) - before * turn.leftCols(shown)).norm() < 1e-9 &&
+            (count < order || detail::settled(turn, triangle.rank));
   }
-  auto found = detail::multipliers_of_turn(turn, triangle);
-  found.resize(static_cast<std::size_t>(shown));
-  return found;
+  return largest_of(detail::multipliers_of_turn(turn, triangle), shown);
 }
 
 }  // namespace holdfast

@@ -45,6 +45,45 @@ struct ModalAttraction {
   double inscribed_share;  ///< 1/‖R‖_F: ‖e‖ < radius · inscribed_share implies ‖R e‖ < radius
 };
 
+namespace detail {
+
+/// The neighbourhood of an orbit whose drive never leaves its gap. V is diagonal there, since each
+/// natural motion decays for itself, with the weights of the readings of Δz. A deviation e changes
+/// Δz by at most ‖h‖ ‖R e‖ at all samples, with h the reading of R⁻¹ and of the last command.
+/// @return nullopt for a natural motion that does not decay, or a late last command that matters
+template <class Loop>
+std::optional<ModalAttraction> idle_attraction(const Loop& loop, const ModalItineraryMaps& maps,
+                                               const PeriodicOrbit& orbit) {
+  const auto solution = solution_without_blocks(maps, orbit.itinerary);
+  if (!solution || loop.sampling.processing_delay > 0.0 ||
+      !(maps.decay().cwiseAbs().array() < 1.0).all())
+    return std::nullopt;
+  const Eigen::Index count = maps.decay().size(), pairs = maps.pairs(), order = maps.units().size();
+  ModalAttraction found;
+  found.first = solution->first;
+  found.memory = orbit.memory;
+  set_extent(found, orbit);
+  if (!found.stays_inside) return std::nullopt;
+  // |h| of each coordinate: that of a pair turns from its real to its imaginary part.
+  Eigen::VectorXd reading = Eigen::VectorXd::Zero(order + 1);
+  ModalItineraryMaps::State unit = maps.rest();
+  for (Eigen::Index k = 0; k < count + pairs; ++k) {
+    unit[k] = maps.units()[k];
+    reading[k] = std::abs(relative_displacement(maps.seen(unit)));
+    unit[k] = 0.0;
+  }
+  for (Eigen::Index k = 0; k < pairs; ++k)
+    reading[k] = reading[count + k] = std::hypot(reading[k], reading[count + k]);
+  const double least = 1e-6 * reading.maxCoeff();
+  const Eigen::VectorXd weights = reading.cwiseMax(least).cwiseSqrt();
+  found.root = weights.asDiagonal();
+  found.radius = 1.0 / reading.cwiseQuotient(weights).norm();
+  found.inscribed_share = 1.0 / found.root.norm();
+  return found;
+}
+
+}  // namespace detail
+
 /// Computes the neighbourhood of attraction of an orbit of a conductor given by its modes.
 ///
 /// Φ maps the initial deviation e to the deviation at a sample; h is a switching surface's normal.
@@ -58,6 +97,8 @@ struct ModalAttraction {
 template <class Loop>
 std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalItineraryMaps& maps,
                                                 const PeriodicOrbit& orbit) {
+  if (is_idle(orbit.itinerary))
+    if (auto idle = detail::idle_attraction(loop, maps, orbit)) return idle;
   using Flow = detail::DeviationFlow<ModalDeviations>;
   const Flow flow(maps.deviations(), loop.backlash_width, orbit);
   maps.look();

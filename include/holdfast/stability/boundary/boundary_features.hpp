@@ -151,7 +151,6 @@ class FeatureFinder {
 
   std::vector<BoundaryFeature<Scalar>> find() {
     add_tangents();
-    mark_near_cusps();
     for (const DoubleNeimarkSacker<Scalar>& pair : double_neimark_sacker_points(pairs_)) {
       add(BoundaryFeatureKind::crossing, pair_at(pair.lower_square, pair.gains),
           pair_at(pair.upper_square, pair.gains), pair.gains);
@@ -178,23 +177,6 @@ class FeatureFinder {
     const PdGains<Scalar> gains = pairs_.gains(square);
     const Incidence pair = pair_at(square, gains);
     add(kind, pair, pair, gains);
-  }
-
-  /// Marks vertical and horizontal tangents as near cusps where their θ differ by ≤ 0.1 %.
-  void mark_near_cusps() {
-    constexpr double near = 1e-3;
-    const auto is_near = [](const BoundaryFeature<Scalar>& one,
-                            const BoundaryFeature<Scalar>& other) {
-      const Scalar a = one.first.angle, b = other.first.angle;
-      return std::abs(a - b) <= Scalar(near) * std::max(a, b);
-    };
-    for (BoundaryFeature<Scalar>& one : features_) {
-      if (one.kind != BoundaryFeatureKind::vertical_tangent) continue;
-      for (BoundaryFeature<Scalar>& other : features_) {
-        if (other.kind != BoundaryFeatureKind::horizontal_tangent || !is_near(one, other)) continue;
-        one.nearly_cusp = other.nearly_cusp = true;
-      }
-    }
   }
 
   /// Adds tangents and cusps. At a cusp P and D are stationary at the same Y, to 1e−9 of Y. Without

@@ -116,9 +116,6 @@ struct BoundaryFeature {
   BoundaryRoot<Scalar> second;  ///< real root, or pair of larger angle; λ = −1 if both are real
   PdGains<Scalar> gains;        ///< P (N/m) and D (N s/m), finite
   Scalar residual;  ///< round-off at the roots: |polynomial|/Σ |its terms|, the larger of the two
-  /// Whether this tangent nearly forms a cusp with a tangent of the other direction: their angles θ
-  /// differ by at most 0.1 %. A small change of the loop can create or remove stable intervals.
-  bool nearly_cusp = false;
 };
 
 }  // namespace holdfast

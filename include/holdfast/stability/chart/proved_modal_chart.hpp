@@ -113,7 +113,7 @@ struct CellRange {
   }
 };
 
-/// Chart under construction, for a loop of any order. Loops of a free box have no root on |λ| = 1.
+/// Builds the chart of a loop of any order. Free box: none of its gains has a root on |λ| = 1.
 /// @tparam Watch  type of a function without arguments, which is called for each box
 template <class Watch>
 class ModalChart {

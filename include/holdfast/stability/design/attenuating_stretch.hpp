@@ -36,11 +36,11 @@ inline TaylorNumber moving_phase(double omega, double period, double radius, std
   return result;
 }
 
-/// The Taylor series of the harmonic input's phasor g = cosine − i sine within `radius` (s) of a
-/// period. Its derivatives by the period are g′ = A_d c + iωg for the exact force, g′ = A_d c for
-/// the held force, and A_d′ = A A_d, with c the plant's `excitation_input()`.
+/// The Taylor series, in the sampling period τ, of the harmonic input's phasor g = cosine − i sine
+/// within `radius` (s) of the map's τ. dg/dτ = A_d c + iωg for the exact force, A_d c for the held
+/// force, and dA_d/dτ = A A_d, with c the plant's `excitation_input()`.
 ///
-/// In the coordinates that balance A, let p_j and γ_j be the sizes of the terms of A_d c and g and
+/// In the coordinates that balance A, let p_j and γ_j be the norms of the terms of A_d c and g and
 /// r = max(‖A‖, ω) radius. Then max(γ_j r, p_j radius) grows by a factor ≤ 2 r/(j + 1) per term.
 template <class Plant>
 MovingVector moving_input(const Plant& plant, const LoopMap<double>& map, ForceHold hold,

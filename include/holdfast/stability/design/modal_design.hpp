@@ -188,7 +188,7 @@ class ModulusLevels {
     return {angle, std::norm(g.velocity), (rest * std::conj(g.velocity)).real(), std::norm(rest)};
   }
 
-  /// The angle, between the neighbours of a place, at which a function is largest.
+  /// The angle at which `value` is largest, between the neighbours of the tabulated `place`.
   template <class Value>
   Scalar best_about(std::size_t place, const Value& value) const {
     return narrow_to_minimum(places_[place == 0 ? 0 : place - 1].angle,

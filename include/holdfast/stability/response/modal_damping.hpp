@@ -80,11 +80,9 @@ std::vector<ModeDamping> modal_damping(
   std::vector<ModeDamping> found;
   found.reserve(modes.size());
   for (std::size_t n = 0; n < modes.size(); ++n) {
+    Complex root = finder.of_mode(n, Finder::bare(modes[n])).s;
     // Where not all poles were found those of the response are the plant's eigenvalues.
-    Complex root = poles.empty() ? detail::matched_pole(eigenvalues,
-                                                        finder.of_mode(n, Finder::bare(modes[n])).s,
-                                                        sampling.period)
-                                 : poles[n].s;
+    if (poles.empty()) root = detail::matched_pole(eigenvalues, root, sampling.period);
     if (controlled) root = root_from_pole(of_gains, root);
     // ζ_n + φ_n²/(2 M_n ω_n) Re Z(iω_n)
     const auto& [omega, damping_ratio, shape, mass] = modes[n];

@@ -244,10 +244,14 @@ class ModalResponse {
     // comes back however slowly.
     const bool creeps = s.imag() == Scalar(0) && s.real() < Scalar(0);
     if (std::abs(s.real()) * period_ < undamped && !creeps) s.real(-undamped / period_);
-    const Complex present = exponential_integral(s, period_ - late_);
-    const Complex past = std::exp(s * (period_ - late_)) * exponential_integral(s, late_);
-    poles_.add({complex_expm1(s * period_), residue.displacement * present,
-                residue.velocity * present, residue.displacement * past, residue.velocity * past});
+    const Complex increment = complex_expm1(s * period_);
+    const Scalar on_time = period_ - late_;
+    const Complex grown = late_ == Scalar(0) ? increment : complex_expm1(s * on_time);
+    const Complex present = s == Complex(0) ? Complex(on_time) : grown / s;
+    const Complex past =
+        late_ == Scalar(0) ? Complex(0) : (Scalar(1) + grown) * exponential_integral(s, late_);
+    poles_.add({increment, residue.displacement * present, residue.velocity * present,
+                residue.displacement * past, residue.velocity * past});
     unstable_ += s.real() > Scalar(0) ? 1 : 0;
   }
 

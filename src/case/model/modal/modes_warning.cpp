@@ -94,6 +94,24 @@ std::string cut_warning(const Case& the_case, const ConductorModes& conductor) {
          kept.faster;
 }
 
+/// A warning that Rayleigh damping, chosen by default, is far from the damping ratio at a
+/// frequency.
+std::string rayleigh_warning(const Case& the_case) {
+  const auto& conductor = the_case.conductor;
+  if (!is_cable(the_case) || conductor.damping != "chosen" ||
+      conductor.rayleigh_frequencies != case_tables::Conductor().rayleigh_frequencies)
+    return "";
+  const auto& plant = the_case.plant;
+  const double own =
+      has_absorber(the_case) ? std::sqrt(plant.absorber_stiffness / plant.absorber_mass) : 0.0;
+  const double omega = std::max(own, 2.0 * pi<double> * effective_excitation(the_case).frequency);
+  const double times = bare_damping_of(the_case, omega) / the_case.conductor.damping_ratio;
+  if (!(times > 3.0)) return "";
+  return "Rayleigh damping, the default on a cable, is " + format_rounded(times) +
+         " times conductor.damping_ratio at " + format_rounded(omega / (2.0 * pi<double>)) +
+         " Hz: set conductor.damping = \"ratio\" or conductor.rayleigh_frequencies";
+}
+
 }  // namespace
 
 std::string modes_warning(const Case& the_case) {
@@ -106,7 +124,7 @@ std::string modes_warning(const Case& the_case) {
   const ConductorModes conductor = conductor_modes_of(the_case);
   const auto warning = std::isfinite(the_case.plant.modes) ? cut_warning : bundles_warning;
   for (const std::string& more :
-       {warning(the_case, conductor),
+       {rayleigh_warning(the_case), warning(the_case, conductor),
         lacks_bars(the_case) ? std::to_string(conductor.bars) +
                                    " bars of the cable are too few for the waves at half the "
                                    "sampling rate: results for gains are not converged"
