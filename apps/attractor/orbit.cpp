@@ -128,10 +128,9 @@ void write_quantities(Table& table, const SampledModes& moving, const PeriodicOr
 }
 void write_quantities(Table& table, const SampledMasses& moving, const PeriodicOrbit& orbit) {
   write_distances(table, orbit);
-  const OrbitCertificate certificate = certificate_of(moving.loop, orbit);
-  write_radii(table, certificate.radii);
+  write_radii(table, capture_radii_of(moving.loop, orbit));
   write_multipliers(table, orbit);
-  const OrbitVerification& wide = certificate.verification;
+  const OrbitVerification wide = verify_orbit<long double>(moving.loop, orbit);
   table.row("extended_precision_same_contacts", wide.same_itinerary ? 1.0 : 0.0, "");
   table.row("extended_precision_displacement_difference", wide.displacement_difference, "m");
   table.row("extended_precision_velocity_difference", wide.velocity_difference, "m/s");

@@ -135,7 +135,7 @@ CaptureRadii capture_radii_of(const ModalLoop& loop, const PeriodicOrbit& orbit)
   return {radius * region->inscribed_share, radius};
 }
 
-OrbitCertificate certificate_of(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
+CaptureRadii capture_radii_of(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
   const auto points = attraction_balls(loop, orbit);
   double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
   for (const AttractionBall& point : points) {
@@ -143,7 +143,7 @@ OrbitCertificate certificate_of(const IdealLoop<double>& loop, const PeriodicOrb
     smallest = std::min(smallest, radius);
     largest = std::max(largest, radius);
   }
-  return {{points.empty() ? 0.0 : smallest, largest}, verify_orbit<long double>(loop, orbit)};
+  return {points.empty() ? 0.0 : smallest, largest};
 }
 
 }  // namespace holdfast::program

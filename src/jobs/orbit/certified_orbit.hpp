@@ -49,12 +49,7 @@ struct CaptureRadii {
 /// ellipsoid around that ball.
 CaptureRadii capture_radii_of(const ModalLoop& loop, const PeriodicOrbit& orbit);
 
-/// Certificate of an orbit.
-struct OrbitCertificate {
-  CaptureRadii radii;
-  OrbitVerification verification;  ///< comparison in extended precision
-};
-
-OrbitCertificate certificate_of(const IdealLoop<double>& loop, const PeriodicOrbit& orbit);
+/// Capture radii of two masses, over the balls of attraction_balls() along the orbit.
+CaptureRadii capture_radii_of(const IdealLoop<double>& loop, const PeriodicOrbit& orbit);
 
 }  // namespace holdfast::program

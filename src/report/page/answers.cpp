@@ -104,9 +104,8 @@ class SteadyStart {
       const double turn = 2.0 * pi<double> * loop.excitation.frequency * loop.sampling.period;
       const double first = seen[0][2] - seen[0][0], second = seen[1][2] - seen[1][0];
       swing_ = 2.0 * std::hypot(first, (first * std::cos(turn) - second) / std::sin(turn));
-      free_ = full_state(alone, modes->poles, maps.steady());
-      driven_ =
-          full_state(loop, modes->poles, ModalItineraryMaps(loop, modes->poles, *ratio).steady());
+      free_ = steady_state(alone, modes->poles, maps);
+      driven_ = steady_state(loop, modes->poles, ModalItineraryMaps(loop, modes->poles, *ratio));
       gains_ = loop.gains;
     }
     const bool idle = loop.backlash_width >= swing_;
@@ -118,14 +117,9 @@ class SteadyStart {
   }
 
  private:
-  static ModalMotion::Full full_state(const ModalLoop& loop, const std::vector<PlantPole>& poles,
-                                      const ModalItineraryMaps::State& steady) {
-    const NaturalMotions natural(loop, poles);
-    const auto count = static_cast<Eigen::Index>(natural.size());
-    const auto pairs = static_cast<Eigen::Index>(natural.pairs());
-    Eigen::VectorXcd amplitudes = steady.head(count).cast<std::complex<double>>();
-    amplitudes.head(pairs).imag() = steady.segment(count, pairs);
-    return natural.state_of(amplitudes);
+  static ModalMotion::Full steady_state(const ModalLoop& loop, const std::vector<PlantPole>& poles,
+                                        const ModalItineraryMaps& maps) {
+    return NaturalMotions(loop, poles).state_of(maps.amplitudes(maps.steady()));
   }
 
   std::optional<PdGains<double>> gains_;  // of the known states

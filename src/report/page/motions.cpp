@@ -94,7 +94,7 @@ MotionRow row_of_masses(const std::string& place, const std::string& text, const
   const auto found = classify_motion(loop, initial_state_of(the_case));
   MotionRow row = row_of(place, text, found, loop.sampling.period, settings);
   if (const PeriodicOrbit* const orbit = certified(found))
-    row.capture = capture_text(certificate_of(loop, *orbit).radii);
+    row.capture = capture_text(capture_radii_of(loop, *orbit));
   return row;
 }
 

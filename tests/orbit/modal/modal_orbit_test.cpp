@@ -256,15 +256,19 @@ TEST(ModalOrbit, LongPeriodsKeepTheDigitsOfTheirMultipliers) {
   }
 }
 
-TEST(ModalAttraction, OfADriveThatNeverLeavesItsGapCountsClearance) {
+/// A loop whose drive never leaves its gap, since a swing has made a wide one and then died down.
+std::pair<ModalLoop, PeriodicOrbit> idle_orbit() {
   ModalLoop loop = loops_with_orbits().front();
   loop.backlash_width = 0.1;
   loop.excitation.amplitude = 0.01;
-  // A swing that has made a wide gap and then dies down leaves the drive in it.
   ModalMotion::Full swinging = at_rest(loop);
   swinging.head(swinging.size() - 2)(Eigen::seq(0, Eigen::last, 2)) =
       1e-2 * bent_conductor(loop.modes);
-  const PeriodicOrbit orbit = certified_orbit(loop, swinging);
+  return {loop, certified_orbit(loop, swinging)};
+}
+
+TEST(ModalAttraction, OfADriveThatNeverLeavesItsGapCountsClearance) {
+  const auto [loop, orbit] = idle_orbit();
   EXPECT_EQ(orbit.engaged_fraction(), 0.0);
   const auto region = modal_attraction(loop, maps_of(loop, orbit), orbit);
   ASSERT_TRUE(region.has_value());
@@ -275,13 +279,7 @@ TEST(ModalAttraction, OfADriveThatNeverLeavesItsGapCountsClearance) {
 /// An idle drive leaves the natural motions to themselves: each is solved for alone, as all are by
 /// their matrix. Of what begins within the region nothing leaves the gap.
 TEST(ModalOrbit, OfAnIdleDriveIsSolvedMotionByMotion) {
-  ModalLoop loop = loops_with_orbits().front();
-  loop.backlash_width = 0.1;
-  loop.excitation.amplitude = 0.01;
-  ModalMotion::Full swinging = at_rest(loop);
-  swinging.head(swinging.size() - 2)(Eigen::seq(0, Eigen::last, 2)) =
-      1e-2 * bent_conductor(loop.modes);
-  const PeriodicOrbit orbit = certified_orbit(loop, swinging);
+  const auto [loop, orbit] = idle_orbit();
   ASSERT_TRUE(is_idle(orbit.itinerary));
   const ModalItineraryMaps maps = maps_of(loop, orbit);
   ModalDeviations flow = maps.deviations();

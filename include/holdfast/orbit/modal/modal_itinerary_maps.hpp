@@ -59,6 +59,13 @@ class ModalItineraryMaps {
   /// The state of rest, all zero.
   State rest() const { return State::Zero(units().size()); }
 
+  /// The complex amplitudes ξ of all natural motions in a state.
+  Eigen::VectorXcd amplitudes(const State& state) const {
+    Eigen::VectorXcd all = state.head(decay_.size()).cast<std::complex<double>>();
+    all.head(pairs_).imag() = state.segment(decay_.size(), pairs_);
+    return all;
+  }
+
   /// The observed part of a state, [z, ż, z₂, ż₂; u_{j−1}]: both sides of the drive and its force.
   Vector<double, 5> seen(const State& state) const {
     const Eigen::Index count = decay_.size();
@@ -102,9 +109,8 @@ class ModalItineraryMaps {
   /// each natural motion ξ then is multiplied by e^{sτ} per sample.
   State correction_in_backlash(const State& gap, std::size_t samples) const {
     const Eigen::Index count = decay_.size();
-    Eigen::ArrayXcd natural = gap.head(count).cast<std::complex<double>>().array();
-    natural.head(pairs_).imag() = gap.segment(count, pairs_).array();
-    natural /= 1.0 - decay_.array().pow(static_cast<double>(samples));
+    const Eigen::ArrayXcd natural =
+        amplitudes(gap).array() / (1.0 - decay_.array().pow(static_cast<double>(samples)));
     State correction = gap;
     correction.head(count + pairs_) << natural.real(), natural.head(pairs_).imag();
     return correction;
@@ -178,13 +184,10 @@ class ModalItineraryMaps {
   /// @param force  F_m e^{iωt_j}
   void step(State& state, const Vector<double, 5>& seen, bool engaged,
             const std::complex<double>& force) const {
-    const Eigen::Index count = decay_.size();
     const double u = engaged ? gains_.proportional * seen[0] + gains_.differential * seen[1] : 0.0;
-    Eigen::VectorXcd natural = Eigen::VectorXcd::Zero(count);
-    natural.real() = state.head(count);
-    natural.head(pairs_).imag() = state.segment(count, pairs_);
-    natural = decay_.cwiseProduct(natural) + present_ * u + past_ * seen[4] +
-              cosine_ * force.real() + sine_ * force.imag();
+    const Eigen::VectorXcd natural = decay_.cwiseProduct(amplitudes(state)) + present_ * u +
+                                     past_ * seen[4] + cosine_ * force.real() +
+                                     sine_ * force.imag();
     state << natural.real(), natural.head(pairs_).imag(), u;
   }
 
