@@ -20,8 +20,6 @@
 namespace holdfast::program {
 namespace {
 
-constexpr double most_states = 1e7;
-
 /// Propagator of a MotionBatch by the SIMD kernel of an instruction set.
 struct PropagatorOnPacks {
   MotionKernel kernel;
@@ -54,38 +52,10 @@ void require_admissible_ends(const KeyAxis& axis, const JobContext& context) {
   }
 }
 
-struct StateGrid {
-  KeyAxis slow;
-  KeyAxis fast;
-
-  std::vector<Vector<double, 4>> states(const Case& the_case) const {
-    std::vector<Vector<double, 4>> all;
-    Case changed = the_case;
-    for (std::int64_t row = 0; row < slow.axis.count; ++row) {
-      set_case_value(changed, slow.key, slow.axis.at(row));
-      for (std::int64_t column = 0; column < fast.axis.count; ++column) {
-        set_case_value(changed, fast.key, fast.axis.at(column));
-        all.push_back(initial_state_of(changed));
-      }
-    }
-    return all;
-  }
-};
-
-StateGrid grid_of(const std::vector<std::string>& axes) {
-  if (axes.size() != 2)
-    throw WrongInput(
-        "--axis: basins need two axes over initial.*, for example --axis "
-        "initial.z1=-0.005:0.005:101 --axis initial.z2=-0.005:0.005:101");
-  StateGrid grid{initial_axis(axes[0]), initial_axis(axes[1])};
-  if (grid.slow.key == grid.fast.key)
-    throw WrongInput("--axis: both axes are " + grid.slow.key + ": change one");
-  const double count =
-      static_cast<double>(grid.slow.axis.count) * static_cast<double>(grid.fast.axis.count);
-  if (count > most_states)
-    throw WrongInput("--axis: " + format_number(count) + " initial states are more than " +
-                     format_number(most_states) + ": give smaller COUNTs in KEY=MIN:MAX:COUNT");
-  return grid;
+KeyGrid grid_of(const std::vector<std::string>& axes) {
+  return key_grid("--axis", axes,
+                  "--axis initial.z1=-0.005:0.005:101 --axis initial.z2=-0.005:0.005:101",
+                  10'000'000, initial_axis);
 }
 
 double number_of(const BasinLabel& label) {
@@ -100,7 +70,7 @@ double period_of(const BasinsOf<Orbit>& map, const BasinLabel& label) {
 }
 
 template <class Orbit>
-void write_states(const JobContext& context, const StateGrid& grid, const BasinsOf<Orbit>& map) {
+void write_states(const JobContext& context, const KeyGrid& grid, const BasinsOf<Orbit>& map) {
   // In netCDF a number is a double.
   const std::string whole = is_netcdf_name(context.output) ? "double" : "integer";
   GridOutput output(context, {{grid_axis(grid.slow), grid_axis(grid.fast)},
@@ -200,7 +170,7 @@ struct BasinsQuestion {
       const auto more = axes.empty() ? States{} : states_of(context, grid_of(axes));
       return write_motion_cells(context, {map, largest_period, switching, more});
     }
-    const StateGrid grid = grid_of(axes);
+    const KeyGrid grid = grid_of(axes);
     const States states = states_of(context, grid);
     report_warning(dense_work_warning(the_case, switching), context.quiet);
     std::visit(
@@ -213,9 +183,18 @@ struct BasinsQuestion {
   }
 
  private:
-  static States states_of(const JobContext& context, const StateGrid& grid) {
+  static States states_of(const JobContext& context, const KeyGrid& grid) {
     for (const KeyAxis& axis : {grid.slow, grid.fast}) require_admissible_ends(axis, context);
-    return grid.states(context.case_data);
+    States all;
+    Case changed = context.case_data;
+    for (std::int64_t row = 0; row < grid.slow.axis.count; ++row) {
+      set_case_value(changed, grid.slow.key, grid.slow.axis.at(row));
+      for (std::int64_t column = 0; column < grid.fast.axis.count; ++column) {
+        set_case_value(changed, grid.fast.key, grid.fast.axis.at(column));
+        all.push_back(initial_state_of(changed));
+      }
+    }
+    return all;
   }
 
   OrbitLimits search_limits() const { return {largest_period, 0, throw_if_interrupted}; }

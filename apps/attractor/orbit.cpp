@@ -217,8 +217,8 @@ void write_branch_ends(const JobContext& context, std::int64_t largest_period,
 }
 
 /// Writes the period of a proved orbit, the bound of its multipliers and the errors of its states.
-template <class Orbit, class Proof>
-void write_proved_errors(Table& table, const Orbit& orbit, const Proof& proof) {
+template <class Orbit>
+void write_proved_errors(Table& table, const Orbit& orbit, const ProvedBounds& proof) {
   table.row("period_samples", static_cast<double>(orbit.period_samples()), "");
   table.row("period", orbit.period(), "s");
   table.row("multiplier_bound", proof.multiplier_bound, "");

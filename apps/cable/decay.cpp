@@ -100,7 +100,7 @@ struct PeaksQuestion {
                 std::abs(plant_peak - elements_peak) / std::abs(elements_peak));
     }
     if (!has_peak)
-      throw NoAnswer("no --force gives a decay with a peak beyond the equilibrium within " +
+      throw NoAnswer("no force of --force gives a peak beyond the equilibrium within " +
                      format_number(cable.duration.value_or(duration)) +
                      " s: give a longer --duration");
     table.commit();

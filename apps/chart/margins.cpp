@@ -93,8 +93,9 @@ void MarginsQuestion::run(const JobContext& context) const {
       prove ? CaseMargins{LinearLoop(the_case).margins(gains), false}  // the proof will look
             : stability_margins_of(the_case, gains);
   if (margins.outcome == MarginOutcome::not_stable)
-    throw NoAnswer("the loop is not stable, so it has no margins: its spectral radius is " +
-                   format_rounded(LinearLoop(the_case).radius(gains_of(the_case))));
+    throw NoAnswer("no margins: the loop is not stable (spectral radius " +
+                   format_rounded(LinearLoop(the_case).radius(gains_of(the_case))) +
+                   "): change the gains");
   if (const std::string otherwise = judged_otherwise(the_case); !otherwise.empty())
     throw NoAnswer("no margins can be given: " + otherwise);
   std::optional<ProvedMargins> proved;

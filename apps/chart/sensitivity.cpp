@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "case/case_keys.hpp"
@@ -8,6 +9,7 @@
 #include "case/model/plant_of_case.hpp"
 #include "job.hpp"
 #include "jobs/design/best_gains.hpp"
+#include "output/row_blocks.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -112,10 +114,10 @@ double unit_of(const Case& the_case, const std::string& key) {
   return 1.0;
 }
 
-/// Derivatives ∂answers/∂key by Richardson extrapolation of differences with the steps 10⁻⁴ of the
-/// value and half of that: five digits or more. NaN where the two differences disagree by more than
-/// 1 %, as at a kink of the answer. The differences are one-sided where a neighbour is inadmissible
-/// or changes the kind of the loop.
+/// Derivatives ∂answers/∂key by central differences with a step of 10⁻⁴ of the value if they agree
+/// with one-sided ones to 0.1 %, else by Richardson extrapolation with half that step: five digits
+/// or more. NaN where both steps disagree by more than 1 %, as at a kink of the answer. One-sided
+/// differences where a neighbour is inadmissible or changes the kind of the loop.
 AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerValues& here) {
   constexpr double step = 1e-4, agreement = 0.01;
   if (the_case.control.proportional_gain_tuned && key == "control.proportional_gain")
@@ -138,17 +140,26 @@ AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerVa
   const auto at = [&](double share) {
     return answers_of(moved(the_case, key, value + share * by));
   };
-  const AnswerValues far = at(1.0), near = at(0.5);
-  const AnswerValues far_below = one_sided ? here : at(-1.0),
-                     near_below = one_sided ? here : at(-0.5);
+  // A derivative that is nothing beside the answer's own size is round-off.
+  const auto agree = [&](double one, double other, double share, double size) {
+    return std::abs(one - other) <= share * std::abs(one) + 1e-6 * std::abs(size / by) * step;
+  };
+  const AnswerValues far = at(1.0), far_below = one_sided ? here : at(-1.0);
+  bool straight = !one_sided;
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    result[k] = (far[k] - far_below[k]) / (2.0 * by);
+    if (std::isfinite(here[k]) &&
+        !agree(result[k], (far[k] - here[k]) / by, 0.1 * agreement, here[k]))
+      straight = false;
+  }
+  if (straight) return result;
+  const AnswerValues near = at(0.5), near_below = one_sided ? here : at(-0.5);
   for (std::size_t k = 0; k < result.size(); ++k) {
     const double width = one_sided ? by : 2.0 * by;
     const double coarse = (far[k] - far_below[k]) / width;
     const double fine = (near[k] - near_below[k]) / (0.5 * width);
     result[k] = one_sided ? 2.0 * fine - coarse : (4.0 * fine - coarse) / 3.0;
-    // A derivative that is nothing beside the answer's own size is round-off.
-    const double nothing = 1e-6 * std::abs(here[k] / by) * step;
-    if (!(std::abs(fine - coarse) <= agreement * std::abs(fine) + nothing)) result[k] = unknown;
+    if (!agree(fine, coarse, agreement, here[k])) result[k] = unknown;
   }
   return result;
 }
@@ -161,7 +172,10 @@ void write_sensitivity(const JobContext& context) {
   const AnswerValues here = answers_of(the_case);
   const std::vector<std::string> keys = keys_of(the_case);
   std::vector<AnswerValues> by_key(keys.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) by_key[i] = slopes(the_case, keys[i], here);
+  side_by_side(context, "sensitivity", static_cast<std::int64_t>(keys.size()), [&](std::int64_t i) {
+    const auto k = static_cast<std::size_t>(i);
+    by_key[k] = slopes(the_case, keys[k], here);
+  });
   for (std::size_t k = 0; k < here.size(); ++k) {
     if (!std::isfinite(here[k])) continue;
     for (std::size_t i = 0; i < keys.size(); ++i)

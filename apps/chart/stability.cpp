@@ -106,11 +106,10 @@ void StabilityQuestion::run_over_gains(const JobContext& context) const {
 /// Writes a chart over two keys. A sampling period on an axis changes the processing delay in
 /// proportion; a tuned P stays that of the case.
 void StabilityQuestion::run_over_axes(const JobContext& context) const {
-  if (axes.size() != 2) {
-    throw WrongInput("--axis: give two axes KEY=MIN:MAX:COUNT, not " + std::to_string(axes.size()));
-  }
-  const KeyAxis slow = admissible_axis(axes[0]), fast = admissible_axis(axes[1]);
-  if (slow.key == fast.key) throw WrongInput("--axis: both axes are " + slow.key + ": change one");
+  const auto [slow, fast] = key_grid(
+      "--axis", axes,
+      "--axis control.sampling_period=0.001:0.02:40 --axis control.differential_gain=-60:20:81",
+      1'000'000'000, admissible_axis);
   const LoopChart chart{operating_point_of(context.case_data),
                         {parameter_of(slow.key), slow.axis},
                         {parameter_of(fast.key), fast.axis}};

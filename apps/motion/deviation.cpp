@@ -46,7 +46,7 @@ struct DeviationQuestion {
     table.commit();
     if (last >= std::abs(offset))
       report_warning("the states of the two motions still differ by " + format_rounded(last) +
-                         " in the end: holdfast orbit finds the orbit of each",
+                         " at the end, so they may settle apart: compare by holdfast orbit",
                      context.quiet);
   }
 };

@@ -47,7 +47,7 @@ struct DiagramQuestion {
       if (is_of_masses(kind) != masses)
         throw WrongInput("--axis " + axis + ": some values have " +
                          modal_words(masses ? there : context.case_data) +
-                         ", the others do not: give a range of one kind only");
+                         ", the others do not: give a range where all or none have it");
     }
     report_warning(dense_work_warning(context.case_data, switching), context.quiet);
     const auto diagram_of = [&](const auto& moving_at) {

@@ -55,8 +55,8 @@ enum class CaseForm {
   plant       ///< [plant]; the other three only if the conductor was given
 };
 
-/// A commented starting case file: given keys as values, every other key as a comment with the
-/// value used without it, so that no built-in value becomes the user's.
+/// A case file to start from: given keys with their values, all others commented out with their
+/// defaults, so that no default counts as given by the user.
 std::string case_to_begin_with(const Case& the_case, CaseForm form);
 
 /// The full case as JSON, an object for each table.

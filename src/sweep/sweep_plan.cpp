@@ -64,8 +64,8 @@ std::vector<GridAxis> axes_of(const SweepOptions& options) {
   if (options.members == 0) return sweep_axes(options.axes);
   if (!options.axes.empty() || !options.part.empty() || options.resume)
     throw WrongInput(
-        "--family computes members of the family in place of the cells of axes: leave --axis, "
-        "--part and --resume out");
+        "--family replaces the grid of --axis by the members of the family: leave --axis, --part "
+        "and --resume out");
   return {{{"member", "", "number of the member of the family, from 0"},
            Axis{0.0, options.members - 1.0, options.members}}};
 }

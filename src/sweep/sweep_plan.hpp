@@ -95,7 +95,7 @@ class SweepPlan {
 /// last digits depend on the instruction set of the plan's context. Throws Interrupted.
 ChunkResult compute_cells(const SweepPlan& plan, std::int64_t first, std::int64_t count);
 
-/// Computes a cell to find why it has no motion or one that cannot be followed; empty otherwise.
+/// Computes a cell; returns why it has no motion, or one that cannot be computed; "" if it has.
 std::string fault_of_cell(const SweepPlan& plan, std::int64_t cell);
 
 /// Computes a sweep and writes it. Each chunk is stored once computed: in the output, if that is a

@@ -276,7 +276,7 @@ TEST(BuiltLoop, ADiagramIsOfOneKindOfLoop) {
        {"control.measurement_filter=5:100:3", "control.drive_bandwidth=5:100:3",
         "control.processing_delay=0.0005:0.004:3"})
     expect_refused("diagram --quiet --axis " + axis,
-                   {"--axis " + axis, "a range of one kind only"});
+                   {"--axis " + axis, "a range where all or none have it"});
 }
 
 /// 1/(2 Z_c s + M_c s² + K_p) under the true force.

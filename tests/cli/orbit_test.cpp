@@ -245,9 +245,9 @@ TEST(BasinsJob, NumbersADivergingMotionZero) {
 }
 
 TEST(BasinsJob, RefusesOtherAxes) {
-  expect_refused("basins", {"two axes"});
+  expect_refused("basins", {"two keys"});
   expect_refused("basins --axis backlash.width=0:1:2 --axis initial.z1=0:1:2", {"initial.z1"});
-  expect_refused("basins --axis initial.z1=0:1:2 --axis initial.z1=0:1:2", {"both axes"});
+  expect_refused("basins --axis initial.z1=0:1:2 --axis initial.z1=0:1:2", {"both keys"});
   expect_refused("basins --axis initial.z1=0:1:100000 --axis initial.z2=0:1:100000", {"more than"});
 }
 

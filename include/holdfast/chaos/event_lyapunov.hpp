@@ -60,7 +60,7 @@ class EventLyapunov {
 
   /// The Lyapunov spectrum over the samples since the last restart, natural logarithm per sample.
   const LyapunovSpectrum<double, size>& spectrum() const { return spectrum_; }
-  /// Restarts the averages; only the tangent vectors and the number of exponents −∞ are kept.
+  /// Restarts the averages; keeps tangent vectors and the number of exponents that are −∞.
   void restart() { spectrum_.restart(); }
 
  private:

@@ -254,7 +254,7 @@ std::optional<IndicatorOptions> indicator_options(const ImplementedLoopOf<Plant>
   return options;
 }
 
-/// Data of classify() besides the samples: is the motion forced, may more samples be taken?
+/// Further data of classify(): whether the motion is forced and may be sampled longer.
 struct Weighing {
   bool is_forced;               ///< whether a harmonic force acts, whose periods are counted
   bool may_look_longer = true;  ///< whether to use more samples if the planned ones do not decide

@@ -55,8 +55,8 @@ struct LoopOrbit {
   }
 };
 
-/// The outcome of a search for the periodic orbit of a motion, or of a single solution: solving
-/// once for an orbit with assumed contacts, without following a motion.
+/// The outcome of a search for a motion's periodic orbit, or of a single solution: an orbit solved
+/// for with assumed contacts, without following a motion.
 enum class OrbitOutcome {
   certified,       ///< the motion tends to the orbit; single solution: the orbit has the assumed
                    ///< contacts

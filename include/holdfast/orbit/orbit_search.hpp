@@ -56,8 +56,8 @@ class SampledSearchModel {
     return memory().backlash.inside == other.backlash.inside;
   }
 
-  /// Whether the last `period` contacts equal the `period` contacts before. Where too few contacts
-  /// are known, the result is true if the reference is the first sample or the period is q.
+  /// Whether the last `period` contacts equal the `period` contacts before. If fewer samples came
+  /// before the reference: whether there are none, or the period is q.
   bool may_repeat(const Seen& seen, std::int64_t period) const {
     if (seen.reference < period) return seen.reference == 0 || period == ratio_.denominator;
     const auto end = seen.itinerary.end();

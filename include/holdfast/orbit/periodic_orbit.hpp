@@ -84,7 +84,7 @@ PeriodicSolution<Maps> refined_solution(const Maps& maps, const Itinerary& itine
 
 }  // namespace detail
 
-/// The periodic solution of an itinerary whose maps have no blocks: none.
+/// The periodic solution for maps that form no blocks: none by default.
 template <class Maps>
 std::optional<PeriodicSolution<Maps>> solution_without_blocks(const Maps&, const Itinerary&) {
   return std::nullopt;

@@ -169,8 +169,8 @@ class DeviationFlow {
   }
 
  private:
-  /// The distances of a sample's Δz (m) and Δż (m/s) from the switching surfaces. For an orbit that
-  /// stays inside its gap, the distance of Δz is 1 per metre of clearance.
+  /// The distances of a sample's Δz (m) and Δż (m/s) from the switching surfaces. If the orbit
+  /// stays inside its gap, that of Δz is 1: radii are per metre of clearance.
   struct Distances {
     double displacement = std::numeric_limits<double>::infinity();
     double velocity = std::numeric_limits<double>::infinity();

@@ -108,7 +108,7 @@ struct SampledMapModel {
   }
 
  private:
-  /// The memory with a gap of the loop's width, whose middle moves only as far as Δz requires.
+  /// The memory, its gap resized to the loop's width and moved just enough to contain Δz.
   static ForcedMotionMemory<Scalar> resized(ForcedMotionMemory<Scalar> memory, const Loop& loop) {
     auto& gap = memory.backlash;
     const Scalar half = loop.backlash_width / 2.0, here = relative_displacement(memory.state);
@@ -267,7 +267,7 @@ class MotionMapSearch {
 struct MotionMapOptions {
   /// The limits of each search; motions with periods beyond `largest_period` are not found.
   OrbitLimits limits{10000, 0, {}};
-  /// Largest number of rounds, each with one search from each neighbour's new motions; 0: none.
+  /// Largest number of rounds; each searches cells from their neighbours' new motions; 0: none.
   int most_rounds = 1000;
   std::vector<Vector<double, 4>> more_starts =
       {};  ///< further initial states for each cell (m, m/s, m, m/s), finite

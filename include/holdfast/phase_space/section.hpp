@@ -35,7 +35,7 @@ using SectionPoint = SectionPointOf<4>;
 
 namespace detail {
 
-/// The sign and the zeros of Δż that the contact determines over a stretch of the motion.
+/// The sign and the vanishing derivatives of Δż in a part of the motion, as far as known.
 struct KnownVelocity {
   int zeros = 0;      ///< number of Δż, Δz̈, … that vanish at the beginning
   double sign = 0.0;  ///< constant sign of Δż in the stretch, ±1; 0: not determined

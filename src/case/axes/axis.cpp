@@ -146,6 +146,28 @@ std::vector<double> parse_list(std::string_view option, std::string_view text) {
   return OptionText(option, text, "numbers separated by commas").list(text);
 }
 
+void require_two_keys(const std::string& option, const std::vector<std::string>& texts,
+                      const std::string& example) {
+  if (texts.size() != 2)
+    throw WrongInput(option + ": give two keys, not " + std::to_string(texts.size()) +
+                     ", for example " + example);
+  const std::string key = texts[0].substr(0, texts[0].find('='));
+  if (key == texts[1].substr(0, texts[1].find('=')))
+    throw WrongInput(option + ": both keys are " + key + ": change one");
+}
+
+KeyGrid key_grid(const std::string& option, const std::vector<std::string>& texts,
+                 const std::string& example, std::int64_t most,
+                 const std::function<KeyAxis(const std::string&)>& parse) {
+  require_two_keys(option, texts, example);
+  KeyGrid grid{parse(texts[0]), parse(texts[1])};
+  const std::int64_t cells = grid.slow.axis.count * grid.fast.axis.count;
+  if (cells > most)
+    throw WrongInput(option + ": " + std::to_string(cells) + " cells are more than " +
+                     std::to_string(most) + ": give smaller COUNTs in KEY=MIN:MAX:COUNT");
+  return grid;
+}
+
 std::size_t GridAxis::count() const {
   if (const auto* list = std::get_if<std::vector<double>>(&values)) return list->size();
   if (const auto* ratios = std::get_if<LogAxis>(&values))

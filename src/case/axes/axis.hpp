@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -24,6 +26,11 @@ struct Range {
 struct KeyAxis {
   std::string key;
   Axis axis;
+};
+
+/// A grid over two keys; the first key varies slowest.
+struct KeyGrid {
+  KeyAxis slow, fast;
 };
 
 /// Values of a key, given as KEY=MIN:MAX:COUNT, KEY=log:MIN:MAX:COUNT or KEY=VALUE,VALUE,….
@@ -50,6 +57,13 @@ Range parse_range(std::string_view option, std::string_view text);
 /// Parses MIN:MAX:COUNT, 1 <= COUNT <= 1e9 (1: MIN alone), or one number.
 Axis parse_axis(std::string_view option, std::string_view text);
 KeyAxis parse_key_axis(std::string_view option, std::string_view text);
+/// Checks that an option has two texts KEY=… with different keys. @param example  two such texts
+void require_two_keys(const std::string& option, const std::vector<std::string>& texts,
+                      const std::string& example);
+/// A grid of at most `most` cells from such texts, each parsed by `parse`.
+KeyGrid key_grid(const std::string& option, const std::vector<std::string>& texts,
+                 const std::string& example, std::int64_t most,
+                 const std::function<KeyAxis(const std::string&)>& parse);
 /// Parses a form of KeyValues. A list has at least one number; `log:` requires 0 < MIN.
 KeyValues parse_key_values(std::string_view option, std::string_view text);
 KickOption parse_kick(std::string_view option, std::string_view text);

@@ -34,10 +34,10 @@ ControllerLimits controller_limits_of(const Case& the_case);
 /// Whether the computer has no quanta, no velocity by difference, no force limit and no jitter.
 bool has_ideal_computer(const Case& the_case);
 
-/// The four models of a motion. `masses`: two masses whose computer acts within one sampling
-/// period. `modes` or `plant`: a conductor by its modes, or any filter, drive lag, later force or
-/// user-defined part. `sampled`: the paper's model of IdealLoop with switching at samples, its
-/// backlash or none, one harmonic and an ideal computer. `built`: all else, from event to event.
+/// The four models of a motion. `masses`: two masses, delay at most one sampling period.
+/// `modes` or `plant`: a conductor by its modes, or any filter, drive lag, longer delay or user-
+/// defined part. `sampled`: the paper's model of IdealLoop: switching at samples, its backlash law
+/// or none, one harmonic, ideal computer. `built`: all others, integrated from event to event.
 enum class MotionKind { sampled_masses, built_masses, sampled_modes, built_plant };
 MotionKind motion_kind_of(const Case& the_case, Switching switching);
 

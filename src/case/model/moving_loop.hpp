@@ -71,7 +71,7 @@ EventMotion<> motion_of(const BuiltMasses& moving);
 ModalMotion motion_of(const SampledModes& moving);
 EventMotion<DriveContact<ControlledPlant>> motion_of(const BuiltPlant& moving);
 
-/// The part of a moving loop with the members `hold` and `sampling`: its loop or its computer.
+/// The member with `hold` and `sampling`: `loop.digital` if by events, otherwise `loop`.
 template <class Moving>
 auto& clock_of(Moving& moving) {
   if constexpr (Moving::by_events)

@@ -35,9 +35,8 @@ std::vector<std::string> doubts_about(const Case& the_case,
                                       const std::vector<PlausibleQuantity>& quantities);
 
 /// A warning that the given plant contradicts the given conductor: k1, m2 or a natural frequency,
-/// the four inputs of a reduction, differ by more than 5 %. (m1 and k2 follow from these, near a
-/// double solution with thirty times the error; k1 read from the conductor of Kollár 2022 is within
-/// 3 % of its Table 1.) Empty otherwise.
+/// the four inputs of a reduction, differs by more than 5 %. (Its results m1 and k2 may differ 30
+/// times as much near a double solution.) Empty otherwise.
 std::string contradicted_conductor_text(const Case& the_case);
 
 /// A warning of values given besides conductor.name that differ by more than a tenth from the
@@ -52,8 +51,8 @@ std::string borrowed_damping_text(const Case& the_case);
 /// otherwise, and if the user gave either gain.
 std::string borrowed_gains_text(const Case& the_case);
 
-/// The keys of gains, sampling period and play for which a case with a given plant or conductor has
-/// built-in values: "control.sampling_period, backlash.width". Empty if there are none.
+/// The keys of gains, sampling period and play left at built-in values although the user gives a
+/// plant or conductor: "control.sampling_period, backlash.width". Empty if there are none.
 std::string borrowed_control(const Case& the_case);
 
 }  // namespace holdfast::program

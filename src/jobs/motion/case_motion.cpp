@@ -79,10 +79,10 @@ namespace {
 
 void require_resolved(const SwitchCounts& counts, double time, bool quiet) {
   if (counts.accumulates) {
-    throw NoAnswer("the drive enters or leaves its contact more than " +
+    throw NoAnswer("the contact of the drive changes more than " +
                    std::to_string(EventMotion<>::most_switches) +
                    " times within one sampling period, before t = " + format_number(time) +
-                   " s: the motion cannot be computed beyond this time");
+                   " s: the motion ends there; give a shorter duration");
   }
   if (counts.grazing > 0)
     report_warning(std::to_string(counts.grazing) +

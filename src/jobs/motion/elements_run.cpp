@@ -75,7 +75,7 @@ void require_cable(const cvode::ElementsMotion& motion) {
                    " s and the model ends there: the loop is unstable or the force too large; "
                    "give a shorter --duration to see the growth");
   throw NoAnswer("the integrator CVODE failed at t = " + format_number(motion.time()) +
-                 " s: " + one_line(motion.words()) + "; a shorter --duration ends before");
+                 " s: " + one_line(motion.words()) + "; give a shorter --duration");
 }
 
 }  // namespace

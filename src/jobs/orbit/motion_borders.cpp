@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "case/axes/axis.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/orbit/event/event_motion_region.hpp"
@@ -44,14 +45,10 @@ bool moves_the_coincidence(const std::string& key) {
 }
 
 std::vector<FollowedKey> map_keys(const Case& the_case, const std::vector<std::string>& axes) {
-  if (axes.size() != 2)
-    throw WrongInput("--map: give two keys, not " + std::to_string(axes.size()) +
-                     ", for example --map backlash.width=0.0005:0.002 --map "
-                     "control.differential_gain=-20:0");
+  require_two_keys("--map", axes,
+                   "--map backlash.width=0.0005:0.002 --map control.differential_gain=-20:0");
   std::vector<FollowedKey> keys{followed_key(the_case, "--map", axes[0]),
                                 followed_key(the_case, "--map", axes[1])};
-  if (keys[0].name == keys[1].name)
-    throw WrongInput("--map: both keys are " + keys[0].name + ": change one");
   if (moves_the_coincidence(keys[0].name) && moves_the_coincidence(keys[1].name))
     throw WrongInput(
         "--map: control.sampling_period and excitation.frequency cannot both be keys, since their "

@@ -13,64 +13,28 @@
 #include "jobs/columns.hpp"
 #include "output/grid/grid_output.hpp"
 #include "output/row_blocks.hpp"
-#include "process/errors.hpp"
 #include "process/interrupt.hpp"
-#include "text/text.hpp"
 
 namespace holdfast::program {
 namespace {
 
-constexpr double most_map_cells = 1e6;
-
-/// Grid over two keys; the first key varies slowest.
-struct MapGrid {
-  KeyAxis slow, fast;
-
-  MapShape shape() const {
-    return {static_cast<std::size_t>(slow.axis.count), static_cast<std::size_t>(fast.axis.count)};
-  }
-  double slow_at(std::size_t cell) const {
-    return slow.axis.at(static_cast<std::int64_t>(cell / shape().columns));
-  }
-  double fast_at(std::size_t cell) const {
-    return fast.axis.at(static_cast<std::int64_t>(cell % shape().columns));
-  }
-};
-
-KeyAxis map_axis(const Case& the_case, const std::string& text) {
-  KeyAxis axis = parse_key_axis("--map", text);
-  case_value(the_case, axis.key);  // throws where there is no such number
-  require_admissible("--map " + text, axis.key, axis.axis.min, axis.axis.max);
-  return axis;
-}
-
-MapGrid map_grid(const Case& the_case, const std::vector<std::string>& axes) {
-  if (axes.size() != 2)
-    throw WrongInput("--map: give two keys, not " + std::to_string(axes.size()) +
-                     ", for example --map backlash.width=0.0005:0.002:31 --map "
-                     "control.sampling_period=0.001:0.012:12");
-  MapGrid grid{map_axis(the_case, axes[0]), map_axis(the_case, axes[1])};
-  if (grid.slow.key == grid.fast.key)
-    throw WrongInput("--map: both keys are " + grid.slow.key + ": change one");
-  const double cells =
-      static_cast<double>(grid.slow.axis.count) * static_cast<double>(grid.fast.axis.count);
-  if (cells > most_map_cells)
-    throw WrongInput("--map: " + format_number(cells) + " cells are more than the limit of " +
-                     format_number(most_map_cells) + ": give smaller COUNTs");
-  return grid;
+MapShape shape_of(const KeyGrid& grid) {
+  return {static_cast<std::size_t>(grid.slow.axis.count),
+          static_cast<std::size_t>(grid.fast.axis.count)};
 }
 
 /// Case of a cell; nullopt where it is not admissible.
-std::optional<Case> case_of_cell(const Case& the_case, const MapGrid& grid, std::size_t cell) {
+std::optional<Case> case_of_cell(const Case& the_case, const KeyGrid& grid, std::size_t cell) {
   Case there = the_case;
-  set_case_value(there, grid.slow.key, grid.slow_at(cell));
-  set_case_value(there, grid.fast.key, grid.fast_at(cell));
+  const auto at = static_cast<std::int64_t>(cell);
+  set_case_value(there, grid.slow.key, grid.slow.axis.at(at / grid.fast.axis.count));
+  set_case_value(there, grid.fast.key, grid.fast.axis.at(at % grid.fast.axis.count));
   if (!first_fault(there).message.empty()) return std::nullopt;
   return there;
 }
 
 template <class LoopOf>
-std::vector<MapCell> cells_by(const JobContext& context, const MapGrid& grid,
+std::vector<MapCell> cells_by(const JobContext& context, const KeyGrid& grid,
                               const MotionCellsQuestion& question, const LoopOf& loop_of) {
   using Loop = std::decay_t<decltype(loop_of(context.case_data))>;
   const auto loop_at = [&](std::size_t cell) -> std::optional<Loop> {
@@ -81,13 +45,13 @@ std::vector<MapCell> cells_by(const JobContext& context, const MapGrid& grid,
   MotionMapOptions options;
   options.limits = {question.largest_period, 0, throw_if_interrupted};
   options.more_starts = question.more_starts;
-  return motion_map(loop_at, grid.shape(), initial_state_of(context.case_data), tiles_on(context),
+  return motion_map(loop_at, shape_of(grid), initial_state_of(context.case_data), tiles_on(context),
                     options);
 }
 
 /// Whether all cells follow the paper's model, as judged from the four corners of the grid.
-bool all_of_the_paper(const Case& the_case, const MapGrid& grid, Switching switching) {
-  const std::size_t last = grid.shape().cells() - 1, across = grid.shape().columns - 1;
+bool all_of_the_paper(const Case& the_case, const KeyGrid& grid, Switching switching) {
+  const std::size_t last = shape_of(grid).cells() - 1, across = shape_of(grid).columns - 1;
   for (const std::size_t cell : {std::size_t{0}, across, last - across, last}) {
     const auto there = case_of_cell(the_case, grid, cell);
     if (there && !is_sampled(motion_kind_of(*there, switching))) return false;
@@ -119,7 +83,7 @@ std::pair<double, double> extremes(const MapCell& cell, const Number& number) {
   return {least, most};
 }
 
-void write_cells(const JobContext& context, const MapGrid& grid,
+void write_cells(const JobContext& context, const KeyGrid& grid,
                  const std::vector<MapCell>& cells) {
   GridOutput output(context,
                     {{grid_axis(grid.slow), grid_axis(grid.fast)}, cell_columns_of("motion map")});
@@ -152,7 +116,15 @@ void write_cells(const JobContext& context, const MapGrid& grid,
 
 void write_motion_cells(const JobContext& context, const MotionCellsQuestion& question) {
   const Case& the_case = context.case_data;
-  const MapGrid grid = map_grid(the_case, question.axes);
+  const KeyGrid grid =
+      key_grid("--map", question.axes,
+               "--map backlash.width=0.0005:0.002:31 --map control.sampling_period=0.001:0.012:12",
+               1'000'000, [&](const std::string& text) {
+                 KeyAxis axis = parse_key_axis("--map", text);
+                 case_value(the_case, axis.key);  // throws where there is no such number
+                 require_admissible("--map " + text, axis.key, axis.axis.min, axis.axis.max);
+                 return axis;
+               });
   const Switching switching = question.switching;
   const std::vector<MapCell> cells =
       all_of_the_paper(the_case, grid, switching)

@@ -46,7 +46,7 @@ Band years_of(const Band& damage);
 
 /// Fatigue by Miner's rule over the hours of each wind speed, for each pair of a wind law and a
 /// self-damping law. weather.hours distributes these hours over the temperatures. A vibration below
-/// the wind law's measured range counts 0 for the lowest result, else the range's lower end.
+/// the wind law's range counts as 0 in the lowest result, else as the range's lower end.
 /// @param lowest, highest  lowest and highest vibration frequency considered (Hz)
 /// Throws WrongInput where the case gives no [site], diameter or outer wires.
 FatigueLife fatigue_life_of(const Case& the_case, bool controlled, double lowest, double highest);

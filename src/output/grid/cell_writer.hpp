@@ -40,8 +40,8 @@ std::unique_ptr<CellWriter> csv_cells(const JobContext& context, const GridLayou
 /// OutputError if a call of the library fails, and the exceptions of OutputFile.
 std::unique_ptr<CellWriter> netcdf_cells(const JobContext& context, const GridLayout& layout);
 
-/// A writer of a Zarr store (StoreFolder), one chunk_shape() at a time. Cells of an existing store
-/// are overwritten.
+/// A writer of a Zarr store (StoreFolder), chunk by chunk. Cells of an existing store are
+/// overwritten.
 ///
 /// Throws the exceptions of StoreFolder::enter() and put().
 std::unique_ptr<CellWriter> zarr_cells(const JobContext& context, const GridLayout& layout);

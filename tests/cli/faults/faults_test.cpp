@@ -18,7 +18,7 @@ TEST(WrongInput, OptionsAreNamedWithWhatWasExpected) {
   expect_refused("stability --d 1:2", {"MIN:MAX:COUNT"});
   expect_refused("boundary --p 3:3", {"proportional gains"});
   expect_refused("max-delay --criterion quick", {"criterion"});
-  expect_refused("stability --axis control.sampling_period=0.001:0.01:2", {"two axes"});
+  expect_refused("stability --axis control.sampling_period=0.001:0.01:2", {"two keys"});
   expect_refused("stability --axis backlash.width=0:1:2 --axis plant.absorber_mass=0.1:0.2:3",
                  {"does not depend on backlash.width"});
   expect_refused("stability --axis plant.conductor_mass=0:1:2 --axis plant.absorber_mass=0.1:0.2:3",

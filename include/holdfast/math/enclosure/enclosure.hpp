@@ -72,7 +72,7 @@ class Enclosure {
   double lower() const { return lower_; }
   /// An upper bound of the number.
   double upper() const { return upper_; }
-  /// A double in the interval, near its midpoint; ±∞ if only that bound is infinite, 0 if both are.
+  /// A double near the midpoint; the infinite bound if there is only one, 0 if both are infinite.
   double middle() const {
     const double half = 0.5 * lower_ + 0.5 * upper_;
     return half == half ? std::clamp(half, lower_, upper_) : 0.0;

@@ -44,7 +44,7 @@ struct ScaledTriangle {
         unit(Matrix<Scalar, Size>::Identity(order, order)),
         rank(order) {}
 
-  /// Replaces R by next · R. A diagonal entry of `next` below round-off of `size` limits the rank.
+  /// Replaces R by next · R. The rank ends at the first |next_ii| below the round-off of `size`.
   void multiply_from_left(const Matrix<Scalar, Size>& next, const Scalar& size) {
     const Scalar round_off = Scalar(8) * std::numeric_limits<Scalar>::epsilon() * size;
     for (Eigen::Index i = 0; i < rank; ++i) {

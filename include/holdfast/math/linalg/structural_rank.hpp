@@ -71,7 +71,7 @@ class StructuralRank {
     return static_cast<int>((set & 1U) + (set >> 1U & 1U) + (set >> 2U & 1U) + (set >> 3U & 1U));
   }
 
-  /// Replaces `quantity` by `other` (bits; 0: none) in the sets with it; their cuts grow by `cost`.
+  /// Replaces `quantity` by `other` (bit; 0: none) in each set that has it; adds `cost` to its cut.
   void eliminate(Carried quantity, int cost, unsigned other) {
     for (unsigned set = 0; set < sets; ++set) {
       if ((set & bit(quantity)) == 0 || least_[set] == none) continue;

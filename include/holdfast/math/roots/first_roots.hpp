@@ -40,7 +40,7 @@ struct RootSearch {
   Mask<Scalar> active = Scalar(0) > Scalar(0), found = active;
   Scalar x = Scalar(0), at = Scalar(1), rounding = Scalar(0), bend = Scalar(0), sag = Scalar(0);
 
-  /// Divides out leading coefficients that are exactly zero; the remainder begins above zero.
+  /// Divides by x until p(0) is not exactly zero; if then p(0) < 0, the root is at x = 0.
   RootSearch(LaneSeries<Scalar>& polynomial, int terms, const Mask<Scalar>& lanes)
       : p(polynomial), active(lanes) {
     divide_out_zeros(terms);

@@ -268,9 +268,9 @@ class RootIteration {
     return series;
   }
 
-  /// Computes the Taylor series with one column of residues (a or b), from block `from` on.
-  /// @param size  if given, set to Σ (|Re| + |Im|) over the terms of the first sum
-  /// @return the distance of the nearest pole
+  /// Computes a or b of a `Series`, by `column`, from the blocks of poles `from` and later.
+  /// @param size  if given, set to Σ (|Re| + |Im|) over the terms of series[0]
+  /// @return distance from λ to the nearest pole
   template <class Real, std::size_t column, class Rows>
   static Scalar add_series(const Rows& rows, const Row& own, std::size_t from,
                            std::array<Complex, Series::terms>& series, Scalar* size = nullptr) {

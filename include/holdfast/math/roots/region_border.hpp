@@ -201,8 +201,8 @@ class BorderWalk {
     return least ? longest_ : std::min(2.0 * step, longest_);
   }
 
-  /// Whether the border has come back to a corner that it had left. Where parts of a region touch,
-  /// it may have changed to another part; then it would circle that part and never close.
+  /// Whether the border has come back to a corner after leaving it: where parts of a region touch,
+  /// the tracer may have changed to another part, which it would circle for ever.
   bool meets_again(const BorderPoint<Label>& before, const BorderPoint<Label>& after) {
     const auto is_left = [&](const BorderPoint<Label>& point) {
       return distance(point.at, after.at) > 100.0 * steps_.shortest;

@@ -81,7 +81,7 @@ class SettledBatches {
   }
 
   /// The difference of the means over the second quarter and the second half of the used batches.
-  /// If over a quarter is left out: of the means over the later half of these and over all others.
+  /// If over a quarter is left out: over the later half of the batches left out and all used ones.
   Means drift() const {
     const std::size_t all = sums_.complete_batches(), half = (from_ + all) / 2;
     if (from_ > all / 4) return (mean(from_ / 2, from_) - mean(from_, all)).cwiseAbs();

@@ -157,7 +157,7 @@ class LaneModes {
     refresh_guards(lane);
   }
 
-  /// Marks that time has passed in a lane since its last contact change: it is no longer fresh.
+  /// Records that time has passed in a lane since its contact changed: fresh() becomes false.
   void flowed(std::size_t lane) {
     contacts_[lane].flowed();
     if (unsigned_[lane]) return refresh_guards(lane);

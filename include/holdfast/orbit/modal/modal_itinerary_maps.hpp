@@ -105,8 +105,8 @@ class ModalItineraryMaps {
   /// The number of natural motions that stand for a conjugate pair.
   Eigen::Index pairs() const { return pairs_; }
 
-  /// The correction of a state whose motion in the backlash is open by `gap` after some samples:
-  /// each natural motion ξ then is multiplied by e^{sτ} per sample.
+  /// The correction of the first of `samples` states in the backlash for the closure error `gap`:
+  /// each natural motion ξ is multiplied by e^{sτ} per sample.
   State correction_in_backlash(const State& gap, std::size_t samples) const {
     const Eigen::Index count = decay_.size();
     const Eigen::ArrayXcd natural =
@@ -206,7 +206,7 @@ inline bool is_idle(const Itinerary& itinerary) {
   return std::all_of(itinerary.begin(), itinerary.end(), [](auto contact) { return contact == 0; });
 }
 
-/// The periodic solution of an idle drive, each natural motion for itself; nullopt if it drives.
+/// The periodic solution of an idle drive, from each natural motion alone; otherwise nullopt.
 inline std::optional<PeriodicSolution<ModalItineraryMaps>> solution_without_blocks(
     const ModalItineraryMaps& maps, const Itinerary& itinerary) {
   if (!is_idle(itinerary)) return std::nullopt;

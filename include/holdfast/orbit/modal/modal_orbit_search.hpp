@@ -47,10 +47,10 @@ struct ModalAttraction {
 
 namespace detail {
 
-/// The neighbourhood of an orbit whose drive never leaves its gap. V is diagonal there, since each
-/// natural motion decays for itself, with the weights of the readings of Δz. A deviation e changes
-/// Δz by at most ‖h‖ ‖R e‖ at all samples, with h the reading of R⁻¹ and of the last command.
-/// @return nullopt for a natural motion that does not decay, or a late last command that matters
+/// The neighbourhood of an orbit whose drive never leaves its gap. V is diagonal there, with the
+/// weights of the natural motions in Δz, since each decays independently. A deviation e changes Δz
+/// by at most ‖h‖ ‖R e‖ at all samples, with the row h of Δz times R⁻¹.
+/// @return nullopt with a processing delay, or where a natural motion does not decay
 template <class Loop>
 std::optional<ModalAttraction> idle_attraction(const Loop& loop, const ModalItineraryMaps& maps,
                                                const PeriodicOrbit& orbit) {

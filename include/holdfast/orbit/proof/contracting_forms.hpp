@@ -22,7 +22,7 @@ inline double contracting_rate(double log_modulus, std::size_t count) {
 ///
 ///     P_j = M_jᵀ P_{j+1} M_j / ρ² + Q_j,   j = 0 … N − 1,   P_N = P_0
 ///
-/// P_0 = Σ_k (Fᵀ)ᵏ Q Fᵏ by doubling; F = M_{N−1} … M_0 / ρᴺ, and Q is the P_0 for P_N = 0.
+/// By doubling, P_0 = Σ_k (Fᵀ)ᵏ Q Fᵏ, F = M_{N−1} … M_0/ρᴺ; P_N = 0 would give P_0 = Q.
 /// @param count    N ≥ 1
 /// @param map_of   j ↦ M_j, Size × Size of doubles
 /// @param rest_of  j ↦ Q_j, positive definite

@@ -33,15 +33,9 @@ namespace holdfast {
 /// differs from the given states by at most the error bounds, and its multipliers have moduli ≤
 /// `multiplier_bound`. All others tend to it and have the same contact changes in the same sampling
 /// periods for ever. If the orbit stays in its gap, the proof is for the given gap position only.
-struct EventOrbitProof {
-  OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;  ///< result of the proof
-  /// Upper bound of the moduli of all multipliers; < 1 where proved.
-  double multiplier_bound = std::numeric_limits<double>::infinity();
-  double displacement_error =
-      std::numeric_limits<double>::infinity();  ///< error bound of z₁, z₂ (m)
-  double velocity_error = std::numeric_limits<double>::infinity();  ///< error bound of ż₁, ż₂ (m/s)
-  /// Largest difference of a given state, moved to the next sample, from the next given state, as a
-  /// share of the states' extent.
+struct EventOrbitProof : ProvedBounds {
+  /// Largest distance between a given state's image one sample later and the next given state, as
+  /// a share of the states' extent.
   double miss = 0.0;
   double instant_error = 0.0;  ///< error bound of the recorded instants of contact changes (s)
   /// The inequality with the least decided_by(); for `near_surface` the one that was not proved.
@@ -290,7 +284,7 @@ class EventOrbitProver {
     return (Number(spectral_norm_bound<6>(lengths)) * Number(first_radius_)).upper();
   }
 
-  /// The weight of a coordinate in the unit of that coordinate.
+  /// The weight of a coordinate times the coordinate's unit.
   Number weight(Eigen::Index coordinate, const Vector<double, 6>& weights) const {
     const double unit = coordinate < 5 ? modes_.units()[coordinate] : 1.0;
     return Number(weights[coordinate]) * Number(unit);

@@ -38,7 +38,7 @@ namespace detail {
 ///
 /// Just after a contact change the motion is close to an end of its gap. The ball at the next
 /// sample then extends beyond this end, although no motion does. A guard may therefore be proved
-/// positive on a second set with all motions, the witness: the previous set followed to here.
+/// positive on another set with all motions (witness): the last sample's set, moved here.
 template <class Number>
 class EventPassage {
  public:

@@ -35,17 +35,21 @@ struct OpenRange {
   double to = std::numeric_limits<double>::infinity();  ///< upper end
 };
 
-/// The proof of a periodic motion of the sampled loop. If the outcome is `proved`, these are
-/// theorems. The loop has exactly one periodic motion with the orbit's contacts. It differs from
-/// the given states by at most the error bounds. Its multipliers have moduli ≤ `multiplier_bound`.
-/// Every motion from the ball of attraction keeps the contacts for ever and tends to this one.
-struct OrbitProof {
+/// Bounds that the proof of an orbit gives.
+struct ProvedBounds {
   OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;  ///< result of the proof
   /// Upper bound of the moduli of all multipliers; < 1 where proved.
   double multiplier_bound = std::numeric_limits<double>::infinity();
   double displacement_error =
       std::numeric_limits<double>::infinity();  ///< error bound of z₁, z₂ (m)
   double velocity_error = std::numeric_limits<double>::infinity();  ///< error bound of ż₁, ż₂ (m/s)
+};
+
+/// The proof of a periodic motion of the sampled loop. If the outcome is `proved`, these are
+/// theorems. The loop has exactly one periodic motion with the orbit's contacts. It differs from
+/// the given states by at most the error bounds. Its multipliers have moduli ≤ `multiplier_bound`.
+/// Every motion from the ball of attraction keeps the contacts for ever and tends to this one.
+struct OrbitProof : ProvedBounds {
   /// The contact decision with the least `decided_by`; for `near_surface` the one not proved.
   Border nearest;
   double decided_by = std::numeric_limits<double>::infinity();  ///< distance/error, > 1 if proved

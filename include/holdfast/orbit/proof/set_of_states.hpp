@@ -50,7 +50,7 @@ struct SetOfStates {
     assign_where_met(coordinate, row);
     if (is_apart) at_once.row(coordinate) = (row * at_once).eval();
   }
-  /// Sets a coordinate of w to a linear function of w where the motions reach the surface.
+  /// Does assign() where the motions reach the surface, but leaves `at_once` unchanged.
   void assign_where_met(Eigen::Index coordinate, const Row& row) {
     const Number value = at_centre(row);
     const RowVector<Number, 6> change = row * spread;

@@ -177,7 +177,7 @@ class RegionBuilder {
   using Levels = std::vector<Scalar>;
   static constexpr double negligible_ = 1e-12;  // of the window
 
-  /// Part of a region in one slab. Cells of a region form a tree; its root cell has their union.
+  /// Part of a region in one slab. Cells of a region form a tree; its root describes the region.
   struct Cell {
     std::size_t parent;
     GainRegion<Scalar> region;

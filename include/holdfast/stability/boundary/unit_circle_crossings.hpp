@@ -33,11 +33,11 @@ struct GainPassage {
 ///     p(λ) = 1 − P G_z(λ) − D G_v(λ),   n_out = n_plant − (1/π) [arg p(e^{iθ})] from 0 to π
 ///
 /// If y is the fixed gain, p(e^{iθ}) = 0 at the free gain X(θ) = (1 − y G_fixed)/G_free. Roots
-/// cross where X is real; as the free gain grows, they leave the circle if Im X rises with θ. The
-/// winding gives n_out in one interval between crossings, and the crossings give it in all others.
-/// There the winding is a check: in every interval if there are at most twelve, else in those with
-/// few roots outside. If a check fails, the winding decides everywhere. About 30 angles per pole
-/// are stored. Work for each fixed gain: 10 operations per angle, 10 values of G per crossing.
+/// cross where X is real; as the free gain grows, they move outward if Im X rises with θ. The
+/// winding gives n_out in one interval between crossings, and the crossings give it in the others.
+/// The winding checks these if there are at most twelve intervals, else those with n_out ≤ 4 or
+/// the least n_out. If a check fails, n_out is from the winding alone. About 30 angles per pole are
+/// stored. Work for each fixed gain: 10 operations per angle, 10 values of G per crossing.
 template <class Scalar>
 class UnitCircleCrossings {
  public:
@@ -230,8 +230,8 @@ class UnitCircleCrossings {
     return std::max(from(i - 1), from(i + 1));
   }
 
-  /// Adds the winding of p between two angles by halving the interval. A half counts as its chord
-  /// if the chord is farther from 0 than p is, at the middle, from the undivided chord (`bend`).
+  /// Adds the winding of p between two angles by halving. A half is replaced by its chord if this
+  /// is farther from 0 than `bend`, the distance of the middle value from the undivided chord.
   void halve(Turn& turn, const std::pair<Scalar, std::complex<Scalar>>& from,
              const std::pair<Scalar, std::complex<Scalar>>& to) const {
     const Scalar middle = (from.first + to.first) / Scalar(2);

@@ -42,7 +42,7 @@ struct BoxSide {
   std::size_t box;
 };
 
-/// Joins two boxes if a side of one in `ends` and a side of the other in `begins` share a segment.
+/// Joins any two boxes of which one's side in `ends` overlaps the other's side in `begins`.
 inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, JoinedSets& sets) {
   const auto by_place = [](const BoxSide& a, const BoxSide& b) {
     return std::tie(a.at, a.from) < std::tie(b.at, b.from);
@@ -84,8 +84,8 @@ inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) 
 
 namespace detail {
 
-/// Box of gains with, for each circle, the arcs on which one of its loops may have a root. The arcs
-/// of a wider circle become `nullopt` once this circle cannot prove the box unstable.
+/// A box of gains and, for each circle, the arcs on which a loop of the box may have a root;
+/// `nullopt` for a wider circle that cannot prove the box unstable.
 struct CrossedBox {
   GainBox gains;
   std::vector<std::optional<CircleArcs::Arcs>> arcs;
@@ -113,7 +113,7 @@ struct CellRange {
   }
 };
 
-/// Builds the chart of a loop of any order. Free box: none of its gains has a root on |λ| = 1.
+/// Builds the chart of a loop of any order. Free box: no loop in it has a root on |λ| = 1.
 /// @tparam Watch  type of a function without arguments, which is called for each box
 template <class Watch>
 class ModalChart {
@@ -160,7 +160,7 @@ class ModalChart {
     open_cells(second, box);
   }
 
-  /// A part of a box, with those of the box's arcs on which loops of the part may have a root.
+  /// A part of a box, with the arcs on which a loop of this part may have a root.
   CrossedBox part_of(const CrossedBox& box, const GainBox& part) {
     watch_();
     CrossedBox result{part, {}};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <map>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -106,11 +107,11 @@ class ModulusLevels {
   }
 
   /// The intervals of stable D with a modulus margin above `modulus`: |p| > modulus at all angles.
-  std::vector<Interval<Scalar>> beyond(const Scalar& modulus) const {
+  std::vector<Interval<Scalar>> beyond(const Scalar& modulus) {
     std::vector<Nearer> nearer = nearer_than(modulus);
     for (;;) {
       std::vector<Interval<Scalar>> kept;
-      std::vector<std::pair<Nearer*, bool>> ends;  // of what is kept; whether the upper one of it
+      std::vector<std::pair<Nearer*, bool>> ends;  // bounds of `kept`; true: a Nearer's upper end
       std::sort(nearer.begin(), nearer.end(), [](const auto& one, const auto& other) {
         return one.gains.lower < other.gains.lower;
       });
@@ -137,18 +138,13 @@ class ModulusLevels {
     }
   }
 
-  /// Modulus margin and the D that has it.
-  struct Largest {
-    Scalar modulus, gain;
-  };
-
-  /// The largest modulus margin over D, to ten digits, with its D; 0 and NaN where no D is stable.
-  Largest largest() const {
-    Largest found{Scalar(0), std::numeric_limits<Scalar>::quiet_NaN()};
+  /// The largest modulus margin over D, to ten digits, and its D; 0 and NaN where no D is stable.
+  std::pair<Scalar, Scalar> largest() {
+    std::pair found{Scalar(0), std::numeric_limits<Scalar>::quiet_NaN()};
     if (stable_.empty()) return found;
     Scalar none(4);
-    while (none - found.modulus > Scalar(1e-10) * none) {
-      const Scalar middle = (found.modulus + none) / Scalar(2);
+    while (none - found.first > Scalar(1e-10) * none) {
+      const Scalar middle = (found.first + none) / Scalar(2);
       const auto left = beyond(middle);
       if (left.empty())
         none = middle;
@@ -183,9 +179,18 @@ class ModulusLevels {
     bool lower_is_sharp = false, upper_is_sharp = false;
   };
 
+  using Nearby = typename ModalResponse<Scalar>::Nearby;
+
   Place at(const Scalar& angle, const CommandResponse<Scalar>& g) const {
     const std::complex<Scalar> rest = Scalar(1) - proportional_gain_ * g.displacement;
     return {angle, std::norm(g.velocity), (rest * std::conj(g.velocity)).real(), std::norm(rest)};
+  }
+  /// The values at an angle near the tabulated `place`, by a series that is kept.
+  Place near(std::size_t place, const Scalar& angle) {
+    const std::complex<Scalar> mu = circle_increment(angle);
+    Nearby& nearby = nearby_.try_emplace(place, response_, mu).first->second;
+    nearby.follow(mu);
+    return at(angle, nearby.at(mu));
   }
 
   /// The angle at which `value` is largest, between the neighbours of the tabulated `place`.
@@ -196,13 +201,13 @@ class ModulusLevels {
                              [&](const Scalar& angle) { return -value(angle); });
   }
 
-  /// Moves an end of an interval outward, to its extreme over all angles near the interval's place.
+  /// Moves an end of an interval of D outward, to its extreme between the neighbouring angles.
   /// @return false where this end had been moved before
-  bool sharpen(Nearer& of, bool upper, const Scalar& modulus) const {
+  bool sharpen(Nearer& of, bool upper, const Scalar& modulus) {
     bool& done = upper ? of.upper_is_sharp : of.lower_is_sharp;
     if (done) return false;
     const auto out = [&](const Scalar& angle) {
-      const auto there = at(angle, response_.at_angle(angle)).nearer_than(modulus);
+      const auto there = near(of.place, angle).nearer_than(modulus);
       const Scalar nowhere = -std::numeric_limits<Scalar>::infinity();
       return !there ? nowhere : upper ? there->upper : -there->lower;
     };
@@ -212,19 +217,16 @@ class ModulusLevels {
     return done = true;
   }
 
-  std::vector<Nearer> nearer_than(const Scalar& modulus) const {
+  std::vector<Nearer> nearer_than(const Scalar& modulus) {
     std::vector<Nearer> nearer;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       auto gains = places_[i].nearer_than(modulus);
       const Scalar floor = places_[i].floor();
       if (!gains && floor < Scalar(4) * modulus * modulus && i > 0 && i + 1 < places_.size() &&
           floor <= places_[i - 1].floor() && floor <= places_[i + 1].floor()) {
-        const auto at_angle = [&](const Scalar& angle) {
-          return at(angle, response_.at_angle(angle));
-        };
         const Scalar least =
-            best_about(i, [&](const Scalar& angle) { return -at_angle(angle).floor(); });
-        gains = at_angle(least).nearer_than(modulus);
+            best_about(i, [&](const Scalar& angle) { return -near(i, angle).floor(); });
+        gains = near(i, least).nearer_than(modulus);
       }
       if (gains) nearer.push_back({*gains, i});
     }
@@ -235,6 +237,7 @@ class ModulusLevels {
   Scalar proportional_gain_;
   std::vector<Interval<Scalar>> stable_;
   std::vector<Place> places_;
+  std::map<std::size_t, Nearby> nearby_;  // of the places that have been refined
 };
 
 }  // namespace detail
@@ -261,13 +264,12 @@ std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<
   if (options.by_decay || !(options.margin > 0.0))
     return detail::gains_that_decay(response, proportional_gain, options);
   const UnitCircleCrossings<Scalar> circle(response);
-  const detail::ModulusLevels<Scalar> levels(circle, proportional_gain);
-  const auto best = levels.largest();
-  if (!(best.modulus > Scalar(0))) return {};
+  detail::ModulusLevels<Scalar> levels(circle, proportional_gain);
+  const auto [modulus, gain] = levels.largest();
+  if (!(modulus > Scalar(0))) return {};
   const Scalar margin(options.margin);
-  const auto away =
-      intersection(levels.beyond(margin * best.modulus),
-                   detail::within_share(levels.stable(), best.gain, Scalar(1) - margin));
+  const auto away = intersection(levels.beyond(margin * modulus),
+                                 detail::within_share(levels.stable(), gain, Scalar(1) - margin));
   if (!(options.largest_radius < 1.0)) return away;
   return intersection(away, differential_gains_within_radius(response, proportional_gain,
                                                              Scalar(options.largest_radius)));

@@ -153,7 +153,7 @@ struct ModalMargins {
     return {period, sampling.processing_delay / sampling.period * period};
   }
 
-  /// The excess ρ − 1; where not all roots are found, a tiny number with its sign, by winding.
+  /// The excess ρ − 1; if roots are missing, ± the least positive number, sign by winding.
   Scalar excess_of(const Response& other) const {
     const Scalar excess = loop_excess(other, gains, Scalar(1e-3));
     if (std::isfinite(excess)) return excess;

@@ -216,7 +216,7 @@ class SamplingProof {
 
   /// Distance and relative motion of a node and a point that must not coincide on the segment.
   struct Encounter {
-    std::complex<double> away, drift;  // from that to the node, and how this moves
+    std::complex<double> away, drift;  // node minus point, and its derivative by t
 
     Encounter(const EnclosedSpiral& node, const EnclosedSpiral& other)
         : away(node.start().middle() - other.start().middle()),

@@ -127,7 +127,7 @@ class ModalResponse {
   /// The number k of delayed commands.
   int held_commands() const { return commands_; }
 
-  /// The function 1 − P G_z − D G_v as a sum over all poles; no `parts` where LoopResponse serves.
+  /// The function 1 − P G_z − D G_v as a sum over all poles; no `parts` if computed otherwise.
   PoleSum<Scalar> loop_parts(const PdGains<Scalar>& gains) const {
     PoleSum<Scalar> loop;
     loop.power = commands_ - 1;
@@ -167,7 +167,7 @@ class ModalResponse {
   /// The poles in SIMD vectors; unused entries have a pole λ = −7, far from the unit circle. The
   /// coefficient b of a pole e is merged with a by (b/λ)/(λ − e) = (b/e)/(λ − e) − (b/e)/λ.
   struct Poles : detail::ComplexRows<Scalar, 3> {
-    std::vector<Pole> late;        // with their b, hardly anything being left after a sample
+    std::vector<Pole> late;        // poles that decay within a sample, with their b
     Complex past_z{0}, past_v{0};  // −Σ b/e of all others
 
     Poles() : detail::ComplexRows<Scalar, 3>(Scalar(-8)) {}

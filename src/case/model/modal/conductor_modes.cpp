@@ -120,8 +120,10 @@ double radians_of(const Case& the_case, int apart) {
   return omega / string.wave_speed() * string.span / damped;
 }
 
+/// Number of bars, in steps of 50: a small change of the case changes answers smoothly.
 int bars_of(const Case& the_case, int apart) {
-  return static_cast<int>(std::clamp(radians_of(the_case, apart), fewest_bars, most_bars));
+  const double needed = 50.0 * std::ceil(radians_of(the_case, apart) / 50.0);
+  return static_cast<int>(std::clamp(needed, fewest_bars, most_bars));
 }
 
 ConductorModes all_modes_of_cable(const Case& the_case, int apart, int bars) {

@@ -26,8 +26,8 @@ SpanDevice active_device_of(const Case& the_case, bool controlled);
 /// Devices and active absorber, if any, of the span, by position; gains are 0 unless `controlled`.
 std::vector<SpanDevice> span_devices_of(const Case& the_case, bool controlled = true);
 
-/// Whether the string with its devices is statically stable, negative stiffnesses being multiplied
-/// by `times`: a shape started at the left support has no node up to the right one (Sturm).
+/// Whether the string with its devices, negative stiffnesses times `times`, is statically stable:
+/// a static deflection started at the left support has no zero up to the right one (Sturm).
 /// @param devices  sorted by `in_order`
 bool comes_back(const TautString<double>& string, const std::vector<SpanDevice>& devices,
                 double times = 1.0);
