@@ -112,9 +112,9 @@ std::string letters_of(std::string text) {
 }  // namespace
 
 CLI::App* add_subcommand(CLI::App& program, const std::string& name) {
-  const auto told = job_texts()["jobs"][name];
-  return program.add_subcommand(name, text_of(told["help"]))
-      ->group(text_of(job_texts()["questions"][text_of(told["question"])]));
+  const auto texts = job_texts()["jobs"][name];
+  return program.add_subcommand(name, text_of(texts["help"]))
+      ->group(text_of(job_texts()["questions"][text_of(texts["question"])]));
 }
 
 Job::Job(CLI::App& program, const std::string& name)
@@ -136,36 +136,36 @@ Job::Job(CLI::App& program, const std::string& name)
   }
 }
 
-CLI::Option* Job::told(CLI::Option* option) const {
+CLI::Option* Job::described(CLI::Option* option) const {
   const std::string name = option->get_name();
   const toml::table* of_job = job_texts()["jobs"][options_->get_name()][name].as_table();
-  const toml::table& told = of_job ? *of_job : *job_texts()["options"][name].as_table();
-  option->description(text_of(told["help"]));
-  if (const auto type = told["type"].value<std::string>()) option->type_name(*type);
-  if (const toml::array* ends = told["range"].as_array()) option->check(range_of(*ends));
-  const std::vector<std::string> words = words_of(told["words"].as_array());
+  const toml::table& texts = of_job ? *of_job : *job_texts()["options"][name].as_table();
+  option->description(text_of(texts["help"]));
+  if (const auto type = texts["type"].value<std::string>()) option->type_name(*type);
+  if (const toml::array* ends = texts["range"].as_array()) option->check(range_of(*ends));
+  const std::vector<std::string> words = words_of(texts["words"].as_array());
   if (!words.empty()) option->check(CLI::IsMember(words));
-  for (const std::string& other : words_of(told["excludes"].as_array()))
+  for (const std::string& other : words_of(texts["excludes"].as_array()))
     option->excludes(options_->get_option(other));
   return option;
 }
 
 CLI::Option* Job::add(const std::string& name, bool& given) const {
-  return told(options_->add_flag(name, given));
+  return described(options_->add_flag(name, given));
 }
 
 CLI::Option* Job::add(const std::string& name, std::vector<std::string>& texts) const {
-  return told(options_->add_option(name, texts)->expected(1)->take_all());
+  return described(options_->add_option(name, texts)->expected(1)->take_all());
 }
 
 CLI::Option* Job::add(const std::string& name, Switching& switching) const {
   const auto take = [&switching](const std::string& word) {
     switching = word == "exact" ? Switching::exact : Switching::sampled;
   };
-  return told(options_->add_option_function<std::string>(name, take)->default_str("sampled"));
+  return described(options_->add_option_function<std::string>(name, take)->default_str("sampled"));
 }
 
-bool Job::is_told(const std::string& fact, bool otherwise) const {
+bool Job::has_fact(const std::string& fact, bool otherwise) const {
   return job_texts()["jobs"][options_->get_name()][fact].value_or(otherwise);
 }
 
@@ -173,7 +173,7 @@ void Job::require_output(const JobContext& context) const {
   require_not_overwritten(context.case_data.excitation.record, context.output);
   for (const case_tables::Device& device : context.case_data.devices)
     require_not_overwritten(device.file, context.output);
-  if (common_->output && !is_told("writes_folder", false))
+  if (common_->output && !has_fact("writes_folder", false))
     require_output_name(*common_->output, has_picture(context.job));
 }
 
@@ -200,12 +200,12 @@ void Job::examine_for_this(JobContext& context, bool needs_plant) const {
   const Case& the_case = context.case_data;
   const bool has_loop =
       has_active_absorber(the_case) ||
-      (the_case.devices.empty() && !the_case.stands_alone && !is_told("spans_too", false));
-  const bool asks_for_plant = needs_plant && is_told("needs_plant", true);
-  if (!asks_for_plant && is_told("absorber_alone", false) && has_active_absorber(the_case))
+      (the_case.devices.empty() && !the_case.stands_alone && !has_fact("spans_too", false));
+  const bool asks_for_plant = needs_plant && has_fact("needs_plant", true);
+  if (!asks_for_plant && has_fact("absorber_alone", false) && has_active_absorber(the_case))
     report_warning(settle_absorber(context.case_data), context.quiet);
   examine(context, asks_for_plant && has_loop,
-          has_loop && controlled && is_told("needs_gains", false));
+          has_loop && controlled && has_fact("needs_gains", false));
 }
 
 JobContext Job::context(const std::optional<std::string>& case_file, bool needs_plant) const {
@@ -237,7 +237,7 @@ JobContext Job::context(const std::optional<std::string>& case_file, bool needs_
   context.progress = common_->progress;
   context.yes = common_->yes;
   context.threads = at_most_cores(common_->threads.value_or(0));
-  context.on_packs = is_told("on_packs", false);
+  context.on_packs = has_fact("on_packs", false);
   context.instructions = chosen_instruction_set(common_->instructions);
   if (!common_->ticking) common_->ticking.emplace(context.job, progress_wanted(context));
   return context;
@@ -248,7 +248,7 @@ void Job::does(const std::function<void()>& work) const {
     const std::optional<std::string>& output = job.common_->output;
     const bool drawn = output && is_picture_name(*output) && has_picture(job.options_->get_name());
     const bool by_members = job.common_->family &&
-                            (!job.has("--prove") || job.is_told("proves_comparison", false)) &&
+                            (!job.has("--prove") || job.has_fact("proves_comparison", false)) &&
                             !job_texts()["worst"][job.options_->get_name()].as_array()->empty();
     drawn ? job.draw() : by_members ? job.answer_family() : work();
   });

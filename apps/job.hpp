@@ -31,12 +31,12 @@ class Job {
   /// Adds an option with one word or number and a default.
   template <class Value>
   CLI::Option* add(const std::string& name, Value& value) const {
-    return told(options_->add_option(name, value)->capture_default_str());
+    return described(options_->add_option(name, value)->capture_default_str());
   }
   /// Adds an option with one word or number and no default.
   template <class Value>
   CLI::Option* add(const std::string& name, std::optional<Value>& value) const {
-    return told(options_->add_option(name, value));
+    return described(options_->add_option(name, value));
   }
   /// Adds a flag.
   CLI::Option* add(const std::string& name, bool& given) const;
@@ -93,8 +93,8 @@ class Job {
   void examine_for_this(JobContext& context, bool needs_plant) const;
   void draw() const;
   void answer_family() const;
-  CLI::Option* told(CLI::Option* option) const;
-  bool is_told(const std::string& fact, bool otherwise) const;
+  CLI::Option* described(CLI::Option* option) const;
+  bool has_fact(const std::string& fact, bool otherwise) const;
 
   CLI::App* options_;
   std::shared_ptr<Common> common_;

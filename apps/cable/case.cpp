@@ -91,18 +91,18 @@ Derivations derivations_of(const Case& the_case) {
   const bool masses = is_two_masses(the_case);
   Derivations derived;
   // A derivation is left out where the case lacks something for it.
-  const auto told = [&](bool is_asked, const auto& add) {
+  const auto add_if = [&](bool is_asked, const auto& add) {
     if (!is_asked) return;
     try {
       add();
     } catch (const MissingKeys&) {
     }
   };
-  told(true, [&] { add_force(derived, the_case); });
-  told(true, [&] { add_gains(derived, the_case); });
-  told(masses, [&] { add_modes(derived, plant_of(the_case)); });
-  told(true, [&] { add_clock(derived, the_case); });
-  told(has_absorber(the_case), [&] { add_stability(derived, the_case); });
+  add_if(true, [&] { add_force(derived, the_case); });
+  add_if(true, [&] { add_gains(derived, the_case); });
+  add_if(masses, [&] { add_modes(derived, plant_of(the_case)); });
+  add_if(true, [&] { add_clock(derived, the_case); });
+  add_if(has_absorber(the_case), [&] { add_stability(derived, the_case); });
   return derived;
 }
 
@@ -162,8 +162,8 @@ void write_case_table(const JobContext& context) {
   }
   add_devices(table, the_case);
   for (const auto& [name, value] : derivations_of(the_case)) {
-    const toml::array& told = *job_texts()["derived"][name].as_array();
-    table.row(name, format_number(value), text_of(told[0]), "derived", text_of(told[1]));
+    const toml::array& texts = *job_texts()["derived"][name].as_array();
+    table.row(name, format_number(value), text_of(texts[0]), "derived", text_of(texts[1]));
   }
   table.commit();
 }

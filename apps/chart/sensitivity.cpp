@@ -114,29 +114,30 @@ double unit_of(const Case& the_case, const std::string& key) {
   return 1.0;
 }
 
+/// Whether the loop is of the same kind after a key has changed; false for an inadmissible value.
+bool keeps_kind(const Case& the_case, const std::string& key, double value) {
+  try {
+    return has_closed_forms(moved(the_case, key, value)) == has_closed_forms(the_case);
+  } catch (const WrongInput&) {
+    return false;
+  }
+}
+
 /// Derivatives ∂answers/∂key by central differences with a step of 10⁻⁴ of the value if they agree
 /// with one-sided ones to 0.1 %, else by Richardson extrapolation with half that step: five digits
-/// or more. NaN where both steps disagree by more than 1 %, as at a kink of the answer. One-sided
-/// differences where a neighbour is inadmissible or changes the kind of the loop.
+/// or more. NaN where both steps disagree by more than 1 %, as at a kink. One-sided if need be.
 AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerValues& here) {
   constexpr double step = 1e-4, agreement = 0.01;
   if (the_case.control.proportional_gain_tuned && key == "control.proportional_gain")
     return AnswerValues{};
   const double value = case_value(the_case, key);
   double by = step * (value != 0.0 ? std::abs(value) : unit_of(the_case, key));
-  const auto is_there = [&](double share) {
-    try {
-      const Case there = moved(the_case, key, value + share * by);
-      return has_closed_forms(there) == has_closed_forms(the_case);
-    } catch (const WrongInput&) {
-      return false;
-    }
-  };
-  const bool above = is_there(1.0), below = is_there(-1.0), one_sided = !(above && below);
+  const bool above = keeps_kind(the_case, key, value + by);
+  const bool one_sided = !(above && keeps_kind(the_case, key, value - by));
   AnswerValues result;
   result.fill(unknown);
-  if (!above && !below) return result;
   if (!above) by = -by;
+  if (!keeps_kind(the_case, key, value + by)) return result;
   const auto at = [&](double share) {
     return answers_of(moved(the_case, key, value + share * by));
   };

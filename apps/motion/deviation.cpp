@@ -27,20 +27,20 @@ struct DeviationQuestion {
     Table table(context, columns_of("deviation"));
     const std::int64_t samples = samples_of(context.case_data, duration);
     require_text_meant(context, samples, "rows", "give a shorter --duration");
-    double last = 0.0, told_until = -1.0;
+    double last = 0.0, valid_until = -1.0;
     const MovingLoop moving = moving_loop_of(context.case_data, {switching});
     CaseMotion first(moving), second = first;
     second.displace_conductor(offset);
     const auto outcome = run_deviation(first, second, samples, [&](const Deviation& deviation) {
       table.row(deviation.time, deviation.displacement, deviation.state);
       last = deviation.state;
-      if (deviation.is_above_rounding()) told_until = deviation.time;
+      if (deviation.is_above_rounding()) valid_until = deviation.time;
     });
     require_completed(outcome, first.time());
-    if (told_until < 0.0)
+    if (valid_until < 0.0)
       throw NoAnswer(
           "the distance of the two motions is below rounding errors: give a larger --offset");
-    table.note("above_rounding_until_s", format_number(told_until));
+    table.note("above_rounding_until_s", format_number(valid_until));
     tell_of_end(context, end_of(first));
     table.trust(trusted_digits_of_deviation(moving, offset, samples));
     table.commit();

@@ -131,6 +131,7 @@ def test_read_while_it_grows_and_gone_on_with(tmp_path):
     pytest.importorskip("zarr"), pytest.importorskip("xarray"), pytest.importorskip("dask")
     folder = tmp_path / "growing.zarr"
     process = grow(folder)
+    process.send_signal(signal.SIGSTOP)  # it may be complete before it is read
     try:
         store = holdfast.open_store(folder)
         before = store.chunks_done

@@ -424,8 +424,8 @@ void CaseReader::settle_frequencies() {
                          !key.beyond_two_masses);
     return shapes && *key.number(case_) != *key.number(builtin_);
   });
-  const bool is_told = !case_.stands_alone || can_have_frequencies(case_);
-  if (!(another || case_.stands_alone) || !is_told || !conductor_fault(case_).message.empty())
+  const bool has_data = !case_.stands_alone || can_have_frequencies(case_);
+  if (!(another || case_.stands_alone) || !has_data || !conductor_fault(case_).message.empty())
     return;
   const auto [first, second] = default_frequencies(case_);
   case_.first_frequency_computed = !given_by_user("reduction.first_frequency");

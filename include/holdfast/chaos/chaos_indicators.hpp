@@ -111,8 +111,8 @@ inline std::vector<double> every(const std::vector<double>& series, std::int64_t
 /// Sets the indicators `repeat`, `closest_return` and `determinism` from the states of a motion.
 /// @param sizes  largest |x_i| since the start, for each coordinate
 template <int Size>
-void weigh_returns(const std::vector<Vector<double, Size>>& states,
-                   const Vector<double, Size>& sizes, ChaosIndicators& indicators) {
+void classify_returns(const std::vector<Vector<double, Size>>& states,
+                      const Vector<double, Size>& sizes, ChaosIndicators& indicators) {
   constexpr double repeat_tolerance = 1e-9, recurrence_radius = 0.05;
   indicators.repeat = repeats_after<Size>(states, repeat_tolerance, 3, sizes);
   const std::vector<Vector<double, Size>> last(states.end() - 1000, states.end());
@@ -182,7 +182,7 @@ ChaosIndicators indicators_of_system(
     observed.push_back(observable(before));
     if (contact) itinerary.push_back(contact());
   }
-  weigh_returns<Size>(states, guard.largest(), indicators);
+  classify_returns<Size>(states, guard.largest(), indicators);
   indicators.zero_one = zero_one_test(every(observed, options.zero_one_stride));
   indicators.lines = spectral_indicators(observed, options.base_frequency);
   indicators.extent_growth = extent_growth(observed);

@@ -16,21 +16,21 @@ namespace holdfast {
 /// The instants at which the drive may enter and leave its backlash.
 enum class Switching : std::uint8_t {
   sampled,  ///< contact changes at samples only, by the law's rule for sampled values
-  exact,    ///< contact changes at any time; `kollar`, `immediate` and `play` then agree
+  exact,    ///< contact changes at any time; `kollar`, `immediate` and `play` are then identical
 };
 
-/// The contact of a drive with its load as an automaton of three modes. In each mode the plant is
-/// affine (`dynamics`), until a guard ends the mode. `sample`, `jumped` and `reached` change it.
+/// The contact of a drive with its load: a hybrid automaton with three modes. The plant is affine
+/// in each mode (`dynamics`). `sample`, `jumped`, `displaced` and `reached` may change the mode.
 ///
 ///     DriveContact<> contact(plant, {ContactLaw::play, 0.0005}, Switching::exact, state);
 ///
-/// **Switching::sampled**: at each sample the law decides whether the command is transmitted until
-/// the next one. If not, u_j = 0 acts from t_j + δ on, and the force of a drive with a lag decays.
-/// The stops of a dead zone act from the sample on. The mode is 0 on the lower stop of a dead zone,
-/// 2 on its upper stop, and 1 otherwise.
+/// **Switching::sampled**: at each sample the law decides whether command u_j is transmitted. If
+/// not, u_j is replaced by 0 from t_j + δ on, and the force of a drive with a lag decays. A stop of
+/// a dead zone that is touched at a sample acts from this sample on. The mode is 0 on the lower
+/// stop of a dead zone, 2 on its upper stop, and 1 otherwise.
 ///
 /// **Exact play** (Switching::exact) is the play operator of Δz as a Filippov system. A, b, b_u, c,
-/// f and g are those of LinearPlant. v = Δż = rᵀx is the relative velocity, a(s) = rᵀ(A x + b s +
+/// f and g are defined in LinearPlant. v = Δż = rᵀx is the relative velocity, a(s) = rᵀ(A x + b s +
 /// b_u u + c F) the relative acceleration under a transmitted force s. The modes, numbered as in
 /// ContactMode, are
 ///
@@ -38,9 +38,9 @@ enum class Switching : std::uint8_t {
 ///   sign σ, reaches zero. Then the gap is [Δz − r₀, Δz] for σ > 0, [Δz, Δz + r₀] for σ < 0. The
 ///   next mode is stick if σ a(0) > 0 and σ a(s_e) < 0, else gap;
 /// - gap: no force is transmitted until Δz leaves the gap. The next mode is engaged;
-/// - stick: under no force the relative motion would continue in the old direction, under s_e it
-///   would reverse. So v stays 0 under the transmitted force s = −rᵀ(A x + b_u u + c F) / (rᵀb),
-///   between 0 and s_e. The next mode is gap when σ a(0) ≤ 0, engaged when σ a(s_e) ≥ 0.
+/// - stick: v stays 0 under the transmitted force s = −rᵀ(A x + b_u u + c F) / (rᵀb), which lies
+///   between 0 and s_e. Without force the relative motion would continue in the old direction, and
+///   under s_e it would reverse. The next mode is gap when σ a(0) ≤ 0, engaged when σ a(s_e) ≥ 0.
 ///
 /// With r₀ = 0 the drive is always engaged. The rule of Kollár 2022, Eqs. (7)–(8), is exact play
 /// evaluated at the samples only. Source of the force in stick: A. F. Filippov, Differential
@@ -48,9 +48,9 @@ enum class Switching : std::uint8_t {
 ///
 /// **An exact dead zone** transmits nothing while |Δz| ≤ r₀/2 (mode 1). Outside (modes 0 and 2) it
 /// transmits the command, and the stop adds k_c (Δz ∓ r₀/2) + c_c Δż between the masses. There is
-/// no stick. Where the plant pushes outwards and the command inwards, the absorber bounces at the
-/// edge: v reverses with the period 2 |v| (1/|a(0)| + 1/|a(u)|), and |v| decays by damping. Every
-/// bounce is computed until SwitchCounts::accumulates is set. Source: S. W. Shaw, P. J. Holmes, A
+/// no stick. The absorber bounces at the gap's edge if the plant pushes outwards and the command
+/// inwards: v reverses with the period 2 |v| (1/|a(0)| + 1/|a(u)|), and damping reduces |v|. All
+/// bounces are computed until SwitchCounts::accumulates is set. Source: S. W. Shaw, P. J. Holmes, A
 /// periodically forced piecewise linear oscillator, J. Sound Vib. 90 (1983).
 /// @tparam DrivenPlant  TwoMass<double> or a LinearPlant<double, N>
 template <class DrivenPlant = TwoMass<double>>
@@ -91,8 +91,8 @@ class DriveContact {
     if (here > upper_ || here < lower_) change_to(here > upper_ ? 2 : 0, 0);
   }
 
-  /// The equations of motion in one mode. With Switching::sampled the command acts in all modes;
-  /// therefore insert commanded(u), which is 0 while the law does not transmit.
+  /// The equations of motion in one mode. With Switching::sampled the command enters them in all
+  /// modes; use commanded(u) as the command, which is 0 while the law does not transmit.
   DynamicsOf<Plant> dynamics(int mode) const {
     if (has_stop(mode))
       return dynamics_on_stop(plant_, backlash_.contact_stiffness, backlash_.contact_damping,
@@ -113,10 +113,10 @@ class DriveContact {
 
   /// The number of the present mode, 0 … `modes` − 1.
   int mode() const { return mode_; }
-  /// The present contact mode of the drive; with Switching::sampled `engaged` at the start.
+  /// The present contact mode of the drive; with Switching::sampled it is initially `engaged`.
   ContactMode word() const { return word_; }
-  /// Whether the command of the present sample has an effect. It is false only with
-  /// Switching::sampled, from a sample at which the law decides not to transmit to the next sample.
+  /// Whether the command of the present sample has an effect. The result is false only with
+  /// Switching::sampled, and only if the law did not transmit at the last sample.
   bool transmits_command() const {
     return kind_ != Kind::at_samples || word_ == ContactMode::engaged;
   }
@@ -163,11 +163,11 @@ class DriveContact {
     zeros_ = 0;
     displaced_ = true;
   }
-  /// In stick, sets Δż of `after` to 0 and its Δz to that of `before`, against round-off.
+  /// Removes round-off in stick: sets Δż of `after` to 0 and Δz of `after` to Δz of `before`.
   void keep(const State& before, State& after) const {
     if (word_ == ContactMode::stick) readings_.hold_relative_position(before, after);
   }
-  /// Records that time has passed since the last change: guards of value zero may now be nonzero.
+  /// Records that time has passed since the last change: guards that were 0 may now be nonzero.
   void flowed() {
     zeros_ = 0;
     displaced_ = false;
@@ -268,7 +268,7 @@ class DriveContact {
                                 : ContactMode::engaged;
   }
 
-  /// Opens the gap that begins at the present Δz = `here` and extends against the sign σ.
+  /// Opens a gap of width r₀ that begins at the present Δz = `here` and extends in direction −σ.
   void open_gap(double here) {
     lower_ = sign_ > 0.0 ? here - backlash_.width : here;
     upper_ = sign_ > 0.0 ? here : here + backlash_.width;
@@ -296,9 +296,9 @@ class DriveContact {
   }
 
   /// Ends stick where its condition is violated; otherwise the mode is unchanged.
-  /// @param now    the instant, with the command and the force from then on
-  /// @param zeros  number of v, v̇, … that vanish if the drive engages: one if the command jumped
-  ///               beyond the force of stick, two if that force reached the command
+  /// @param now    the present instant, with command and force just after it
+  /// @param zeros  number of v, v̇, … that vanish if the drive engages: one after a jump of command
+  ///               or force, two if the force in stick reached the drive's force continuously
   void leave_stick(const Instant& now, int zeros) {
     if (!(sign_ * free_(now) > 0.0))
       change_to(gap, zeros + 1);

@@ -16,14 +16,14 @@ namespace holdfast {
 /// In continuous time `kollar`, `immediate` and `play` are the play operator: the drive transmits
 /// until Δż reaches zero, at Δz = d. Then it enters the gap [d − r₀, d] (from Δż > 0) or [d, d +
 /// r₀] (from Δż < 0), and transmits again once Δz leaves the gap. Under sampling the laws differ:
-/// - `kollar` detects a reversal at the first sample with another sign of Δż; d is Δz of this
-///   sample. The first sample outside the gap transmits;
-/// - `immediate` is `kollar`, but the first sample outside the gap may already enter the next gap;
-/// - `play` detects a reversal at the first sample at which Δz has advanced no farther; d is the
-///   extreme sampled Δz. Every sample outside the gap transmits, even where Δz has crossed the
-///   whole gap since the previous sample.
+/// - `kollar` detects a reversal at the first sample at which Δż is zero or has changed sign; d is
+///   Δz of this sample. The first sample outside the gap transmits;
+/// - `immediate` is as `kollar`, but the first sample outside the gap may already enter a new gap;
+/// - `play` detects a reversal at the first sample at which Δz no longer advances; d is the extreme
+///   sampled Δz. Every sample outside the gap transmits, even if Δz has crossed the whole gap since
+///   the previous sample.
 ///
-/// `dead_zone` is another law: its gap is fixed about Δz = 0.
+/// `dead_zone` is not a play operator: its gap does not move and is centred at Δz = 0.
 enum class ContactLaw : std::uint8_t {
   kollar,     ///< `Backlash`: Kollár 2022, Eqs. (7)–(8)
   immediate,  ///< `ImmediateBacklash`: an exit from the gap may enter the next
@@ -52,7 +52,7 @@ struct BacklashParameters {
   double contact_damping = 0.0;         ///< stop's damping c_c (N s/m), ≥ 0; `dead_zone` only
 };
 
-/// Rejects parameters outside the ranges stated at their members, even those the law does not use.
+/// Rejects parameters outside the documented ranges, including parameters that the law ignores.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const BacklashParameters& backlash) {
   validate_backlash_width(backlash.width);
@@ -60,15 +60,15 @@ inline void validate(const BacklashParameters& backlash) {
   require_non_negative("contact damping cc", backlash.contact_damping, "N s/m");
 }
 
-/// The contact of a drive at samples, by a law that is chosen at run time.
+/// The contact of a drive, updated at samples only, with a backlash law chosen at run time.
 ///
 ///     SampledContact contact({ContactLaw::play, 0.002});
 ///     const bool engaged = contact.step(relative_displacement, relative_velocity);
 ///
-/// The decisions are those of the class that `ContactLaw` names for the law.
+/// Decides exactly as the class listed for the law in `ContactLaw`.
 class SampledContact {
  public:
-  /// Contact before its first sample. @throws InvalidParameter for inadmissible parameters
+  /// Constructs the initial contact. @throws InvalidParameter for inadmissible parameters
   explicit SampledContact(const BacklashParameters& backlash) : law_(chosen_law(backlash)) {}
 
   /// Processes one sample, Δz (m) and Δż (m/s).

@@ -6,11 +6,11 @@
 
 namespace holdfast {
 
-/// The contact modes of a drive whose backlash switches between the samples.
+/// The contact modes of a drive with backlash; `stick` occurs with Switching::exact only.
 enum class ContactMode : std::uint8_t {
   engaged,  ///< the command u is transmitted
   gap,      ///< the drive crosses its gap; no force is transmitted
-  stick,    ///< both sides stay together, Δż = 0, by a transmitted force between 0 and u
+  stick,    ///< a transmitted force between 0 and the drive's full force keeps Δż = 0
 };
 
 /// A change of the drive's contact mode at an instant.

@@ -25,17 +25,17 @@ enum class EntryTest {
 ///
 /// At every sample j, in this order:
 ///  1. the drive was in the gap and lower ≤ Δz ≤ upper: it stays there, no force is transmitted;
-///  2. it was in the gap and Δz is outside [lower, upper]: it leaves; the force acts again from
-///     now on, and rule 3 is not applied at this sample;
-///  3. it was outside, Δż_{j−1} ≠ 0, and Δż_j is zero or has the other sign: the drive reverses
+///  2. the drive was in the gap and Δz is outside [lower, upper]: it leaves the gap; the force acts
+///     from this sample on, and rule 3 is not applied at this sample;
+///  3. the drive was outside, Δż_{j−1} ≠ 0, and Δż_j is 0 or has the other sign: the drive reverses
 ///     and enters the gap [Δz − r₀, Δz] if Δż_{j−1} > 0, [Δz, Δz + r₀] if Δż_{j−1} < 0.
 ///
 /// r₀ = 0 means a drive without backlash. It never enters a gap: rule 3, which would interrupt the
 /// force for one sample at each reversal, is not applied.
 ///
-/// Source: Kollár 2022, Eqs. (7)–(8), in the reading that reproduces the switching instants of Fig.
-/// 8 (docs/reading-the-paper.md). The same code serves scalars and SIMD packs: about 12 comparisons
-/// and selects.
+/// Source: Kollár 2022, Eqs. (7)–(8), interpreted so that the switching instants of Fig. 8 are
+/// reproduced (docs/reading-the-paper.md). `Scalar` may be a scalar or a SIMD pack; a step takes
+/// about 12 comparisons and selects.
 /// @tparam Entry  `at_exit` changes rule 2: see ImmediateBacklash
 template <class Scalar, EntryTest Entry = EntryTest::after_exit>
 class Backlash {

@@ -14,8 +14,8 @@ namespace holdfast {
 /// the gap of y_{j−1}.
 ///
 /// Before the first sample y is unknown. The force is transmitted up to and including the first
-/// sample with Δż ≠ 0, which sets y = Δz − r₀/2 for Δż > 0, y = Δz + r₀/2 for Δż < 0. Further
-/// motion this way transmits; motion back first crosses the whole gap. Δż has no other use.
+/// sample with Δż ≠ 0, which sets y = Δz − r₀/2 for Δż > 0, y = Δz + r₀/2 for Δż < 0. Later motion
+/// in this direction transmits; reversed motion first crosses the whole gap. Δż is then unused.
 ///
 /// The gap after a reversal is [Δz_max − r₀, Δz_max] or [Δz_min, Δz_min + r₀], where Δz_max or
 /// Δz_min is the extreme sample. `Backlash` instead uses Δz of the first sample after the change of
@@ -24,7 +24,7 @@ namespace holdfast {
 ///
 /// Source: Krasnosel'skii and Pokrovskii, Systems with Hysteresis, Springer 1989; Visintin,
 /// Differential Models of Hysteresis, Springer 1994; Macki, Nistri and Zecca, Mathematical models
-/// for hysteresis, SIAM Review 35 (1993). One kernel for scalars and SIMD packs.
+/// for hysteresis, SIAM Review 35 (1993). `Scalar` may be a scalar or a SIMD pack.
 template <class Scalar>
 class PlayBacklash {
  public:

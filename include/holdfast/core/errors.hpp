@@ -21,7 +21,7 @@ class InvalidParameter : public std::invalid_argument {
   /// @param name        the parameter's technical name ("sampling period")
   /// @param value       the rejected value
   /// @param unit        SI unit of the value, empty for pure numbers
-  /// @param admissible  admissible values, to be read after "must be" ("> 0")
+  /// @param admissible  admissible values, a phrase that continues "must be" (for instance "> 0")
   InvalidParameter(std::string name, double value, std::string unit, std::string admissible)
       : std::invalid_argument(sentence(name, value, unit, admissible)),
         name_(std::move(name)),
@@ -35,7 +35,7 @@ class InvalidParameter : public std::invalid_argument {
   double value() const noexcept { return value_; }
   /// SI unit of the value; empty for a pure number.
   const std::string& unit() const noexcept { return unit_; }
-  /// Admissible values, to be read after "must be".
+  /// Admissible values, a phrase that continues "must be".
   const std::string& admissible() const noexcept { return admissible_; }
 
  private:

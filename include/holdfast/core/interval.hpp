@@ -18,7 +18,7 @@ struct Interval {
   bool contains(const Scalar& value) const { return lower < value && value < upper; }
 
   /// A point inside the interval: its middle; lower + 1 + |lower| if only the upper end is
-  /// infinite; upper − 1 − |upper| if only the lower end is infinite; 0 if both ends are.
+  /// infinite; upper − 1 − |upper| if only the lower end is infinite; 0 if both are infinite.
   Scalar representative() const {
     constexpr Scalar unbounded = std::numeric_limits<Scalar>::infinity();
     if (lower == -unbounded && upper == unbounded) return Scalar(0);

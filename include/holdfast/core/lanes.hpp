@@ -8,8 +8,8 @@
 
 namespace holdfast {
 
-/// The lanes of a number type: one for a scalar, several for a SIMD pack. A pack type specialises
-/// this class and `MaskOf`; generic code then reads or writes `count` consecutive numbers at once.
+/// Access to the lanes of a number type: one for a scalar, several for a SIMD pack. Generic code
+/// reads or writes `count` consecutive numbers at once. Pack types specialise it and `MaskOf`.
 template <class Scalar>
 struct Lanes {
   using Value = Scalar;                    ///< type of the number in one lane
@@ -40,7 +40,7 @@ auto lane_of(const Scalar& pack, std::size_t lane) {
   return values[lane];
 }
 
-/// Pack, or matrix of packs, with a given number or matrix in each lane.
+/// Builds a pack from one number per lane, or a matrix of packs from one matrix per lane.
 /// @param of_lane  function from the index of a lane to a number or a matrix of fixed size
 template <class Scalar, class OfLane>
 auto from_lanes(const OfLane& of_lane) {

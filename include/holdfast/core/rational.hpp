@@ -22,8 +22,8 @@ struct Rational {
 ///
 /// @param value                number to be written as a fraction, |value| ≤ 9·10¹⁵
 /// @param largest_denominator  largest admissible q, ≥ 1
-/// @return fraction; nullopt where that convergent has q > `largest_denominator`, so that the value
-///         may be treated as irrational
+/// @return fraction p/q; nullopt if this convergent has q > `largest_denominator` (the value may
+///         then be treated as irrational)
 /// @throws InvalidParameter when `value` is not finite or out of range
 inline std::optional<Rational> reconstruct_rational(double value,
                                                     std::int64_t largest_denominator) {

@@ -6,8 +6,8 @@ namespace holdfast {
 
 /// The mask type of a number type: the type of the result of a comparison, for instance a < b.
 ///
-/// Instead of branching by `if (a < b)`, numerical code computes a mask and calls select(). It is
-/// then valid for scalars and SIMD packs. A plain scalar's mask is `bool`. A pack type overloads
+/// Numerical code computes a mask and calls select() instead of branching by `if (a < b)`. The code
+/// then works for scalars and SIMD packs. The mask of a scalar is `bool`. A pack type overloads
 /// `select`, `any` and `all`, found by argument-dependent lookup, and specialises `MaskOf`.
 template <class Scalar>
 struct MaskOf {

@@ -19,7 +19,7 @@ namespace holdfast {
 ///     motion.advance(trace);
 ///     trace.state(0.5 * tau);
 ///
-/// The motion must outlive this object unmoved. Work: a Taylor series (taylor_step.hpp) per Part.
+/// The motion must outlive this object at an unchanged address. Work: a Taylor series per Part.
 template <class Contact>
 class DenseOutput {
  public:
@@ -34,7 +34,7 @@ class DenseOutput {
     typename EventMotion<Contact>::Expansion state;  ///< Taylor series of the state
   };
 
-  /// Constructs the dense output of a motion, to which it keeps a reference.
+  /// Constructs the dense output of a motion and keeps a reference to the motion.
   explicit DenseOutput(const EventMotion<Contact>& motion)
       : motion_(&motion), state_(motion.state()) {}
 

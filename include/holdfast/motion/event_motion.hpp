@@ -63,8 +63,8 @@ struct IgnoreFlow {
 ///
 /// `sense()` takes a sample and computes the command u_j. `advance()` moves to the next sample, in
 /// two parts: under u_{j−1} until t_j + δ, then under u_j. The contact changes where a guard
-/// (GuardOf) reaches zero. If a bound proves that no guard does so in a part, the exact transition
-/// matrix advances the state to the end of the part. Otherwise the state is expanded in Taylor
+/// (GuardOf) reaches zero. If a bound proves that no guard reaches zero in a part, the state is
+/// advanced to its end by the exact transition matrix. Otherwise the state is expanded in Taylor
 /// series and the first root of every guard is found (first_root.hpp), so that no change is missed.
 ///
 /// Work per sample without a change of contact: about 80 multiply-adds and a square root; per
@@ -86,8 +86,8 @@ class EventMotion {
   /// The largest number of contact changes that are computed in one sampling period.
   static constexpr int most_switches = 1000;
 
-  /// Constructs the motion before its first sample. @throws InvalidParameter where the loop or
-  /// state is not admissible, or motion or force is too fast (`ModeMotion::most_turns_per_sample`)
+  /// Constructs the motion before its first sample. @throws InvalidParameter for an inadmissible
+  /// loop or state, or if ‖A‖ τ or ω τ exceeds `ModeMotion::most_turns_per_sample`
   EventMotion(const DigitalLoop& loop, const Contact& contact, const State& initial_state)
       : loop_(loop),
         readings_(contact.readings()),
@@ -147,7 +147,7 @@ class EventMotion {
     ++index_;
   }
 
-  /// Adds a displacement (m) to the conductor at the present sample, before `sense()` takes it.
+  /// Displaces the conductor by a length (m) at the present sample; to be called before `sense()`.
   void displace_conductor(double displacement) {
     readings_.displace_conductor(state_, displacement);
     contact_.displaced();
@@ -169,7 +169,7 @@ class EventMotion {
   const PortReadings<Plant>& readings() const { return readings_; }
   /// The controller, which stores the reading of the last sample.
   const auto& controller() const { return controller_; }
-  /// The digital side and the excitation, as passed to the constructor.
+  /// The digital loop with sampling, controller and excitation, as passed to the constructor.
   const DigitalLoop& loop() const { return loop_; }
   /// The counts of contact changes since the motion began or since `restart_counts()`.
   const SwitchCounts& counts() const { return counts_; }

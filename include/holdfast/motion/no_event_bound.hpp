@@ -10,16 +10,16 @@
 
 namespace holdfast {
 
-/// A bound that can prove that a guard g has no zero within a time h, from its values at both ends.
+/// A bound that may prove that a guard g has no zero in a time interval of length h.
 ///
-/// The chord is the straight line between these two values. Between the ends g ≥ chord − G h²/8,
-/// G being a bound of |g̈|. For g = ℓᵀz + m F + const, ż = A z + w and w = drift + b u + c F,
+/// The chord is the straight line between the values of g at both ends. With |g̈| ≤ G, g lies at
+/// most G h²/8 below the chord. For g = ℓᵀz + m F + const, ż = A z + w, w = drift + b u + c F,
 ///
 ///     g̈ = ℓᵀA² z + ℓᵀA w + ℓᵀ ẇ + m F̈ .
 ///
-/// The norm ‖z‖ must be one that no free motion ż = A z increases; within h it then grows by at
-/// most h max ‖w‖. The bound holds for every guard of the mode with the same ℓ and m up to sign. If
-/// the norm is infinite, the bound is infinite or NaN and proves nothing.
+/// The norm ‖z‖ must not increase in any free motion ż = A z; within h it then grows by at most
+/// h max ‖w‖. The bound holds for every guard of the mode with the same ℓ and m up to sign. If the
+/// norm is infinite, the bound is infinite or NaN and proves nothing.
 /// @tparam Norm    EnergyNorm (plant/energy.hpp) for two masses, else DecayingNorm
 /// @tparam States  N, the order of the plant
 template <class Norm, int States>
@@ -58,7 +58,7 @@ class NoEventBoundOf {
   }
 
   /// An upper bound of the depth of g below its chord over a time `length` (s), from the state
-  /// `begin` (N × 1) under a constant command (N). A g above the bound at both ends has no zero.
+  /// `begin` (N × 1) under a constant command (N). If g exceeds it at both ends, g has no zero.
   double drop_below_chord(const Vector<double, States>& begin, double command,
                           double length) const {
     const Drop drop = drop_over(length);

@@ -51,8 +51,8 @@ struct MotionMemory {
 /// contact decision. No memory is allocated. Source: Kollár 2022, Eqs. (11)–(14).
 /// @tparam Scalar   number type: double, or a pack with one motion in each of its lanes
 /// @tparam Law      backlash; `step(Δz, Δż)` returns a mask, true where the force is transmitted
-/// @tparam Forcing  the excitation; `next()` returns its contribution to the state over the present
-///                  sampling period, in plain numbers if all lanes of a pack have the same forcing
+/// @tparam Forcing  the excitation; `next()` returns its contribution to the next state, a vector
+///                  of scalars (not packs) if all lanes of a pack have the same forcing
 /// @tparam Plant    plant, from whose state PortReadings reads displacements and velocities
 template <class Scalar, class Law = Backlash<Scalar>, class Forcing = HarmonicForcing<Scalar>,
           class Plant = TwoMass<Scalar>>
@@ -97,14 +97,14 @@ class SampledMotion {
     return {index_, time(), state_, present_force_, engaged};
   }
 
-  /// Advances from t_j to t_{j+1} under the force that the last `sense()` decided.
+  /// Advances from t_j to t_{j+1} under u_{j−1} until t_j + δ, then under u_j of `sense()`.
   void advance() {
     move(forcing_.next());
     previous_force_ = present_force_;
     ++index_;
   }
 
-  /// Adds a displacement (m) to the conductor at the present sample, before `sense()`.
+  /// Displaces the conductor by a length (m) at the present sample; to be called before `sense()`.
   void displace_conductor(const Scalar& displacement) {
     readings_.displace_conductor(state_, displacement);
   }
@@ -130,7 +130,7 @@ class SampledMotion {
     return MotionMemory<Scalar, std::decay_t<decltype(law_.memory())>, states>{
         state_, previous_force_, law_.memory()};
   }
-  /// Takes over the memory of another motion of the loop; keeps sample number and forcing phase.
+  /// Restores state, u_{j−1} and backlash from a memory; keeps sample number and forcing phase.
   /// @throws InvalidParameter where the size of the state is not N
   template <class LawMemory>
   void restore(const MotionMemory<Scalar, LawMemory, states>& memory) {

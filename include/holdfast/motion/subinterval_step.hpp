@@ -12,9 +12,9 @@
 
 namespace holdfast {
 
-/// The map of the state z over a part of a sampling period, from t_j + begin to t_j + begin +
-/// length, in one contact mode. It is exact for an excitation held at F_j (first line), and for
-/// harmonics of amplitudes F_l and frequencies ω_l in continuous time (second line):
+/// The exact map of the state z over a part of a sampling period, from t_j + begin to t_j + begin +
+/// length, in one contact mode. The first line is for an excitation held at F_j, the second line
+/// for harmonics with amplitudes F_l and frequencies ω_l in continuous time:
 ///
 ///     z ← transition z + command u + drift + held F_j
 ///     z ← transition z + command u + drift + Σ_l F_l (g_c cos ω_l t_j + g_s sin ω_l t_j)

@@ -8,8 +8,8 @@
 
 namespace holdfast {
 
-/// The smallest number of terms of the series of e^x, 0 ≤ x ≤ 1, whose first omitted term is below
-/// 2⁻⁶⁰. The remainder of the series is then below 2⁻⁵⁹.
+/// The smallest number of terms for which the first omitted term of the series of e^x, 0 ≤ x ≤ 1,
+/// is below 2⁻⁶⁰. The remainder of the series is then below 2⁻⁵⁹.
 inline int terms_for(double x) {
   constexpr double negligible = 8.7e-19;
   double term = 1.0;

@@ -72,9 +72,9 @@ inline std::int64_t samples_within(double duration, double sampling_period) {
 /// Runs a motion over `samples` (≥ 0) samples, with a kick unless it is nullopt, and passes each
 /// sample to every observer, `observer(const MotionSample&)`.
 ///
-/// The observers decide which data are stored; this function allocates nothing. A further call
-/// continues at the sample after the last one. A kick whose instant has already passed acts at the
-/// first sample of the call.
+/// Only the observers store data; this function allocates no memory. A further call continues at
+/// the sample after the last one. A kick whose instant has already passed acts at the first sample
+/// of the call.
 /// @tparam Motion  type for which is_motion_v is true, or any type with `sense`, `advance`,
 ///                 `displace_conductor` and `time` as described at is_motion_v
 template <class Motion, class... Observers>

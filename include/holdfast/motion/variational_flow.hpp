@@ -24,20 +24,20 @@ namespace holdfast {
 /// the displacement that the computer measured at sample j − 1. g is the relative displacement Δz =
 /// z₂ − z₁ at the last reversal of the drive; the ends of the drive's gap are g and g ∓ r₀.
 ///
-/// Within a contact mode δx advances by e^{A t} and by the deviation of the held command. At a
+/// Within a contact mode δx advances by e^{A t}, with the held command's deviation as input. At a
 /// contact change on a surface h = 0 the deviation of [x; g] is multiplied by the saltation matrix
 /// (saltation.hpp), with these surfaces, resets of g and jumps f⁺ − f⁻ of ẋ:
 ///
-///     engaged → gap:          h = Δż,                  g ← Δz,   f⁺ − f⁻ = −b u
-///     engaged → stick:        h = Δż,                  g ← Δz,   f⁺ − f⁻ = b (s − u)
-///     gap → engaged:          h = Δz − g (or ± r₀),    g ← 0,    f⁺ − f⁻ = b u
-///     stop reached or left:   h = Δz ∓ r₀/2,                     f⁺ − f⁻ of u and stop damper
+///     engaged → gap:          h = Δż,                  g ← Δz,   f⁺ − f⁻ = −b s_e
+///     engaged → stick:        h = Δż,                  g ← Δz,   f⁺ − f⁻ = b (s − s_e)
+///     gap → engaged:          h = Δz − g (or ± r₀),    g ← 0,    f⁺ − f⁻ = b s_e
+///     stop reached or left:   h = Δz ∓ r₀/2,                     f⁺ − f⁻ of s_e and stop damper
 ///
-/// Here s is the force transmitted in stick. Jumps of the command occur at fixed times and need no
-/// saltation. Stick ends at such a jump or with a continuous force, and needs none either. In stick
-/// δΔż = 0 and δg = δΔz; if the drive sticks at sample j, the map is valid only for such δX_j. The
-/// row of g is zero while engaged. The row of y is zero unless the controller forms the velocity
-/// from differences of unrounded displacements.
+/// Here s is the force transmitted in stick, s_e that of an engaged drive (u for an ideal drive). A
+/// jump of the command occurs at a fixed time and needs no saltation. The end of stick needs none:
+/// it is such a jump, or ẋ is continuous there. In stick δΔż = 0 and δg = δΔz; if the drive sticks
+/// at sample j, the map is valid only for such δX_j. The row of g is zero while engaged. The row of
+/// y is zero unless the controller forms the velocity from differences of unrounded displacements.
 ///
 ///     VariationalFlow<DriveContact<>> tangent(motion);
 ///     motion.sense();
@@ -142,8 +142,8 @@ class VariationalFlow {
   Eigen::Index read_row() const { return order() + 2; }
   /// The rows of the map that belong to δx.
   auto states_of_map() { return map_.template topRows<states>(order()); }
-  /// The difference, as a share of the period, up to which two lengths count as equal. Lengths that
-  /// are sums of several steps are rounded.
+  /// The tolerance, relative to the period, within which two lengths of time count as equal. It
+  /// allows for round-off in lengths that are sums of several steps.
   static constexpr double same_length = 1e-13;
 
   static constexpr std::size_t at(int mode) { return static_cast<std::size_t>(mode); }
@@ -169,7 +169,7 @@ class VariationalFlow {
                                            : readings_.velocity_row();
   }
 
-  /// The data that the command depends on, and whether the read displacement is remembered.
+  /// Whether the command depends on state and previous reading, and whether the reading is stored.
   struct Reading {
     bool state, previous, remembered;
   };

@@ -60,7 +60,7 @@ struct LoopOrbit {
 enum class OrbitOutcome {
   certified,       ///< the motion tends to the orbit; single solution: the orbit has the assumed
                    ///< contacts
-  approaching,     ///< an attracting orbit was found, but the motion did not settle on it in time
+  approaching,     ///< an attracting orbit was found; the motion did not settle within the limits
   on_surface,      ///< the contacts repeat, but the orbit touches a switching surface: the result
                    ///< depends on rounding, and no certificate can be given
   incommensurate,  ///< f τ is no fraction p/q with q ≤ 10⁶: the forcing's phase never repeats

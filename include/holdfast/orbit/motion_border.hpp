@@ -32,11 +32,11 @@ struct MotionBorder {
   /// Surface of a border collision, a grazing or a sliding border; no meaning for other kinds. With
   /// exact switching `gap_upper` means either end of the gap.
   SwitchingSurface surface = SwitchingSurface::reversal;
-  /// Number of the sample at which a border collision occurs. For a symmetric motion it is reduced
-  /// to the first half period. −1 for other kinds of border and for a motion that stays in its gap.
+  /// Index of the sample at which a border collision occurs, for a symmetric motion reduced to the
+  /// first half period. −1 for other kinds of border and for a motion that stays in its gap.
   std::int64_t sample = -1;
-  /// For `neimark_sacker` the range of the multipliers' angle |θ|: 0 below π/2, 1 up to 2π/3, else
-  /// 2. For `window` its side: 0 least x, 1 largest x, 2 least y, 3 largest y. Otherwise 0.
+  /// Subdivision of the kind. `neimark_sacker`: 0 for multiplier angles |θ| below π/2, 1 up to
+  /// 2π/3, else 2. `window`: side 0 least x, 1 largest x, 2 least y, 3 largest y. Other kinds: 0.
   int part = 0;
   Multiplier multiplier{};  ///< largest multiplier at the point; ignored by ==
 };
@@ -58,7 +58,7 @@ struct MotionRegion {
   /// Points of the border, counter-clockwise. Where the kind of border changes, two points lie
   /// close together, at a codimension-two point.
   std::vector<MotionBorderPoint> border;
-  bool closed = false;  ///< whether the border is complete; false if following it failed
+  bool closed = false;  ///< whether the border is a closed curve; false if its tracing failed
   int solutions = 0;    ///< number of times that the motion was solved for
 };
 
@@ -93,7 +93,7 @@ inline std::optional<int> strong_resonance(const MotionBorder& a, const MotionBo
 
 namespace detail {
 
-/// The border for a multiplier at the unit circle, by its angle: fold, flip or Neimark–Sacker.
+/// The border for a multiplier on the unit circle, by angle: fold, flip or Neimark–Sacker.
 inline MotionBorder circle_border(const Multiplier& multiplier) {
   constexpr double pi = 3.14159265358979323846, real = 1e-7;
   const double angle = std::abs(multiplier.angle);

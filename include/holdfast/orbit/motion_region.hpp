@@ -47,8 +47,8 @@ inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t h
 }  // namespace detail
 
 /// Computes the border of the region of two parameters in which a periodic motion with switching at
-/// samples exists and attracts. Inside, the motion's itinerary has a solution, every sample stays
-/// on its side of the switching surfaces and every multiplier lies inside the unit circle.
+/// samples exists and attracts. Inside the region, the itinerary has a periodic solution, no sample
+/// reaches a switching surface, and all multipliers lie inside the unit circle.
 ///
 /// The map of a given itinerary is affine. As a multiplier tends to 1, the periodic solution grows
 /// without bound and reaches a switching surface first. The exception is a symmetric motion that

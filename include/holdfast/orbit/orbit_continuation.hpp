@@ -30,7 +30,7 @@ struct BranchEnd {
   /// Largest multiplier at the end; for `unit_circle` with angle 0 at a fold, π at a flip (period
   /// doubling) and another angle for a complex pair.
   Multiplier multiplier{};
-  int solutions = 0;  ///< number of solutions for the orbit
+  int solutions = 0;  ///< number of times that the orbit was solved for
 };
 
 namespace detail {
@@ -125,9 +125,9 @@ class OrbitContinuation {
 
 /// Continues an orbit with a fixed itinerary along one parameter until the orbit ends.
 ///
-/// The orbit is solved for at each value. It lasts while every sample stays on its side of the
-/// switching surfaces and every multiplier inside the unit circle. In the first step with an end,
-/// bracketing locates the end to rounding. An end with reappearance in the same step is missed.
+/// The orbit is solved for at each value. It ends where a sample reaches a switching surface or a
+/// multiplier reaches the unit circle. Bracketing locates the first end to rounding. An end is
+/// missed if the orbit reappears within the same step.
 ///
 ///     const auto family = [&](double gain) { auto other = loop; other.gains.differential = gain;
 ///                                          return other; };

@@ -18,8 +18,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// The Model of ReturnSearch for contact changes at samples only. When state and contacts repeat,
-/// the orbit is solved for exactly. A motion in an orbit's region of attraction has settled on it.
+/// The Model of ReturnSearch for loops that switch at samples only. If state and contacts repeat,
+/// it solves for the orbit exactly. A motion has settled once it is in the region of attraction.
 /// @tparam Loop        IdealLoop or ModalLoop
 /// @tparam MotionOf    motion of that loop
 /// @tparam Attraction  type with maps() of the loop; samples_per_solved(); surround(orbit), which
@@ -56,8 +56,8 @@ class SampledSearchModel {
     return memory().backlash.inside == other.backlash.inside;
   }
 
-  /// Whether the last `period` contacts equal the `period` contacts before. If fewer samples came
-  /// before the reference: whether there are none, or the period is q.
+  /// Whether the last `period` contacts equal the `period` contacts before them. If fewer than
+  /// `period` samples precede the reference: true if none precede it or the period is q.
   bool may_repeat(const Seen& seen, std::int64_t period) const {
     if (seen.reference < period) return seen.reference == 0 || period == ratio_.denominator;
     const auto end = seen.itinerary.end();
@@ -87,7 +87,7 @@ class SampledSearchModel {
     return found.outcome == OrbitOutcome::on_surface || attraction_.holds(motion_);
   }
 
-  /// The given orbit with its shortest period; unchanged where the shorter one is not confirmed.
+  /// The orbit with its shortest period; unchanged if solving for that period confirms no orbit.
   PeriodicOrbit shortened(const PeriodicOrbit& orbit) const {
     const auto step = static_cast<std::size_t>(ratio_.denominator);
     const auto period = static_cast<std::ptrdiff_t>(
@@ -129,7 +129,7 @@ class SampledSearchModel {
 template <class Scalar>
 class SampledAttraction {
  public:
-  /// The cost of solving per orbit sample, as a number of simulated samples (measured 10 … 50).
+  /// Cost of solving for an orbit, in simulated samples per orbit sample (measured 10 … 50).
   static std::int64_t samples_per_solved() { return 16; }
 
   SampledAttraction(const IdealLoop<Scalar>& loop, const Rational& ratio)
@@ -178,8 +178,8 @@ OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio
 ///
 /// `certified` means that the motion is in the orbit's region of attraction and tends to the orbit.
 ///
-/// Work is bounded: at most `limits.most_samples` samples are simulated, and one period more where
-/// the orbit touches a switching surface. Solving for orbits costs at most about as much again.
+/// Work: at most `limits.most_samples` simulated samples, plus one period if the orbit touches a
+/// switching surface. Solving for orbits costs at most about as much as the simulation.
 /// Memory: one byte per sample of the motion, and 90 bytes per sample of the orbit.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite

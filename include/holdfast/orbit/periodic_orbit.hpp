@@ -63,7 +63,7 @@ struct PeriodicSolution {
 
 namespace detail {
 
-/// The periodic solution by Newton steps from rest; each after the first is iterative refinement.
+/// The periodic solution: one Newton step from rest, then two steps of iterative refinement.
 /// @param correction  function from the closure error of a state to the correction of that state
 template <class Maps, class Correction>
 PeriodicSolution<Maps> refined_solution(const Maps& maps, const Itinerary& itinerary,
@@ -84,7 +84,7 @@ PeriodicSolution<Maps> refined_solution(const Maps& maps, const Itinerary& itine
 
 }  // namespace detail
 
-/// The periodic solution for maps that form no blocks: none by default.
+/// The periodic solution where maps_of_blocks() is empty; this default returns nullopt.
 template <class Maps>
 std::optional<PeriodicSolution<Maps>> solution_without_blocks(const Maps&, const Itinerary&) {
   return std::nullopt;
@@ -156,7 +156,7 @@ struct OrbitVerification {
   double closure_error = std::numeric_limits<double>::infinity();  ///< ‖z_N − z₀‖ in `Precise` (SI)
 };
 
-/// Recomputes an orbit from its itinerary in the number type `Precise`, exponentials included.
+/// Recomputes an orbit, including all matrix exponentials, from its itinerary in type `Precise`.
 ///
 ///     verify_orbit<long double>(loop, orbit).same_itinerary
 ///

@@ -23,10 +23,10 @@ namespace holdfast {
 ///
 ///     ‖e‖² = e_z₁² + (e_ż₁/ω)² + e_z₂² + (e_ż₂/ω)² + (e_u/k₁)² + e_gap²   (m²),
 ///
-/// with the excitation's angular frequency ω (without excitation √(k₁/m₁)) and the deviation e_gap
-/// of the gap's position, in a gap. The motion must have the orbit's contact and, if engaged, the
-/// orbit's sign of Δż at the last sample. An orbit that never leaves its gap exists in every gap
-/// that contains its Δz. The radius is then `radius` times the clearance from the gap's ends.
+/// where ω is the excitation's angular frequency (without excitation √(k₁/m₁)). In a gap, e_gap is
+/// the deviation of the gap's position. The motion must have the orbit's contact and, if engaged,
+/// the orbit's sign of Δż at the last sample. An orbit that never leaves its gap exists in every
+/// gap that contains its Δz. Its ball has `radius` times the clearance from the gap's ends.
 struct AttractionBall {
   std::int64_t sample;            ///< index of the orbit's sample: a multiple of q, f τ = p/q
   Vector<double, 5> state;        ///< state z̃ = [z; u_{j−1}] at sample j = `sample`
@@ -170,7 +170,7 @@ class DeviationFlow {
 
  private:
   /// The distances of a sample's Δz (m) and Δż (m/s) from the switching surfaces. If the orbit
-  /// stays inside its gap, that of Δz is 1: radii are per metre of clearance.
+  /// stays inside its gap, `displacement` is 1, and radii are per metre of clearance.
   struct Distances {
     double displacement = std::numeric_limits<double>::infinity();
     double velocity = std::numeric_limits<double>::infinity();
@@ -222,9 +222,9 @@ class DeviationFlow {
   std::size_t sample_ = 0;
 };
 
-/// The radii of attraction at the starts of a period's segments. A deviation within a segment's
-/// radius stays within the radius of the next segment. The list is empty where some segment has a
-/// finite radius and the segments together do not contract.
+/// The radii of attraction at the starts of a period's segments. A deviation that starts within one
+/// radius ends the segment within the next radius. The list is empty if some segment has a finite
+/// radius but the segments together do not contract.
 inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>& segments) {
   constexpr double everywhere = std::numeric_limits<double>::infinity();
   double logarithm = 0.0, smallest = everywhere;
@@ -305,8 +305,8 @@ std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
 /// @param orbit  attracting and certified
 /// @return neighbourhoods in the order of the samples; empty where no segments contract, up to a
 ///         length of 64 periods or 10⁶ samples, whichever is longer
-/// Work: about 300 multiply-adds per sample for each length of segments up to a period; beyond, at
-/// most one of the lengths is computed in full.
+/// Work: about 300 multiply-adds per sample for each segment length up to one period. At most one
+/// longer length is computed in full.
 template <class Scalar>
 std::vector<AttractionBall> attraction_balls(const IdealLoop<Scalar>& loop,
                                              const PeriodicOrbit& orbit) {

@@ -30,7 +30,7 @@ inline void validate(const OrbitLimits& limits) {
 
 namespace detail {
 
-/// The samples of a motion that a search has simulated so far: itinerary and extent of the states.
+/// The record of the samples that a search has simulated: itinerary and extent of the states.
 /// @tparam Symbol  symbol of the itinerary, one for each sample
 template <class Symbol, class Plant>
 struct SeenMotion {
@@ -41,8 +41,8 @@ struct SeenMotion {
   /// The number of samples simulated so far.
   std::int64_t taken() const { return static_cast<std::int64_t>(itinerary.size()); }
 
-  /// Whether a motion began within 10⁻⁶ extents of a state and ended no farther, up to rounding.
-  /// @param before,after  distance from the state at beginning and end, as share of the extent
+  /// Whether a motion starts within 10⁻⁶ of a state and, up to rounding, ends no farther from it.
+  /// @param before,after  distance from the state at start and end, as a share of the extent
   bool came_nearer(const StateOf<Plant>& state, double before, double after) const {
     return before <= 1e-6 && after <= std::max(before, 1e-12 * extent.share_of(state));
   }
@@ -52,12 +52,12 @@ struct SeenMotion {
 ///
 /// At every stroboscopic instant (sampling and forcing in phase) the state is compared with a
 /// reference state, which is replaced whenever the number of samples has doubled (R. P. Brent, An
-/// improved Monte Carlo factorization algorithm, BIT 20, 1980). A state near the reference proposes
-/// a period: the number of samples since the reference. The orbit with this period is solved for.
-/// The search ends when the motion settles on that orbit. All solutions after the first one
-/// together cost at most about as much as simulating the motion.
-/// @tparam Model  a motion (Plant, readings(), state(), memory(), is_followed(), has_contact_of(),
-///                take_sample()) with the members that differ between kinds of motion:
+/// improved Monte Carlo factorization algorithm, BIT 20, 1980). If the state is near the reference,
+/// the number of samples since the reference is a candidate period. The search then solves for the
+/// orbit with this period, and ends when the motion settles on it. All solutions after the first
+/// one together cost at most about as much as simulating the motion.
+/// @tparam Model  a motion with Plant, readings(), state(), memory(), is_followed(),
+///                has_contact_of(), take_sample() and these members, which depend on its kind:
 ///
 ///     Result, samples_per_solved()      an OrbitResultOf; cost of solving, in samples of motion
 ///     may_repeat(seen, period)          whether to solve for an orbit of this period

@@ -24,7 +24,7 @@ enum class SwitchingSurface {
 struct Border {
   double distance = std::numeric_limits<double>::infinity();  ///< least distance (m; reversal: m/s)
   SwitchingSurface surface = SwitchingSurface::reversal;      ///< no meaning if `sample` is −1
-  std::int64_t sample = -1;  ///< nearest sample, from 0 at the orbit's first; −1: no surface
+  std::int64_t sample = -1;  ///< index of the nearest sample, first sample 0; −1: no surface
 };
 
 /// The contact decision at one sample, with the quantities that it depends on.
@@ -140,9 +140,9 @@ struct Borders {
 /// The least distances of a motion's states from the switching surfaces on which a contact decision
 /// of a pattern would change; negative where a state already contradicts the pattern.
 ///
-/// Inside the gap, the distance of Δz from the nearer end counts. At a sample at which the drive
-/// leaves the gap, the excess of Δz beyond that end and |Δż| count; at all other samples |Δż|.
-/// @param pattern  pattern of this motion, or of another one for comparison
+/// Inside the gap, the distance is that of Δz from the nearer end. At a sample where the drive
+/// leaves the gap, it is |Δż| and the excess of Δz beyond the end. At all others it is |Δż|.
+/// @param pattern  pattern of this motion, or of another motion with which it is compared
 /// @param states   z̃_j of one period of the motion, one for each decision
 /// @param width    width r₀ of the backlash (m)
 template <class Scalar>

@@ -41,8 +41,8 @@ inline std::size_t cells_of(const LoopChart& chart) {
 ///
 /// @param chart    the loop and the two parameters that vary
 /// @param stable   array of one entry for each cell, row by row; `chart.fast` varies along a row.
-///                 Memory not yet written to is fastest: the system places each of its pages near
-///                 the processor of the thread that first writes there
+///                 Freshly allocated, unwritten memory is fastest: the operating system places each
+///                 page near the processor of the thread that first writes to the page
 /// @param threads  number of threads ≥ 1, or 0 for all cores; no effect on the result
 /// @throws InvalidParameter where the chart is not admissible
 inline void stability_chart(const LoopChart& chart, std::uint8_t* stable, int threads = 0) {
@@ -56,7 +56,7 @@ inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int thr
   return stable;
 }
 
-/// Computes the spectral radius ρ = max |λ| of every cell of a chart, to an absolute 1e−10.
+/// Computes the spectral radius ρ = max |λ| of every cell of a chart, absolute accuracy 1e−10.
 /// @param chart    the loop and the two parameters that vary
 /// @param radius   array of one entry for each cell, row by row; `chart.fast` varies along a row
 /// @param threads  number of threads ≥ 1, or 0 for all cores; no effect on the result

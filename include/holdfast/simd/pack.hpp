@@ -9,7 +9,7 @@
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/select.hpp"
 
-/// The library's kernels on SIMD packs. This header makes `xsimd::batch` a number type. A kernel
+/// SIMD packs as number type of the library's kernels. This header adapts `xsimd::batch`. A kernel
 /// template then computes as many cells at a time as a register has lanes. The compiler options of
 /// the translation unit choose the instruction set: SSE2, AVX2, AVX-512, NEON, …. The instruction
 /// set is part of the pack's type and thus of each kernel's symbol name. Units compiled for several
@@ -65,7 +65,7 @@ inline std::uint64_t spread_to_bytes(std::uint64_t bits) {
 }  // namespace detail
 }  // namespace simd
 
-/// Access to the lanes of a pack, of which there are at most eight.
+/// Access to the lanes of a pack, at most eight.
 template <class Number, class Architecture>
 struct Lanes<xsimd::batch<Number, Architecture>> {
   using Pack = xsimd::batch<Number, Architecture>;  ///< type of the pack
@@ -115,9 +115,9 @@ struct NumTraits<xsimd::batch<Number, Architecture>>
 
 namespace internal {
 
-/// The alignment (byte) that Eigen adds to arrays of packs: none, as the type of a pack is aligned.
-/// EIGEN_MAX_ALIGN_BYTES can then have the same small value in translation units compiled for
-/// different instruction sets.
+/// The alignment (byte) that Eigen adds to arrays of packs: 0, because the pack type itself is
+/// aligned. EIGEN_MAX_ALIGN_BYTES can then have the same small value in translation units compiled
+/// for different instruction sets.
 template <class Number, class Architecture, int Size>
 struct compute_default_alignment<xsimd::batch<Number, Architecture>, Size> {
   enum { value = 0 };

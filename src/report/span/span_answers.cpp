@@ -141,13 +141,13 @@ Answer how_long_it_lives(const Case& the_case, const Axis& axis, const Values& v
     require_steady(the_case);
     const FatigueLife life = fatigue_life_of(the_case, true, axis.min, axis.max);
     const Band damped = years_of(life.damage), bare = years_of(life.damage_bare);
-    const auto told = [&](const std::string& name, const Band& years) {
+    const auto lives = [&](const std::string& name, const Band& years) {
       return page_text(name,
                        {{"value", years_text(years.value)},
                         {"laws", by_laws(years_text(years.lowest), years_text(years.highest))}});
     };
-    answer.answer = told("life", damped);
-    if (!span_devices_of(the_case).empty()) answer.answer += told("life bare", bare);
+    answer.answer = lives("life", damped);
+    if (!span_devices_of(the_case).empty()) answer.answer += lives("life bare", bare);
     answer.answer += page_text("advice", {{"advice", life_advice(life, the_case.site.years)}}) +
                      laws_text(the_case);
   });

@@ -47,7 +47,7 @@ class EventPack {
     LaneMask engaged;      ///< lanes whose drive transmits the command
   };
 
-  /// @param starts  one start per lane; for an unused lane copy another one and then call `sleep`
+  /// @param starts  one start per lane; an unused lane gets a copy of another one; then `sleep` it
   explicit EventPack(const std::array<EventStart, lanes>& starts)
       : excitation_(
             [&](std::size_t lane) -> const DigitalLoop& { return starts[lane].loop->digital; }),
@@ -85,7 +85,7 @@ class EventPack {
     void switched(std::size_t, int, int, int, double) const {}
   };
 
-  /// Advances all lanes from t_j to t_{j+1} under the commands that the last `sense()` decided.
+  /// Advances all lanes from t_j to t_{j+1} under u_{j−1} until t_j + δ, then u_j of `sense()`.
   void advance() { advance(IgnoreFlowOfLanes()); }
   /// Advances by one sample and calls observer.switched(…) with parameters as in IgnoreFlowOfLanes.
   template <class Observer>
@@ -104,7 +104,7 @@ class EventPack {
 
   /// The number j of the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
-  /// Gives the present sample the number `index`, 0 or another multiple of RotatingPhasor::block.
+  /// Renumbers the present sample to j = `index`, a multiple ≥ 0 of RotatingPhasor::block.
   /// The phase of the excitation changes accordingly.
   void restart_index(std::int64_t index) { index_ = index; }
   /// The states z_j = [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s) of all lanes.
@@ -222,8 +222,8 @@ class EventPack {
     }
   }
 
-  /// Advances the lanes of `which` in which a bound proves that no contact changes in the part of
-  /// the period, over the whole part. @return the lanes that were advanced
+  /// Advances over a whole part of the period the lanes of `which` whose contact provably does not
+  /// change in this part (NoEventBoundOf). @return the lanes that were advanced
   LaneMask flow_without_event(const Part& part, const LaneMask& which) {
     const LaneStep<Scalar>& step = modes_.step(part.number);
     const std::array<Scalar, 4> before = state();

@@ -51,8 +51,8 @@ double rate_of_powers(const Matrix<double, States>& a) {
   return rate * size;
 }
 
-/// The dynamics of the two masses in each mode of the contact, shared by several motions. The loops
-/// of the motions may differ in the gains and, unless the contact is a dead zone, in the backlash.
+/// The dynamics of the two masses in each contact mode, shared by several motions. The loops of the
+/// motions may differ in their gains. The backlash may also differ unless it is a dead zone.
 class EventTable {
  public:
   using Motion = ModeMotion<TwoMass<double>>;  ///< motion of the two masses in one mode
@@ -85,14 +85,14 @@ class EventTable {
 
   /// The motion of the two masses in a mode of the contact, given by its number.
   const Motion& motion(int mode) const { return motions_[at(mode)]; }
-  /// Whether the equations of motion of two modes differ at most in the effect of the command. If
-  /// one number is −1 (no mode), the result is false unless both are.
+  /// Whether the equations of motion of two modes are equal except for the effect of the command.
+  /// The mode −1 (no mode) is alike to itself only.
   bool move_alike(int mode, int other) const {
     return mode == other || (mode >= 0 && other >= 0 && alike_[at(mode)][at(other)]);
   }
   /// The rate (1/s) of a mode: a Taylor series may cover a time of up to 1/rate.
   double rate(int mode) const { return rates_[at(mode)]; }
-  /// The excitation force as constructed, for which no sample has been selected.
+  /// The excitation force, before the selection of a sample (begin_sample() not yet called).
   const ForceOverSamples& force() const { return force_; }
 
   /// The coefficients of NoEventBoundOf::drop_below_chord() for the guards of the contact's present

@@ -18,12 +18,12 @@
 
 namespace holdfast {
 
-/// Whether a function g of time is proved to stay above zero between two instants, in every lane.
-/// If h is the time between them and |g̈| ≤ M, then
+/// Whether a function g of time provably stays above zero between two instants, in every lane. For
+/// a time h between the instants and |g̈| ≤ M,
 ///
-///     g(x h) ≥ g_0 + (g_1 − g_0) x − 4 d x (1 − x),   d = M h²/8,   0 ≤ x ≤ 1,
+///     g(x h) ≥ g_0 + (g_1 − g_0) x − 4 d x (1 − x),   d = M h²/8,   0 ≤ x ≤ 1.
 ///
-/// with the minimum min(g_0, g_1) − max(4 d − |g_1 − g_0|, 0)² / 16 d. Returns whether it is > 0.
+/// This lower bound has the minimum min(g_0, g_1) − max(4 d − |g_1 − g_0|, 0)² / 16 d, tested > 0.
 /// @param begin  value g_0 at the first instant, in any unit
 /// @param end    value g_1 at the second instant, in the same unit
 /// @param drop   d > 0, from NoEventBoundOf::drop_below_chord(); for d = 0 the result is false

@@ -37,7 +37,7 @@ class LaneExcitation {
     phases_.resize(lines);
   }
 
-  /// Selects sample j = `index`: one more than before, or a multiple of RotatingPhasor::block.
+  /// Selects sample j = `index`, the next sample or a multiple of RotatingPhasor::block.
   void begin_sample(std::int64_t index) {
     const auto k = static_cast<std::size_t>(index) % RotatingPhasor<Scalar>::block;
     Scalar held_force(0);
@@ -62,7 +62,7 @@ class LaneExcitation {
   /// is (F_j, 0) for l = 0, else (0, 0).
   const ExcitationSample<Scalar>& phase(std::size_t line) const { return phases_[line]; }
 
-  /// Computes all phasors, with the harmonics' phases φ_l, at `after` (s) after the sample.
+  /// Computes the phasors of all harmonics, with their phases φ_l, at `after` (s) from the sample.
   void turned(const Scalar& after, std::vector<LanePhasor<Scalar>>& phasors) const {
     for (std::size_t l = 0; l < lines_.size(); ++l)
       phasors[l] = {lines_[l].angular_frequency, turned_by(turn_of(lines_[l], after), l)};

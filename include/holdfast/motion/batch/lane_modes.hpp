@@ -24,7 +24,7 @@ namespace holdfast {
 /// The data of one motion of an EventPack: its loop, EventTable and initial state.
 struct EventStart {
   const ImplementedLoop* loop;  ///< loop for which has_event_pack() is true
-  EventTable* table;            ///< table that serves() the loop; it must outlive the pack
+  EventTable* table;            ///< table valid for the loop (serves()); it must outlive the pack
   Vector<double, 4> state;      ///< initial state z_0 (m, m/s, m, m/s), finite
 };
 
@@ -44,8 +44,8 @@ struct LaneGuard {
   }
 };
 
-/// The map of the state over a part of the period, of length h, in every lane (SubintervalStep),
-/// with the coefficients of NoEventBoundOf.
+/// The SubintervalStep of every lane: the map of the state over a part of the period, of length h.
+/// It also holds the coefficients of NoEventBoundOf.
 template <class Scalar>
 struct LaneStep {
   using Numbers = LaneNumbers<Scalar>;               ///< one number for each lane
@@ -98,7 +98,7 @@ class LaneModes {
     }
   }
 
-  /// Restarts a lane with the initial contact at the state z = [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s).
+  /// Restarts a lane from the state z = [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s) with its initial contact.
   void restart(std::size_t lane, const Vector<double, 4>& state) {
     contacts_[lane] = contact_of(lane, state);
     ignored_.reset(lane);
@@ -110,7 +110,7 @@ class LaneModes {
   /// The contact of a lane, for reading only.
   const DriveContact<>& contact(std::size_t lane) const { return contacts_[lane]; }
 
-  /// Updates a lane after a change of contact mode. The next step() computes its LaneStep.
+  /// Updates a lane after a change of contact mode. Its LaneStep is recomputed by the next step().
   void enter(std::size_t lane) {
     const DriveContact<>& contact = contacts_[lane];
     const int mode = contact.mode();

@@ -21,15 +21,15 @@ namespace holdfast {
 /// conjugate pairs; u_{j−1}], all scaled to metres. An amplitude ξ is scaled by the displacement of
 /// the conductor at the absorber, a command by a bound of the displacement it causes in one period.
 ///
-/// Deviations advance in blocks of samples by two matrix products. Work per sample, m coordinates:
-/// up to 2 m multiply-adds per deviation, m per reading of one, about 60 m for all.
+/// Two matrix products advance the deviations by a block of samples. Work per sample for m
+/// coordinates: up to 2 m multiply-adds per deviation, m per reading of each, and 60 m in common.
 class ModalDeviations {
  public:
   using Columns = Eigen::MatrixXd;  ///< one deviation per column, order() rows
   using Readings = Columns;         ///< one row per reading, one column per deviation
-  static constexpr int block = 64;  ///< most samples in a block, and between two take_readings()
+  static constexpr int block = 64;  ///< maximum of samples in a block or between take_readings()
 
-  /// Begins with the unit vectors as deviations, one for each coordinate.
+  /// Constructs the deviations, initially the unit vectors of all coordinates.
   /// @param motions  natural motions of the loop
   /// @param gains    gains P and D, in effect while the drive transmits
   ModalDeviations(const NaturalMotions& motions, const PdGains<double>& gains)

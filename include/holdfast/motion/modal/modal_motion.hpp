@@ -63,7 +63,7 @@ class ModalMotion {
     return {index_, time(), seen_, present_force_, engaged};
   }
 
-  /// Advances from t_j to t_{j+1} under the force that the last `sense()` decided.
+  /// Advances from t_j to t_{j+1} under u_{j−1} until t_j + δ, then under u_j of `sense()`.
   void advance() {
     const double u = present_force_, before = previous_force_;
     const Vector<double, 2> force = phases_.next();
@@ -82,8 +82,8 @@ class ModalMotion {
     ++index_;
   }
 
-  /// Displaces the conductor in the shape of its static deflection under a force at the absorber,
-  /// by a length (m) at the absorber's place; to be called before `sense()`.
+  /// Displaces the conductor in the shape of its static deflection under a force at the absorber;
+  /// `by` is the displacement (m) at the absorber. To be called before `sense()`.
   void displace_conductor(double by) {
     for (std::size_t k = 0; k < bent_.size(); ++k) {
       auto row = motions_[k];

@@ -58,7 +58,7 @@ struct NaturalMotion {
   std::complex<double> v2;       ///< weight of ξ in the absorber's velocity ż₂ (m/s)
 };
 
-/// Independent natural motions of conductor and absorber, whose sums are a ModalLoop's motions.
+/// The natural motions of conductor and absorber, whose superposition is a ModalLoop's motion.
 class NaturalMotions {
  public:
   /// The state of `modal_plant`: modal coordinates and absorber, [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂].
@@ -145,7 +145,7 @@ class NaturalMotions {
  private:
   using Complex = std::complex<double>;
 
-  /// The shape ψ of a natural motion: the bare conductor under a force f at the absorber.
+  /// The shape ψ of a natural motion: response of the bare conductor to a force f at the absorber.
   struct Shape {
     Complex s;
     Complex force;         // f

@@ -104,7 +104,7 @@ RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
   return look;
 }
 
-/// Continuation of an orbit with exact switching over two parameters, from the nearest solution.
+/// Continuation of an exact-switching orbit over two parameters, from the nearest known solution.
 template <class Family, class Orbit>
 class EventContinuation {
  public:
@@ -181,8 +181,8 @@ class EventContinuation {
 /// switching exists and attracts. Inside, the motion keeps its period and the order of its modes,
 /// and all multipliers, saltation included, lie inside the unit circle.
 ///
-/// The kind of a border is what first ends the motion: a multiplier at the unit circle or a margin
-/// of EventOrbit at zero. Where a contact change passes a sample, the multipliers jump but the
+/// The kind of a border is the cause that ends the motion: a multiplier at the unit circle or a
+/// margin of EventOrbit at zero. If a contact change crosses a sample, the multipliers jump but the
 /// motion may last. A symmetric motion (opposite after half a period) is followed while symmetric.
 /// @param family  (x, y) ↦ ImplementedLoop, with the same f τ everywhere
 /// @param orbit   certified orbit of family(at); its drive leaves every gap that it enters

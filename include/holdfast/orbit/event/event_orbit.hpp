@@ -22,11 +22,11 @@
 
 namespace holdfast {
 
-/// The least margins of an orbit before its switching sequence changes; +∞ for absent events.
+/// The least margins of an orbit from changes of its switching sequence; +∞ for absent events.
 ///
 /// At a margin of zero the motion touches a switching surface without crossing it. Neighbouring
-/// motions then switch in different ways, and multipliers do not describe them. All margins are +∞
-/// for a contact that changes only at the samples.
+/// motions then have different switching sequences, and the linearised return map (multipliers)
+/// does not describe them. All margins are +∞ for a contact that changes only at the samples.
 struct SwitchingMargins {
   /// The margin of an event that never occurs.
   static constexpr double none = std::numeric_limits<double>::infinity();
@@ -62,7 +62,7 @@ struct EventOrbitOf : LoopOrbit<States> {
   /// in the gap 0; in stick the force that keeps both sides together at t_j.
   std::vector<double> forces;
   std::vector<ContactSwitch> switches;  ///< switches of one period; times (s) from sample 0
-  /// For each sample in a gap: Δz (m) at the reversal where this gap began. The value has no
+  /// Δz (m) at the reversal where the present gap began, for each sample in a gap. The value has no
   /// meaning at other samples and for laws other than exact play (contact/contact.hpp).
   std::vector<double> reversals;
   SwitchingMargins margins;          ///< least margins over all switches and turning points

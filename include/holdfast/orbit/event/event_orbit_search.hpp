@@ -77,7 +77,7 @@ class PeriodRecorder {
 
 /// A sample of an orbit and its distance in time from the nearest switch.
 struct FarSample {
-  std::int64_t sample = -1;  ///< sample j; −1: none apart from the switches
+  std::int64_t sample = -1;  ///< index j of the sample; −1: every sample is at a switch
   double distance = 0.0;     ///< time from the nearest switch (s)
 };
 
@@ -104,8 +104,8 @@ FarSample sample_far_from_switches(const EventOrbitOf<States>& orbit, ContactMod
   return best;
 }
 
-/// The sample at which an orbit's return map begins, −1 for none: the engaged sample farthest in
-/// time from any switch, or the farthest sample in the gap if that is at least ten times as far.
+/// The sample at which an orbit's return map begins, −1 for none. It is the engaged sample farthest
+/// in time from all switches, or the farthest one in a gap if that is at least ten times as far.
 template <int States>
 std::int64_t section_of(const EventOrbitOf<States>& orbit) {
   constexpr double near = 0.1;
@@ -196,7 +196,7 @@ class EventOrbitSolver {
   }
 
   /// Measures the orbit over three periods from its first state, and compares their switches.
-  /// @param extent  extent of the states simulated before; that of the orbit may be mere rounding
+  /// @param extent  extent of the simulated motion; the orbit's states may be mere rounding errors
   Result measured(const Point& first, std::int64_t samples, const Extent& extent) {
     motion_.go_to(first);
     EventOrbitMeasures<Contact> measures(motion_.motion());
@@ -228,9 +228,9 @@ class EventOrbitSolver {
   Rational ratio_;
 };
 
-/// The Model of ReturnSearch for an EventMotion. When the state repeats, the fixed point is solved
-/// for. The motion has settled on an orbit if its distance fell below 10⁻⁶ of its extent and did
-/// not grow over the next two periods, in which the motion had the orbit's contact modes.
+/// The Model of ReturnSearch for an EventMotion. If the state repeats, it solves for a fixed point
+/// of the return map. The motion has settled if its distance from the orbit is below 10⁻⁶ of its
+/// extent and then, over two periods with the orbit's contact modes, does not grow.
 template <class Contact>
 class EventSearchModel {
  public:
@@ -242,7 +242,7 @@ class EventSearchModel {
   using Result = EventOrbitResult<Contact>;
   using Seen = SeenMotion<Symbol, Plant>;
 
-  /// The cost of solving per orbit sample, as a number of simulated samples (measured 16 … 60).
+  /// Cost of solving for an orbit, in simulated samples per orbit sample (measured 16 … 60).
   static std::int64_t samples_per_solved() { return 32; }
 
   /// @param start  motion at a stroboscopic instant
@@ -264,7 +264,7 @@ class EventSearchModel {
     return motion_.motion().contact().mode() == other.contact.mode();
   }
 
-  /// Whether to solve for a proposed orbit; false while the motion settles on a known one.
+  /// Whether to solve for a new orbit; false while the motion settles on the proposed orbit.
   bool may_repeat(const Seen&, std::int64_t) const { return periods_on_orbit_ == 0; }
 
   Result solve(const Seen&, std::int64_t period, const Memory&) {
@@ -316,11 +316,11 @@ class EventSearchModel {
 ///     const auto found = find_event_orbit(motion);
 ///     if (found.outcome == OrbitOutcome::certified) use(found.orbit->period());
 ///
-/// The outcome `certified` also means that the motion came as near to the orbit as 10⁻⁶ of its
-/// extent and did not move away over two further periods. With `neutral`, `neutral_state` is the
-/// index of a state variable without restoring term. The outcome is `none_found` also where a
-/// sampling period has more than EventMotion::most_switches contact changes. It is `incommensurate`
-/// also under a recorded force and with sampling jitter.
+/// The outcome `certified` also means that the motion came within 10⁻⁶ of its extent of the orbit
+/// and did not move away over two further periods. For `neutral`, `neutral_state` is the index of a
+/// state variable without restoring term. The outcome is also `none_found` if a sampling period has
+/// more than EventMotion::most_switches contact changes. It is also `incommensurate` for a recorded
+/// force and for sampling jitter.
 ///
 /// Work: at most `limits.most_samples` simulated samples, and about as much for solving.
 /// Memory: one byte per sample of the motion, some 150 bytes per sample of the orbit.

@@ -20,7 +20,7 @@
 
 namespace holdfast {
 
-/// The complete state of an EventMotion before sample j, on which all later samples depend. At
+/// The complete state of an EventMotion before sample j, which determines all later samples. At
 /// stroboscopic instants, every q samples (f τ = p/q), sampling and forcing are in phase.
 template <class Contact>
 struct StroboscopicState {
@@ -176,7 +176,7 @@ class ReturnMap {
   /// Solves for the fixed point X_N = X_0 near a given state, by Newton's method with the linear
   /// steps of CyclicSystem. The iteration ends when further steps bring no improvement.
   /// @param near  a state that is not in stick
-  /// @return nullopt where 1 is a multiplier, the motion touches a switching surface, it returns in
+  /// @return nullopt where 1 is a multiplier, the motion touches a switching surface or ends in
   ///         another contact mode, or X_N − X_0 does not decrease to rounding
   std::optional<Point> fixed_point(Point near) {
     constexpr int most_iterations = 30, most_failures = 3;
@@ -232,8 +232,8 @@ class ReturnMap {
     return which;
   }
 
-  /// The multipliers of a fixed point, largest first: one for each state variable of the loop, its
-  /// memory included. If these are fewer than five, multipliers 0 (log_modulus −∞) are added.
+  /// The multipliers of a fixed point, largest first: one for each state variable, including the
+  /// loop's memory, and at least five. Missing ones are filled with 0 (log_modulus −∞).
   std::vector<Multiplier> multipliers(const Point& point) {
     Extent unused(motion_.motion().readings());
     const Linearised flow = linearised(point, samples_that_keep_digits(), unused);

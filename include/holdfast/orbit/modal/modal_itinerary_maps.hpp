@@ -100,13 +100,13 @@ class ModalItineraryMaps {
     return state;
   }
 
-  /// The factors e^{sτ} of all natural motions; those that stand for a conjugate pair come first.
+  /// The factors e^{sτ} of all natural motions: one for each conjugate pair, then the real ones.
   const Eigen::VectorXcd& decay() const { return decay_; }
-  /// The number of natural motions that stand for a conjugate pair.
+  /// The number of conjugate pairs; each pair is represented by one natural motion.
   Eigen::Index pairs() const { return pairs_; }
 
-  /// The correction of the first of `samples` states in the backlash for the closure error `gap`:
-  /// each natural motion ξ is multiplied by e^{sτ} per sample.
+  /// The correction of the first state that removes the closure error `gap` after `samples` samples
+  /// in the backlash, where each sample multiplies a natural motion ξ by e^{sτ}.
   State correction_in_backlash(const State& gap, std::size_t samples) const {
     const Eigen::Index count = decay_.size();
     const Eigen::ArrayXcd natural =
@@ -206,7 +206,7 @@ inline bool is_idle(const Itinerary& itinerary) {
   return std::all_of(itinerary.begin(), itinerary.end(), [](auto contact) { return contact == 0; });
 }
 
-/// The periodic solution of an idle drive, from each natural motion alone; otherwise nullopt.
+/// The periodic solution for an idle drive, each natural motion alone; otherwise nullopt.
 inline std::optional<PeriodicSolution<ModalItineraryMaps>> solution_without_blocks(
     const ModalItineraryMaps& maps, const Itinerary& itinerary) {
   if (!is_idle(itinerary)) return std::nullopt;
@@ -220,8 +220,8 @@ inline std::optional<PeriodicSolution<ModalItineraryMaps>> solution_without_bloc
 /// The products of the maps of an itinerary, one for each block of samples, in the units of `maps`.
 /// A block ends at most sixteen samples after an entry of its product has reached 1000. Work per
 /// sample: 2 n² multiply-adds, n being the number of coordinates of a deviation.
-/// @return empty if more than 64 blocks are needed: no orbit can then be solved for; empty also for
-///         an idle drive, whose orbit is solved for without them
+/// @return the products; empty for an idle drive, whose orbit is solved for without blocks. Empty
+///         also if more than 64 blocks are needed: no orbit can then be solved for
 inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& maps,
                                                    const Itinerary& itinerary) {
   constexpr std::size_t between_looks = 16, most = 64;
@@ -242,7 +242,7 @@ inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& map
   return blocks;
 }
 
-/// The largest of some multipliers, by descending modulus.
+/// The largest `most` multipliers of a list, in descending order of their moduli.
 inline std::vector<Multiplier> largest_of(std::vector<Multiplier> all, Eigen::Index most) {
   std::stable_sort(all.begin(), all.end(), Multiplier::is_larger);
   all.resize(std::min(all.size(), static_cast<std::size_t>(most)));

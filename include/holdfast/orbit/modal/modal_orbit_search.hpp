@@ -47,9 +47,9 @@ struct ModalAttraction {
 
 namespace detail {
 
-/// The neighbourhood of an orbit whose drive never leaves its gap. V is diagonal there, with the
-/// weights of the natural motions in Δz, since each decays independently. A deviation e changes Δz
-/// by at most ‖h‖ ‖R e‖ at all samples, with the row h of Δz times R⁻¹.
+/// The neighbourhood of an orbit whose drive never leaves its gap: natural motions then decay
+/// independently. V is diagonal, with the moduli of their coefficients in Δz, bounded from below.
+/// A deviation e changes Δz by at most ‖h‖ ‖R e‖ at every sample, where h is the row of Δz · R⁻¹.
 /// @return nullopt with a processing delay, or where a natural motion does not decay
 template <class Loop>
 std::optional<ModalAttraction> idle_attraction(const Loop& loop, const ModalItineraryMaps& maps,
@@ -88,8 +88,8 @@ std::optional<ModalAttraction> idle_attraction(const Loop& loop, const ModalItin
 ///
 /// Φ maps the initial deviation e to the deviation at a sample; h is a switching surface's normal.
 /// A contact is unchanged if |h Φ e| is below the orbit's distance from the surface. `radius` is
-/// the least distance / ‖h Φ R⁻¹‖ over the periods that M covers, after which ‖R e‖ is smaller. V
-/// is computed for the fewest of 1, 2, 4, … 64 periods whose contraction exceeds rounding.
+/// the least value of distance / ‖h Φ R⁻¹‖ over the periods of M, after which ‖R e‖ has decreased.
+/// M covers the least number of periods (1, 2, 4, … 64) whose contraction exceeds rounding.
 /// @param loop   the loop that has the orbit
 /// @param maps   maps of that loop
 /// @param orbit  orbit of that loop, attracting and certified
@@ -163,7 +163,7 @@ namespace detail {
 template <class Loop>
 class ModalRegion {
  public:
-  /// The cost of solving per orbit sample, O(N²), over the cost of a simulated sample, O(N).
+  /// The cost of solving for an orbit, O(N²) per sample, divided by that of simulating it, O(N).
   std::int64_t samples_per_solved() const {
     return std::max<std::int64_t>(16, maps_.units().size());
   }

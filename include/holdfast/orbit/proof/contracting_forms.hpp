@@ -10,8 +10,8 @@
 
 namespace holdfast::detail {
 
-/// The factor ρ of contracting_forms(): the square root of the orbit's contraction per map, so that
-/// the forms stay small; at least 1/2.
+/// The factor ρ of contracting_forms(): the square root of the orbit's mean contraction per map,
+/// but at least 1/2. The square root keeps the forms small.
 /// @param log_modulus  ln of the largest multiplier, < 0
 /// @param count        number of maps in a period
 inline double contracting_rate(double log_modulus, std::size_t count) {
@@ -22,12 +22,12 @@ inline double contracting_rate(double log_modulus, std::size_t count) {
 ///
 ///     P_j = M_jᵀ P_{j+1} M_j / ρ² + Q_j,   j = 0 … N − 1,   P_N = P_0
 ///
-/// By doubling, P_0 = Σ_k (Fᵀ)ᵏ Q Fᵏ, F = M_{N−1} … M_0/ρᴺ; P_N = 0 would give P_0 = Q.
+/// P_0 = Σ_k (Fᵀ)ᵏ Q Fᵏ with F = M_{N−1} … M_0/ρᴺ, summed by doubling. Q is the P_0 for P_N = 0.
 /// @param count    N ≥ 1
 /// @param map_of   j ↦ M_j, Size × Size of doubles
 /// @param rest_of  j ↦ Q_j, positive definite
-/// @param rate     ρ, of contracting_rate()
-/// @return nullopt where the sum is not finite: then some multiplier is not below ρᴺ
+/// @param rate     factor ρ from contracting_rate()
+/// @return nullopt if the sum is not finite: some multiplier then has a modulus ≥ ρᴺ
 template <int Size, class MapOf, class RestOf>
 std::optional<std::vector<Matrix<double, Size>>> contracting_forms(std::size_t count,
                                                                    const MapOf& map_of,

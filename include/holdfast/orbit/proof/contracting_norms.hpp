@@ -21,13 +21,13 @@ namespace holdfast {
 ///
 ///     V_j(e)² = eᵀ P_j e,   V_{j+1}(M_j e) ≤ s_j V_j(e),   s_{N−1} … s_0 < 1
 ///
-/// The P_j are computed in doubles, then taken as exact. Interval elimination proves the
+/// The P_j are computed in doubles and then treated as exact. Interval elimination proves the
 /// inequalities. Hence all multipliers (eigenvalues of M_{N−1} … M_0) have moduli ≤ s_{N−1} … s_0.
 /// @tparam Size  size of e
 template <int Size>
 class ContractingNorms {
  public:
-  /// The two maps of which the sequence is made, in intervals (Enclosure).
+  /// The two maps from which the sequence is composed, as interval matrices (Enclosure).
   using Maps = std::array<Matrix<Enclosure, Size>, 2>;
 
   /// Computes the norms and proves the contraction at all corners. The proof is then valid for all
@@ -36,7 +36,7 @@ class ContractingNorms {
   ///                     norms are valid; one corner for a single loop
   /// @param sequence     index (0 or 1) of the map that moves sample j, for each j; not empty
   /// @param log_modulus  estimate of ln |λ| for the largest multiplier λ
-  /// @return nullopt where no norms are found in which the sequence contracts, or log_modulus ≥ 0
+  /// @return nullopt if log_modulus ≥ 0 or no norms are found in which the sequence contracts
   static std::optional<ContractingNorms> of(const std::vector<Maps>& corners,
                                             const std::vector<std::uint8_t>& sequence,
                                             double log_modulus) {

@@ -88,7 +88,7 @@ class EnclosedDeviations {
   }
 
  private:
-  /// Stores the midpoints of `exact`; their error is `carried` plus √(Σ V_j²) of the remainders.
+  /// Stores the midpoints of `exact`; their error is `carried` + √(Σ V_j(exact − midpoint)²).
   void take(std::size_t sample, const Enclosed& exact, const Number& carried) {
     columns_ = exact.template cast<double>();
     const Enclosed wrong = exact - columns_.template cast<Number>();

@@ -28,22 +28,22 @@
 namespace holdfast {
 
 /// The proof of a periodic motion of the sampled loop whose drive switches between the samples. It
-/// concerns the motions that begin in a ball about the first given state, with its contact. If the
-/// outcome is `proved`, these are theorems. Exactly one of these motions has the given period. It
-/// differs from the given states by at most the error bounds, and its multipliers have moduli ≤
-/// `multiplier_bound`. All others tend to it and have the same contact changes in the same sampling
+/// is about all motions that begin in a ball around the first given state, in the same contact. If
+/// the outcome is `proved`, exactly one motion from the ball has the given period. It differs from
+/// the given states by at most the error bounds; its multipliers have moduli ≤ `multiplier_bound`.
+/// All other motions from the ball tend to it, with the same contact changes in the same sampling
 /// periods for ever. If the orbit stays in its gap, the proof is for the given gap position only.
 struct EventOrbitProof : ProvedBounds {
   /// Largest distance between a given state's image one sample later and the next given state, as
   /// a share of the states' extent.
   double miss = 0.0;
   double instant_error = 0.0;  ///< error bound of the recorded instants of contact changes (s)
-  /// The inequality with the least decided_by(); for `near_surface` the one that was not proved.
+  /// The inequality with the least ratio decided_by(); for `near_surface` the unproved inequality.
   ContactTest nearest;
   /// Radius (m) of the ball about the first given state, in the norm and weights of AttractionBall;
-  /// ∞ without backlash. The ball contains no deviations that the contact of this state excludes.
-  /// In stick Δż is 0 and Δz is at the gap's end. The gap's position does not vary while engaged or
-  /// for an orbit that stays in its gap, and u_{j−1} does not vary where δ = 0.
+  /// ∞ without backlash. Deviations that the contact of this state excludes are not in the ball: in
+  /// stick Δż is 0 and Δz is at the gap's end. The gap's position is fixed while engaged or for an
+  /// orbit that stays in its gap, and u_{j−1} is fixed if δ = 0.
   double radius = 0.0;
 };
 
@@ -309,8 +309,8 @@ class EventOrbitProver {
 ///
 /// Here `implemented` is implemented_loop(loop) with Switching::exact: the drive has the exact play
 /// of DriveContact. A guard is a function whose zero ends a contact mode. The proof encloses every
-/// instant of a contact change and shows that it is the only zero of its guard. It shows that all
-/// other guards are positive until then, by Taylor series with enclosed coefficients.
+/// instant of a contact change and shows that it is the first zero of its guard. It shows, by
+/// Taylor series with enclosed coefficients, that all other guards are positive until that instant.
 /// @param loop          the loop, its numbers in doubles
 /// @param orbit         the orbit to be proved: its states, period and multipliers are used
 /// @param first         state at which the orbit begins, at phase 0 of the forcing

@@ -37,8 +37,8 @@ namespace detail {
 /// of contact and proves that no other change occurs.
 ///
 /// Just after a contact change the motion is close to an end of its gap. The ball at the next
-/// sample then extends beyond this end, although no motion does. A guard may therefore be proved
-/// positive on another set with all motions (witness): the last sample's set, moved here.
+/// sample then extends beyond this end, although no motion does. A guard may then be proved
+/// positive on a second set of all motions (witness): the set after the last change, propagated.
 template <class Number>
 class EventPassage {
  public:
@@ -109,10 +109,10 @@ class EventPassage {
     return next == here.switches.size();
   }
 
-  /// The inequality with the least ratio of value to error so far, or the undecided one.
+  /// The inequality with the least ratio of value to error so far, or the inequality that failed.
   const ContactTest& nearest() const { return nearest_; }
-  /// Whether pass() failed at an undecided inequality, `nearest()`. Otherwise it failed because the
-  /// law excludes the sequence of contacts.
+  /// Whether pass() failed because the inequality `nearest()` was not proved. Otherwise it failed
+  /// because the backlash law excludes the sequence of contacts.
   bool is_undecided() const { return is_undecided_; }
   /// An upper bound of the error of every recorded instant of contact change (s).
   double instant_error() const { return instant_error_; }
@@ -144,8 +144,8 @@ class EventPassage {
     if (mode == ContactMode::engaged) set.assign(FlowPlace::gap, Number());
   }
 
-  /// Imposes all constraints at a sample, also these: u_{j−1} is set to 0 where u_j acts at once (δ
-  /// = 0), and a gap that is never left is fixed.
+  /// Imposes all constraints at a sample: the constraints of the contact, u_{j−1} = 0 if u_j acts
+  /// at once (δ = 0), and a fixed gap position if the contact never changes.
   void prepare(ContactMode mode, Set& set) const {
     constrain(mode, set);
     if (!moves_gap_) set.spread.row(FlowPlace::gap).setZero();
@@ -366,8 +366,8 @@ class EventPassage {
     begin(to, zeros);
   }
 
-  /// Whether the law allows the zero of a guard to lead to a given contact; where it allows
-  /// several, the guards of the contact that begins decide.
+  /// Whether the backlash law allows a given contact after the zero of a guard. If it allows
+  /// several contacts, the guards of the new contact decide.
   bool may_change(std::size_t guard, const RecordedContact& to) const {
     if (guard >= guards().size()) return false;
     switch (mode_) {
@@ -403,7 +403,7 @@ class EventPassage {
     return true;
   }
 
-  /// Records local minima of a positive guard: at turning points, and at the beginning of stick.
+  /// Records the local minima of a positive guard, at turning points and where stick begins.
   void note_minima(std::size_t guard, const Series& series, double from, double end, double now) {
     const ContactSurface surface = guards()[guard].surface;
     const auto slope = [&](double s) { return series.slope(Number(s)).middle(); };

@@ -60,7 +60,7 @@ class GuardSeries {
 
   /// An interval of s in which g falls through zero, exactly once, for every motion of the set.
   /// @param near  estimate of the zero (s)
-  /// @return nullopt where this was not proved
+  /// @return nullopt where such an interval was not proved
   std::optional<Number> falls_through_zero(double near) const {
     for (int step = 0; step < 8; ++step)
       near -= value(Number(near)).middle() / slope(Number(near)).middle();

@@ -24,7 +24,7 @@ enum class OrbitProofOutcome {
   proved,           ///< the orbit and all bounds of the proof are proved
   not_contracting,  ///< no norms found in which the maps contract: some multiplier |λ| may be ≥ 1
   other_contacts,   ///< the backlash law gives other contacts along the given states
-  not_closed,       ///< a given state, moved to the next sample, misses the next one by too much
+  not_closed,       ///< the image of a given state is too far from the next given state
   near_surface,     ///< a contact could not be decided: too near a switching surface
   no_ball,          ///< the periodic motion is proved, but no ball of attraction
 };
@@ -45,12 +45,12 @@ struct ProvedBounds {
   double velocity_error = std::numeric_limits<double>::infinity();  ///< error bound of ż₁, ż₂ (m/s)
 };
 
-/// The proof of a periodic motion of the sampled loop. If the outcome is `proved`, these are
-/// theorems. The loop has exactly one periodic motion with the orbit's contacts. It differs from
+/// The proof of a periodic motion of the sampled loop. The following holds if the outcome is
+/// `proved`. The loop has exactly one periodic motion with the orbit's contacts. It differs from
 /// the given states by at most the error bounds. Its multipliers have moduli ≤ `multiplier_bound`.
-/// Every motion from the ball of attraction keeps the contacts for ever and tends to this one.
+/// Every motion from the ball of attraction keeps these contacts for ever and tends to it.
 struct OrbitProof : ProvedBounds {
-  /// The contact decision with the least `decided_by`; for `near_surface` the one not proved.
+  /// The contact decision with the least ratio `decided_by`; if `near_surface`, the unproved one.
   Border nearest;
   double decided_by = std::numeric_limits<double>::infinity();  ///< distance/error, > 1 if proved
   /// Range of backlash widths r₀ (m) for which the otherwise unchanged loop has the same motion.
@@ -209,7 +209,7 @@ class OrbitProver {
   }
   static Number around_zero(double error) { return {-error, error}; }
 
-  /// The value that a test requires to be positive, for a given r₀; in m, for Δż in the unit of ż.
+  /// The left side of a test's inequality for a given r₀, in m (for Δż in the unit of ż).
   Number value_of(const SwitchingTest& test, const AlongSegment<Number>& width) const {
     const std::size_t here = wrapped(test.sample), entry = wrapped(test.entry);
     const Number sign(test.sign), widths(test.widths);
@@ -354,18 +354,18 @@ class OrbitProver {
 
 }  // namespace detail
 
-/// Proves a periodic motion of the sampled loop; otherwise the outcome states why it is not proved.
-/// The proof is valid for all loops whose numbers round to the given doubles, with f τ exactly p/q.
+/// Proves a periodic motion of the sampled loop. If no proof is found, the outcome states why. The
+/// proof is valid for all loops whose numbers round to the given doubles, with f τ exactly p/q.
 ///
 /// The maps of the sampling periods and the contributions of the force are enclosed in intervals.
-/// The maps of the orbit's contacts are proved to contract (ContractingNorms), so that they have
-/// one periodic motion. The given states differ from this motion by at most a bound, computed from
-/// their closure errors. Each contact is then proved by strict inequalities (SwitchingTest). For
-/// the ball of attraction, deviations are propagated until they are shorter than at the beginning.
+/// The maps for the orbit's contacts are proved to contract (ContractingNorms); hence exactly one
+/// periodic motion follows them. A bound of its distance from the given states is computed from
+/// the states' closure errors. Strict inequalities (SwitchingTest) then prove each contact. For the
+/// ball of attraction, deviations are propagated until they are shorter than at the beginning.
 /// @param loop           the loop, its numbers in doubles
 /// @param orbit          the orbit to be proved: its states and contacts are used
-/// @param largest_miss   largest allowed difference of a given state, moved to the next sample,
-///                       from the next given state, as a share of the extent; else `not_closed`
+/// @param largest_miss   largest allowed distance of a given state's image from the next given
+///                       state, as a share of the extent; `not_closed` if it is exceeded
 /// @throws InvalidParameter where the loop is not admissible, its f τ is not the orbit's p/q, or
 ///         the orbit's number of samples is no multiple of q
 /// Work: about 30 µs per sample of the orbit, and 20 µs per sample of propagated deviations.

@@ -23,7 +23,7 @@ struct RecordedContact {
 /// A change of contact between two samples.
 struct RecordedSwitch {
   double after;  ///< time since the sample (s)
-  int guard;     ///< index of the guard of the ended mode that fell to 0; −1: jump of the command
+  int guard;     ///< index, in the ended mode, of the guard that fell to 0; −1: command jump
   RecordedContact begun;  ///< contact that begins
 };
 
@@ -35,7 +35,7 @@ struct RecordedSample {
   std::vector<RecordedSwitch> switches;  ///< changes before the next sample
 };
 
-/// A period of a motion that switches between the samples, recorded as the proposal of a proof.
+/// A recorded period of a motion that switches between the samples: the candidate for a proof.
 struct RecordedContacts {
   std::vector<RecordedSample> samples;  ///< the N samples of the period
   bool repeats = false;                 ///< whether the contact at the end equals that at the start

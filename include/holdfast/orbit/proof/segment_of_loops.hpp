@@ -37,8 +37,8 @@ struct AlongSegment {
 };
 
 /// The segment between two loops that differ only in the gains P and D, the force's amplitude F_m
-/// and the backlash width r₀, so that the maps of a sample are linear along it. The class has these
-/// maps, forces and widths in plant_scaling() units. A single loop is a segment of length 0.
+/// and the backlash width r₀. The maps, forces and widths are therefore linear along the segment;
+/// they are stored in plant_scaling() units. A single loop is a segment of length 0.
 template <class Number>
 class SegmentOfLoops {
  public:

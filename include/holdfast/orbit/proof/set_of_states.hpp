@@ -45,12 +45,12 @@ struct SetOfStates {
     return at_centre(row) + Number(-most, most);
   }
 
-  /// Sets a coordinate of w to a linear function of w, for every motion, on the surface and later.
+  /// Sets a coordinate of w to a linear function of w, in `centre`, `spread` and `at_once`.
   void assign(Eigen::Index coordinate, const Row& row) {
     assign_where_met(coordinate, row);
     if (is_apart) at_once.row(coordinate) = (row * at_once).eval();
   }
-  /// Does assign() where the motions reach the surface, but leaves `at_once` unchanged.
+  /// Sets a coordinate as assign() does, but only in `centre` and `spread`.
   void assign_where_met(Eigen::Index coordinate, const Row& row) {
     const Number value = at_centre(row);
     const RowVector<Number, 6> change = row * spread;

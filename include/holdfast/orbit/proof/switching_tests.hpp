@@ -20,14 +20,14 @@ struct SwitchingTest {
   int sign;                  ///< sign of the inequality: 1 or −1
   int widths;                ///< coefficient of r₀ in the inequality: −1, 0 or 1
 
-  /// Whether the inequality is one of Δż, not of Δz.
+  /// Whether the inequality tests Δż; otherwise it tests Δz.
   bool is_of_velocity() const { return surface == SwitchingSurface::reversal; }
 };
 
 namespace detail {
 
-/// Appends the tests of a sample in a gap that was entered at sample k: the gap is [Δz_k − r₀,
-/// Δz_k] if Δż > 0 just before sample k, [Δz_k, Δz_k + r₀] if Δż < 0.
+/// Appends the tests of a sample in a gap that was entered at sample k. The gap is [Δz_k − r₀,
+/// Δz_k] if Δż > 0 at sample k − 1, and [Δz_k, Δz_k + r₀] if Δż < 0.
 inline void append_gap_tests(const ContactDecision& decision, std::int64_t sample,
                              std::int64_t entry, bool from_positive,
                              std::vector<SwitchingTest>& tests) {

@@ -49,8 +49,8 @@ inline void validate(const GainGrid& grid) {
 /// Stability changes along a row only where the row crosses the stability boundary. One Hurwitz
 /// test decides all cells between two crossings. A cell within round-off of the boundary counts as
 /// not stable. Newton's method finds the crossing with each monotone arc of `RootPairCurve`,
-/// starting from the crossing of the previous row. The boundaries with a root 0 or ∞ give linear
-/// equations in D. If each row has one D instead of one P, exchange P and D in the polynomial.
+/// starting from the crossing of the previous row. Crossings at which a root is 0 or ∞ follow from
+/// linear equations in D. For rows of constant D instead of P, exchange P and D in the polynomial.
 ///
 /// Work per row: about 40 multiply-adds for each arc and 60 for each interval between crossings,
 /// independent of the number of cells.

@@ -66,9 +66,9 @@ struct LoopAxis {
   Axis values;              ///< values of the parameter, in its SI unit
 };
 
-/// Chart of a sampled loop over any two of its parameters; all others are those of `point`.
+/// Chart of a sampled loop over any two parameters; all others have their values in `point`.
 struct LoopChart {
-  /// The loop in which a cell sets the two axis parameters. If δ is on no axis, δ/τ is constant.
+  /// Loop of which each cell replaces the two axis parameters. If δ is on no axis, δ/τ is constant.
   OperatingPoint point;
   LoopAxis slow;  ///< axis with one value for each row
   LoopAxis fast;  ///< axis with one value for each column

@@ -30,9 +30,9 @@ namespace holdfast {
 /// @param columns        number of cells, ≥ 0
 /// @param polynomial_at  function (column, Number{}) → Polynomial<Number, Degree> with the stable
 ///                       half-plane Re < 0. It returns the polynomials of as many cells as Number
-///                       has lanes, from `column` on; Number is Scalar or double. It is a copy, so
-///                       that the compiler need not read the coefficients again after each
-///                       write to `stable`.
+///                       has lanes, from `column` on; Number is Scalar or double. The function is
+///                       passed by value, so that writes to `stable` do not force the compiler
+///                       to reload the coefficients.
 /// @param stable         array with `columns` entries, filled with 1 (stable) or 0 (not stable)
 template <class Scalar, class PolynomialAt>
 void hurwitz_row(std::int64_t columns, PolynomialAt polynomial_at, std::uint8_t* stable) {
@@ -119,8 +119,8 @@ void hurwitz_row(const Eigen::Matrix<double, Eigen::Dynamic, Size>& table, std::
 
 namespace detail {
 
-/// The characteristic polynomial of a point's sampled loop in powers of λ − 1, affine in P and D.
-/// All called functions are inlined. As the pack's type is a template argument, the matrix
+/// The characteristic polynomial of a sampled loop in powers of λ − 1, affine in P and D. All
+/// functions called are inlined. Since the type of the SIMD pack is a template argument, the matrix
 /// exponential is also compiled for the pack's instruction set.
 template <class Scalar>
 [[gnu::flatten, gnu::noinline]] AffinePolynomial<double, 5> polynomial_of(
@@ -176,9 +176,9 @@ class StabilityChartRows {
 };
 
 /// Chart of the spectral radius over any two parameters of the sampled loop. SIMD lanes compute
-/// several rows at once. In a row, the dominant roots of a cell start the search in the next cell
-/// (`DominantFactor`); the first cell starts from the first cell of a previous row. Two packs of
-/// rows are computed in turn, one during the divisions of the other.
+/// several rows at once. The dominant roots of a cell are the initial guess for the next cell in
+/// the row (`DominantFactor`); a row's first cell starts from that of a previous row. Two packs of
+/// rows are interleaved, so that one is computed during the divisions of the other.
 /// @tparam Degree  5 if every loop of the chart has δ = 0, otherwise 6 (see `DominantFactor`)
 template <class Scalar, int Degree>
 class RadiusChartRows {

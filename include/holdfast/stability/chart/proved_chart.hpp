@@ -26,7 +26,7 @@ namespace holdfast {
 enum class ProvedStability {
   stable,     ///< every loop is asymptotically stable
   unstable,   ///< every loop has a root with |λ| > 1, or Re s > 0 in the continuous loop
-  undecided,  ///< neither of these is proved for all loops
+  undecided,  ///< neither stability nor instability is proved for all loops
 };
 
 /// Closed rectangle (box) of gains P and D; it may be as small as a segment or a point.
@@ -70,9 +70,9 @@ struct ProvedChart {
 
 namespace detail {
 
-/// Hurwitz's conditions on a polynomial a of degree n = 4 or 5, constant coefficient first. These
-/// numbers are all > 0 if all roots have Re < 0, and all ≥ 0 if all roots have Re ≤ 0. By Liénard
-/// and Chipart, Re < 0 follows if the first `sufficing` are > 0. H_k: Hurwitz determinants.
+/// Hurwitz's conditions on a polynomial with coefficients a_0 … a_n, n = 4 or 5: numbers that are
+/// all > 0 if all roots have Re < 0, and all ≥ 0 if all have Re ≤ 0. By Liénard and Chipart, all
+/// roots have Re < 0 if the first `sufficing` numbers are > 0. H_k: Hurwitz determinants.
 ///
 ///     a_n a_0,  a_n a_2,  a_n a_{n−1},  H₃ a_n (n = 4) or H₂ and H₄ (n = 5);  then all others
 ///
@@ -107,7 +107,7 @@ struct HurwitzConditions {
 ///
 ///     f(P, D) ∈ f(P₀, D₀) + ∂f/∂P [box] (P − P₀) + ∂f/∂D [box] (D − D₀)
 ///
-/// with ∂f/∂P and ∂f/∂D over the whole box. The excess width is quadratic in the size of the box.
+/// with ∂f/∂P and ∂f/∂D enclosed over the box. The overestimation is quadratic in the box's size.
 template <int Degree>
 class GainBoxProof {
  public:
@@ -202,7 +202,7 @@ inline std::vector<GainBox> quarters_of(const GainBox& box) {
 
 /// Quarters undecided boxes repeatedly. It stops when their area is at most `most_area` (N²·s/m²),
 /// when none can be divided, or when quartering might give more than `most_boxes` boxes.
-/// @param open     items with a box `gains`; on return the items that are still undecided
+/// @param open     undecided items, each with a box `gains`; on return those still undecided
 /// @param take     function (item, quarter) that adds the quarter to `open` or to the decided boxes
 /// @param decided  function () → number of decided boxes
 template <class Open, class Take, class Decided>

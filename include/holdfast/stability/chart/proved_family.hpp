@@ -93,7 +93,7 @@ struct AliasSum {
   Parts<Enclosure> proportional, differential;
 
   /// Adds the term U G of the alias angle θ + 2πn; U = 2 sin(θ/2)/(ωτ) e^{−i(θ/2 + ωδ)}.
-  /// @param hold      U
+  /// @param hold      factor U of the zero-order hold and the delay
   /// @param omega     ω (rad/s)
   /// @param response  G(iω) (m/N)
   void add(const Parts<Enclosure>& hold, const Enclosure& omega, const Parts<Enclosure>& response) {
@@ -121,14 +121,14 @@ struct ResponseBounds {
 /// Alias sum P A_P + D A_D = Σ U_n (P + iω_n D) G(iω_n) over all n ≠ 0. Samples cannot distinguish
 /// the frequencies ω_n = (θ + 2πn)/τ from ω = θ/τ. U_n is the U of `AliasSum::add`.
 ///
-/// Terms with |n| ≤ N are added; the rest is bounded by |ω_n| τ ≥ 2π (|n| − t), t = θ/2π < 1, and
-/// Σ_{n > N} (n − t)^{−k} ≤ (N + 1/2 − t)^{1 − k}/(k − 1). At large θ the leading part −μ/ω² of G
-/// is summed in closed form, with x = δ/τ:
+/// Terms with |n| ≤ N are summed. The sum of the others is bounded by means of the inequalities
+/// |ω_n|τ ≥ 2π(|n| − t), t = θ/2π < 1, and Σ_{n > N} (n − t)^{−k} ≤ (N + 1/2 − t)^{1 − k}/(k − 1).
+/// At large θ the leading part −μ/ω² of G is summed in closed form, with x = δ/τ:
 ///
 ///     Σ e^{−i(θ + 2πn)x}/(θ + 2πn)² = (1 − x + x e^{−iθ})/(4 sin²(θ/2)),   0 ≤ x ≤ 1.
 ///
 /// @param response  map ω (rad/s) → G(iω) (m/N)
-/// @param bounds    map from the least ω (rad/s) to ResponseBounds
+/// @param bounds    map from the least ω (rad/s) of the other terms to their ResponseBounds
 template <class Response, class Bounds>
 AliasSum alias_sum(const Enclosure& theta, const Enclosure& period, const Enclosure& delay,
                    const Response& response, const Bounds& bounds) {
@@ -174,7 +174,7 @@ AliasSum alias_sum(const Enclosure& theta, const Enclosure& period, const Enclos
 /// Parameter that varies over a box of loops.
 struct MovingParameter {
   std::size_t number;  ///< index of the parameter
-  double reach;        ///< largest |value − value at the box's middle|, as an upper bound
+  double reach;        ///< upper bound of |value − value at the box's middle| over the box
 };
 
 /// Values of a complex function, without its slopes.
@@ -193,8 +193,8 @@ struct CircleAngle {
   Number tuned;  ///< frequency Ω = ω/c (rad/s), with c as for `angle_at`
 };
 
-/// Angle and frequency of a box's loops at a common coordinate v, 0 ≤ v ≤ π. At small v natural
-/// frequencies, which are proportional to c, have equal v in all loops; v = π is θ = π:
+/// Angle and frequency of a box's loops as functions of a common coordinate v, 0 ≤ v ≤ π. At small
+/// v, natural frequencies, proportional to c, have equal v in all loops; at v = π all have θ = π:
 ///
 ///     Ω = (1 − w) v/τ₀ + w v/(τ c),   w = v²/π²
 /// @param c  natural frequencies relative to those of the box's middle, whose period is τ₀
@@ -209,14 +209,14 @@ inline CircleAngle<EnclosedSlope> angle_at(const EnclosedSlope& v, const Enclose
 
 /// Proof that no loop of a box has a root e^{iθ} on an arc |v − v₀| ≤ h of the unit circle.
 ///
-/// Such a root is a zero of F = Δ(iω) (1 − P G_z − D G_v), which is the base function minus Δ A
-/// with the alias sum A. For the loops x of a box with middle x⁰ all values of F lie within
+/// Such a root is a zero of F = Δ(iω) (1 − P G_z − D G_v), equal to the base function `Loop::base`
+/// minus Δ A with the alias sum A. For all loops x of a box with the middle x⁰, F lies within
 ///
 ///     F(x⁰, v₀) + Σ_k ∂F/∂x_k (x_k − x⁰_k) + ∂F/∂v (v − v₀) − Δ A
 ///
-/// with the derivatives of the base function over box and arc. F is not 0 if, for some direction u,
-/// its part Re(ū F(x⁰, v₀)) exceeds the bounds of all other terms. A direction u at a right angle
-/// to ∂F/∂v makes the term of v small.
+/// with the base function's derivatives enclosed over box and arc. F is not 0 if, for a direction
+/// u, Re(ū F(x⁰, v₀)) exceeds the sum of the bounds of all other terms' components along u. The
+/// component of the term in v is small for a direction u at a right angle to ∂F/∂v.
 template <class Loop>
 class ArcExclusion {
  public:
@@ -245,7 +245,7 @@ class ArcExclusion {
     });
   }
 
-  /// The index of the parameter whose range reduces the margin on the last arc most.
+  /// The index of the parameter whose range contributes most to the spread of F on the last arc.
   std::size_t heaviest() const {
     std::size_t heaviest = 0;
     double most = -1.0;
@@ -265,7 +265,7 @@ class ArcExclusion {
     return heaviest;
   }
 
-  /// The corner of the box whose loop has the F nearest to 0 at the last angle, by the slopes.
+  /// The corner of the box at which F, extrapolated by its slopes, is nearest to 0 on the last arc.
   Parameters<double> nearest_corner(const ParameterBox<parameters>& box) const {
     Parameters<double> corner = middle_loop_;
     for (std::size_t k = 0; k < slopes_.size(); ++k) {
@@ -369,11 +369,11 @@ struct LoopVerdict {
   bool is_stable_in_middle;  // of both halves, which share it
 };
 
-/// The verdict on a box. Unstable: the loop in the middle or at the `nearest_corner` is unstable.
-/// Stable: a loop of the box is stable and none has a root on the unit circle, so that no root has
-/// crossed the circle. Undecided otherwise.
-/// @param has_stable_loop  whether a loop of the box is proved stable already; else the middle is
-///                         judged first
+/// The verdict on a box. It is unstable if its loop in the middle or `nearest_corner` is unstable.
+/// It is stable if one of its loops is stable and none has a root on the unit circle, since then no
+/// root crosses the circle within the box. Otherwise it is undecided.
+/// @param has_stable_loop  whether a loop of the box is proved stable already; if not, the loop in
+///                         the middle is tested first
 template <class Loop, std::size_t N>
 LoopVerdict<N> judged(const Loop& loop, const ParameterBox<N>& box, bool has_stable_loop) {
   const std::array<double, N> middle = box.middle();
@@ -403,7 +403,7 @@ LoopVerdict<N> judged(const Loop& loop, const ParameterBox<N>& box, bool has_sta
   return {of_middle, middle, exclusion.heaviest(), of_middle == ProvedStability::stable};
 }
 
-/// Box without a verdict yet, with its share of the volume of the first box.
+/// Box still to be examined, with its share of the volume of the initial box.
 template <std::size_t N>
 struct LoopPart {
   ParameterBox<N> box;
@@ -426,8 +426,8 @@ std::vector<ParameterBox<N>> halves_of(const ParameterBox<N>& box, std::size_t a
 
 /// Proves that every loop of a box is stable, or finds a loop that is not.
 ///
-/// An undecided box is halved along the parameter that moves the loop's characteristic function
-/// most. The proof holds for all decimals that round to the box's ends.
+/// An undecided box is halved along the parameter whose range changes the characteristic function
+/// most. The proof is valid for all decimal numbers that round to the ends of the box.
 /// @param loop    family of loops: TwoMassFamily or StringFamily
 /// @param box     box of the family's parameters
 /// @param limits  limits of the search
@@ -501,9 +501,9 @@ struct TwoMassFamily {
     return point;
   }
 
-  /// Data to evaluate F near a frequency, as `StringFamily::Frame`; F of two masses needs none.
+  /// Data to evaluate F near a frequency; empty for two masses (compare `StringFamily::Frame`).
   struct Frame {
-    /// The ratio c of natural frequencies (`angle_at`); 1, as two masses have no common ratio.
+    /// The ratio c of `angle_at`; 1, as the natural frequencies of two masses have no common ratio.
     static EnclosedSlope tuning(const Parameters<EnclosedSlope>&) { return 1.0; }
   };
   /// The empty Frame, at every frequency.

@@ -42,7 +42,7 @@ struct BoxSide {
   std::size_t box;
 };
 
-/// Joins any two boxes of which one's side in `ends` overlaps the other's side in `begins`.
+/// Joins any two boxes if a side of one box in `ends` overlaps a side of the other in `begins`.
 inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, JoinedSets& sets) {
   const auto by_place = [](const BoxSide& a, const BoxSide& b) {
     return std::tie(a.at, a.from) < std::tie(b.at, b.from);
@@ -62,8 +62,8 @@ inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, J
 
 }  // namespace detail
 
-/// Index, for each box, of the box that represents its region. Boxes of one region have equal
-/// indices. A region is a set of boxes connected through common sides.
+/// The regions of boxes: for each box, the index of its region's representative box, which is the
+/// same for all boxes of a region. A region is a set of boxes connected through common sides.
 /// @param boxes  boxes that do not overlap; coordinates of common sides are identical doubles
 inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) {
   std::vector<detail::BoxSide> left, right, lower, upper;
@@ -84,8 +84,8 @@ inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) 
 
 namespace detail {
 
-/// A box of gains and, for each circle, the arcs on which a loop of the box may have a root;
-/// `nullopt` for a wider circle that cannot prove the box unstable.
+/// A box of gains and, for each circle of `ModalChart`, the arcs on which a loop of the box may
+/// have a root. `nullopt` marks a circle wider than |λ| = 1 that cannot prove the box unstable.
 struct CrossedBox {
   GainBox gains;
   std::vector<std::optional<CircleArcs::Arcs>> arcs;
@@ -113,7 +113,7 @@ struct CellRange {
   }
 };
 
-/// Builds the chart of a loop of any order. Free box: no loop in it has a root on |λ| = 1.
+/// Builder of the chart of a loop of any order. In a free box no loop has a root on |λ| = 1.
 /// @tparam Watch  type of a function without arguments, which is called for each box
 template <class Watch>
 class ModalChart {
@@ -210,9 +210,9 @@ class ModalChart {
 
 /// Chart of the stability proved on the cells of a grid, for a loop of any order. A box is free if
 /// no loop with its gains has a root on the unit circle. All loops of connected free boxes have the
-/// same number of roots outside it, counted once (`CircleArcs::roots_outside`). Any other box is
-/// unstable if its loops have roots outside a wider circle and none on it. Undecided boxes are
-/// quartered until their share of the area is at most `undecided`.
+/// same number of roots outside this circle, counted once (`CircleArcs::roots_outside`). Any other
+/// box is unstable if its loops have roots outside a wider circle and none on the wider circle.
+/// Undecided boxes are quartered until their share of the area is at most `undecided`.
 /// @param response    enclosed response of the loop
 /// @param grid        grid points, at least 2 on each ascending axis; cells lie between the points
 /// @param undecided   largest undecided share of the area, 0 … 1

@@ -76,15 +76,15 @@ class StringFamily {
     }
   }
 
-  /// Data to evaluate F near a frequency: the nearest mode m, and the wave speed of the middle loop
-  /// of a box. In the frequency Ω = ω/c (c: see `tuning`) one modal sum serves all wave speeds.
+  /// Data to evaluate F near a frequency: the nearest mode m, the wave speed of a box's middle loop
+  /// and a modal sum, which as a function of Ω = ω/c (see `tuning`) holds for all wave speeds.
   struct Frame {
     int nearest;                               ///< index of the nearest mode m, from 0
     Enclosure squared_speed;                   ///< squared wave speed T/μ, middle loop (m²/s²)
     detail::Parts<Enclosure> others = {};      ///< sum Σ μh_n/d_n over the modes other than m
-    detail::Parts<Enclosure> by_tuned = {};    ///< derivative of `others` by Ω
-    detail::Parts<Enclosure> by_damping = {};  ///< derivative of `others` by ζ
-    detail::Parts<Enclosure> by_tension = {};  ///< derivative of `others` by T
+    detail::Parts<Enclosure> by_tuned = {};    ///< derivative of `others` with respect to Ω
+    detail::Parts<Enclosure> by_damping = {};  ///< derivative of `others` with respect to ζ
+    detail::Parts<Enclosure> by_tension = {};  ///< derivative of `others` with respect to T
 
     /// The ratio c = √((T/μ)/(T₀/μ₀)) of wave speeds; T₀ and μ₀ are those of the middle loop.
     EnclosedSlope tuning(const Parameters<EnclosedSlope>& x) const {
@@ -99,7 +99,7 @@ class StringFamily {
     return {std::clamp(static_cast<int>(std::lround(omega / first)), 1, modes_) - 1,
             Enclosure(x[0]) / Enclosure(x[1])};
   }
-  /// Computes the modal sum of a frame at Ω (rad/s), with its derivatives by Ω, ζ and T.
+  /// Computes a frame's modal sum at Ω (rad/s) and its derivatives with respect to Ω, ζ and T.
   void sum_modes(const Parameters<Enclosure>& x, const Enclosure& tuned, Frame& frame) const {
     using Complex = detail::Parts<Enclosure>;
     frame.others = frame.by_tuned = frame.by_damping = frame.by_tension = {};

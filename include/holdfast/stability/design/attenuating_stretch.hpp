@@ -71,22 +71,22 @@ MovingVector moving_input(const Plant& plant, const LoopMap<double>& map, ForceH
   return result;
 }
 
-/// The verdict on an interval of periods: proved if a difference of two squares is surely positive.
+/// The verdict on an interval of periods: `holds` if a difference of squares is proved positive.
 inline Stretch stretch_of(const SquaresDifference& gap) {
   return gap.least > 0.0 ? Stretch::holds : gap.at_centre > 0.0 ? Stretch::open : Stretch::fails;
 }
 
-/// The verdict for all periods within `radius` of `period`: whether the loop is proved to be stable
-/// and its conductor's steady amplitude to be below that without control.
+/// The verdict on all periods within `radius` (s) of `period`: whether the loop is proved stable
+/// and the conductor's steady amplitude is proved to be below its value without control.
 ///
-/// The closed loop's response to the excitation is y = (λI − S)⁻¹ g, to the command Y = (λI − S)⁻¹
-/// s, λ = e^{iωτ}. With the gains' row K and the row c of the conductor's displacement
+/// The closed loop's response is y = (λI − S)⁻¹ g to the excitation and Y = (λI − S)⁻¹ s to the
+/// command, λ = e^{iωτ}. With the row K of gains and the row c of the conductor's displacement
 ///
 ///     Z/Z₀ = n/(n − (c Y)(K y)),   n = (c y)(1 + K Y)
 ///
 /// so that the poles of the plant without control do not matter; Z = c y is the amplitude with
 /// control, Z₀ without. Truncation of the series is bounded, round-off of its sums is not.
-/// @param reference  amplitude (m/N) that |c y| must stay below; NaN stands for |Z₀|
+/// @param reference  strict upper limit of |c y| (m/N); NaN selects the limit |Z₀|
 template <class Plant>
 Stretch attenuation(const Plant& plant, const SamplingFamily<Plant>& family,
                     const PdGains<double>& gains, ForceHold hold, double omega, double period,

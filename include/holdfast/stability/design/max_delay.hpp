@@ -46,17 +46,17 @@ struct MaxDelayOptions {
   DelayCriterion criterion = DelayCriterion::attenuates;  ///< criterion for a feasible period
   ForceHold hold = ForceHold::sampled;  ///< hold of the excitation; used by `attenuates` only
   double delay_fraction = 0.0;  ///< constant δ/τ: 0 … 1, or 0 … 1000 for a conductor given by modes
-  double shortest_period = 1e-5;  ///< start of the search (s); 1/(1000 f) if this is less
+  double shortest_period = 1e-5;  ///< start of the search (s); replaced by 1/(1000 f) if longer
   /// The end of the search (s), > `shortest_period`; 0: a default. The default is 1/(2f) for
   /// `attenuates`. For `stable` it is the period beyond which the loop with D = 0 is proved stable;
   /// if none is known within 200 periods of the plant's slowest mode, 20 of these periods.
   double longest_period = 0.0;
-  double search_ratio = 1.00001;  ///< largest ratio, > 1, of two periods between which feasibility
-                                  ///< is assumed, if both are feasible but no proof succeeds
+  double search_ratio = 1.00001;  ///< ratio, > 1, of two feasible periods up to which all periods
+                                  ///< between them are assumed to be feasible without proof
   int most_steps = 20000;  ///< largest number of steps, ≥ 1; for two masses one takes 40 µs or more
   std::function<void()> watch = {};  ///< called at each step; may throw to end the search
-  /// Whether `attenuates` compares with the amplitude without control under the true force. If not,
-  /// it compares with that under the held force (see `AmplitudeOptions`).
+  /// Reference of `attenuates`, an amplitude without control: true for the amplitude under the true
+  /// force, false for the amplitude under the held force (see `AmplitudeOptions`).
   bool relative_to_true_force = false;
 
   /// The angular frequency ω = 2π f (rad/s).
@@ -144,8 +144,8 @@ inline double least_ratio(const MaxDelayOptions& options, const DelayOffer& offe
 
 }  // namespace detail
 
-/// The open intervals of D (N s/m), ascending, with which one sampling period is feasible. Each D
-/// in them stabilises and, for `attenuates`, gives an amplitude below that without control.
+/// The open intervals of D (N s/m), ascending, for which a sampling period is feasible: each D
+/// stabilises the loop and, for `attenuates`, gives an amplitude below that without control.
 /// @tparam Plant           two masses, in closed form, or a plant of any order with ports
 /// @param plant            plant within its ranges, which are not checked here
 /// @param options          options within their ranges (`validate`), which are not checked here
@@ -297,7 +297,7 @@ class DelaySearch {
   }
 
   /// Increases the period `feasible_` up to `goal` while steps are left and periods are feasible.
-  /// @return an infeasible period found on the way
+  /// @return the infeasible period that ended the search, if any
   std::optional<double> advance(double goal) {
     const double longest_step = is_walked_ ? options_.search_ratio : longest_link_;
     double ratio = longest_step;
@@ -324,7 +324,7 @@ class DelaySearch {
   }
 
   /// Whether a period is feasible with some D; such a D is stored. For a conductor given by its
-  /// modes the last feasible D is tested first: the roots at one D cost less than all stable D.
+  /// modes the last feasible D is tested first, at less cost than finding all stable intervals.
   bool is_served(double period) {
     if constexpr (is_walked_) {
       const PdGains<double> gains{options_.proportional_gain, start_};
@@ -378,7 +378,7 @@ class DelaySearch {
            WalkOutcome::clear;
   }
 
-  /// The reserve of stability, 1 − min ρ over D, to four digits; positive where some D stabilises.
+  /// The stability margin 1 − min ρ over D, to four digits; positive where some D stabilises.
   double stability_reserve(double period) {
     const auto loop = loop_polynomial(sampled_loop(plant_, options_.sampling(period)));
     const auto least = MinimumRadiusSearch(loop, options_.proportional_gain, 1e-5).from(start_);
@@ -386,15 +386,15 @@ class DelaySearch {
     return least.margin;
   }
 
-  /// The reserve of attenuation, 1 − the least amplitude ratio over stabilising D, positive where
-  /// some D attenuates; −1 where no D stabilises.
+  /// The attenuation margin: 1 minus the least amplitude ratio over all stabilising D. It is
+  /// positive where some such D attenuates; −1 where no D stabilises.
   double attenuation_reserve(double period) {
     const auto offer = offer_at(period);
     return offer.response ? 1.0 - least_ratio(options_, offer) : -1.0;
   }
 
-  /// The last feasible period between a feasible and an infeasible one. A wide bracket is halved,
-  /// since a feasibility test costs less than a reserve; without closed forms only halving is used.
+  /// The last feasible period between a feasible and an infeasible one. A wide bracket is bisected,
+  /// since a feasibility test costs less than a margin; without closed forms it is only bisected.
   double boundary_between(double feasible, double infeasible) {
     constexpr double wide = is_walked_ ? 1.0 + 1e-9 : has_closed_forms<Plant> ? 1.01 : 1.0 + 1e-13;
     while (infeasible > wide * feasible) {
@@ -458,12 +458,12 @@ MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options)
 /// The largest feasible sampling period for a conductor given by its modes, found in steps.
 ///
 /// A step has the length (ratio − 1) T. T is the longest period that resolves all natural motions
-/// and the excitation, but it is limited to 1 to 10 times the present period. The end of a step is
-/// tested with the last feasible D, or else with all stable intervals of D. If it is infeasible,
-/// bisection finds the last feasible period to a relative 10⁻⁹. Infeasible windows shorter than a
+/// and the excitation, clamped to 1 to 10 times the present period. A step's end is tested with the
+/// last feasible D, then with all stable intervals of D. If the end is infeasible, bisection
+/// finds the last feasible period to a relative 10⁻⁹. Infeasible windows shorter than a
 /// step may be missed; nothing is proved between the steps or beyond.
 /// @param plant    conductor with its poles, which exclude the poles of its hardware
-/// @param options  options within their ranges; search ratio and most steps are not used
+/// @param options  options within their ranges; `search_ratio` and `most_steps` have no effect
 /// @param ratio    ratio of two successive periods, > 1
 /// @throws InvalidParameter outside these ranges
 template <class Scalar = double>

@@ -77,8 +77,8 @@ struct PlantOverBand {
 /// Amplitude ratio (with control to without) over a band of frequencies.
 ///
 /// The ratio has peaks at roots of the loop near the unit circle, where the controlled amplitude is
-/// large, and at zeros of the uncontrolled amplitude near the circle. A peak is as wide as its root
-/// or zero is far from the circle. So the uniform grid over the band is refined about the zeros
+/// large, and at zeros of the uncontrolled amplitude near the circle. The width of a peak is about
+/// the distance of its root or zero from the circle. So the uniform grid is refined about the zeros
 /// and, for each D, about the roots. Golden-section search then refines the highest grid points.
 /// @tparam Model  PlantOverBand, or ConductorOverBand of modal_design.hpp
 template <class Model>
@@ -210,8 +210,8 @@ namespace detail {
 
 /// Minimum over D of the largest of finitely many quotients of quadratics.
 ///
-/// The minimum is at an end of an admissible interval, at a stationary point of one quotient, or
-/// where two are equal. These D are roots of quadratics and quartics, found as quotients are added.
+/// The minimum is at an end of an admissible interval, at a stationary point of one quotient (root
+/// of a quadratic), or where two quotients are equal (root of a quartic). `add` finds these roots.
 class WorstOfFrequencies {
  public:
   explicit WorstOfFrequencies(const std::vector<Interval<double>>& admissible)
@@ -269,9 +269,9 @@ class WorstOfFrequencies {
 
 /// Family of loops over one band of frequencies, with gains common to all loops.
 ///
-/// Exchange algorithm over a list of pairs (loop, frequency). The D that minimises the largest
-/// ratio in the list gives a lower bound; its largest ratio over all loops and the band, an upper
-/// bound, adds a pair to the list. The search at another P starts with the latest pairs.
+/// An exchange algorithm extends a list of pairs (loop, frequency). The D that minimises the worst
+/// ratio on the list gives a lower bound. Its largest ratio over all loops and the band is an upper
+/// bound, and adds a pair to the list. A search at another P starts with the latest pairs.
 /// @tparam Model  model of each loop, see AmplitudeBand
 template <class Model>
 class FamilyOverBand {

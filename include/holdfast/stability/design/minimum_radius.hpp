@@ -17,7 +17,7 @@ namespace holdfast {
 /// Outcome of the search for the D of minimum spectral radius.
 enum class MinimumRadiusOutcome {
   point,       ///< one D has the minimum radius
-  plateau,     ///< a root that D does not move determines the radius over the whole `interval`
+  plateau,     ///< a root independent of D determines the radius over the whole `interval`
   idle,        ///< no D changes the radius; `interval` contains every D, and D is 0
   unresolved,  ///< P is so large that round-off hides the minimum: the result has the initial D
                ///< with its radius, and `lower_bound` is 0
@@ -70,10 +70,10 @@ class MinimumRadiusSearch {
 
   /// Runs the search. @param start  initial D (N s/m), arbitrary; a D near the minimum is faster
   MinimumRadius from(double start) {
-    if (!begin(loop_.radius_offset({proportional_gain_, start}))) {
-      return {MinimumRadiusOutcome::unresolved, start, loop_.centre + upper_,
-              (1.0 - loop_.centre) - upper_,    0.0,   {start, start}};
-    }
+    const double at_start = loop_.radius_offset({proportional_gain_, start});
+    if (!begin(at_start))
+      return {MinimumRadiusOutcome::unresolved, start, loop_.centre + at_start,
+              (1.0 - loop_.centre) - at_start,  0.0,   {start, start}};
     for (int round = 0; round < most_rounds_ && upper_ - lower_ > closing_step(); ++round) {
       const double trial = next_level();
       Intervals found = within(trial);
@@ -115,7 +115,7 @@ class MinimumRadiusSearch {
     return !intervals_.empty();
   }
 
-  /// The next level: ρ at a probable minimum if that is lower; else a step down, doubled each time.
+  /// The next level: ρ at a probable minimum if lower, else a step down whose length doubles.
   double next_level() {
     double best = upper_;
     consider_promising(intervals_, previous_, [&](double differential) {
@@ -154,14 +154,14 @@ class MinimumRadiusSearch {
   Intervals intervals_, previous_;
 };
 
-/// Interface of `MinimumRadiusSearch` to a loop of any order; a radius ρ is given as ρ − 1.
+/// Adapter of a loop of any order for `MinimumRadiusSearch`; a radius ρ is given as offset ρ − 1.
 /// @tparam Loop  a `LoopMap<double>` or `ModalResponse<double>`
 template <class Loop>
 struct RadiusLevels {
   const Loop& loop;     ///< the loop, which is not copied
   double centre = 1.0;  ///< radius that is subtracted from all radii
 
-  /// The scale of the roots' round-off, 1: the size of the map's entries for delayed commands.
+  /// The scale of the roots' round-off: 1, the size of the map's entries for delayed commands.
   double scale() const { return 1.0; }
   /// The offset ρ(P, D) − 1 of the spectral radius.
   double radius_offset(const PdGains<double>& gains) const { return loop_excess(loop, gains); }
@@ -175,13 +175,13 @@ struct RadiusLevels {
 
 }  // namespace detail
 
-/// The D of minimum spectral radius, min over D of ρ(P, D): a global minimum, without a grid.
+/// The D of minimum spectral radius ρ(P, D) for a given P: a global minimum, found without a grid.
 ///
 /// The set {D : ρ(P, D) < r} is a union of intervals. The intervals are found in closed form for
 /// two masses (`stable_intervals`), and from the roots on the circle |λ| = r for a loop of any
 /// order (`circle_crossings`). The minimum radius is the r at which the set becomes empty; for a
-/// `LoopMap` it is accurate to about 10⁻⁹, since round-off separates coinciding roots. As ρ grows
-/// without bound with |D|, unless D moves no root, the minimum exists.
+/// `LoopMap` it is accurate to about 10⁻⁹, since round-off separates coinciding roots. The minimum
+/// exists, since ρ grows without bound with |D| unless no root depends on D.
 /// @tparam Loop              type in `double` with a `loop_polynomial`, or a `LoopMap`
 /// @param loop               loop of `sampled_loop` or `loop_map`
 /// @param proportional_gain  P (N/m), finite

@@ -66,8 +66,8 @@ std::pair<Scalar, Scalar> least_excess(const ModalResponse<Scalar>& response, co
 
 /// The minimum over D of the spectral radius ρ of a loop given by its poles, found as for a
 /// `LoopMap`; 1 − ρ is accurate to a relative 10⁻⁶. The search may fail on a circle |λ| = r too
-/// near a pole. So ρ is also computed at 25 D of each stable interval and near the best of them;
-/// the smaller minimum is returned.
+/// near a pole. Therefore ρ is also computed at 25 values of D in each bounded stable interval and
+/// near the best value; the smaller minimum is returned.
 /// @param response           response of the plant given by its poles, which must exist
 /// @param proportional_gain  P (N/m), finite
 /// @param start              initial D (N s/m), finite
@@ -172,7 +172,7 @@ class ModulusLevels {
     Scalar floor() const { return rest - along * along / slope; }
   };
 
-  /// Interval of D with |p| below a given modulus at a place, or at an angle beside the place.
+  /// Interval of D with |p| below a given modulus at a tabulated angle (`Place`) or near it.
   struct Nearer {
     Interval<Scalar> gains;
     std::size_t place;
@@ -185,7 +185,7 @@ class ModulusLevels {
     const std::complex<Scalar> rest = Scalar(1) - proportional_gain_ * g.displacement;
     return {angle, std::norm(g.velocity), (rest * std::conj(g.velocity)).real(), std::norm(rest)};
   }
-  /// The values at an angle near the tabulated `place`, by a series that is kept.
+  /// The coefficients of |p|² at an angle near the tabulated `place`, from a series that is stored.
   Place near(std::size_t place, const Scalar& angle) {
     const std::complex<Scalar> mu = circle_increment(angle);
     Nearby& nearby = nearby_.try_emplace(place, response_, mu).first->second;
@@ -248,10 +248,9 @@ class ModulusLevels {
 ///     M(D) > m M(D*)   and   D = D* + (1 − m)(D_s − D*)
 ///
 /// where M(D) = min |1 − P G_z − D G_v| over the unit circle is the modulus margin, with G_z and
-/// G_v as in `LoopResponse`. D* has the largest M, and D_s is any D in the stable interval around
-/// D*.
-/// The D of minimum spectral radius is unsuitable as D* for a conductor, whose slowest mode alone
-/// determines that radius.
+/// G_v as in `LoopResponse`. D* maximises M, and D_s is any D in the stable interval around D*. The
+/// D of minimum spectral radius is unsuitable as D* for a conductor, since its slowest mode alone
+/// determines this radius.
 /// Source of the modulus margin: K. J. Åström and R. M. Murray, Feedback Systems (2008), 9.3.
 /// @tparam Scalar            double
 /// @param response           response of the plant given by its poles
@@ -275,7 +274,7 @@ std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<
                                                              Scalar(options.largest_radius)));
 }
 
-/// The admissible D of least steady amplitude for given poles (see `minimum_amplitude` of a plant).
+/// The admissible D of least steady amplitude for a loop given by poles; see `minimum_amplitude`.
 /// @param loop               loop of the plant given by its poles, with the sampling of the options
 /// @param options            options within their ranges
 /// @param frequency          f (Hz), > 0
