@@ -17,7 +17,7 @@ namespace detail {
 /// terms, each a product of up to four moduli; at most 20 roundings occurred.
 inline double above_roundings(double x) { return rounded_up(x * (1.0 + 0x1.0p-48)); }
 
-/// An approximation of |z| to a few roundings; up to 1.5 |z| where |z|² would underflow.
+/// An approximation of |z| within a few rounding errors; up to 1.5 |z| if |z|² would underflow.
 inline double rounded_modulus(const std::complex<double>& z) {
   const double x = std::abs(z.real()), y = std::abs(z.imag());
   const double most = std::max(x, y);
@@ -27,10 +27,10 @@ inline double rounded_modulus(const std::complex<double>& z) {
 }  // namespace detail
 
 /// A complex number proved to lie in a disc, given by centre and radius. Multiplication by e^{iθ}
-/// does not widen a disc, as it would widen a rectangle.
+/// does not widen a disc, whereas it would widen a rectangle.
 ///
-/// Every operation gives a disc that contains its result for all numbers in its arguments. A
-/// division by a number that may be 0 gives an infinite radius, and so does an overflow.
+/// Every operation gives a disc that contains the exact result for all numbers in the discs of its
+/// arguments. Division by a number that may be 0, or overflow, gives an infinite radius.
 class ComplexEnclosure {
  public:
   /// Constructs the exact number 0.

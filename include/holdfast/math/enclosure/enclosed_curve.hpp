@@ -102,8 +102,8 @@ class EnclosedSpiral {
   /// The complex conjugate of a spiral.
   friend EnclosedSpiral conj(const EnclosedSpiral& z) { return {conj(z.start_), conj(z.rate_)}; }
 
-  /// The difference z = a − b as a curve. Its bounds are narrow also for similar rates, since they
-  /// follow from ν = σ_a − σ_b (if |σ_b| < 1; otherwise |z″| ≤ |a″| + |b″|):
+  /// The difference z = a − b as a curve. Its bounds remain tight for similar rates, since they are
+  /// derived from ν = σ_a − σ_b (if |σ_b| < 1; otherwise |z″| ≤ |a″| + |b″|):
   ///
   ///     z′ = ν a + σ_b z,   |z| ≤ (|z(0)| + |ν||a|)/(1 − |σ_b|),   z″ = ν (σ_a + σ_b) a + σ_b² z
   friend EnclosedCurve difference(const EnclosedSpiral& a, const EnclosedSpiral& b) {

@@ -22,7 +22,7 @@ double norm_bound(const Matrix<Enclosure, Rows, Columns>& matrix) {
   return norm;
 }
 
-/// The enclosure of all square matrices whose entries have moduli up to a bound.
+/// The interval matrix, order × order, with every entry equal to [−bound, bound].
 template <int Size>
 Matrix<Enclosure, Size> ball(Eigen::Index order, double bound) {
   return Matrix<Enclosure, Size>::Constant(order, order, Enclosure(-bound, bound));

@@ -6,7 +6,7 @@
 namespace holdfast {
 
 /// A function f of one variable on an interval, as enclosures of its values and of its derivative.
-/// Operations apply the rules of differentiation. The class serves as a number type of Eigen.
+/// Operations apply the rules of differentiation. Eigen's matrices can have entries of this type.
 struct EnclosedSlope {
   Enclosure value;  ///< enclosure of f on the whole interval
   Enclosure slope;  ///< enclosure of f′ on the whole interval

@@ -34,12 +34,12 @@ inline double rounded_up(double x) {
 
 /// A real number x proved to satisfy lower ≤ x ≤ upper: interval arithmetic with doubles as bounds.
 ///
-/// Every operation gives an enclosure of its result for all numbers in its arguments. Bounds are
-/// rounded outward. They are valid if the processor rounds to nearest, its default mode, with or
-/// without fused multiply-adds. Division by a number that may be 0 gives (−∞, ∞); a bound that
-/// overflows is ±∞. There is no operator `<`, since an inequality that is not proved need not be
-/// false. The class serves as a number type of Eigen's matrices and of templates without
-/// comparisons. Source: IEEE 1788-2015 for the set that each operation encloses.
+/// Every operation gives an interval that contains the exact result for all numbers in the argument
+/// intervals. Bounds are rounded outward. They are valid if the processor rounds to nearest, its
+/// default mode, with or without fused multiply-adds. Division by a number that may be 0 gives
+/// (−∞, ∞); a bound that overflows is ±∞. There is no operator `<`, since an inequality that is not
+/// proved need not be false. The class can be the number type of Eigen's matrices and of templates
+/// without comparisons. Source: IEEE 1788-2015 for the set that each operation encloses.
 class Enclosure {
  public:
   /// Constructs the exact number 0.
@@ -122,7 +122,7 @@ class Enclosure {
     return hull_of(a.lower_ / b.lower_, a.lower_ / b.upper_, a.upper_ / b.lower_,
                    a.upper_ / b.upper_);
   }
-  /// Whether the bounds are equal; equal enclosures may contain different numbers.
+  /// Whether the bounds are equal; the two enclosed numbers may still differ.
   friend bool operator==(const Enclosure& a, const Enclosure& b) {
     return a.lower_ == b.lower_ && a.upper_ == b.upper_;
   }
@@ -153,7 +153,7 @@ class Enclosure {
   }
 
  private:
-  /// The interval spanned by four products of bounds; (−∞, ∞) if one of them is 0 · ∞.
+  /// The interval spanned by four products or quotients of bounds; (−∞, ∞) if one of them is NaN.
   static Enclosure hull_of(double a, double b, double c, double d) {
     const double sum = a + b + (c + d);
     if (!(sum == sum)) return unknown();  // one is 0 · ∞, or both infinities are among them

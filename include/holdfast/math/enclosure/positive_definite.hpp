@@ -5,8 +5,8 @@
 
 namespace holdfast {
 
-/// Whether every symmetric matrix in an enclosure is proved to be positive definite. The proof is
-/// that all pivots of Gaussian elimination without exchanges are > 0. False: no proof was found.
+/// Whether every symmetric matrix in an enclosure is proved to be positive definite: all pivots of
+/// Gaussian elimination without exchanges are > 0. The result `false` means that the proof failed.
 /// @param matrix  N × N; only its lower triangle is used
 /// Work: N³/3 operations.
 template <int Size>

@@ -13,9 +13,9 @@ namespace holdfast {
 ///
 /// Each step doubles the number of terms, V ← V + PᵀV P, P ← P², starting from V = I, P = M (R. A.
 /// Smith, Matrix equation XA + BX = C, SIAM J. Appl. Math. 16 (1968)). V is returned only if the
-/// Frobenius norm of V − MᵀV M − I and a bound of its round-off sum up to less than ½.
+/// Frobenius norm of the residual V − MᵀV M − I, plus a bound of its round-off, is less than ½.
 /// @param map     matrix M, n × n
-/// @param enough  bound of the equation's error; the sum ends after l terms if ‖Mˡ‖²_F < enough
+/// @param enough  admissible residual norm: the sum ends after l terms if ‖Mˡ‖²_F < enough
 /// @return V, n × n; nullopt if the sum diverges, since an eigenvalue of M has |λ| ≥ 1, or if it
 ///         converges so slowly that round-off spoils it
 /// @throws InvalidParameter where M is not square

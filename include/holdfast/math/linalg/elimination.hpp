@@ -68,8 +68,8 @@ Columns eliminated(Square matrix, Columns right) {
 
 /// The derivative λ′ = tr(R M′)/tr R of an eigenvalue λ of a matrix M with respect to a parameter.
 /// R = (νI − M)⁻¹ with ν = λ (1 + √ε), ε the number type's relative precision, is almost a multiple
-/// of the projector on the eigenvectors of λ. A multiple eigenvalue gives the mean of its
-/// derivatives. Relative accuracy: about 10⁻⁸ in `double`.
+/// of the projector on the eigenvectors of λ. For a multiple eigenvalue the result is the mean of
+/// its derivatives. Relative accuracy: about 10⁻⁸ in `double`.
 /// @param matrix  matrix M, n × n
 /// @param rate    derivative M′ of M with respect to the parameter, n × n
 /// @param value   eigenvalue λ

@@ -77,7 +77,7 @@ Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, 
   return result;
 }
 
-/// Orthonormalises columns of any length by the classical Gram–Schmidt process with repetition.
+/// Orthonormalises columns of any length by classical Gram–Schmidt with reorthogonalisation.
 /// @param basis  matrix B, replaced by Q; a column that depends linearly on earlier ones becomes 0
 /// @return the upper triangular matrix R of B = Q R
 inline Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& basis) {

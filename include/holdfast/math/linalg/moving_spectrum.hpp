@@ -43,8 +43,8 @@ struct MovingVector {
 ///
 ///     ρ(S(x)) ≤ ρ(B) < 1   if v = (I − B)⁻¹ [1, …, 1]ᵀ > 0                (Perron, Frobenius)
 ///
-/// For two eigenvalues so close that the series of their entry of W might diverge, this entry is
-/// set to 0, and D keeps an entry below the diagonal. A bound of the round-off is added to R. Work:
+/// The entry of W for two eigenvalues is set to 0 if they are so close that its series may diverge;
+/// D then keeps an entry below the diagonal. A bound of the round-off is added to R. Work:
 /// about 3 m² products of n × n matrices for m terms.
 /// Source: R. A. Horn, C. R. Johnson, Matrix Analysis, 2nd ed., 8.1 and 8.3.
 template <class Scalar = double>
@@ -67,7 +67,7 @@ class MovingSpectrum {
   /// not this function's round-off, by |(λI − T)⁻¹| ≤ (I + Σ|W_k|) (I − B)⁻¹ (I − Σ|W_k|)⁻¹.
   /// @param from_one  number λ(x) − 1, with as many terms as S
   /// @param source    vector g(x), with as many terms as S
-  /// @param rows      matrix with n columns; each of its rows is a c
+  /// @param rows      matrix with n columns, whose rows are the vectors c
   /// @throws InvalidParameter where the number of terms or the width of a row differs from S
   std::vector<TaylorNumber> responses(const TaylorNumber& from_one, const MovingVector& source,
                                       const Eigen::MatrixXd& rows) const;
@@ -116,7 +116,7 @@ class MovingSpectrum {
   }
 
   /// Adds to the remainder the error of using `back` for V⁻¹, V = `basis`. If back·V = I + G, then
-  /// V⁻¹ S V = (I + G)⁻¹ (back S V). A remainder ∞ prevents the proof if |G| is not small.
+  /// V⁻¹ S V = (I + G)⁻¹ (back S V). If |G| is not small, the remainder is ∞ and the proof fails.
   void count_inverse(const Form& back, const Form& basis) {
     const Bound identity = Bound::Identity(size(), size());
     off_ = (back * basis - Form::Identity(size(), size())).cwiseAbs() +

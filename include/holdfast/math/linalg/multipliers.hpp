@@ -44,7 +44,7 @@ struct ScaledTriangle {
         unit(Matrix<Scalar, Size>::Identity(order, order)),
         rank(order) {}
 
-  /// Replaces R by next · R. The rank ends at the first |next_ii| below the round-off of `size`.
+  /// Replaces R by next · R. The rank drops to i at the first |next_ii| below round-off of `size`.
   void multiply_from_left(const Matrix<Scalar, Size>& next, const Scalar& size) {
     const Scalar round_off = Scalar(8) * std::numeric_limits<Scalar>::epsilon() * size;
     for (Eigen::Index i = 0; i < rank; ++i) {
@@ -110,7 +110,7 @@ bool settled(const Matrix<Scalar, Size>& turn, Eigen::Index rank) {
   return true;
 }
 
-/// Appends the eigenvalues of the block first … last − 1 of W D U, where D U is `triangle`.
+/// Appends the eigenvalues of the diagonal block first … last − 1 of W D U; D U is `triangle`.
 template <class Scalar, int Size>
 void append_multipliers(const Matrix<Scalar, Size>& turn,
                         const ScaledTriangle<Scalar, Size>& triangle, Eigen::Index first,
@@ -150,8 +150,8 @@ std::vector<Multiplier> multipliers_of_turn(const Matrix<Scalar, Size>& turn,
 /// The eigenvalues of a matrix product M = M_K … M₁ by descending modulus; M itself is not formed.
 ///
 /// QR factorisations M_k Q_{k−1} = Q_k R_k give M = Q_K (R_K … R₁) Q₀ᵀ, so that M is similar to
-/// (Q₀ᵀQ_K) R_K … R₁. They are repeated from Q₀ = Q_K until Q₀ᵀQ_K is block diagonal, with a block
-/// for each group of eigenvalues of similar modulus. Each block is scaled separately.
+/// (Q₀ᵀQ_K) R_K … R₁. The factorisations are repeated with Q₀ = Q_K until Q₀ᵀQ_K is block diagonal,
+/// one block for each group of eigenvalues of similar modulus. Each block is scaled separately.
 /// @param maps  factors M₁ … M_K, K ≥ 1, each N × N, N ≥ 2, finite; they may be singular
 /// @return N eigenvalues; a zero eigenvalue has log_modulus −∞
 /// @throws InvalidParameter where there is no map, or the sizes disagree

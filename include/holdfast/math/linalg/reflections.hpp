@@ -10,8 +10,8 @@ namespace holdfast {
 
 namespace detail {
 
-/// The Householder reflection H = I − τ v vᵀ of the last rows of a matrix. The part of one column
-/// in these rows becomes β e₁, where |β| is the Euclidean norm of the part.
+/// The Householder reflection H = I − τ v vᵀ of the last rows of a matrix. It maps the entries of
+/// one column in these rows to β e₁, where |β| is the Euclidean norm of these entries.
 ///
 /// The reflection is applied column by column. For small matrices this is faster than Eigen's
 /// blocks, compiles in a twentieth of the time, and avoids the SIMD packets that GCC 12 reports as

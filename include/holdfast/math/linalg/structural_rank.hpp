@@ -20,18 +20,18 @@ enum class Carried : unsigned {
 ///
 /// This rank is the largest number of disjoint paths along nonzero entries from the inputs of the
 /// first map to the outputs of the last. It equals the size of a minimal cut, the smallest set of
-/// variables that meets every path. A cut consists of z at one instant and of the quantities that
-/// are stored there and affect z later. A loss of rank at special values of the entries is not
+/// variables that meets every path. A cut consists of z at one instant and of the quantities stored
+/// at this instant that affect z later. A loss of rank at special values of the entries is not
 /// detected. No tolerance is involved.
 /// Sources: B. Lindström, Bull. London Math. Soc. 5 (1973); K. Murota, Matrices and Matroids for
 /// Systems Analysis, 2000, secs. 2.2–2.3.
 /// Work: 16 comparisons for each call of a member function.
 class StructuralRank {
  public:
-  /// Starts a product. @param carried  bitwise OR of the quantities, besides z, at its first map
+  /// Starts a product. @param carried  bitwise OR of the quantities stored before the first map
   explicit StructuralRank(unsigned carried) : carried_(carried) { least_.fill(none); }
 
-  /// Adds an instant. @param directions  number of independent entries of z there: 4, or 3 in stick
+  /// Adds an instant. @param directions  number of independent entries of z: 4, or 3 if sticking
   void pass(int directions) {
     int& cut = least_[carried_];
     cut = std::min(cut, directions);
@@ -71,7 +71,7 @@ class StructuralRank {
     return static_cast<int>((set & 1U) + (set >> 1U & 1U) + (set >> 2U & 1U) + (set >> 3U & 1U));
   }
 
-  /// Replaces `quantity` by `other` (bit; 0: none) in each set that has it; adds `cost` to its cut.
+  /// Replaces `quantity` by `other` (bit; 0: none) in sets that contain it; adds `cost` to the cut.
   void eliminate(Carried quantity, int cost, unsigned other) {
     for (unsigned set = 0; set < sets; ++set) {
       if ((set & bit(quantity)) == 0 || least_[set] == none) continue;

@@ -42,7 +42,7 @@ inline TaylorNumber sum_of(TaylorNumber a, const TaylorNumber& b, double factor)
   return a;
 }
 
-/// Two values of the difference |a|² − |b|² of the Taylor numbers a and b, −1 ≤ x ≤ 1.
+/// The difference |a|² − |b|² of two Taylor numbers: its value at x = 0 and a lower bound.
 struct SquaresDifference {
   double at_centre,  ///< value of the polynomials at x = 0, without the remainders
       least;         ///< lower bound for −1 ≤ x ≤ 1, with the remainders

@@ -63,7 +63,7 @@ Coefficients rescaled(Coefficients p, const typename Coefficients::Scalar& unit)
 
 namespace detail {
 
-/// The product a b by the plain formula; the C++ standard's treats infinities and is slower.
+/// The product a b by the plain formula, faster than std::complex's, which also treats infinities.
 template <class Scalar>
 std::complex<Scalar> plain_product(const std::complex<Scalar>& a, const std::complex<Scalar>& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
@@ -134,10 +134,10 @@ std::vector<std::complex<Scalar>> spread_circle(std::size_t count) {
 
 /// All roots of a real polynomial of low degree, by the Aberth–Ehrlich iteration.
 ///
-/// Coefficients at both ends count as zero while their modulus is at most `negligible` times the
-/// largest. Each one at the high end means a root at ∞, which is left out. Each one at the low end
-/// means a root 0, which is returned. The iteration ends, after 200 sweeps at most, when p at every
-/// root is zero within rounding. The result is empty for a constant.
+/// Highest and lowest coefficients are treated as zero if their modulus is at most `negligible`
+/// times the largest modulus. Each zero highest coefficient means a root at ∞, which is left out.
+/// Each zero lowest coefficient means a root 0, which is returned. The iteration ends when p is
+/// zero within rounding at every root, or after 200 sweeps. The result is empty for a constant.
 /// Source: O. Aberth, Iteration methods for finding all zeros of a polynomial simultaneously, 1973.
 template <class Coefficients>
 std::vector<std::complex<typename Coefficients::Scalar>> roots(
@@ -192,7 +192,7 @@ int unstable_roots(const Eigen::MatrixBase<Coefficients>& polynomial) {
   return count;
 }
 
-/// The quotient of p(x) by x − root, without remainder, with a zero as last entry.
+/// The quotient p(x)/(x − root) of the same size, last entry 0; the remainder is dropped.
 template <class Scalar, int Size>
 Vector<Scalar, Size> without_root(const Vector<Scalar, Size>& polynomial, const Scalar& root) {
   Vector<Scalar, Size> quotient = Vector<Scalar, Size>::Zero();
@@ -212,17 +212,17 @@ Vector<Scalar, 3> parity_part(const Vector<Scalar, Size>& a, int parity) {
   return part;
 }
 
-/// The geometric mean (|a₀| / |a_n|)^{1/n} of the moduli of all roots w, the unit in which they are
-/// of order one; 1 where this mean is 0 or not finite.
+/// The geometric mean (|a₀| / |a_n|)^{1/n} of the moduli of all roots w; 1 if this mean is 0 or not
+/// finite. In this unit the roots are of order one.
 template <class Scalar, int Size>
 Scalar mean_root_modulus(const Vector<Scalar, Size>& a) {
   const Scalar modulus = std::pow(std::abs(a[0] / a[Size - 1]), Scalar(1) / Scalar(Size - 1));
   return std::isfinite(modulus) && modulus > Scalar(0) ? modulus : Scalar(1);
 }
 
-/// Replaces coefficients at round-off level by zeros, measured with w in units of `unit`. The limit
-/// is 1e−14 of the largest coefficient. For the first and the last it is 1e−12: with fast sampling
-/// both are small differences of large numbers.
+/// Replaces coefficients at round-off level by zeros. They are compared with w in units of `unit`;
+/// the limit is 1e−14 of the largest. For the first and the last coefficient it is 1e−12, since
+/// with fast sampling both are small differences of large numbers.
 template <class Scalar, int Size>
 Vector<Scalar, Size> without_round_off(Vector<Scalar, Size> a, const Scalar& unit) {
   const Vector<Scalar, Size> size = rescaled(a, unit).cwiseAbs();
@@ -243,7 +243,7 @@ struct ParityParts {
   Vector<Scalar, 3> odd;   ///< odd part: coefficients of Y⁰, Y¹, Y² (Y²: 0 if a has degree 4)
 
   /// @param a     polynomial of degree 4 or 5, constant coefficient first
-  /// @param unit  factor of y, > 0: the parts are those of a(i · unit · y)
+  /// @param unit  scale factor of y, > 0: the polynomial a(i · unit · y) is split
   template <int Size>
   ParityParts(const Vector<Scalar, Size>& a, const Scalar& unit)
       : even(detail::parity_part<Scalar, Size>(rescaled(a, unit), 0)),

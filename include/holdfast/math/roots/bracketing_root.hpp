@@ -14,8 +14,8 @@ template <class Scalar>
 struct SignChange {
   Scalar lower,           ///< smaller argument
       upper;              ///< larger argument; equal to `lower` where the function is exactly zero
-  Scalar value_at_lower;  ///< value, zero or of the sign opposite to value_at_upper
-  Scalar value_at_upper;  ///< value, zero or of the sign opposite to value_at_lower
+  Scalar value_at_lower;  ///< function value at `lower`; zero, or of sign opposite to the other
+  Scalar value_at_upper;  ///< function value at `upper`; zero, or of sign opposite to the other
   int evaluations = 0;    ///< number of function calls made so far
 };
 
@@ -48,7 +48,7 @@ Scalar chandrupatla_share(const Ordinate<Scalar>& near, const Ordinate<Scalar>& 
 /// The order of convergence is about 1.8 at a simple zero; at a jump the method bisects. If the
 /// function is exactly 0 at an argument that is tried, both ends become this argument.
 /// @param function   function Scalar → Scalar; NaN counts as negative
-/// @param bracket    lower < upper; returned unchanged unless exactly one end value is > 0
+/// @param bracket    lower < upper; returned unchanged unless the value is > 0 at exactly one end
 /// @param tolerance  ≥ 0, in the unit of the argument
 /// Source: T. R. Chandrupatla, A new event quadratic/bisection algorithm for finding the zero of
 /// a nonlinear function without using derivatives, Advances in Engineering Software 28 (1997).

@@ -27,7 +27,7 @@ enum class WalkOutcome {
 struct FirstCrossing {
   WalkOutcome outcome;   ///< outcome of the search
   double last_inside;    ///< argument up to which the condition is proved
-  double first_outside;  ///< border, by `edge`, beyond which the condition fails; NaN unless `exit`
+  double first_outside;  ///< border of the failure, estimated by `edge`; NaN unless `exit`
   int evaluations;       ///< number of intervals examined, ≥ 1
 };
 
@@ -45,7 +45,7 @@ struct WalkLimits {
 /// failure the search goes only up to the border that `edge` estimates. Each interval then covers
 /// at most nine tenths of the distance to this border.
 /// @param examine  function (centre, radius ≥ 0) → Stretch
-/// @param edge     function (argument proved, argument failing) → border between them, an estimate
+/// @param edge     function (argument proved, argument failing) → estimated border between them
 /// @param from     argument at the start
 /// @param to       argument at the end, above or below `from`
 /// @param first    length of the first step, > 0

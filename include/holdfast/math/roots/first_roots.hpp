@@ -78,7 +78,7 @@ struct RootSearch {
   }
 
  private:
-  /// The distance s > 0 at which height + slope s + sag s²/2 is zero, sag ≤ p″; ∞ without one.
+  /// The distance s > 0 at which height + slope s + sag s²/2 is zero, sag ≤ p″; ∞ if none exists.
   Scalar safe_way(const Scalar& height, const Scalar& slope) const {
     using std::max;
     using std::sqrt;

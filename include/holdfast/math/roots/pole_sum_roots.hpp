@@ -190,7 +190,7 @@ class RootIteration {
   }
 
   /// The difference d of a root from its pole e, by Newton steps with the poles' Taylor series;
-  /// NaN without convergence, as from a real start to a complex root.
+  /// NaN without convergence, for example if the start is real and the root complex.
   Complex near_pole(const Row& own, const Series& others) const {
     Complex d = own[3];
     Scalar before(0);
@@ -234,7 +234,7 @@ class RootIteration {
     }
   }
 
-  /// The absolute value, without the care of std::abs() for overflow.
+  /// The modulus |z|, without the overflow protection of std::abs().
   static Scalar size_of(const Complex& z) { return std::sqrt(std::norm(z)); }
 
   void set_distance(std::size_t i, const Complex& d) {
@@ -268,7 +268,7 @@ class RootIteration {
     return series;
   }
 
-  /// Computes a or b of a `Series`, by `column`, from the blocks of poles `from` and later.
+  /// Computes a (`column` 1) or b (2) of a `Series` from the poles of blocks `from` and later.
   /// @param size  if given, set to Σ (|Re| + |Im|) over the terms of series[0]
   /// @return distance from λ to the nearest pole
   template <class Real, std::size_t column, class Rows>
@@ -388,7 +388,7 @@ class RootIteration {
     return settled;
   }
 
-  /// Changes `unknown`, a root λ or its difference from a pole, by one step; a root at 0 stays.
+  /// Takes one step of `unknown`, a root λ or its difference from a pole; a root at 0 is unchanged.
   /// @return whether the root has converged: this step or the next one, as predicted, is negligible
   bool take(std::size_t i, Complex& unknown, const Value& p, const Sums& others,
             const Complex& lambda) {

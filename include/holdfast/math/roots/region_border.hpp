@@ -19,7 +19,7 @@ struct PlanePoint {
 };
 
 /// The result of examining a point: its margin and the condition that is nearest to failing.
-/// @tparam Label  name of a condition that ends the region; compared by ==
+/// @tparam Label  type that identifies the conditions defining the region; compared by ==
 template <class Label>
 struct RegionLook {
   double margin = -1.0;  ///< margin, > 0 inside the region; tracing is fast if it is continuous
@@ -39,7 +39,7 @@ struct RegionBorder {
   std::vector<BorderPoint<Label>> points;  ///< if closed, the last point repeats the first one
   bool closed = false;  ///< whether the trace returned to its start; if not, the trace lost the
                         ///< border, changed to a touching part of the region or reached the limit
-  int looks = 0;        ///< points examined; `most_looks` if the border was lost or part changed
+  int looks = 0;        ///< points examined; `most_looks` if the trace lost its border or part
 };
 
 /// The step lengths, accuracies and limits for following a border.
@@ -47,14 +47,14 @@ struct BorderSteps {
   double longest = 0.02;     ///< longest step, in the unit of x and y
   double shortest = 1e-9;    ///< shortest step and accuracy of a corner, in the unit of x and y
   double tolerance = 1e-13;  ///< accuracy of a border point, in the unit of x and y
-  double jump = 1e-4;        ///< largest margin just inside the border without a jump of the margin
+  double jump = 1e-4;        ///< margin just inside the border above which a jump is assumed there
   int most_looks = 1'000'000;  ///< limit of the number of points examined
 };
 
 namespace detail {
 
-/// Tracer of a border by circles. The next point is the first exit from the region on a circle
-/// about the last point, found clockwise from the direction of the point before.
+/// Traces a border by circles. The next border point is the first exit from the region on a circle
+/// about the last point, searched clockwise from the direction of the point before the last.
 template <class Label, class Look>
 class BorderWalk {
  public:
@@ -201,8 +201,8 @@ class BorderWalk {
     return least ? longest_ : std::min(2.0 * step, longest_);
   }
 
-  /// Whether the border has come back to a corner after leaving it: where parts of a region touch,
-  /// the tracer may have changed to another part, which it would circle for ever.
+  /// Whether the trace has come back to a corner after leaving it. Where parts of a region touch,
+  /// the trace may have changed to another part, which it would circle for ever.
   bool meets_again(const BorderPoint<Label>& before, const BorderPoint<Label>& after) {
     const auto is_left = [&](const BorderPoint<Label>& point) {
       return distance(point.at, after.at) > 100.0 * steps_.shortest;
@@ -246,7 +246,7 @@ class BorderWalk {
 /// region and parts narrower than a step may be missed.
 ///
 ///     const auto border = region_border<int>(look, {0.5, 0.5});
-/// @tparam Label  name of a condition that ends the region
+/// @tparam Label  type that identifies the conditions defining the region
 /// @param look   function PlanePoint → RegionLook<Label>; the region must be bounded
 /// @param start  point inside the region; otherwise the border is empty
 /// @param steps  step lengths, accuracies and limits

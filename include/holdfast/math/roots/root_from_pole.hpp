@@ -10,10 +10,10 @@
 namespace holdfast {
 
 /// The root s of 1 − ε g(s) = 0 at ε = 1, continued from the pole s = p of g at ε = 0. For example,
-/// p is an eigenvalue of a structure, ε g the effect of a device and s the eigenvalue with it.
+/// p is an eigenvalue of a structure alone and s the eigenvalue with a device of loop gain g.
 ///
 /// Euler's step and the secant method continue the root of 1/g(s) = ε; 1/g is smooth at the pole.
-/// ε takes a path slightly off the real axis, so that conjugate roots do not meet on the way. Steps
+/// ε moves from 0 to 1 slightly off the real axis, so that conjugate roots do not collide. Steps
 /// are shortened where the root's path bends. If the root is less than 10⁻⁷ |p| from the pole, g is
 /// replaced by r/(s − p) + b with constants r and b.
 ///

@@ -16,7 +16,7 @@ struct DecayRecord {
   std::vector<double> displacements;  ///< displacements (m) from the equilibrium, downward positive
 };
 
-/// The measures of a free decay after a load is removed; NaN where the record is too short for one.
+/// The measures of a free decay after removal of a load; one is NaN if the record is too short.
 struct DecayMeasures {
   double first_peak;             ///< extremum (m) between crossings 1 and 2 of the equilibrium
   double first_peak_time;        ///< time (s) from the start of the record to first_peak
@@ -33,9 +33,9 @@ struct DecayPeak {
 /// The crossings of the equilibrium in a record, interpolated linearly between samples, and the
 /// extrema between successive crossings, found by a parabola through three samples.
 ///
-/// A crossing counts once the displacement on the new side reaches 5 % of the previous extremum. If
-/// noise causes several crossings until then, the midpoint of the first and the last counts. Noise
-/// of standard deviation σ raises the modulus of each extremum by about 2σ.
+/// A crossing is accepted once the displacement on the new side reaches 5 % of the previous
+/// extremum. If noise causes several crossings before that, the mean of the first and the last time
+/// is used. Noise of standard deviation σ raises the modulus of each extremum by about 2σ.
 struct DecayEvents {
   std::vector<double> crossings;  ///< times of crossing (s), ascending
   std::vector<DecayPeak> peaks;   ///< peaks[k] is between crossings[k] and crossings[k + 1]

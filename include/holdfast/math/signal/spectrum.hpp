@@ -62,8 +62,8 @@ std::vector<SpectralLine> amplitude_spectrum(std::vector<Scalar> signal, double 
   return lines;
 }
 
-/// The denominator q of f τ = p/q in lowest terms: q sampling periods τ last p periods 1/f.
-/// @return q; 0 where f τ is no fraction with a denominator q ≤ `largest`
+/// The number q of samples in the common period q τ = p/f; f τ = p/q is a fraction in lowest terms.
+/// @return q; 0 if f τ is not a fraction with a denominator q ≤ `largest`
 /// @throws InvalidParameter unless f is finite and ≥ 0, τ finite and > 0
 inline std::int64_t samples_per_common_period(double frequency, double sampling_period,
                                               std::int64_t largest = 1'000'000) {
@@ -76,7 +76,7 @@ inline std::int64_t samples_per_common_period(double frequency, double sampling_
 
 /// The number of samples in the longest record that lasts a whole number of forcing periods. With a
 /// rectangular window such a record has no leakage from the forcing frequency and its harmonics.
-/// @return number of samples, at most `available`; `available` where no such record is short enough
+/// @return number of samples, at most `available`; `available` if every such record is longer
 /// @throws InvalidParameter under the conditions of samples_per_common_period()
 inline std::int64_t whole_period_samples(std::int64_t available, double frequency,
                                          double sampling_period) {

@@ -77,7 +77,7 @@ inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lin
   return result;
 }
 
-/// The least number of lines with a given share of the signal's power without mean; 0: no power.
+/// The least number of lines that hold a given share of the power without mean; 0 for zero power.
 /// @param lines    spectrum of amplitude_spectrum()
 /// @param samples  number N of samples of the record
 /// @param share    required share of the power, 10⁻⁹ ≤ share ≤ 1

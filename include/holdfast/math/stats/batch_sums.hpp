@@ -17,7 +17,7 @@ namespace holdfast {
 /// P. W. Glynn, D. L. Iglehart, Simulation output analysis using standardized time series, 1990.
 /// @tparam Number   type of a sum
 /// @tparam Series   number of series, or Eigen::Dynamic
-/// @tparam Batches  number of batches at which they are merged, even, ≥ 4
+/// @tparam Batches  number of complete batches at which pairs are merged, even, ≥ 4
 template <class Number, int Series, std::size_t Batches = 64>
 class BatchSums {
   static_assert(Batches % 2 == 0 && Batches >= 4, "Batches must be even and at least 4");

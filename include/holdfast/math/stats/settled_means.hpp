@@ -47,7 +47,7 @@ class SettledBatches {
            (static_cast<double>(last - first) * static_cast<double>(sums_.batch_length()));
   }
 
-  /// The standard errors from batch `first` on: from single batches or from pairs, the larger one.
+  /// The standard errors from batch `first` on: the larger estimate, from batches or from pairs.
   Means scatter(std::size_t first) const {
     const Means single = sums_.standard_errors(1, first);
     if (sums_.complete_batches() - first < 8) return single;
@@ -68,7 +68,7 @@ class SettledBatches {
            6.0 * std::sqrt(static_cast<double>(all - half) * shares) * scatter(half)[0] + rounding;
   }
 
-  /// The range max − min of s_n − n · mean over the batch ends n, s_n being the sum over n steps.
+  /// The range max − min of s_n − n · mean at the batch ends; s_n: sum over the first n used steps.
   Means width(const Means& found) const {
     Means deviation = Means::Zero(found.size()), low = deviation, high = deviation;
     const double length = static_cast<double>(sums_.batch_length());
@@ -80,8 +80,8 @@ class SettledBatches {
     return high - low;
   }
 
-  /// The difference of the means over the second quarter and the second half of the used batches.
-  /// If over a quarter is left out: over the later half of the batches left out and all used ones.
+  /// The difference (modulus) of two means: second quarter and second half of the used batches;
+  /// or, if over a quarter is left out, later half of the omitted batches and all used batches.
   Means drift() const {
     const std::size_t all = sums_.complete_batches(), half = (from_ + all) / 2;
     if (from_ > all / 4) return (mean(from_ / 2, from_) - mean(from_, all)).cwiseAbs();
@@ -104,13 +104,13 @@ class SettledBatches {
 /// The means of several series without their transient, with standard errors.
 ///
 /// The first b batches are left out as transient, b = 0, 1, 2, 4, … up to half of all. b is
-/// increased until, in the first series, two means agree within six standard errors. They are the
-/// means over the next b batches (one if b = 0) and over all later ones. The standard error
+/// increased until two means of the first series agree within six standard errors: the mean over
+/// the next b batches (one if b = 0) and the mean over all later batches. The standard error
 /// returned is the largest of three estimates for the remaining N steps:
 ///
 /// - the standard error from batch means, or from means of pairs of batches if this is larger;
-/// - 0.43 R/N, where R is the range over n of (sum over the first n steps) − n · mean. It
-///   decides if the batch means hardly scatter, as for a periodic series;
+/// - 0.43 R/N, where R is the range over n of (sum over the first n steps) − n · mean. This
+///   estimate is the largest if the batch means hardly scatter, as for a periodic series;
 /// - 0.43 times the difference of the means over the second quarter and the second half of the
 ///   steps: an estimate of a bias that decays like 1/N.
 ///

@@ -54,7 +54,7 @@ inline double trusted_digits(double value, long double reference) {
 
 /// The trusted digits of a vector or matrix as a whole: −log₁₀(‖value − reference‖/‖reference‖) in
 /// the Euclidean norm of all entries, limited to 0 … 17. The result is 0 if an entry is not finite.
-/// Entries of different units must be scaled to one unit before.
+/// Entries with different units must first be scaled to a common unit.
 /// @param value      vector or matrix of any shape
 /// @param reference  vector or matrix of the same shape, in the wider number type
 template <class Value, class Reference>
