@@ -22,7 +22,7 @@
 
 namespace holdfast::program {
 
-/// Command line of one job: its own options and the options of every job. texts/jobs.toml gives the
+/// Command line of one job: its own options and those common to all jobs. texts/jobs.toml gives the
 /// help, the admissible values and the mutual exclusions of these options.
 class Job {
  public:
@@ -65,7 +65,7 @@ class Job {
   /// Context of the case with further overrides, each "key=value".
   JobContext context_with(const JobContext& whole, const std::vector<std::string>& overrides) const;
 
-  /// The options --case, --set and --instructions as given, to be passed to another job.
+  /// Options --case, --set and --instructions as given, to be passed to another job.
   std::vector<std::string> case_arguments() const;
 
   /// Sets the function that does the job; where --output names a picture, the picture shows the

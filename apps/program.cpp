@@ -3,6 +3,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "case/case_keys.hpp"
 #include "io/file/build_record.hpp"
 #include "io/file/output.hpp"
 #include "job.hpp"
@@ -130,6 +131,8 @@ std::string unexpected_text(const CLI::App& job) {
   const std::string others = jobs_with(*job.get_parent(), word);
   if (!others.empty())
     return job.get_name() + " has no option " + word + "; jobs with this option: " + others;
+  if (word.rfind("--", 0) == 0 && find_case_key(word.substr(2, word.find('=') - 2)) != nullptr)
+    return "unknown option " + word + "; did you mean --set " + word.substr(2) + "?";
   if (word.rfind('-', 0) == 0)
     return "unknown option " + word + "; did you mean " + nearest_option(job, word) +
            "? (holdfast " + job.get_name() + " --help lists the options)";

@@ -12,6 +12,6 @@ template std::vector<std::complex<double>> roots(const Eigen::MatrixBase<Polynom
 template std::vector<std::complex<double>> roots(const Eigen::MatrixBase<Polynomial<double, 5>>&,
                                                  double);
 
-template std::vector<std::complex<double>> pole_sum_roots(PoleSum<double>, bool, const double&);
+template std::vector<std::complex<double>> pole_sum_roots(PoleSum<double>, bool);
 
 }  // namespace holdfast

@@ -30,6 +30,6 @@ template MinimaxAmplitude modal_minimax_amplitude<double>(const ConductorWithAbs
                                                           const AmplitudeOptions&, double,
                                                           const FrequencyBand&);
 template MaxDelay modal_max_sampling_period<double>(const ConductorWithAbsorber&,
-                                                    const MaxDelayOptions&, double);
+                                                    const MaxDelayOptions&, double, SharedCircles*);
 
 }  // namespace holdfast

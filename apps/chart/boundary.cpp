@@ -22,9 +22,6 @@ struct FixedGains {
   std::vector<double> differential;  ///< values of D (N s/m) for which intervals of P are sought
 };
 
-/// Number type for single points, exact to a double's last digit unless two points nearly coincide.
-using Precise = long double;
-
 /// Calls `visit` with the characteristic polynomial of the continuous or the sampled loop.
 template <class Visit>
 auto with_polynomial(const Case& the_case, bool continuous, const Visit& visit) {
@@ -56,43 +53,33 @@ struct GainPlane {
   }
 };
 
-std::vector<Interval<double>> rounded(const std::vector<Interval<Precise>>& intervals) {
-  std::vector<Interval<double>> result;
-  result.reserve(intervals.size());
-  for (const Interval<Precise>& interval : intervals)
-    result.push_back({static_cast<double>(interval.lower), static_cast<double>(interval.upper)});
-  return result;
-}
+/// The continuous loop of two masses.
+struct ContinuousLoop {
+  AffinePolynomial<double, 4> polynomial;
 
-/// Stable intervals for all fixed gains. @param stable  function (free gain, gains) → its intervals
-template <class Stable>
-std::vector<GainPlane> answers(const Stable& stable, const FixedGains& fixed) {
-  std::vector<GainPlane> result;
-  for (const double p : fixed.proportional)
-    result.push_back({differential, proportional, p, stable(FreeGain::differential, {p, 0.0})});
-  for (const double d : fixed.differential)
-    result.push_back({proportional, differential, d, stable(FreeGain::proportional, {0.0, d})});
-  return result;
-}
+  std::vector<Interval<double>> stable_gains(FreeGain free, const PdGains<double>& gains) const {
+    return free == FreeGain::differential
+               ? stable_differential_gains(polynomial, gains.proportional)
+               : stable_proportional_gains(polynomial, gains.differential);
+  }
+};
 
 /// Stable intervals for all fixed gains, by a loop with a member stable_gains().
 template <class Loop>
 std::vector<GainPlane> answers_by(const Loop& loop, const FixedGains& fixed) {
-  return answers(
-      [&](FreeGain free, const PdGains<double>& gains) { return loop.stable_gains(free, gains); },
-      fixed);
+  std::vector<GainPlane> result;
+  for (const double p : fixed.proportional)
+    result.push_back(
+        {differential, proportional, p, loop.stable_gains(FreeGain::differential, {p, 0.0})});
+  for (const double d : fixed.differential)
+    result.push_back(
+        {proportional, differential, d, loop.stable_gains(FreeGain::proportional, {0.0, d})});
+  return result;
 }
 
 std::vector<GainPlane> answers(const Case& the_case, const FixedGains& fixed, bool continuous) {
   if (!continuous) return answers_by(LinearLoop(the_case), fixed);
-  const auto polynomial = characteristic_polynomial(converted<Precise>(plant_of(the_case)));
-  return answers(
-      [&](FreeGain free, const PdGains<double>& gains) {
-        return rounded(free == FreeGain::differential
-                           ? stable_differential_gains(polynomial, Precise(gains.proportional))
-                           : stable_proportional_gains(polynomial, Precise(gains.differential)));
-      },
-      fixed);
+  return answers_by(ContinuousLoop{characteristic_polynomial(plant_of(the_case))}, fixed);
 }
 
 /// Warning if the end of an interval moves by more than 1 % with other modes; else empty.
@@ -113,7 +100,7 @@ std::string truncation_warning(const Case& the_case, const FixedGains& fixed,
                            format_number(found[i].value) + " " + found[i].fixed.unit + " ";
     if (here.size() != there.size())
       return "the result depends on the modes used: " + at + other.words + " there are " +
-             std::to_string(there.size()) + " stable intervals";
+             std::to_string(there.size()) + " stable intervals, not " + std::to_string(here.size());
     for (std::size_t k = 0; k < here.size(); ++k)
       if (moved(k))
         return "the result depends on the modes used: " + at + other.words + " the interval is " +

@@ -118,7 +118,7 @@ void MarginsQuestion::run(const JobContext& context) const {
               &ProvedMargins::processing_delay);
   if (!table.is_proved())
     report_warning(
-        "some ends of the stable ranges are not proved: the column proof gives the reasons",
+        "some ends of the stable ranges are not proved: see the reasons in the column \"proof\"",
         context.quiet);
   table.commit();
 }

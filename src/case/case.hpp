@@ -249,7 +249,7 @@ bool has_stringing(const Case& the_case);
 /// Whether a key of [site] differs from its default.
 bool has_site(const Case& the_case);
 
-/// Names of the case's features that the plain loop of two masses lacks, for a message; "": none.
+/// Names, for a message, of the features that the plain loop of two masses lacks; "" if none.
 std::string modal_words(const Case& the_case);
 
 /// Whether plant.model is "infinite_string", a string without ends.
@@ -258,8 +258,8 @@ bool is_infinite(const Case& the_case);
 /// Whether plant.model is "cable", a hanging cable of finite elements.
 bool is_cable(const Case& the_case);
 
-/// The force on the conductor: [excitation] as given, or with amplitude and frequency computed from
-/// [wind]: frequency = strouhal·speed/diameter (Hz), amplitude = ½·air_density·speed²·diameter·
+/// Excitation of the conductor: [excitation] as given, or with amplitude and frequency from [wind]:
+/// frequency = strouhal·speed/diameter (Hz), amplitude = ½·air_density·speed²·diameter·
 /// effective_length·lift_coefficient (N).
 case_tables::Excitation effective_excitation(const Case& the_case);
 
@@ -268,8 +268,8 @@ case_tables::Excitation effective_excitation(const Case& the_case);
 /// is half a wavelength, at most the span. Throws MissingKeys.
 case_tables::Wind wind_for(const Case& the_case);
 
-/// A warning of vortices outside the 3 to 150 Hz of aeolian vibration, with the reason; empty
-/// within them, without [wind] or with an unknown sag.
+/// Warning about vortices outside the range of aeolian vibration, 3 to 150 Hz, with the
+/// consequence; empty within this range, without [wind] or with an unknown sag.
 std::string wind_warning(const Case& the_case);
 
 /// The proportional gain P (N/m) that the loop uses: the number given, or for "tuned" by Eq. 6 of

@@ -18,18 +18,17 @@ namespace holdfast::program {
 extern const std::string_view builtin_case_text;
 
 /// Loads the built-in case, then the file, then each override `key=value` in order. The value is
-/// TOML; a bare word counts as a string: `control.proportional_gain=tuned`. A file that gives
-/// conductor.name, mass_per_length, span, tension or sag, or every key of the two masses of
-/// [plant], stands alone: it has no built-in values. Keys that it does not give are absent, except
-/// that gains, play and force are 0 and that gravity, Strouhal's number and methods have documented
-/// defaults. A number may be a text with a unit of units.hpp, "28.2 kN". conductor.name supplies
-/// the data of that conductor that neither file nor override gives. [wind] replaces
-/// excitation.amplitude and excitation.frequency; other keys of [excitation] may be given with it.
-/// A file name in the case file is relative to the folder of the case file; in an override it is
-/// relative to the working folder and needs no quotes. The case has it relative to the working
-/// folder. The named file is not read here. Throws WrongInput, one line with file and line or the
-/// override, the key, the value and what is admissible: syntax, unknown key, wrong type, out of
-/// range, check_case(), unreadable file.
+/// TOML; a bare word counts as a string: `control.proportional_gain=tuned`. A number may be a text
+/// with a unit of units.hpp: "28.2 kN".
+/// A file stands alone, without built-in values, if it gives conductor.name, mass_per_length, span,
+/// tension or sag, or every key of the two masses of [plant]. Keys that it does not give are then
+/// absent, except that gains, play and force are 0 and that gravity, Strouhal's number and methods
+/// have documented defaults. conductor.name supplies those data of that conductor that neither file
+/// nor override gives. [wind] replaces amplitude and frequency of [excitation], not its other keys.
+/// File names in the case file are relative to its folder, in an override (without quotes) to the
+/// working folder; in the case all are relative to the working folder. They are not read here.
+/// Throws WrongInput, one line with file and line or the override, the key, the value and what is
+/// admissible: syntax, unknown key, wrong type, out of range, check_case(), unreadable file.
 Case load_case(const std::optional<std::filesystem::path>& file,
                const std::vector<std::string>& overrides);
 

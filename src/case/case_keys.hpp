@@ -11,7 +11,7 @@
 
 namespace holdfast::program {
 
-/// Range of numbers that a key admits. The ends are included unless open; infinity and NaN are not.
+/// Range of numbers that a key admits. The ends belong to it unless open; infinity and NaN do not.
 struct AdmissibleRange {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
@@ -78,7 +78,7 @@ struct CaseKey : KeyForm {
   /// Pointer to the number in a case; null: not a number, or a key of [wind] without wind.
   double* number(Case& the_case) const;
 
-  /// Whether the case has a word in place of the key's number: "tuned", or one stored as infinity.
+  /// Whether the case has a word instead of the number: "tuned", or "none", stored as infinity.
   bool bears_word(Case& the_case) const;
   void give_word(Case& the_case) const;
 };
@@ -117,7 +117,7 @@ void set_case_value(Case& the_case, std::string_view name, double value);
 /// such as "none". Throws WrongInput if the key is unknown, no number, or of [wind] without wind.
 double case_value(const Case& the_case, std::string_view name);
 
-/// Fault of a case whose keys are each within their ranges.
+/// Contradiction between keys of a case, each of which is within its own range.
 struct CaseFault {
   std::vector<std::string> keys;  // keys involved
   std::string message;            // empty: nothing is wrong

@@ -15,7 +15,7 @@ namespace holdfast::program {
 
 /// Input of a job: all that its result depends on, and the options of its output.
 struct JobContext {
-  std::string job;      // "stability"
+  std::string job;      // name of the job: "stability"
   std::string version;  // of the program that computed the numbers; empty: this one
   Case case_data;
   CaseSource case_source;  // of case_data, for a job that needs variants of it
@@ -29,8 +29,8 @@ struct JobContext {
   bool progress = false;  // show it even if standard error is no terminal
   bool yes = false;       // write a table even if it is very large
   int threads = 0;        // 0: all
-  bool on_packs = false;  // the job computes on packs: its metadata name the instruction set
-  InstructionSet instructions = InstructionSet::baseline;  // of the packs
+  bool on_packs = false;  // the job computes on SIMD packs: its metadata name the instruction set
+  InstructionSet instructions = InstructionSet::baseline;  // of the SIMD packs
 };
 
 inline bool progress_wanted(const JobContext& context) {

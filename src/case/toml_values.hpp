@@ -13,15 +13,15 @@
 
 namespace holdfast::program {
 
-/// Line and message of a nesting that is too deep in a TOML text.
+/// Place of too deep a nesting in a TOML text, and a message about it.
 struct TomlExcess {
   std::size_t line = 0;
   std::string message;  ///< message: "brackets are nested deeper than 16 levels"
 };
 
-/// The first bracket or key (`a.b.c`) of a TOML text nested deeper than 16 levels; none if there is
-/// none. Unlike this search, the parser of the text recurses, so that a small file could exhaust
-/// its stack. Strings and comments are skipped.
+/// First bracket or key (`a.b.c`) of a TOML text nested deeper than 16 levels; nullopt if there is
+/// none. Call it before the TOML parser, which is recursive: a small file with deep nesting would
+/// exhaust its stack. Strings and comments are skipped.
 std::optional<TomlExcess> toml_excess(std::string_view text);
 
 /// Parses a case file. Throws WrongInput with file, line and, if guessed, the probable mistake.

@@ -12,8 +12,8 @@ namespace holdfast::program {
 // Charts that the explorer redraws while the user moves a control: the numbers of the jobs
 // `stability` and `response` without their tables.
 
-/// The cells of the job `stability` over the gains P and D, P slowest: 1 if the loop without play
-/// is stable, else 0. The plant may be any of the case. Throws InvalidParameter, WrongInput.
+/// Cells of a stability chart over the gains P and D, P slowest: 1 if the loop without play is
+/// stable, else 0. Any plant of a case is possible. Throws InvalidParameter, WrongInput.
 std::vector<std::uint8_t> stable_cells(const Case& the_case, const GainGrid& grid);
 
 /// Steady amplitudes of the conductor (m) at a frequency (Hz), without play.

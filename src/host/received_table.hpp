@@ -10,8 +10,8 @@
 
 namespace holdfast::program {
 
-/// Asks the system for large pages behind memory that is to be written, since the first access to
-/// many small pages costs as much time as a fast kernel. Without effect if the system has no large
+/// Requests large memory pages from the system for memory that is to be written: the first access
+/// to many small pages takes as long as a fast kernel. Without effect if the system has no large
 /// pages, or the memory is small.
 void prefer_large_pages(void* memory, std::size_t bytes);
 

@@ -7,8 +7,8 @@
 
 namespace holdfast::program {
 
-/// Question about a case: a job and its options, each by its name ("--prove") and also with its
-/// value ("--switching exact").
+/// Question about a case: a job with options. Each option is listed by its name ("--prove") and, if
+/// it has a value, also with the value ("--switching exact").
 struct Asked {
   std::string job;
   std::vector<std::string> options;
@@ -21,7 +21,7 @@ struct Asked {
 struct Support {
   std::string refusal;     ///< why the question is refused; empty: it is answered
   std::string idealised;   ///< what the answer leaves out; empty: nothing
-  std::string reason;      ///< the rule's text alone, without job and feature
+  std::string reason;      ///< reason of the refusal alone, without job and feature
   std::string refused_by;  ///< feature that the job refuses with any options; else empty
 };
 
@@ -37,11 +37,11 @@ struct SupportCell {
   Support support;
 };
 
-/// Cells of docs/support.md, one feature each, on two masses and on plant.model = "string"; grouped
-/// by question, features in a fixed order.
+/// Cells of docs/support.md, with one feature each, for two masses and for plant.model = "string";
+/// grouped by question, with the features in a fixed order.
 std::vector<SupportCell> support_cells();
 
-/// Cells of all pairs of features that a case can have; on two masses unless one is another plant.
+/// Cells of all possible pairs of features, with two masses unless a feature is another plant.
 std::vector<SupportCell> support_pairs();
 
 /// Text of docs/support.md.

@@ -12,8 +12,8 @@
 
 namespace holdfast::program {
 
-/// The kernels for one type of SIMD pack, to be included only by the unit of its instruction set.
-/// The pack is part of every name in this class.
+/// Kernels for one type of SIMD pack. Only the unit of its instruction set may include this file.
+/// The type is part of every name in this class, so that the linker never mixes instruction sets.
 template <class Pack>
 class KernelsOn {
   template <int Degree>

@@ -27,7 +27,7 @@ namespace holdfast::program {
 using ChartKernel = std::function<void(std::int64_t first, std::int64_t count, std::uint8_t* stable,
                                        double* radius)>;
 
-/// Interface through which the kernels of metrics get matrices and can be interrupted.
+/// Interface that gives matrices to the kernels of metrics and can interrupt them.
 class MotionSource {
  public:
   virtual ~MotionSource() = default;
@@ -37,7 +37,7 @@ class MotionSource {
   virtual void pause() = 0;
 };
 
-/// Test for the orbit that a motion is guaranteed to approach, as in AttractorSet.
+/// Test which orbit a motion is guaranteed to approach: its number, or −1; see AttractorSet.
 struct AttractionTest {
   std::function<int(const ForcedMotionMemory<double>& memory)> attracted_by;
 };
@@ -61,8 +61,8 @@ struct PackKernels {
   MotionKernel (*propagate)(const PeriodicallyForcedMotion<double>& motion);
 };
 
-/// Kernels of each instruction set, compiled in a unit of its own; sets that the program lacks are
-/// not defined. Call only those of a set that the processor has.
+/// Kernels of one instruction set; each of the three functions is compiled in a unit of its own.
+/// Those of sets that the program lacks are not defined. Call only a set that the processor has.
 const PackKernels& baseline_kernels();
 const PackKernels& avx2_kernels();
 const PackKernels& avx512_kernels();

@@ -17,7 +17,7 @@ namespace holdfast::program {
 #ifdef HOLDFAST_HAS_SIMD
 using simd::parallel_rows;
 #else
-/// The function simd::parallel_rows for a build without oneTBB: tiles one after the other.
+/// Replacement of simd::parallel_rows in a build without oneTBB: computes the tiles one by one.
 template <class Kernel, class Compute>
 void parallel_rows(std::int64_t rows, std::int64_t tile, int, const Kernel& kernel,
                    const Compute& compute) {

@@ -69,7 +69,7 @@ class Table {
 void require_text_meant(const JobContext& context, std::int64_t count, const std::string& what,
                         const std::string& instead);
 
-/// Writes the number of trusted digits into a table's metadata, and warns the user if it is small.
+/// Writes the number of trusted digits into a table's metadata, and warns if it is below six.
 void tell_trust(const JobContext& context, Table& table, const TrustedDigits& trusted);
 
 }  // namespace holdfast::program

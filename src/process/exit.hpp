@@ -9,9 +9,9 @@ namespace holdfast::program {
 /// The program's exit codes.
 namespace exit_code {
 inline constexpr int done = 0;
-inline constexpr int no_answer = 1;
-inline constexpr int wrong_input = 2;
-inline constexpr int interrupted = 130;
+inline constexpr int no_answer = 1;      ///< NoAnswer, OutputError or an unexpected exception
+inline constexpr int wrong_input = 2;    ///< WrongInput or InvalidParameter
+inline constexpr int interrupted = 130;  ///< ended by a signal
 }  // namespace exit_code
 
 /// Exit code of an exception: 2 for WrongInput and InvalidParameter, 130 for Interrupted, else 1.

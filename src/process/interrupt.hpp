@@ -21,8 +21,7 @@ void install_signal_handlers();
 /// Removes the files named by RemovedBySignal. May be called in a signal handler.
 void remove_unfinished_files();
 
-/// Restores the default action of signals that this program ignores; call in a child process before
-/// it becomes another program.
+/// Restores the default action of ignored signals; for a child that will become another program.
 void restore_signals_of_child();
 
 /// Whether a signal or request_stop() came. A long loop checks this, or throw_if_interrupted().
@@ -38,8 +37,8 @@ void forget_asking();
 /// Clears the flag of a received signal, so that a test can raise one.
 void clear_interrupt();
 
-/// Holds back the signals that end the program, in the thread that takes them, while the object
-/// exists; they arrive when it is destroyed. For a few steps that must be done all or not at all.
+/// Blocks the signals that end the program while the object exists; they arrive when it is
+/// destroyed. For a few steps of which either all or none must be done; in the thread of signals.
 class SignalsHeld {
  public:
   SignalsHeld();
@@ -51,7 +50,7 @@ class SignalsHeld {
   sigset_t before_ = {};
 };
 
-/// Names a file that the program removes when a signal ends it at once, while the object exists.
+/// Registers a file, while the object exists, for removal if a signal ends the program at once.
 /// Without effect beyond eight files at a time, or for a path of 4096 bytes or more.
 class RemovedBySignal {
  public:

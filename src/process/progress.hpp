@@ -23,10 +23,10 @@ struct ProgressCount {
   double samples = 0.0;       // samples taken by motions; 0: not counted
 };
 
-/// Shows on standard error that a job is running, from one second after its start: its name and the
-/// time, or the status of its Progress. On a terminal the line is renewed every second, elsewhere a
-/// line appears after 1, 2, 4, … s. The display ends with the object, or when the result goes to
-/// the terminal.
+/// Display on standard error that a job is running, from one second after its start: its name and
+/// the elapsed time, or the status of its Progress. On a terminal the line is renewed every second;
+/// elsewhere a line appears after 1 s, then after pauses of 2, 4, 8, … s. The display ends with the
+/// object, or when the result goes to the terminal.
 class Ticking {
  public:
   using Clock = std::chrono::steady_clock;
@@ -52,9 +52,9 @@ class Ticking {
 /// results are written to standard output.
 void yield_terminal_to_result();
 
-/// Shows on standard error the done part of a job, its rate and the remaining time, at most ten
-/// times a second. On a terminal one line is overwritten, and cleared at the end; elsewhere each
-/// status is a new line, and the last line gives the total.
+/// Display on standard error of the steps done in a job, their rate and the remaining time, at most
+/// ten times a second. On a terminal one line is overwritten, and cleared at the end; elsewhere
+/// each status is a new line, and the last line gives the total.
 class Progress {
  public:
   /// Begins the count. @param label  job and, after a comma, steps: "stability", "sweep, cells"

@@ -15,7 +15,7 @@ struct ChunkResult {
   std::int64_t samples = 0;  ///< number of samples that its motions took
 };
 
-/// One of `of` parts of a store: every `of`-th chunk from chunk `number` on, both counted from 1.
+/// One of `of` parts of a store: every `of`-th chunk, beginning with the chunk `number`, from 1.
 struct StorePart {
   std::int64_t number = 1;
   std::int64_t of = 1;
@@ -26,7 +26,7 @@ struct ChunkWork {
   std::string steps;  ///< label of the progress: "sweep, cells"
   /// Computes the chunk of a given number, on any thread. The result depends on the number alone.
   std::function<ChunkResult(std::int64_t)> compute;
-  std::function<void(std::int64_t)> found = nullptr;  ///< called with each chunk already done
+  std::function<void(std::int64_t)> found = nullptr;  ///< called for each chunk already done
   bool verify = false;  ///< whether done chunks are read, and damaged ones computed again
   StorePart part = {};  ///< part of the store whose chunks are computed
 };

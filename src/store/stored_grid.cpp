@@ -44,7 +44,7 @@ StoreDescription store_description(const JobContext& context, const GridLayout& 
 }
 
 void refuse_chunk(const StoreFolder& store, std::int64_t chunk) {
-  throw NoAnswer("a file of the chunk " + store.file_of(chunk).string() + " is " +
+  throw NoAnswer("the chunk file " + store.file_of(chunk).string() + " is " +
                  (store.has(chunk) ? "damaged" : "missing") +
                  ": repeat the command that made the store, with --resume if it has that option");
 }

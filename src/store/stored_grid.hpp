@@ -12,7 +12,7 @@
 namespace holdfast::program {
 
 /// Description of a store for a job's grid. Its plan consists of the job, its options as given, and
-/// the case. Throws WrongInput for a case with a plant of the caller's own.
+/// the case. Throws WrongInput for a case with a user-defined plant.
 /// @param most  largest number of cells of a chunk
 StoreDescription store_description(const JobContext& context, const GridLayout& layout,
                                    std::size_t most = values_in_chunk);

@@ -8,7 +8,7 @@
 namespace holdfast::program {
 
 /// A temporary store, from which a table or a netCDF file is made once it is complete; it is then
-/// removed. One program uses it at a time, with the other processes of its launcher.
+/// removed. Only one program at a time uses it, or several processes that one launcher started.
 class WorkStore {
  public:
   /// Creates the store, or continues an existing one; an existing one without chunks starts anew.

@@ -34,9 +34,9 @@ struct SweepOptions {
   int members = 0;                  // members of the case's family that replace axes; 0: axes
 };
 
-/// The cells of a sweep and their chunks in a store. Cells are the grid of any number of axes over
-/// keys of a case, numbered with the first axis slowest, or members of the case's family. The
-/// memory needed does not grow with the number of cells, only with that of members.
+/// Plan of a sweep: its cells and their chunks in a store. Cells are the points of a grid over keys
+/// of a case, numbered with the first axis slowest, or members of the case's family. The memory
+/// needed grows with the number of members, but not with that of grid cells.
 ///
 /// The constructor throws WrongInput for missing or inadmissible axes, an unknown metric, and more
 /// than 2⁵³ cells. A value that its key does not admit is no error: its cells are invalid.
@@ -95,7 +95,7 @@ class SweepPlan {
 /// last digits depend on the instruction set of the plan's context. Throws Interrupted.
 ChunkResult compute_cells(const SweepPlan& plan, std::int64_t first, std::int64_t count);
 
-/// Computes a cell; returns why it has no motion, or one that cannot be computed; "" if it has.
+/// Computes a cell and returns the reason if it has no computable motion; else "".
 std::string fault_of_cell(const SweepPlan& plan, std::int64_t cell);
 
 /// Computes a sweep and writes it. Each chunk is stored once computed: in the output, if that is a

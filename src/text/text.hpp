@@ -33,8 +33,7 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// Length of the longest number as text: "-2.2250738585072014e-308".
 constexpr std::size_t longest_number = 24;
 
-/// Writes the text of format_number(), at most `longest_number` characters, to `place`; returns the
-/// position after it.
+/// Writes format_number(), at most `longest_number` characters; returns the position after it.
 char* put_number(char* place, double value);
 
 /// The number with the shortest decimal digits that read back equal; `inf`, `-inf` or `nan`.
@@ -56,7 +55,7 @@ std::size_t edit_distance(std::string_view from, std::string_view to);
 /// The first of the names with the smallest edit_distance() from the word; `names` is not empty.
 std::string nearest_name(const std::vector<std::string>& names, std::string_view word);
 
-/// The range "3 to 5", or "3" if both texts are equal; `before` precedes two different ends.
+/// Text of a range: "3 to 5" after `before`, or "3" alone if both ends are equal.
 inline std::string range_text(const std::string& lowest, const std::string& highest,
                               const std::string& before = "") {
   return lowest == highest ? highest : before + lowest + " to " + highest;

@@ -141,12 +141,13 @@ inline void widen_bundles(std::vector<PlaceMode<double>>& modes, const std::vect
 ///
 ///     H(s) = eᵀ (K + s²M)⁻¹ e ≈ Σ φ_n² / (s² + ω_n²).
 ///
-/// K is the tangent stiffness of the bars, M their mass matrix with `hung.sideways`, e the vertical
-/// unit vector of the node. Lanczos' process of `steps` steps makes the first 2·`steps`
-/// coefficients of H in powers of s² exact. It finds slow modes singly. In place of several fast
-/// modes it finds one, a bundle. A mode is single if its residual in the process is below
-/// 10⁻⁷/ω_n². A bundle gets half its relative bandwidth as damping ratio, so that no wave returns.
-/// Modes that leave the absorber's node at rest do not appear. Work: O(bars · steps²).
+/// K is the tangent stiffness of the bars. M is their mass matrix, with `hung.sideways` at the
+/// node. e is the vertical unit vector of the node. Lanczos' process of `steps` steps makes the
+/// first 2·`steps` coefficients of H in powers of s² exact. Slow modes are found one by one.
+/// Several fast modes are replaced by one, a bundle. A mode is single if its residual in the
+/// process is below 10⁻⁷/ω_n². The damping ratio of a bundle is half its relative bandwidth; no
+/// wave then returns to the node. Modes that leave the absorber's node at rest do not appear. Work:
+/// O(bars · steps²).
 /// @tparam Real  `double`; a parameter so that the function is compiled only where it is used
 /// @param chain  the cable's bars, at least six per shortest wavelength of interest
 /// @param hung   mass on the absorber's node

@@ -39,7 +39,7 @@ inline ModeFamily family_of(const Eigen::VectorXd& shape) {
 
 }  // namespace detail
 
-/// The `count` lowest undamped modes of the bare cable in N = `elements` equal bars:
+/// The `count` lowest undamped modes of the bare cable, modelled by N = `elements` equal bars:
 /// K φ = ω² M φ with the tangent stiffness K at the equilibrium and the lumped masses M. Lumping
 /// makes the frequencies too low. K is stored dense: N up to about 1000 is practical.
 /// @throws InvalidParameter for an inadmissible conductor, an odd N, N < 2, or a count outside

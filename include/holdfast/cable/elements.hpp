@@ -10,8 +10,8 @@ namespace holdfast {
 
 /// Model of the absorber on the continuous cable.
 enum class AbsorberReading {
-  weight,       ///< a weight without inertia
-  rigid_mass,   ///< a mass fixed to its node, with inertia in both directions and the damping α M
+  weight,      ///< a weight without inertia
+  rigid_mass,  ///< a mass m₂ fixed to its node: inertia in both directions, Rayleigh damping α m₂
   spring_mass,  ///< a mass below its node on a vertical spring and a vertical damper
 };
 
@@ -62,10 +62,10 @@ inline RayleighDamping rayleigh_damping(double damping_ratio, double first_frequ
           2.0 * damping_ratio / (first + second)};
 }
 
-/// The cable with its absorber as elastic bars: M v̇ + C v + f(q) = F with positions q, velocities
-/// v, lumped masses M, internal forces f and loads F. The damping matrix is C = α M + β K with the
-/// stiffness K at the equilibrium with the absorber's weight. The class computes the time
-/// derivative of the state and its Jacobian; it has no solver.
+/// Equations of motion M v̇ + C v + f(q) = F of a cable as a chain of elastic bars, with absorber.
+/// q are positions, v velocities, M lumped masses, f internal forces, F loads. The damping matrix
+/// is C = α M + β K with the stiffness K at the equilibrium with the absorber's weight. The class
+/// computes the time derivative of the state and its Jacobian; it has no solver.
 ///
 /// State: [x, y, ẋ, ẏ] (m, m/s) per free node. With a spring–mass, [a, ȧ] follows the states of its
 /// node; a (m) is the absorber's drop from the equilibrium. The Jacobian is zero farther than

@@ -67,9 +67,9 @@ struct LoadedCable {
 
 /// The exact statics of an elastic cable: two elastic catenaries, joined at the point load.
 ///
-/// The unstretched length l₀ follows from the given sag of the bare cable. Across a downward
-/// load P (N) the vertical force in the cable drops by P. When the right end lies on its support
-/// (L, 0), the energy ∫ (T²/2EA + T) ds − H L is stationary in (H, V). This energy is
+/// The unstretched length l₀ follows from the sag of the bare cable, that is, under its own weight.
+/// Across a downward load P (N) the vertical force in the cable drops by P. Where the right end
+/// lies on its support (L, 0), the energy ∫ (T²/2EA + T) ds − H L is stationary in (H, V). It is
 /// strictly convex: every load has exactly one solution, and Newton's method with backtracking
 /// finds it from any start. Source: H. M. Irvine, Cable Structures, 1981, Sect. 1.4.
 template <class Scalar>

@@ -12,9 +12,9 @@
 
 namespace holdfast {
 
-/// Irvine's parabolic cable under one vertical point load (Kollár 2022, Eq. 1 and its cubic).
-///
-/// Dimensionless: x̂ = x/L, P̂ = P/(μ g L), ĥ = h/H with h the additional horizontal tension:
+/// Irvine's parabolic cable under one vertical point load (Kollár 2022, Eq. 1 and its cubic). A
+/// load P (N, downward) at x_p adds h (N) to the horizontal tension H. For the symbols of
+/// `Conductor` and x̂ = x/L, x̂_p = x_p/L, P̂ = P/(μ g L), ĥ = h/H:
 ///
 ///     ĥ³ + (2 + λ²/24) ĥ² + (1 + λ²/12) ĥ − (λ²/2) x̂_p (1 − x̂_p) P̂ (1 + P̂) = 0
 ///     w(x) = μ g L²/(H (1 + ĥ)) [ P̂ x̂_< (1 − x̂_>) − (ĥ/2) x̂ (1 − x̂) ],
@@ -59,7 +59,7 @@ class IrvinePointLoad {
     return tension_ * (Scalar(1) + relative_additional_tension(load));
   }
 
-  /// Displacement w(x) (m) at x (m) from the left support, 0 ≤ x ≤ L, under a load P (N).
+  /// Displacement w(x) (m) in the direction of the load P (N) that causes it, x (m) = 0 … L.
   Scalar deflection(const Scalar& x, const Scalar& load) const {
     const Scalar at = x / span_, added = relative_additional_tension(load);
     const Scalar lower = at < place_ ? at : place_, upper = at < place_ ? place_ : at;
@@ -95,21 +95,20 @@ class IrvinePointLoad {
   Scalar tension_, weight_, span_, parameter_, place_;
 };
 
-/// Statics of the absorber's place. Force and displacement are downward positive and measured from
-/// the equilibrium with the absorber's weight, as in Kollár 2022, Fig. 2.
-///
+/// Force–displacement relation of the cable at the absorber's place. Both are downward positive and
+/// measured from the equilibrium with the absorber's weight, as in Kollár 2022, Fig. 2.
 /// @tparam PointLoad  `IrvinePointLoad<double>` (parabola) or `CatenaryPointLoad<double>` (exact)
 template <class PointLoad>
 class StaticsFromRest {
  public:
-  /// @param model         statics of the place, its displacement measured from the bare cable
+  /// @param model         relation of load and displacement, measured from the bare cable
   /// @param resting_load  weight of the absorber (N), ≥ 0
   StaticsFromRest(PointLoad model, double resting_load)
       : model_(std::move(model)),
         resting_load_(resting_load),
         resting_displacement_(model_.displacement(resting_load)) {}
 
-  /// Statics of the absorber's place, with load and displacement measured from the bare cable.
+  /// Force–displacement relation with load and displacement measured from the bare cable.
   const PointLoad& model() const { return model_; }
 
   /// Drop (m) of the absorber's place from the bare cable to the equilibrium.
@@ -158,7 +157,7 @@ class StaticsFromRest {
   double resting_load_, resting_displacement_;
 };
 
-/// Statics of the absorber's place by Irvine's parabolic cable (Kollár 2022, Eq. 1).
+/// Force–displacement relation at the absorber by Irvine's parabolic cable (Kollár 2022, Eq. 1).
 /// @throws InvalidParameter for an inadmissible conductor, position (m, from the left) or mass (kg)
 inline StaticsFromRest<IrvinePointLoad<double>> irvine_statics(const Conductor<double>& conductor,
                                                                double position,
@@ -169,7 +168,7 @@ inline StaticsFromRest<IrvinePointLoad<double>> irvine_statics(const Conductor<d
   return {{conductor, position}, absorber_mass * conductor.gravity};
 }
 
-/// Statics of the absorber's place by two elastic catenaries (exact).
+/// Exact force–displacement relation at the absorber, by two elastic catenaries.
 /// @throws InvalidParameter for an inadmissible conductor, position (m, from the left) or mass (kg)
 template <class Scalar>
 StaticsFromRest<CatenaryPointLoad<Scalar>> exact_statics(const Conductor<Scalar>& conductor,
@@ -180,7 +179,7 @@ StaticsFromRest<CatenaryPointLoad<Scalar>> exact_statics(const Conductor<Scalar>
   return {{conductor, position}, absorber_mass * conductor.gravity};
 }
 
-/// Linearisation of the cable's force F(w) over the displacement w (Kollár 2022, Eq. 2).
+/// Method that linearises the cable's force F(w) over the displacement w (Kollár 2022, Eq. 2).
 enum class StiffnessReading {
   tangent,  ///< slope at the equilibrium with the absorber's weight
   secant,   ///< slope of the chord over ReadingRange, (F(below) − F(−above))/(below + above)
@@ -217,10 +216,10 @@ double least_squares_slope(const Statics& statics, double middle, double half) {
 }  // namespace detail
 
 /// The conductor's stiffness k₁ = ΔP/Δw (N/m) at the absorber's place (Kollár 2022, Eq. 2).
-///
-/// The least-squares line need not pass through the equilibrium.
+/// @param reading  method; the least-squares line need not pass through the equilibrium
+/// @param range    displacements over which k₁ is determined; StiffnessReading::tangent ignores it
 /// @throws InvalidParameter for a negative or empty range, or one that needs a force not above
-/// Statics::lowest_force(); StiffnessReading::tangent ignores the range
+/// Statics::lowest_force()
 template <class Statics>
 double conductor_stiffness(const Statics& statics, StiffnessReading reading,
                            const ReadingRange& range) {

@@ -117,10 +117,10 @@ inline PlaceMode<double> infinite_string_mode(double wave_impedance, double clam
   return {omega, impedance / (2.0 * mass * omega), 1.0, mass};
 }
 
-/// The modes of the string in a reduced number, accurate at frequencies below mode `count`. The
-/// modes 1 … count are single. The modes above, up to the frequency `highest`, are combined in
-/// bundles of increasing size. A bundle that begins with mode n has h = 1 + (n − count − 1)/10
-/// modes, rounded down, and fewer with bending stiffness.
+/// A reduced set of modes of the string, accurate below the frequency of mode `count`. It contains
+/// the modes 1 … count. The higher modes, up to the frequency `highest`, are combined in bundles of
+/// increasing size. A bundle that begins with mode n has h = 1 + (n − count − 1)/10 modes, rounded
+/// down, and fewer with bending stiffness.
 ///
 /// A bundle of h modes is one mode of mass M = μL/(2h); its φ² is the mean φ² of its modes. With
 /// the frequency ω = √(ω(n − ½) ω(n + h − ½)) its static deflection is nearly that of its h modes.

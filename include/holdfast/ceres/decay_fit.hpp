@@ -252,7 +252,7 @@ inline void validate(const DecayRecord& record, const TwoMass<double>& plant,
     if (parameter != PlantParameter::absorber_damping)
       require_positive("start value of a free parameter", parameter_of(plant, parameter), "");
     if (std::count(fit_options.free.begin(), fit_options.free.end(), parameter) > 1)
-      throw InvalidParameter("number of times that a free parameter is listed", 2.0, "", "1");
+      throw InvalidParameter("number of times that one free parameter is listed", 2.0, "", "1");
   }
   const std::size_t most = fit_options.target == DecayTarget::first_peak_and_period ? 1 : 2;
   if (is_measured(fit_options.target) && fit_options.free.size() > most)
@@ -279,18 +279,18 @@ inline void make_robust(DecayResiduals& residuals, const DecayFitOptions& fit_op
 }  // namespace detail
 
 /// Fits the plant's free decay from rest at z₁ = z₂ = z₀ to a record of z₁. If the absorber's
-/// damping c₂ is free, the fit starts from several values of c₂ and reports all minima: a heavily
+/// damping c₂ is fitted, the fit starts from several values of c₂ and reports all minima: a heavily
 /// and a lightly damped absorber often fit the same record.
 ///
 /// The unknowns are the logarithms of the parameters. Each parameter stays within a factor 10⁶ of a
 /// reference: its value in `plant`, but the critical damping 2 √(k₂m₂) for c₂ and the record's
 /// first z₁ for z₀. Derivatives are exact (dual numbers).
 /// @param record       at least 8 ascending instants; z₁ ≠ 0 at the first one
-/// @param plant        values of the parameters that are not free, and start values of the others
-/// @param fit_options  free parameters and the quantities that are fitted
+/// @param plant        start values of the fitted parameters, and fixed values of all others
+/// @param fit_options  parameters that are fitted, and quantities of the record to be matched
 /// @throws InvalidParameter for an inadmissible plant; a record with fewer instants, not ascending,
-///         not finite, or with z₁ = 0 at its first instant; no free parameter, one listed twice,
-///         one other than c₂ that starts from 0, or as many free parameters as measures or more
+///         not finite, or with z₁ = 0 at its first instant; no fitted parameter, one listed twice,
+///         one other than c₂ that starts from 0, or not fewer fitted parameters than measures
 inline DecayFit fit_decay(const DecayRecord& record, const TwoMass<double>& plant,
                           const DecayFitOptions& fit_options = {}) {
   detail::validate(record, plant, fit_options);

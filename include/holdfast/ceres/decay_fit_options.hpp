@@ -39,7 +39,7 @@ inline bool is_measured(DecayTarget target) { return target != DecayTarget::time
 struct DecayFitOptions {
   /// Parameters that are fitted, each listed once.
   std::vector<PlantParameter> free = {PlantParameter::absorber_damping};
-  DecayTarget target = DecayTarget::time_history;  ///< quantities that are fitted
+  DecayTarget target = DecayTarget::time_history;  ///< quantities of the record to be matched
   /// Whether Huber's loss limits outliers (time history only). Its scale is 1.345 standard
   /// deviations, estimated from the median |residual| (95 % efficient for Gaussian noise).
   bool robust = true;
@@ -50,9 +50,9 @@ struct DecayFitOptions {
 
 /// One local minimum of the misfit.
 struct DecayMinimum {
-  TwoMass<double> plant;        ///< the given plant with the free parameters as fitted
+  TwoMass<double> plant;        ///< the given plant with the values found for fitted parameters
   double initial_displacement;  ///< initial displacement z₀ (m)
-  /// Standard errors of the free parameters in the order of DecayFitOptions::free. They follow from
+  /// Standard errors of the fitted parameters, ordered as DecayFitOptions::free. They follow from
   /// the scatter of the residuals, which for measures is taken as at least 1 %. With a robust loss
   /// they follow from Huber's covariance formula (Robust Statistics, 1981, Sect. 7.6).
   std::vector<double> standard_errors;
@@ -60,23 +60,23 @@ struct DecayMinimum {
   /// Cost ½ Σ loss(residual), dimensionless; the loss is the square or Huber's. Residuals of a time
   /// history are relative to the record's first |z₁|.
   double cost;
-  int found_from;  ///< number of starts that led to this minimum
+  int found_from;  ///< number of start values from which the fit reached this minimum
 };
 
 /// Outcome of a fit.
 enum class FitOutcome {
   converged,  ///< at least one start led to a minimum
   /// Every start ran to the edge of the admissible range, could not be evaluated, or ended where
-  /// the standard errors of all free parameters exceed their values.
+  /// the standard errors of all fitted parameters exceed their values.
   no_minimum,
 };
 
-/// Result of a fit: the minima found from its starts.
+/// Result of a fit: the minima found from several start values (`starts`).
 struct DecayFit {
   FitOutcome outcome;                ///< whether a minimum was found
   std::vector<DecayMinimum> minima;  ///< minima found, the deepest first
-  int starts;  ///< number of starts: 8 where c₂ is free, else 1; 0 where measures are to be fitted
-               ///< to a record with fewer than four peaks
+  int starts;  ///< number of starts: 8 where c₂ is fitted, else 1; 0 for a target of measures where
+               ///< the record has fewer than four peaks
 };
 
 }  // namespace holdfast::fit

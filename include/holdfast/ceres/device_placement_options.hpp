@@ -14,7 +14,7 @@ namespace holdfast::placement {
 struct MovableValue {
   double lower;  ///< lower bound, finite, > 0 with `by_ratio`
   double upper;  ///< upper bound, finite, > lower
-  /// Present value, lower … upper, from which the search starts too; NaN: none
+  /// Present value, lower … upper, an additional start of the search; NaN: none
   double present = std::numeric_limits<double>::quiet_NaN();
   bool by_ratio = false;  ///< whether the value varies on a logarithmic scale
   int places = 9;         ///< number of grid points from bound to bound, 2 … 1000

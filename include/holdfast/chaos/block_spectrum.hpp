@@ -19,24 +19,24 @@ namespace holdfast {
 /// The choice of Lyapunov exponents to be computed.
 enum class LyapunovScope {
   all,      ///< the whole spectrum
-  largest,  ///< only the first exponent, from one tangent vector
+  largest,  ///< only the largest exponent, from one tangent vector
 };
 
 /// The Lyapunov spectrum of the sampled loop with backlash, computed from blocks of samples.
 ///
 /// A block (`ItineraryBlock`) records whether the drive transmits a force at each of its samples.
-/// The exponents equal those of `LyapunovSpectrum` with S (force transmitted) or S* (in the
-/// backlash) applied at every sample. Here the tangent vectors, the columns of Q, are multiplied by
-/// the maps W_k of whole blocks. They are orthogonalised only after a stretch of K blocks:
-/// W_K … W₁ Q = Q' R with orthonormal Q' and triangular R. The number
+/// The tangent map of a sample is S if the force is transmitted, S* in the backlash. The exponents
+/// equal those of `LyapunovSpectrum` with these maps. Here the tangent vectors, the columns of Q,
+/// are multiplied by the maps W_k of whole blocks. They are orthogonalised only after a stretch of
+/// K blocks: W_K … W₁ Q = Q' R with orthonormal Q' and triangular R. The number
 ///
 ///     a = √(Σ_k ‖W_k … W₁ Q‖²) ‖R⁻¹‖,   k = 1 … K
 ///
-/// measures the amplification of round-off in the diagonal of R. The value of a in one stretch
-/// decides the length of the next stretch. A stretch with a > `largest_amplification` is split into
-/// halves, a single block into samples. Vectors are orthogonalised in balanced coordinates
-/// (`ItineraryBlocks`); spectrum() converts the result to the loop's coordinates. Tangent vectors
-/// that a singular map sends to zero are dropped; their exponents are −∞.
+/// measures the amplification of round-off in the diagonal of R. The length of each stretch is
+/// chosen from the value of a in the previous one. A stretch with a > `largest_amplification` is
+/// computed again in halves, a single block sample by sample. The vectors are orthogonalised in
+/// balanced coordinates (`ItineraryBlocks`); spectrum() converts the result to the loop's own.
+/// Tangent vectors that a singular map makes zero are dropped; their exponents are −∞.
 ///
 /// Work per block of six samples and per tangent vector: 25 multiply-adds (20 without processing
 /// delay). Work per stretch: orthogonalising a 5 × 4 matrix (5 × 5 before a vector is dropped).
@@ -53,7 +53,7 @@ class BlockSpectrum {
   explicit BlockSpectrum(std::shared_ptr<const ItineraryBlocks> blocks,
                          LyapunovScope scope = LyapunovScope::all);
 
-  /// Adds the contacts of the next `ItineraryBlocks::length` samples.
+  /// Adds a complete block: the contacts of the next `ItineraryBlocks::length` samples.
   void push(ItineraryBlock block) {
     pending_[static_cast<std::size_t>(count_)] = block;
     pending_samples_ += ItineraryBlocks::length;

@@ -24,10 +24,10 @@ namespace holdfast {
 /// of up to a few thousand samples per period.
 struct IndicatorOptions {
   std::int64_t transient = 5000;  ///< samples left out at the start, 0 … 10⁷
-  std::int64_t samples = 20160;  ///< number of samples examined, 2000 … 100 000; a multiple of 2,
-                                 ///< 3, 5 and 7 holds most short periods a whole number of times
-  double base_frequency = 1.0;   ///< f (cycles per sample): lines are sought at multiples of f/m
-  std::int64_t zero_one_stride = 1;  ///< n: the 0–1 test uses every n-th sample; 1 … samples/500
+  std::int64_t samples = 20160;  ///< number of samples examined, 2000 … 100 000. If divisible by 2,
+                                 ///< 3, 5 and 7, it is a multiple of most short periods
+  double base_frequency = 1.0;  ///< base frequency f (cycles per sample) of spectral lines, > 0
+  std::int64_t zero_one_stride = 1;  ///< the 0–1 test uses every n-th sample, n = 1 … samples/500
   bool forcing_incommensurate = false;  ///< whether forcing and sampling have no common period
 };
 
@@ -192,7 +192,7 @@ ChaosIndicators indicators_of_system(
 
 }  // namespace detail
 
-/// Runs a discrete system and computes the indicators by which `classify` names the kind of motion.
+/// Runs a discrete system and computes the indicators by which `classify` classifies its motion.
 ///
 ///     auto logistic = [](Vector<double, 1>& x) { x[0] = 4 * x[0] * (1 - x[0]); };
 ///     auto value = [](const Vector<double, 1>& x) { return x[0]; };
@@ -200,22 +200,22 @@ ChaosIndicators indicators_of_system(
 ///     classify(chaos_indicators<1>({0.3}, logistic, value, {}, slope)).kind;  // chaotic
 ///
 /// Each callable may have internal state, for example the index of a forcing. A step calls
-/// `advance(state)`, then `tangent(before)`, where `before` is the state before the step. After the
-/// transient it also calls `contact()`. In the transient no exponents are averaged.
+/// `advance(state)`, then `tangent(before)`, where `before` is the state before the step. Steps
+/// after the transient also call `contact()`; only these steps count in the exponents.
 ///
 /// A motion diverges when a state is not finite or exceeds 10³⁰ times the largest coordinate of the
 /// first 100 samples; then only `diverged_at` is set. Otherwise `repeat` is the smallest lag n ≤
 /// samples/6 for which every state x_j of the second half is within 10⁻⁹ of x_{j−n}.
 /// `closest_return` and `determinism` (radius 0.05) are computed from the last 1000 states. All
-/// distances are those of `RelativeDistance`. `lines` is computed for m ≤ 128. Bounded work:
-/// transient + samples steps, the 0–1 test, one search for repetition (at worst samples²/12
-/// distances), two spectra, and 10⁶ distances.
+/// distances are those of `RelativeDistance`. `lines` is computed from the multiples of f/m, m ≤
+/// 128. Work: transient + samples steps, the 0–1 test, two spectra, a search for repetition (at
+/// most samples²/12 distances), and 10⁶ distances.
 /// @param initial     the state at sample 0
 /// @param advance     replaces a state by the next one
 /// @param observable  scalar function of a state, for spectrum, 0–1 test and `extent_growth`
 /// @param options     numbers of samples, base frequency and stride
 /// @param tangent     Jacobian ∂(next state)/∂(state), Size × Size; empty: no exponents
-/// @param contact     true where the drive transmits; empty for a system without contacts
+/// @param contact     whether the drive transmits in a step; empty for a system without contacts
 /// @throws InvalidParameter for options out of their ranges or an initial state that is not finite
 template <int Size>
 ChaosIndicators chaos_indicators(

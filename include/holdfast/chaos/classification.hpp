@@ -26,7 +26,7 @@ enum class AttractorType {
 /// The largest Lyapunov exponent and its 99 % interval, value ± half_width. A true exponent of 0 is
 /// below the interval with probability 1/200, and above it with probability 1/200.
 struct ExponentEstimate {
-  double value;       ///< exponent; −∞ where every deviation becomes exactly zero
+  double value;       ///< exponent (natural log per step); −∞ where all deviations become zero
   double half_width;  ///< half width of the interval, ≥ 0
 
   /// Whether the whole interval is above zero.
@@ -36,8 +36,8 @@ struct ExponentEstimate {
 };
 
 /// The 99 % interval of an exponent whose standard error was computed by batch means. The half
-/// width is 2.744 times the standard error, plus 10⁻¹² for the rounding of logarithms. 2.744 is
-/// Student's 99 % quantile for 32 batches, the fewest in a series of 64 steps or more.
+/// width is 2.744 times the standard error, plus 10⁻¹² for the rounding of logarithms. 2.744 is the
+/// two-sided 99 % quantile of Student's t for 32 batches. A series of ≥ 64 steps has at least 32.
 /// @param value           the exponent, natural logarithm per step
 /// @param standard_error  ≥ 0, not NaN
 /// @throws InvalidParameter where the standard error is out of its range
@@ -49,13 +49,13 @@ inline ExponentEstimate exponent_estimate(double value, double standard_error) {
 
 /// The measures of the spectral lines of an observable; f is the base frequency.
 struct SpectralIndicators {
-  int division;  ///< smallest m whose multiples of f/m contain `share` of the power; 0: none
-  double share;  ///< share of the power that is required on the multiples of f/m
+  int division;  ///< smallest m with at least `share` of the power on multiples of f/m; 0: none
+  double share;  ///< required share of the power, 0 … 1, on the multiples of f/m
   std::size_t lines_holding;  ///< smallest number of lines that contain 99 % of the power
   double continuous;          ///< share of the power between the spectral lines
 };
 
-/// The indicators that decide the kind of a motion; one that is not computed is empty.
+/// The indicators that decide the kind of a motion. An indicator that was not computed is empty.
 struct ChaosIndicators {
   std::optional<std::int64_t> diverged_at;       ///< sample at which the motion diverged
   std::optional<std::int64_t> certified_period;  ///< period of a certified orbit (samples)
@@ -314,9 +314,9 @@ class Classifier {
 
 }  // namespace detail
 
-/// Classifies a motion by its indicators. The first rule that applies decides. The exponent is the
-/// largest one, with its 99 % interval. A *line spectrum* has `continuous` ≤ `lines_only_share`; a
-/// spectrum has a *base* if `division` > 0.
+/// Classifies a motion by its indicators. The first rule that applies decides. K is the result of
+/// the 0–1 test. The exponent is the largest one, with its 99 % interval. A *line spectrum* has
+/// `continuous` ≤ `lines_only_share`. A spectrum has a *base* if `division` > 0.
 ///
 ///  1. The motion diverged → diverges.
 ///  2. An orbit is certified → periodic. Else if there are fewer forcing periods than
@@ -324,12 +324,12 @@ class Classifier {
 ///  3. The series repeats at least three times within a tolerance → periodic; but undecided if the
 ///     exponent is above zero, as on an unstable orbit.
 ///  4. The exponent is unknown, or the extent changes by a factor over `steady_growth` → undecided.
-///  5. The exponent is above zero → chaotic if a neighbouring motion separates, or if K ≥
-///     `zero_one_high` and the spectrum, if known, has no base and is no line spectrum. Else
-///     undecided.
+///  5. The exponent is above zero → chaotic if a neighbouring motion separates (`neighbour_parted`)
+///     or if K ≥ `zero_one_high` and the spectrum, if known, has no base and is no line spectrum.
+///     Else undecided.
 ///  6. The interval of the exponent contains zero → quasi-periodic if a search found no repetition,
-///     there is a line spectrum without base, and K ≤ `zero_one_low`. Where a neighbouring motion
-///     stays near, K < `zero_one_high` suffices. Else undecided.
+///     there is a line spectrum without base, and K ≤ `zero_one_low`. If a neighbouring motion
+///     stays near (`neighbour_stays`), K < `zero_one_high` suffices. Else undecided.
 ///  7. The exponent is below zero → quasi-periodic if forcing and sampling are incommensurate, K ≤
 ///     `zero_one_low` and the spectrum, if known, is a line spectrum. Else undecided if repetition
 ///     was not searched for, the spectrum has a base, or K ≤ `zero_one_low` with a line spectrum:

@@ -14,21 +14,20 @@
 
 namespace holdfast {
 
-/// An EventMotion with its Lyapunov spectrum. run_trajectory() accepts the object in place of the
-/// motion, to record a time history at the same time.
-///
-/// The tangent maps of VariationalFlow are applied and orthogonalised at every sample. A plant of
-/// order N has N + 3 exponents, for deviations of its state, u_{j−1}, the Δz of the last reversal,
-/// and the last reading of z₁. Each of these causes makes one exponent −∞:
+/// An EventMotion with its Lyapunov spectrum. run_trajectory() accepts this object in place of the
+/// motion, to record a time history at the same time. Tangent vectors are orthogonalised at every
+/// sample. A plant of order N has N + 3 exponents, for deviations of these quantities: its state,
+/// the previous command u_{j−1}, the relative displacement Δz at the drive's last reversal, and the
+/// last reading of the conductor's displacement z₁. Each of these causes makes one exponent −∞:
 /// - the drive was engaged at some time: the next reversal then follows from the state;
 /// - the controller forms no velocity from displacements: the last reading has no effect;
 /// - there is no processing delay: u_{j−1} has no effect from t_j on.
 ///
 /// A phase of stick (Δż = 0) leaves at most N − 1 finite exponents, plus one for each command or
 /// reading that is stored in stick and acts later. The phase with the fewest finite exponents
-/// determines the result. With processing delay and differences of displacements N + 2 exponents
-/// may be finite, or N + 1 if this object is constructed before the first sample. If the drive
-/// never leaves its gap, one exponent is 0.
+/// determines the result. With processing delay and a velocity formed from displacements, N + 2
+/// exponents may be finite, or N + 1 if this object is constructed before the first sample. If the
+/// drive never leaves its gap, one exponent is 0.
 ///
 /// An exact −∞ is detected by the structural rank (structural_rank.hpp) of the product of all maps.
 /// Numerical pivots cannot detect it, because later maps amplify the round-off of an exact zero.
@@ -77,12 +76,12 @@ void EventLyapunov<Contact>::advance() {
 }
 
 /// The five leading Lyapunov exponents, natural logarithm per sample, of an EventMotion from its
-/// present state. They are invalid if `motion.counts().accumulates` is true after the call.
+/// present state. Invalid if contact changes accumulate (`motion.counts().accumulates` is true).
 ///
 ///     const LyapunovResult result = run_event_lyapunov(motion, {1000000, 1000});
 ///
 /// @param motion  the motion; it is advanced to the end of the run
-/// @param run     length of the average
+/// @param run     numbers of samples to discard and to average; exponents to be computed
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible
 template <class Contact>

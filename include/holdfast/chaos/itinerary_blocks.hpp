@@ -27,18 +27,18 @@ constexpr int samples_of(ItineraryBlock block) {
   return samples;
 }
 
-/// A block extended by one more sample.
+/// A block extended by one more sample; `engaged`: whether the force is transmitted there.
 constexpr ItineraryBlock followed_by(ItineraryBlock block, bool engaged) {
   return static_cast<ItineraryBlock>(2 * block + (engaged ? 1 : 0));
 }
 
-/// The block of a single sample of another block, 0 ≤ sample < samples_of(block).
+/// A block of one sample: the one with the index `sample` in `block`, 0 … samples_of(block) − 1.
 constexpr ItineraryBlock sample_of(ItineraryBlock block, int sample) {
   return followed_by(empty_block, ((block >> (samples_of(block) - 1 - sample)) & 1) != 0);
 }
 
-/// The tangent maps of all blocks. The map of a block is the product of one 5 × 5 matrix for each
-/// sample, S where the force is transmitted and S* in the backlash.
+/// The tangent maps of all blocks, for the state z and the previous force u_{j−1}. The map of a
+/// block is a product of one 5 × 5 matrix per sample: S where the force is transmitted, else S*.
 ///
 /// The maps are stored in balanced coordinates, as products of T⁻¹ S T and T⁻¹ S* T. The diagonal
 /// matrix T of powers of two gives displacements, velocities and forces similar sizes.
@@ -54,7 +54,7 @@ class ItineraryBlocks {
   ItineraryBlocks(const Matrix<Scalar, 5>& engaged, const Matrix<Scalar, 5>& backlash);
 
   /// @param tangent_loop  loop whose maps S and S* are used
-  /// @param gains         P (N/m) and D (N s/m)
+  /// @param gains         controller gains P (N/m) and D (N s/m)
   template <class Scalar>
   ItineraryBlocks(const SampledLoop<Scalar>& tangent_loop, const PdGains<Scalar>& gains)
       : ItineraryBlocks(tangent_loop.engaged_map(gains), tangent_loop.backlash_map()) {}
@@ -69,7 +69,7 @@ class ItineraryBlocks {
   /// The larger of the ranks of S and S*; at most that many Lyapunov exponents are finite.
   int largest_rank() const { return std::max(ranks_[2], ranks_[3]); }
 
-  /// The number of coordinates in use: 4 where both maps ignore the last one, u_{j−1}; else 5.
+  /// The number of coordinates in use: 4 if neither S nor S* depends on the last, u_{j−1}; else 5.
   int reach() const { return reach_; }
   /// The diagonal of the balancing matrix T.
   const Vector<double, 5>& scale() const { return scale_; }

@@ -19,7 +19,7 @@
 
 namespace holdfast {
 
-/// The length of an averaged Lyapunov spectrum.
+/// The settings of a run that averages Lyapunov exponents along a motion.
 struct LyapunovRun {
   std::int64_t samples;      ///< number of samples averaged after the discarded ones, ≥ 1
   std::int64_t discard = 0;  ///< samples left out while motion and tangent vectors settle, ≥ 0
@@ -104,8 +104,8 @@ LyapunovResult run_average(Lyapunov& motion, const LyapunovRun& run,
 /// An observer for run_trajectory() that accumulates the Lyapunov spectrum. The tangent map of a
 /// sample is S where the force is transmitted, S* in the backlash.
 ///
-/// S and S* should belong to the loop of the motion. In Table 2 of Kollár 2022, however, the motion
-/// has the delay δ = 0, while S and S* have δ = τ. To reproduce it, pass a loop with δ = τ.
+/// S and S* should belong to the loop of the motion. To reproduce Table 2 of Kollár 2022, however,
+/// pass a loop whose processing delay δ is one sampling period, while the motion has δ = 0.
 /// @tparam Scalar  number type of the loop, `double`
 template <class Scalar>
 class LyapunovObserver {
@@ -123,7 +123,7 @@ class LyapunovObserver {
 
   /// Adds the contact of the next sample; nothing else of the sample is used.
   void operator()(const MotionSample<Scalar>& sample) { push(sample.engaged); }
-  /// Adds the contact of the next sample.
+  /// Adds the next sample. @param engaged  whether the drive transmits at that sample
   void push(bool engaged) {
     open_ = followed_by(open_, engaged);
     if (!is_whole(open_)) return;
@@ -183,7 +183,7 @@ LyapunovResult run_sampled(Motion& motion, const Exponents& exponents, const Lya
 ///
 /// @param motion  a SampledMotion of `double`, not of a SIMD pack; advanced to the end of the run
 /// @param blocks  products of the tangent maps S and S* of the motion's loop; not null
-/// @param run     length of the average
+/// @param run     numbers of samples to discard and to average; exponents to be computed
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible or there are no blocks
 template <class Motion>

@@ -31,9 +31,9 @@ struct ModalTangents : ModalSpectrum<Scalar> {
 
 }  // namespace detail
 
-/// Classifies the motion of a conductor given by its modes, as classify_motion() does for an
-/// IdealLoop. The motion is undecided where modal_motion() returns nullopt: two poles of the plant
-/// are then too close to be separated numerically.
+/// Classifies the motion of a conductor given by its modes, by the rules of `classify`. The
+/// motion is undecided where modal_motion() returns nullopt, because two poles of the plant are too
+/// close to be separated numerically.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  state [q₁, q̇₁, …, z₂, ż₂] of `modal_plant`; q_n: coordinate of mode n
 /// @param limits         limits of the search for an orbit

@@ -30,7 +30,7 @@ class ModalSpectrum {
                       loop.sampling.processing_delay > 0.0) {}
 
   /// @param motions  natural motions of conductor and absorber in the loop
-  /// @param gains    P and D while the drive transmits
+  /// @param gains    gains P (N/m) and D (N s/m) while the drive transmits
   /// @param late     whether there is a processing delay, δ > 0
   ModalSpectrum(const NaturalMotions& motions, const PdGains<double>& gains, bool late)
       : deviations_(motions, gains) {
@@ -83,7 +83,7 @@ class ModalSpectrum {
 /// present state, natural logarithm per sample.
 /// @param motion  a ModalMotion; it is advanced to the end of the run
 /// @param loop    the loop of the motion
-/// @param run     length of the average
+/// @param run     numbers of samples to discard and to average; exponents to be computed
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible
 template <class Motion>

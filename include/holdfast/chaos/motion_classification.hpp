@@ -344,7 +344,7 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
 /// @param limits         limits of the search for an orbit
 /// Work: that of find_periodic_orbit() and of chaos_indicators() for N ≤ 10⁵ samples. If undecided,
-/// also neighbour_distance() with 3 N samples; if still undecided, both again with N = 99 960.
+/// also neighbour_distance() with 3 N samples; if still undecided, these two again with N = 99 960.
 /// @throws InvalidParameter where an argument is not admissible
 template <class Scalar>
 SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
@@ -369,11 +369,11 @@ SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
 /// Classifies a motion of an implemented loop. The exponents include the saltation matrices of
 /// contact changes. The rules are those of `classify`, with these additions:
 ///
-/// - Under a recorded force or with a jittering clock no orbit is sought, and no motion is called
-///   quasi-periodic. With a jittering clock only rest is called periodic. A negative exponent means
+/// - Under a recorded force or with a jittering clock no orbit is searched for, and no motion is
+///   classified as quasi-periodic. With jitter only rest is periodic. A negative exponent means
 ///   `irregular_contracting`: neighbouring motions converge under the same forcing.
 /// - A recorded force of fewer than 4200 samples leaves the motion undecided.
-/// - For exponents and multipliers a quantised reading counts as constant.
+/// - In exponents and multipliers the derivative of a quantised reading counts as zero.
 /// - The motion is undecided if contact changes accumulate (SwitchCounts::accumulates).
 ///
 /// @param loop           the loop with its implemented hardware

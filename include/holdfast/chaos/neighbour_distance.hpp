@@ -12,11 +12,11 @@ namespace holdfast {
 
 /// The final distance of a neighbouring motion y from a motion x, as a share of the extent. This is
 /// the mean of |x_i − y_i| over the last quarter of the samples, divided by max x_i − min x_i, for
-/// the coordinate i with the largest quotient. The neighbour starts after the transient, with z₁
+/// the coordinate i with the largest quotient. y starts after the transient, with the conductor
 /// displaced by `neighbour_start` times the extent of z₁ in the second half of the transient.
 ///
-/// The distance detects sensitive dependence without tangent maps. If neighbours separate
-/// exponentially, it grows to the order of 1; on an invariant circle or torus it stays small.
+/// This detects sensitive dependence on the initial state without tangent maps. If neighbours
+/// separate exponentially, the share grows to the order of 1; on an invariant torus it stays small.
 /// @param motion     SampledMotion, EventMotion or ModalMotion before a sample; passed by value
 /// @param transient  samples left out at the start, ≥ 2
 /// @param samples    number of samples of both motions, ≥ 4

@@ -14,8 +14,8 @@ namespace holdfast {
 ///
 ///     d(x, y) = max_i |x_i − y_i| / (max x_i − min x_i)
 ///
-/// so that 0 ≤ d ≤ 1 within the series. A coordinate counts as constant and is left out if its
-/// extent is at most 10⁻¹³ of its largest magnitude, in the series or in `sizes`.
+/// Within the series 0 ≤ d ≤ 1. A coordinate counts as constant and is left out if its extent is at
+/// most 10⁻¹³ of its largest magnitude, in the series or in `sizes`.
 template <int Size>
 class RelativeDistance {
  public:
@@ -78,10 +78,10 @@ struct RepeatSearch {
 ///
 ///     d(x_j, x_{j−n}) ≤ tolerance   for every j ≥ N/2,   n ≤ N / (2 repeats)
 ///
-/// where d is the RelativeDistance of the second half. A lag is no proof: slow drift or a longer
-/// period may pass a coarse tolerance. Work: one distance per lag, at worst N²/(4 repeats) in all.
+/// where d is the RelativeDistance of the second half. A lag does not prove a period: slow drift or
+/// a longer period may pass a coarse tolerance. Work: at most N²/(4 repeats) distances.
 /// @param states     x_0 … x_{N−1} at successive samples
-/// @param tolerance  share of the extent of the second half, 0 ≤ tolerance < 1
+/// @param tolerance  largest distance d of a repeat, 0 … 1 (1: extent of the second half)
 /// @param repeats    number of repetitions that must fit into the second half, ≥ 1
 /// @param sizes      largest |x_i| of each coordinate, as in RelativeDistance
 /// @throws InvalidParameter for no or more than 10⁶ states, a state that is not finite, or a

@@ -120,7 +120,7 @@ inline double median_of_sorted(const std::vector<double>& sorted) {
 /// Source: G. A. Gottwald, I. Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009), 129–145.
 /// @return K, near 0 for a regular motion, near 1 for a chaotic one
 /// @param series       200 … 100 000 finite values
-/// @param frequencies  number of c, 1 … 1000
+/// @param frequencies  number of frequencies c, 1 … 1000
 /// @throws InvalidParameter for a number of samples or frequencies out of range, or a value that is
 /// not finite
 /// @tparam Series  std::vector<double>

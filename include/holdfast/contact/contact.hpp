@@ -67,7 +67,7 @@ class DriveContact {
   /// @param backlash       law of backlash with its parameters
   /// @param switching      whether the contact may change at any time or at samples only
   /// @param initial_state  initial state, N × 1: its Δz decides which stop of an exact dead zone is
-  ///                       touched. Exact play begins engaged; σ is known once Δż ≠ 0
+  ///                       touched. Exact play begins engaged; σ is the sign of the first Δż ≠ 0
   /// @throws InvalidParameter for an inadmissible plant or backlash, or a state of another size
   DriveContact(const Plant& plant, const BacklashParameters& backlash, Switching switching,
                const State& initial_state)
@@ -131,9 +131,10 @@ class DriveContact {
 
   /// Whether the contact may change between samples: for Switching::exact, unless r₀ = 0 in play.
   bool changes_between_samples() const { return changes_between_samples_; }
-  /// The guards that end the present mode between samples; none if changes_between_samples() is
-  /// false. Engaged play: σ Δż (m/s). Gap: distances (m) of Δz from both ends. Stop: distance (m)
-  /// of Δz beyond the end of the gap. Stick: σ a(0) and −σ a(s_e) (m/s²).
+  /// Functions that are positive in the present mode and end it at zero; none if the contact does
+  /// not change between samples. Engaged play: σ Δż (m/s), σ = ±1 the sign of Δż. Gap: distances of
+  /// Δz from both ends (m). Stop: distance of Δz beyond the gap's end (m). Stick: σ a(0) and
+  /// −σ a(s_e), with a(s) = Δz̈ (m/s²) under a drive force s; s_e is the engaged drive's force.
   ModeGuards guards() const {
     if (!changes_between_samples_) return {};
     if (mode_ == gap) return gap_guards();
@@ -157,7 +158,7 @@ class DriveContact {
     zeros_ = std::min(zeros_, mode_ == gap ? 2 : 1);
   }
   /// Updates the contact after a jump of Δz: stick changes to gap. If Δz has jumped past an end of
-  /// the gap, this is detected at once, since the guard of that end is then negative.
+  /// the gap, the motion detects this at once.
   void displaced() {
     if (word_ == ContactMode::stick) change_to(gap, 0);
     zeros_ = 0;

@@ -15,7 +15,7 @@ struct ContactInstantOf {
   double force;                  ///< excitation F (N)
 };
 
-/// A guard g = state · x + command u + force F + constant, positive while the contact persists.
+/// A guard: the function g = state · x + command u + force F + constant, > 0 while a mode lasts.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct GuardOf {
@@ -29,7 +29,7 @@ struct GuardOf {
   bool unsigned_yet = false;
 };
 
-/// The guards of a mode, at most two.
+/// The guards of a contact mode, at most two: functions whose zeros end the mode.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct GuardsOf {

@@ -65,7 +65,7 @@ inline void validate(const BacklashParameters& backlash) {
 ///     SampledContact contact({ContactLaw::play, 0.002});
 ///     const bool engaged = contact.step(relative_displacement, relative_velocity);
 ///
-/// Decides exactly as the class listed for the law in `ContactLaw`.
+/// Its decisions are exactly those of the class that `ContactLaw` lists for the law.
 class SampledContact {
  public:
   /// Constructs the initial contact. @throws InvalidParameter for inadmissible parameters

@@ -31,7 +31,7 @@ class DeadZone {
         touched_side_(0),
         inside_(Scalar(0) > Scalar(0)) {}
 
-  /// Processes one sample; Δż is not used.
+  /// Processes one sample of the relative displacement Δz (m); Δż is not used.
   /// @return true where the control force is transmitted until the next sample
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& /*relative_velocity*/) {
     touched_side_ = side(relative_displacement);

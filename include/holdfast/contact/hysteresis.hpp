@@ -48,7 +48,7 @@ class Backlash {
   Backlash(const Scalar& width, const BacklashMemory<Scalar>& memory)
       : width_(width), memory_(memory) {}
 
-  /// Processes one sample. @return true where the force is transmitted until the next sample
+  /// Processes one sample of Δz (m) and Δż (m/s). @return true where force is transmitted after it
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& relative_velocity) {
     const Scalar zero(0);
     const Mask<Scalar> stays = memory_.inside & (relative_displacement >= memory_.lower) &

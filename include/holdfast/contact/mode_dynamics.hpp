@@ -69,8 +69,8 @@ TwoMass<Scalar> plant_on_stop(TwoMass<Scalar> plant, double stiffness, double da
   return plant;
 }
 
-/// The equations of motion on a stop at Δz = `at` (m): the stop's force k_c (Δz − at) + c_c Δż acts
-/// through the input b of the drive's force.
+/// The equations of motion on a stop at Δz = `at` (m). The stop's force k_c (Δz − at) + c_c Δż acts
+/// through the same input b as the drive's force; k_c is `stiffness` (N/m), c_c `damping` (N s/m).
 template <int States>
 AffineDynamicsOf<States> dynamics_on_stop(const LinearPlant<double, States>& plant,
                                           double stiffness, double damping, double at) {
@@ -81,7 +81,7 @@ AffineDynamicsOf<States> dynamics_on_stop(const LinearPlant<double, States>& pla
   pressed.drift = plant.force_input * (-stiffness * at);
   return pressed;
 }
-/// The equations of motion of the two masses on a stop at Δz = `at` (m).
+/// Equations of motion of two masses on a stop at Δz = `at` (m) of k_c (N/m) and c_c (N s/m).
 template <class Scalar>
 AffineDynamicsOf<4> dynamics_on_stop(const TwoMass<Scalar>& plant, double stiffness, double damping,
                                      double at) {
@@ -96,7 +96,7 @@ double engaged_force(const LinearPlant<double, States>& plant,
                      const ContactInstantOf<States>& now) {
   return plant.drive_force.dot(now.state) + plant.direct_transmission * now.command;
 }
-/// The force u that the ideal drive of the two masses transmits.
+/// The force (N) that the engaged ideal drive of the two masses transmits: the command u.
 template <class Scalar>
 double engaged_force(const TwoMass<Scalar>&, const ContactInstantOf<4>& now) {
   return now.command;

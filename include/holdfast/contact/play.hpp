@@ -14,8 +14,8 @@ namespace holdfast {
 /// the gap of y_{j−1}.
 ///
 /// Before the first sample y is unknown. The force is transmitted up to and including the first
-/// sample with Δż ≠ 0, which sets y = Δz − r₀/2 for Δż > 0, y = Δz + r₀/2 for Δż < 0. Later motion
-/// in this direction transmits; reversed motion first crosses the whole gap. Δż is then unused.
+/// sample with Δż ≠ 0, which sets y = Δz − r₀/2 for Δż > 0, y = Δz + r₀/2 for Δż < 0. Motion that
+/// continues in this direction transmits; reversed motion first crosses the gap. Δż is unused then.
 ///
 /// The gap after a reversal is [Δz_max − r₀, Δz_max] or [Δz_min, Δz_min + r₀], where Δz_max or
 /// Δz_min is the extreme sample. `Backlash` instead uses Δz of the first sample after the change of
@@ -31,7 +31,7 @@ class PlayBacklash {
   /// Play before its first sample. @param width  gap width r₀ (m), ≥ 0
   explicit PlayBacklash(const Scalar& width) : width_(width), half_width_(width / Scalar(2)) {}
 
-  /// Processes one sample. @return true where the force is transmitted until the next sample
+  /// Processes one sample of Δz (m) and Δż (m/s). @return true where force is transmitted after it
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& relative_velocity) {
     const Scalar zero(0);
     const Mask<Scalar> undecided = !decided_, moves_up = relative_velocity > zero;

@@ -66,8 +66,9 @@ Eigen::Index memory_size([[maybe_unused]] const Law& law) {
 
 }  // namespace detail
 
-/// A user-defined controller in place of u = P z₁ + D ż₁: any type that maps a sample to a force.
-/// Its M states are part of the state of the simulated motion.
+/// A user-defined controller of any type, in place of u = P z₁ + D ż₁. All loops with an
+/// OwnController have one type. A controller is a type with the members below: it computes a force
+/// from each sample. Its M states x_c are part of the state of the simulated motion.
 ///
 ///     struct MyController {
 ///       static constexpr int states = 1;  // M ≥ 0
@@ -80,7 +81,6 @@ Eigen::Index memory_size([[maybe_unused]] const Law& law) {
 ///
 /// Where M is known at run time only, `states` is Eigen::Dynamic and `order()` returns M. PdGains
 /// is a controller with M = 0, LinearController one with any M, LateController one with dynamic M.
-/// OwnController erases the type of the controller, so that all such loops have one type.
 class OwnController {
  public:
   using Column = Vector<double, Eigen::Dynamic>;      ///< column [z₁; ż₁; x_c] or [u; x_c]

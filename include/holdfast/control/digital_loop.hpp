@@ -15,13 +15,13 @@
 
 namespace holdfast {
 
-/// Sampling, gains, limits and excitation of a loop. With the plant, its contact and the initial
-/// state they determine a motion.
+/// The parameters of a digital control loop without its plant: sampling, gains, limits, excitation.
+/// With the plant, its contact and the initial state they determine a motion.
 struct DigitalLoop {
   Sampling<double> sampling;            ///< sampling period τ and processing delay δ
   PdGains<double> gains;                ///< gains P and D
   MultiHarmonicForce force;             ///< excitation F(t) of the conductor
-  ForceHold hold = ForceHold::sampled;  ///< whether F(t), with any record, is held between samples
+  ForceHold hold = ForceHold::sampled;  ///< whether F(t), record included, is held between samples
   ControllerLimits limits = {};         ///< limits of the sensors and the drive
   Jitter jitter = {};  ///< jitter of the clock; half width J with 2 J + δ ≤ τ and J < τ/2
 };
@@ -34,10 +34,10 @@ inline void validate(const DigitalLoop& loop) {
   validate(loop.limits);
 }
 
-/// The ratio f τ = p/q, where f is the frequency of the first harmonic and τ the sampling period. q
-/// is the smallest number of samples after which all harmonics have the same phases again. With
-/// several harmonics p/q is therefore not always in lowest terms. Without excitation it is 0/1.
-/// @return nullopt (incommensurate) for a recorded force, for jittering samples, and for q > 10⁶
+/// The ratio f τ = p/q of the frequency f (Hz) of the first harmonic with nonzero amplitude and the
+/// sampling period τ (s). After q samples, the least possible number, all harmonics have the same
+/// phases again; p/q need not be in lowest terms. Without such a harmonic it is 0/1. @return
+/// nullopt (incommensurate) for a recorded force, jittering samples, q > 10⁶ or f τ ≥ 10¹⁵
 inline std::optional<Rational> forcing_ratio(const DigitalLoop& loop) {
   constexpr std::int64_t most_samples = 1'000'000;
   if (loop.force.record != nullptr || loop.jitter.half_width > 0.0) return std::nullopt;

@@ -67,8 +67,8 @@ struct LateController {
   }
 };
 
-/// The sampling with the period τ and the delay δ − (k − 1) τ that remains after k − 1 whole
-/// samples, k = held_commands(sampling) = max(1, ⌈δ/τ⌉).
+/// The sampling with the period τ and the part δ − (k − 1) τ of the delay δ. This part, at most τ,
+/// remains after k − 1 whole samples, k = held_commands(sampling) = max(1, ⌈δ/τ⌉).
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @throws InvalidParameter where the sampling is not admissible
 inline Sampling<double> within_sample(const Sampling<double>& sampling) {

@@ -8,16 +8,15 @@
 
 namespace holdfast {
 
-/// The harmonic input of a force that is held over each sampling period at F_j = F_m cos(ω t_j).
-/// The input's cosine column is the loop's `held_excitation` c_d; its sine column is zero. Source:
-/// Kollár 2022, Eq. (13).
+/// The response to a force held over each sampling period at F_j = F_m cos(ω t_j). Its cosine
+/// column is the loop's `held_excitation` c_d; its sine column is 0. Source: Kollár 2022, Eq. (13).
 template <class Scalar, int States>
 HarmonicInput<Scalar, States> held_harmonic(const SampledLoop<Scalar, States>& loop) {
   return {loop.held_excitation, Vector<Scalar, States>::Zero(loop.held_excitation.size())};
 }
 
-/// The harmonic input of a continuous force F_m cos(ω t), not held, over one sampling period (s).
-/// The argument `angular_frequency` is ω (rad/s).
+/// The response of a plant over one `sampling_period` (s) to a force F_m cos(ω t) that is not held;
+/// `angular_frequency` is ω (rad/s).
 template <class Plant, class Scalar = ScalarOf<Plant>>
 HarmonicInput<Scalar, states_of<Plant>> exact_harmonic(
     const Plant& plant, const detail::Undeduced<Scalar>& sampling_period,
@@ -26,8 +25,8 @@ HarmonicInput<Scalar, states_of<Plant>> exact_harmonic(
                                                   sampling_period, angular_frequency);
 }
 
-/// The harmonic input of a force of angular frequency ω (rad/s) in a plant's sampled loop. The
-/// argument `hold` determines whether the force is held between samples.
+/// The response of a plant over one sampling period to a force F_m cos(ω t), held between samples
+/// or not according to `hold`; `angular_frequency` is ω (rad/s).
 template <class Plant, class Scalar = ScalarOf<Plant>>
 HarmonicInput<Scalar, states_of<Plant>> harmonic_input(
     const Plant& plant, const SampledLoop<Scalar, states_of<Plant>>& loop, ForceHold hold,
@@ -37,8 +36,8 @@ HarmonicInput<Scalar, states_of<Plant>> harmonic_input(
              : exact_harmonic(plant, loop.sampling.period, angular_frequency);
 }
 
-/// The harmonic input of a loop with a plant of order N and k delayed commands. Its columns have
-/// N + k rows; the last k rows, of the commands, are 0.
+/// The response of a loop, with k delayed commands and a plant of order N, over one sampling period
+/// to a force F_m cos(ω t). Its columns have N + k rows; the last k rows, of the commands, are 0.
 template <class Plant, class Scalar = ScalarOf<Plant>>
 HarmonicInput<Scalar, Eigen::Dynamic> harmonic_input(
     const Plant& plant, const LoopMap<Scalar>& map, ForceHold hold,

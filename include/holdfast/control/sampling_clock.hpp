@@ -16,7 +16,7 @@ struct Jitter {
   std::uint64_t seed = 1;  ///< seed of the random sequence
 };
 
-/// Rejects a jitter with which a sample could precede the force computed from the previous sample.
+/// Rejects a jitter so large that a sample could precede the force of the previous sample.
 /// @throws InvalidParameter unless the sampling (period τ, delay δ) is admissible and the half
 /// width J satisfies 0 ≤ J < τ / 2 and, apart from round-off, 2 J + δ ≤ τ
 inline void validate(const Sampling<double>& sampling, const Jitter& jitter) {
@@ -95,8 +95,8 @@ class SamplingClock {
   const Jitter& jitter() const { return jitter_; }
 
  private:
-  /// The relative deviation e_j / J: an odd multiple of 2⁻⁵³, symmetric about zero, so that the
-  /// difference of two is exact.
+  /// The deviation e_j of instant j from j τ, over its bound J: 0 for j = 0, else an odd multiple
+  /// of 2⁻⁵³, symmetric about zero, so that the difference of two is exact.
   double share(std::int64_t index) const {
     if (index == 0) return 0;
     const std::uint64_t bits =

@@ -9,7 +9,7 @@
 namespace holdfast {
 
 /// Access to the lanes of a number type: one for a scalar, several for a SIMD pack. Generic code
-/// reads or writes `count` consecutive numbers at once. Pack types specialise it and `MaskOf`.
+/// reads or writes `count` consecutive numbers at once. Pack types specialise `Lanes` and `MaskOf`.
 template <class Scalar>
 struct Lanes {
   using Value = Scalar;                    ///< type of the number in one lane

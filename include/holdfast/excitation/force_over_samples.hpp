@@ -23,7 +23,7 @@ struct ForceBounds {
       second_rate;  ///< bound of |F̈| (N/s²)
 };
 
-/// A fixed time after every sample, with the precomputed cosines and sines of the harmonics there.
+/// An instant at a fixed time after every sample, with precomputed cosines and sines of harmonics.
 struct PeriodInstant {
   double after;  ///< time after the sample (s)
   /// Cosine and sine of the angle ω_l · `after` + φ_l of each harmonic l.
@@ -35,7 +35,7 @@ struct PeriodInstant {
 class ForceOverSamples {
  public:
   /// @param force            excitation F(t), admissible
-  /// @param hold             whether all of F, its record included, is held between samples
+  /// @param hold             `sampled`: F, also its record, is held between samples; `exact`: F(t)
   /// @param sampling_period  sampling period τ (s), > 0
   ForceOverSamples(const MultiHarmonicForce& force, ForceHold hold, double sampling_period)
       : force_(force), hold_(hold) {
@@ -46,7 +46,7 @@ class ForceOverSamples {
     phases_.resize(turning_.size());
   }
 
-  /// Begins the period of sample j = `index` at t_j = `time` (s); to be called at every sample.
+  /// Starts the sampling period of sample j = `index` at t_j = `time` (s); call it at every sample.
   void begin_sample(std::int64_t index, double time) {
     time_ = time;
     if (hold_ == ForceHold::sampled) {

@@ -46,11 +46,11 @@ class HarmonicForcing {
 };
 
 /// The harmonic forcing of a plant of order 4, read from a PhasorTable. The table must outlive this
-/// object and may be shared by several motions. The caller prepares it; `next` does not check this.
+/// object and may be shared by several motions. The caller advances the table by its turn_to().
 template <class Scalar>
 class PhasorForcing {
  public:
-  /// Uses a table. @param table  table; turn_to(j) precedes each period j divisible by `block`
+  /// @param table  table; before each period j divisible by `block`, call table.turn_to(j)
   explicit PhasorForcing(const PhasorTable<Scalar>& table) : table_(&table) {}
 
   /// Returns the contribution (4 × 1) of the present period and advances to the next one.
@@ -61,21 +61,21 @@ class PhasorForcing {
   std::size_t index_ = 0;
 };
 
-/// A harmonic forcing that repeats every q samples, since f τ = p/q (frequency f, sampling period
-/// τ). Its table of q contributions is shared by all copies of the object.
+/// A harmonic forcing that repeats every q samples: frequency f and sampling period τ have f τ =
+/// p/q. The table of the q contributions to the state is shared by all copies of the object.
 /// @tparam States  N, the order of the plant
 template <class Value, int States = 4>
 class PeriodicForcing {
  public:
   /// @param input      responses g_c and g_s of the state per newton, N × 1
   /// @param amplitude  amplitude F_m (N)
-  /// @param ratio      f τ = p/q in lowest terms, q ≥ 1; as a fraction, so that no rounding adds up
+  /// @param ratio      periods of the force per sample, f τ = p/q in lowest terms (exact fraction)
   /// @throws InvalidParameter unless 1 ≤ q ≤ 10⁹
   PeriodicForcing(const HarmonicInput<Value, States>& input, const Value& amplitude,
                   const Rational& ratio)
       : PeriodicForcing(table_of(input, amplitude, ratio)) {}
 
-  /// Shares a table. @param additions  contributions, one for each of the q periods, not empty
+  /// Constructs the forcing from its table. @param additions  the q contributions to the state
   explicit PeriodicForcing(std::vector<Vector<Value, States>> additions)
       : additions_(
             std::make_shared<const std::vector<Vector<Value, States>>>(std::move(additions))) {}

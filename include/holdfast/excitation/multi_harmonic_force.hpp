@@ -100,7 +100,7 @@ struct MultiHarmonicForce {
   }
 };
 
-/// Force with a single harmonic of phase 0 and no record.
+/// The force F_m cos(2π f t) of a harmonic excitation, without a recorded force.
 inline MultiHarmonicForce multi_harmonic_force(const HarmonicExcitation<double>& excitation) {
   return {{Harmonic{excitation.amplitude, excitation.frequency}}, nullptr};
 }

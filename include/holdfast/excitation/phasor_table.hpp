@@ -62,8 +62,8 @@ ExcitationSample<Scalar> unit_phasor(const Scalar& x) {
   }
 }
 
-/// The phasor F_m cos ω t_j, F_m sin ω t_j of a harmonic at the samples j = 0, 1, 2, …. A SIMD pack
-/// has one harmonic in each lane.
+/// The phasor F_m cos ω t_j, F_m sin ω t_j of a harmonic at the instants t_j = j τ of the samples
+/// j = 0, 1, 2, …. A SIMD pack has one harmonic in each lane.
 ///
 /// The phasor is computed directly at the samples J that are multiples of `block`, and by rotation
 /// at the samples J + k, e^{iω(J+k)τ} = e^{iωJτ} e^{iωkτ}. Thus rounding errors do not grow with j.

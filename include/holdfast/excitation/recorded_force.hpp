@@ -13,8 +13,8 @@ namespace holdfast {
 
 /// The kinds of interpolation of a recorded force between its rows.
 enum class RecordInterpolation : std::uint8_t {
-  linear,  ///< the straight line between the two rows
-  held     ///< the force of the earlier row
+  linear,  ///< linear interpolation between the two rows
+  held     ///< constant: the force of the earlier row
 };
 
 /// The straight line value + slope (t − t₀) that a force F(t) follows from an instant t₀ on.

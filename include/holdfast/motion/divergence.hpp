@@ -29,9 +29,9 @@ double static_deflection(const Plant& plant, double force) {
 
 }  // namespace detail
 
-/// The largest |entry| of the state (m, m/s) beyond which a motion counts as diverging: 10¹² times
-/// y + ω y + r₀ + (largest |entry| of the initial state). y (m): static deflection under the
-/// largest force; ω (rad/s): highest frequency of the force; r₀ (m): backlash width.
+/// The divergence bound: a motion counts as diverging if an |entry| of its state (m, m/s) exceeds
+/// it: 10¹² (y + ω y + r₀ + largest |entry| of the initial state). y (m): static deflection under
+/// the largest force; ω (rad/s): highest frequency of the force; r₀ (m): backlash width.
 /// @param loop   an admissible loop
 /// @param state  the initial state, N × 1, finite
 template <class Plant>

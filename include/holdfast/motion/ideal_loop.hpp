@@ -116,7 +116,7 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
   return detail::forced_motion<PeriodicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation.amplitude, ratio);
 }
-/// The periodically forced motion from an initial state given as any Eigen column vector.
+/// The periodically forced motion from any Eigen column vector as initial state; `ratio` is f τ.
 template <class Scalar, class Plant, class Column>
 PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Rational& ratio,

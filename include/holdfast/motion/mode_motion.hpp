@@ -85,7 +85,7 @@ class ModeMotion {
 
   /// The bound that may prove that no guard of the mode has a zero. It is constructed at the first
   /// call; later calls ignore the arguments.
-  /// @param law    contact of the drive; for two masses the energy of its plant(mode) is the norm
+  /// @param law    contact of the drive; for two masses its plant(mode) defines the EnergyNorm
   /// @param mode   number of the mode
   /// @param guard  one of the mode's guards
   /// @param force  the excitation

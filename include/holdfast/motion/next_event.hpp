@@ -22,7 +22,7 @@ template <int States>
 struct ModeStretch {
   Vector<double, States> state;  ///< state x at the beginning, N × 1
   double command;                ///< command u in force (N)
-  Series force;  ///< coefficients F_k (N), F(t + y h) = Σ F_k y^k, 0 ≤ y ≤ 1, t at the beginning
+  Series force;   ///< coefficients F_k (N) of the force Σ F_k y^k at y h (s) after the beginning
   double length;  ///< length h (s), ≥ 0
 };
 

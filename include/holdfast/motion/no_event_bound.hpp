@@ -17,9 +17,9 @@ namespace holdfast {
 ///
 ///     g̈ = ℓᵀA² z + ℓᵀA w + ℓᵀ ẇ + m F̈ .
 ///
-/// The norm ‖z‖ must not increase in any free motion ż = A z; within h it then grows by at most
-/// h max ‖w‖. The bound holds for every guard of the mode with the same ℓ and m up to sign. If the
-/// norm is infinite, the bound is infinite or NaN and proves nothing.
+/// The norm ‖z‖ must not increase in any free motion ż = A z. In the time h it then grows by at
+/// most h max ‖w‖. The bound is valid for every guard of the mode with the same ℓ and m up to sign.
+/// If the norm is infinite, the bound is infinite or NaN and proves nothing.
 /// @tparam Norm    EnergyNorm (plant/energy.hpp) for two masses, else DecayingNorm
 /// @tparam States  N, the order of the plant
 template <class Norm, int States>
@@ -44,7 +44,7 @@ class NoEventBoundOf {
                 std::abs(guard.force) * force.second_rate;
   }
 
-  /// The coefficients of drop_below_chord() = by_norm ‖z‖ + by_command |u| + constant for a length.
+  /// Coefficients of drop_below_chord() = by_norm ‖z‖ + by_command |u| + constant for a time h (s).
   struct Drop {
     double by_norm;     ///< factor of the norm ‖z‖ of the initial state
     double by_command;  ///< factor of |u|, per newton

@@ -31,13 +31,13 @@ namespace holdfast {
 ///     engaged → gap:          h = Δż,                  g ← Δz,   f⁺ − f⁻ = −b s_e
 ///     engaged → stick:        h = Δż,                  g ← Δz,   f⁺ − f⁻ = b (s − s_e)
 ///     gap → engaged:          h = Δz − g (or ± r₀),    g ← 0,    f⁺ − f⁻ = b s_e
-///     stop reached or left:   h = Δz ∓ r₀/2,                     f⁺ − f⁻ of s_e and stop damper
+///     stop reached or left:   h = Δz ∓ r₀/2,   f⁺ − f⁻ due to s_e and the damper of the stop
 ///
-/// Here s is the force transmitted in stick, s_e that of an engaged drive (u for an ideal drive). A
-/// jump of the command occurs at a fixed time and needs no saltation. The end of stick needs none:
-/// it is such a jump, or ẋ is continuous there. In stick δΔż = 0 and δg = δΔz; if the drive sticks
-/// at sample j, the map is valid only for such δX_j. The row of g is zero while engaged. The row of
-/// y is zero unless the controller forms the velocity from differences of unrounded displacements.
+/// Here b is the input column of u, s the force transmitted in stick, s_e that of an engaged drive
+/// (u for an ideal drive). A jump of u occurs at a fixed time and needs no saltation matrix. Nor
+/// does the end of stick: there u jumps or ẋ is continuous. If the drive sticks at sample j, the
+/// map is valid only for δX_j with δΔż = 0, δg = δΔz. The row of g is zero while engaged. The row
+/// of y is zero unless the velocity is formed from differences of unrounded displacements.
 ///
 ///     VariationalFlow<DriveContact<>> tangent(motion);
 ///     motion.sense();
@@ -157,7 +157,7 @@ class VariationalFlow {
                : always;
   }
 
-  /// Whether g is independent of x, so that the deviation of g must be stored.
+  /// Whether the guard g of a mode does not depend on the state x; its deviation is then stored.
   bool carries_anchor(int mode) const { return anchored(mode) && mode != sticking_; }
 
   bool anchored(int mode) const { return anchored_[at(mode)]; }

@@ -10,7 +10,7 @@
 
 namespace holdfast {
 
-/// Products of the maps of successive samples, formed in blocks short enough to keep all digits.
+/// Products of the matrices of successive samples, in blocks short enough to keep all digits.
 /// @tparam Map  type of a map, N × N
 template <class Map>
 class BlockProducts {
@@ -19,7 +19,7 @@ class BlockProducts {
   ///              product reaches 1000.
   explicit BlockProducts(std::size_t most) : most_(most), length_(most) {}
 
-  /// Adds the map of the next sample.
+  /// Multiplies the last block by the map of the next sample, or starts a new block.
   void append(const Map& map) {
     if (length_ == most_ || !(blocks_.back().cwiseAbs().maxCoeff() < 1e3)) {
       blocks_.push_back(map);

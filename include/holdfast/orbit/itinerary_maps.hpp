@@ -36,7 +36,7 @@ class ItineraryMaps {
   ItineraryMaps(const IdealLoop<Scalar>& loop, const Rational& ratio)
       : ItineraryMaps(sampled_loop(loop.plant, loop.sampling), loop, ratio) {}
 
-  /// The map of z̃, 5 × 5: S while the drive is engaged, S* in the backlash.
+  /// The map of z̃ = [z; u_{j−1}] over a sample, 5 × 5: S if `engaged`, S* in the backlash.
   const Matrix<Scalar, 5>& map(bool engaged) const { return maps_[engaged ? 1 : 0]; }
 
   /// The units in which the state z̃ is scaled (plant_scaling()).

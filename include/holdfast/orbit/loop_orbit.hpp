@@ -81,7 +81,7 @@ struct OrbitResultOf {
   std::optional<Orbit> orbit;  ///< the orbit; nullopt without a solution. `outcome` states
                                ///< whether the orbit is confirmed
   std::int64_t samples = 0;    ///< number of simulated samples of the motion
-  int candidates = 0;          ///< number of periods for which an orbit was solved for
+  int candidates = 0;          ///< number of candidate periods that were solved for an orbit
   /// Index, from 0, of the state variable in which the orbits of a family differ most; the plant's
   /// variables come first, then the controller's. nullopt unless the outcome is `neutral`.
   std::optional<std::int64_t> neutral_state = {};

@@ -22,7 +22,7 @@ enum class BorderKind {
   grazing,  ///< exact switching: Δz or Δż touches a switching surface without crossing it
   sliding,  ///< exact switching: after a reversal, stick replaces the gap or vice versa
   switch_at_sample,  ///< exact switching: a contact change reaches a sample, where F or u may jump
-  jump,              ///< the motion ceases to exist before any margin falls to zero
+  jump,              ///< the motion ceases to exist without any of the causes above
   window,            ///< edge of the searched window; the motion may continue beyond
 };
 
@@ -53,7 +53,7 @@ struct MotionBorderPoint {
   MotionBorder border;  ///< piece of the border, with the cause that ends the motion
 };
 
-/// The region of two parameters, given by its border, where a given motion exists and attracts.
+/// The region in a plane of two parameters where a motion exists and attracts: its border curve.
 struct MotionRegion {
   /// Points of the border, counter-clockwise. Where the kind of border changes, two points lie
   /// close together, at a codimension-two point.
@@ -79,8 +79,8 @@ struct ParameterWindow {
   }
 };
 
-/// The number k of the strong resonance 1:k at the common point of two border pieces. A pair of
-/// multipliers is there at 1 (k = 1), −1 (2), e^{±2πi/3} (3) or ±i (4).
+/// The number k of the strong resonance 1:k at the common point of two border pieces. There, two
+/// multipliers are at 1 (k = 1), −1 (k = 2), e^{±2πi/3} (k = 3) or ±i (k = 4).
 /// @return nullopt where the common point is of another kind
 inline std::optional<int> strong_resonance(const MotionBorder& a, const MotionBorder& b) {
   const auto pair = BorderKind::neimark_sacker;

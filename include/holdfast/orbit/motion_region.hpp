@@ -47,12 +47,12 @@ inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t h
 }  // namespace detail
 
 /// Computes the border of the region of two parameters in which a periodic motion with switching at
-/// samples exists and attracts. Inside the region, the itinerary has a periodic solution, no sample
-/// reaches a switching surface, and all multipliers lie inside the unit circle.
+/// samples exists and attracts. Inside, a periodic solution with the orbit's contacts exists, no
+/// sample reaches a switching surface, and all multipliers lie inside the unit circle.
 ///
-/// The map of a given itinerary is affine. As a multiplier tends to 1, the periodic solution grows
-/// without bound and reaches a switching surface first. The exception is a symmetric motion that
-/// loses its symmetry; only there a `fold` occurs.
+/// For given contacts the map over a period is affine. As a multiplier tends to 1, the periodic
+/// solution grows without bound; before that, it reaches a switching surface. A `fold` therefore
+/// occurs only where a symmetric motion loses its symmetry.
 ///
 ///     const auto family = [&](double width, double gain) { … return other; };
 ///     const MotionRegion region = motion_region(family, orbit, window, {0.002, -13.0});

@@ -34,8 +34,8 @@ struct PeriodicOrbit : LoopOrbit<5> {
     return static_cast<double>(engaged) / static_cast<double>(itinerary.size());
   }
 
-  /// The relative distance from the nearest switching surface: the smaller of the distance of Δz
-  /// over the largest displacement and of Δż over the largest velocity. +∞ without such a surface.
+  /// The relative distance from the nearest switching surface: the smaller of two ratios, distance
+  /// of Δz to largest displacement and distance of Δż to largest velocity. +∞ without a surface.
   double border_share() const {
     const StateScale extent(states);
     return std::min(extent.share_of_displacement(borders.displacement.distance),
@@ -84,7 +84,7 @@ PeriodicSolution<Maps> refined_solution(const Maps& maps, const Itinerary& itine
 
 }  // namespace detail
 
-/// The periodic solution where maps_of_blocks() is empty; this default returns nullopt.
+/// Solves for a periodic motion if maps_of_blocks() gives no blocks; this default returns nullopt.
 template <class Maps>
 std::optional<PeriodicSolution<Maps>> solution_without_blocks(const Maps&, const Itinerary&) {
   return std::nullopt;

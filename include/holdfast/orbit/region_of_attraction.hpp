@@ -26,7 +26,7 @@ namespace holdfast {
 /// where ω is the excitation's angular frequency (without excitation √(k₁/m₁)). In a gap, e_gap is
 /// the deviation of the gap's position. The motion must have the orbit's contact and, if engaged,
 /// the orbit's sign of Δż at the last sample. An orbit that never leaves its gap exists in every
-/// gap that contains its Δz. Its ball has `radius` times the clearance from the gap's ends.
+/// gap that contains its Δz. Its ball's radius is `radius` × the clearance from the gap's ends.
 struct AttractionBall {
   std::int64_t sample;            ///< index of the orbit's sample: a multiple of q, f τ = p/q
   Vector<double, 5> state;        ///< state z̃ = [z; u_{j−1}] at sample j = `sample`

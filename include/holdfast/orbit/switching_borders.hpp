@@ -29,8 +29,8 @@ struct Border {
 
 /// The contact decision at one sample, with the quantities that it depends on.
 struct ContactDecision {
-  bool was_inside;  ///< the drive is in the backlash before the sample
-  bool engaged;     ///< the drive is engaged after the sample
+  bool was_inside;  ///< whether the drive is in its gap before the sample
+  bool engaged;     ///< whether the drive is engaged after the sample
   /// The sign of Δż (1 for Δż = 0) if the contact at this or the next sample depends on that sign;
   /// 0 if the drive stays inside its gap, and without backlash.
   std::int8_t velocity_sign;
@@ -141,7 +141,7 @@ struct Borders {
 /// of a pattern would change; negative where a state already contradicts the pattern.
 ///
 /// Inside the gap, the distance is that of Δz from the nearer end. At a sample where the drive
-/// leaves the gap, it is |Δż| and the excess of Δz beyond the end. At all others it is |Δż|.
+/// leaves the gap, there are two: |Δż| and the excess of Δz beyond the end. Elsewhere it is |Δż|.
 /// @param pattern  pattern of this motion, or of another motion with which it is compared
 /// @param states   z̃_j of one period of the motion, one for each decision
 /// @param width    width r₀ of the backlash (m)

@@ -37,15 +37,15 @@ bool is_same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, d
 }  // namespace detail
 
 /// Whether two orbits of one loop are the same motion started at different stroboscopic instants
-/// (sampling and forcing in phase). Only states are compared, not the positions of the gap.
+/// (sampling and forcing in phase). The positions of the gap are not compared.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 bool is_phase_shifted_copy(const Orbit& orbit, const Orbit& other) {
   return detail::is_same_course(orbit, other, 0, 1.0);
 }
 
-/// Whether one orbit is the mirror image of another: all signs changed, and shifted by q/2 samples,
-/// half a common period; false where q is odd. Without excitation any shift is allowed.
+/// Whether one orbit is the mirror image of another: all signs changed, shifted by half the common
+/// period of sampling and forcing (q/2 samples; false for odd q). Without force any shift is valid.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 bool is_mirror_image(const Orbit& orbit, const Orbit& other) {
@@ -85,9 +85,9 @@ struct Neighbourhoods<IdealLoop<Scalar>> {
 
 }  // namespace detail
 
-/// The different orbits of one loop, with neighbourhoods of their stroboscopic points. For an
-/// IdealLoop (AttractionBall) or a ModalLoop, every motion in a neighbourhood tends to the orbit.
-/// For an ImplementedLoop this is not certain: its neighbourhoods reach 10⁻⁶ of the orbit's extent.
+/// The different orbits of one loop, with neighbourhoods of their points at stroboscopic instants.
+/// In an IdealLoop or a ModalLoop every motion that enters a neighbourhood tends to the orbit. In
+/// an ImplementedLoop this is not certain; a neighbourhood's radius is 10⁻⁶ of the orbit's extent.
 /// @tparam Loop  IdealLoop<double>, ModalLoop or ImplementedLoopOf<Plant>
 template <class Loop>
 class AttractorSet {
@@ -135,7 +135,7 @@ class AttractorSet {
     return nullptr;
   }
 
-  /// The number of the orbit with a neighbourhood that contains a motion; −1 if there is none.
+  /// The number of the orbit whose neighbourhood contains a motion's state, by near(); −1: none.
   template <class Memory>
   int attracted_by(const Memory& motion) const {
     const Entry* const entry = near(motion);

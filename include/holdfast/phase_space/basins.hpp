@@ -24,7 +24,7 @@ struct BasinLabel {
   int attractor = -1;  ///< index in BasinsOf::attractors; −1 unless certified
 };
 
-/// One attractor of a set of initial states.
+/// One attractor, with the share of the initial states in its basin.
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 struct AttractorOf {
@@ -79,8 +79,8 @@ BasinsOf<Orbit> numbered_basins(std::vector<BasinLabel> labels, const std::vecto
 /// The result of a search for the periodic orbit of one motion.
 template <class Orbit>
 struct FoundOrbit {
-  BasinLabel label;            ///< label; its attractor is the number of an already known orbit
-  std::optional<Orbit> orbit;  ///< a certified orbit that was not known yet
+  BasinLabel label;            ///< label; its attractor is the known orbit that the motion reaches
+  std::optional<Orbit> orbit;  ///< the certified orbit if it is a new one, else empty
 };
 
 /// The FoundOrbit of a motion, made from the result of the orbit search for that motion.
@@ -217,11 +217,11 @@ struct BatchedMotions<IdealLoop<Scalar>, Propagator> {
 
 }  // namespace detail
 
-/// Computes basins as find_basins() does, with a given function that advances many motions.
-/// @param propagate       IdealLoop: propagate(motion) returns an object with MotionBatch::run().
-///                        ImplementedLoop: propagate(loop, scheduler) acts as run_on_lanes()
+/// Computes basins of attraction like find_basins(), with a given function that advances motions.
+/// @param propagate       IdealLoop: propagate(motion) returns an object with MotionBatch's run().
+///                        ImplementedLoop: propagate(loop, scheduler) replaces run_on_lanes()
 /// @param loop            loop; for an ImplementedLoop has_event_pack() must be true
-/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none
+/// @param initial_states  states [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be empty
 /// @param limits          limits of each search for the orbit of a single motion
 /// @param for_tiles       see find_basins()
 /// @throws InvalidParameter where loop, states or limits are not admissible
@@ -240,7 +240,7 @@ auto find_basins_by(const Propagator& propagate, const Loop& loop,
 /// once its motion is certain to tend to the orbit. Orbits are searched for from some states; then
 /// all remaining motions are advanced together until known orbits attract them.
 /// @param loop            the loop with its excitation and backlash
-/// @param initial_states  each (m, m/s, m, m/s), finite; may be none
+/// @param initial_states  initial states (m, m/s, m, m/s), finite; may be empty
 /// @param limits          limits of each search for the orbit of a single motion
 /// @tparam Scalar         number type of the parallel motions: `double`, or a SIMD pack
 /// @param for_tiles       for_tiles(count, tile, job) divides 0 … count − 1 into tiles of at most

@@ -35,7 +35,7 @@ class CoverageOf {
  public:
   /// @param window          window with sides > 0
   /// @param cells_per_side  number of cells along each side of the window, 1 … 10 000
-  /// @param readings        readings of the plant's state
+  /// @param readings        functions that read z and ż from the plant's state
   /// @throws InvalidParameter where the window is empty or the number of cells is out of range
   CoverageOf(const PhaseWindow& window, std::size_t cells_per_side,
              const PortReadings<Plant>& readings = PortReadings<Plant>())

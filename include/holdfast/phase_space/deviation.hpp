@@ -11,7 +11,7 @@ namespace holdfast {
 /// The difference of two motions at one sample.
 struct Deviation {
   double time;          ///< instant (s)
-  double displacement;  ///< z of the second motion minus z of the first (m)
+  double displacement;  ///< conductor's displacement: second motion minus first (m)
   double state;         ///< Euclidean norm of the difference of the states in SI units
   double rounding;      ///< rounding bound of `state`: 2⁻⁵² times the larger state norm
 

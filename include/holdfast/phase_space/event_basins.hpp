@@ -295,12 +295,12 @@ struct BatchedMotions<ImplementedLoopOf<Plant>, Propagator> {
 /// Computes the basins of attraction of an implemented loop: one attractor per initial state.
 ///
 /// A motion is assigned to an attractor if a search that starts from the motion certifies the
-/// attractor's orbit. It is also assigned if it comes within a millionth of the extent of a
-/// certified orbit and then has the contact modes of this orbit for two periods. The distance must
-/// not increase in the first period, and must fall to at most μ^0.9 of its value in the second.
-/// Here μ is the largest modulus of the orbit's multipliers.
+/// attractor's orbit. It is also assigned if its distance from a certified orbit falls below 10⁻⁶
+/// of the orbit's extent and its contact modes then equal the orbit's for two periods. In the first
+/// period the distance must not increase. In the second it must shrink to at most μ^0.9 times its
+/// value, except for round-off. Here μ is the largest modulus of the orbit's multipliers.
 /// @param loop            the loop with its hardware
-/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none
+/// @param initial_states  states [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be empty
 /// @param limits          limits of each search for the orbit of a single motion
 /// @param for_tiles       see find_basins() of an IdealLoop
 /// @param begin           map from an initial state to the state x of the plant, N × 1
@@ -312,7 +312,7 @@ BasinsOf<EventOrbitOf<states_of<Plant>>> find_basins(
   return detail::basins_by<detail::SingleMotions<ImplementedLoopOf<Plant>, Begin>>(
       loop, initial_states, limits, for_tiles, begin);
 }
-/// Computes the basins of two masses, for which the initial state is the plant's state.
+/// Computes the basins of attraction of two masses. Each initial state is a state of the plant.
 template <class Tiles>
 BasinsOf<EventOrbit> find_basins(const ImplementedLoop& loop,
                                  const std::vector<Vector<double, 4>>& initial_states,

@@ -12,7 +12,8 @@
 
 namespace holdfast {
 
-/// Assigns motions of one loop to the lanes of a SIMD pack and decides when each ends.
+/// Assigns motions of one loop to the lanes of a SIMD pack and decides when each ends. At a
+/// *stroboscopic instant* sampling and forcing are in phase.
 class LaneScheduler {
  public:
   LaneScheduler() = default;
@@ -23,8 +24,8 @@ class LaneScheduler {
   /// Assigns a lane its next motion and sets its `start` [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s).
   /// @return false where no motion is left
   virtual bool next(std::size_t lane, Vector<double, 4>& start) = 0;
-  /// Examines a lane's stroboscopic state. `is_followed` is false after too many contact changes
-  /// (SwitchCounts::accumulates): the motion is invalid. @return whether the motion continues
+  /// Decides at a stroboscopic instant whether a lane's motion continues. Where `is_followed` is
+  /// false the motion is invalid, because contact changes accumulate (SwitchCounts::accumulates).
   virtual bool goes_on(std::size_t lane, const Vector<double, 4>& state, bool is_followed) = 0;
   /// Records the contact mode of a lane's motion at a sample.
   virtual void took(std::size_t lane, ContactMode mode) = 0;

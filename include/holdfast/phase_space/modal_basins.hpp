@@ -111,12 +111,12 @@ struct ModalMotions {
 
 }  // namespace detail
 
-/// Computes the basins of attraction of a conductor given by its modes. A motion is assigned to an
-/// attractor if a search from the motion certifies that orbit, or once the motion is in the region
-/// of attraction of a certified orbit.
+/// Computes the basins of attraction of a loop whose conductor is given by its modes. A motion is
+/// assigned to an attractor if a search that starts from the motion certifies the attractor's
+/// orbit, or if the motion enters the region of attraction of a certified orbit.
 /// @param loop            loop with its excitation and backlash
-/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite. A static force at the
-///                        absorber deflects the conductor to z₁, an impulse there gives it ż₁
+/// @param initial_states  states [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite. The conductor begins
+///                        as deflected by a static force and struck by an impulse at the absorber
 /// @param limits          limits of each search for the orbit of a single motion
 /// @param for_tiles       see find_basins() of an IdealLoop
 /// @throws InvalidParameter where loop, states or limits are not admissible

@@ -20,7 +20,7 @@ namespace holdfast {
 template <class Scalar>
 using ForcedMotionMemory = MotionMemory<Scalar, BacklashMemory<Scalar>>;
 
-/// The memory of a motion before its first sample: u_{−1} = 0, the drive outside its gap.
+/// The memory of a motion before its first sample: no previous force, the drive outside its gap.
 inline ForcedMotionMemory<double> memory_of_start(const Vector<double, 4>& initial_state) {
   return {initial_state, 0.0, {false, 0.0, 0.0, 0.0}};
 }
@@ -66,9 +66,9 @@ ForcedMotionMemory<double> memory_of_lane(const ForcedMotionMemory<Scalar>& memo
 
 }  // namespace detail
 
-/// A batch of motions of one loop. Each motion is run until an orbit of a set attracts the motion,
-/// the motion diverges, or a given number of samples is reached. The motions run in parallel in the
-/// lanes of `Scalar`; a lane starts the next motion when its previous one ends.
+/// A runner for many motions of one loop. Each motion is run until an orbit of a set attracts it,
+/// until it diverges, or for a given number of samples. The motions run in parallel in the lanes of
+/// `Scalar`; a lane starts the next motion when its previous one ends.
 template <class Scalar>
 class MotionBatch {
  public:
@@ -78,7 +78,7 @@ class MotionBatch {
 
   /// Runs motions, one per lane at a time.
   /// @param motions        motions to be run; attracted and diverged motions are marked, all others
-  ///                       advance by at least `samples`, in multiples of q samples
+  ///                       advance by `samples` or more, in whole common periods with the forcing
   /// @param count          number of motions, ≥ 0
   /// @param samples        number of samples, ≥ 1
   /// @param attractor_set  orbits of the loop: an AttractorSet or a type with attracted_by(memory)

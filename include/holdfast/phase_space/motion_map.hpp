@@ -28,8 +28,8 @@ struct MappedMotion {
   double period;                 ///< period N τ (s)
   std::int64_t forcing_periods;  ///< number of forcing periods in one period of the motion
   double amplitude;              ///< largest |z₁| (m) at a sample
-  double largest_multiplier;     ///< largest modulus of the multipliers
-  double border_share;           ///< border_share() of the PeriodicOrbit or EventOrbit
+  double largest_multiplier;     ///< largest modulus of the Floquet multipliers, per period
+  double border_share;           ///< distance to nearest switching surface over the orbit's size
 };
 
 /// A cell of a map, with the periodic motions found in that cell.
@@ -44,7 +44,7 @@ struct MapCell {
   }
 };
 
-/// The division of a plane of two parameters into cells.
+/// The numbers of rows and columns of a grid of cells in a plane of two parameters.
 struct MapShape {
   std::size_t rows;     ///< number of values of the first parameter, ≥ 1
   std::size_t columns;  ///< number of values of the second parameter, ≥ 1
@@ -267,7 +267,7 @@ class MotionMapSearch {
 struct MotionMapOptions {
   /// The limits of each search; motions with periods beyond `largest_period` are not found.
   OrbitLimits limits{10000, 0, {}};
-  /// Largest number of rounds; each searches cells from their neighbours' new motions; 0: none.
+  /// Largest number of rounds of searches from the new motions of neighbouring cells; 0: none.
   int most_rounds = 1000;
   std::vector<Vector<double, 4>> more_starts =
       {};  ///< further initial states for each cell (m, m/s, m, m/s), finite
@@ -275,16 +275,16 @@ struct MotionMapOptions {
 
 /// The map of periodic motions of many loops on a grid in a plane of two parameters.
 ///
-/// Each cell is searched from the initial state and the other given states. In rounds it is then
-/// searched from the motions of its neighbouring cells. A neighbour's motion is continued with its
-/// order of contact changes. If no attracting motion results, the search starts from a state of the
-/// neighbour's motion. The search ends when a round finds no new motion, or after `most_rounds`. A
-/// motion is missed where neither a given state nor a neighbour leads to it. The result does not
-/// depend on the order in which the cells are computed.
+/// In each cell, motions are first searched for from the initial state and the other given states.
+/// Then, in rounds, they are searched for from the motions of the neighbouring cells. Such a motion
+/// is continued with its order of contact changes. If no attracting motion results, the search
+/// starts from a state of that motion. It ends when a round finds no new motion, or after
+/// `most_rounds`. A motion is missed where neither a given state nor a neighbour leads to it. The
+/// result does not depend on the order in which the cells are computed.
 /// @param loop_at    index of a cell ↦ std::optional of an IdealLoop<double> or ImplementedLoop;
 ///                   nullopt where the parameters are not admissible; called from many threads
 /// @param shape      number of rows and columns
-/// @param start      [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite
+/// @param start      initial state [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite
 /// @param for_tiles  see find_basins()
 /// @param options    options of the search
 /// @return one entry for each cell, row by row

@@ -173,19 +173,19 @@ bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMot
 
 }  // namespace detail
 
-/// Computes an orbit diagram (bifurcation diagram): stroboscopic states at the excitation's peak,
-/// plotted against a parameter that runs through its values and back. Each motion begins where the
-/// previous one ended. Where the two directions differ, attractors may coexist, provided that the
-/// transient is over and the plotted states cover the period.
+/// Computes an orbit diagram (bifurcation diagram): one state per forcing period, plotted against a
+/// parameter that runs through its values and back. Each motion begins where the previous one
+/// ended. Where the two directions differ, attractors may coexist, provided that the transient is
+/// over and the plotted states cover the period.
 ///
 /// The stroboscopic instants are whole periods of the force's first harmonic, counted from t = 0.
 /// Every motion begins at t = 0 of its force. From one motion to the next, further harmonics and a
 /// recorded force therefore jump in phase unless the whole force repeats after a motion's duration.
 ///
-/// At each value the drive begins outside its backlash (with a dead zone: where the state places
-/// it), and no force from an earlier sample acts. A diverging motion is plotted only up to its
-/// divergence. Three kinds of motions begin from the initial state: the first, one after a diverged
-/// motion, and one in a loop of another order than the previous loop (more delayed commands).
+/// At each value the drive begins outside its backlash; with a dead zone the state determines
+/// the contact. No force from an earlier sample acts. A diverging motion is plotted up to its
+/// divergence. The initial state starts the first motion, each motion after a diverged one, and
+/// each motion in a loop whose order differs from the previous one (more delayed commands).
 /// @param family         function from the parameter to an ImplementedLoopOf<Plant> or ModalLoop
 /// @param values         values of the parameter, in their order
 /// @param initial_state  a state, or a function from the parameter to a state

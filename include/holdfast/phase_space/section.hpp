@@ -20,7 +20,7 @@
 
 namespace holdfast {
 
-/// A point of the Poincaré section Δż = 0, equal velocities of absorber and conductor.
+/// A point of the Poincaré section Δż = 0, where absorber and conductor have equal velocities.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct SectionPointOf {
@@ -188,11 +188,11 @@ class TurnFinder {
 ///     auto motion = event_motion(implemented_loop(loop), Vector<double, 4>::Zero().eval());
 ///     run_section(motion, samples, [](const SectionPoint& at) { … });
 ///
-/// Stick (Δż = 0 for a time) is one point, at its beginning, whether Δz then reverses or continues.
-/// If Δz continues, the next point has the same `rising`. A point is `engaged` where the drive
-/// transmits the whole command afterwards. With exact switching and a backlash r₀ > 0 no point is
-/// `engaged`: each reversal of an engaged drive begins a gap or stick. Where Δż only touches zero,
-/// up to rounding, there is no point. A motion from Δż = 0 does not begin with a point.
+/// A phase of stick (Δż = 0 for some time) gives one point, at its beginning, even if Δz afterwards
+/// continues in the same direction; the next point then has the same `rising`. A point is `engaged`
+/// where the drive transmits the whole command afterwards. With exact switching and a backlash
+/// r₀ > 0 no point is `engaged`: each reversal of an engaged drive begins a gap or stick. A zero of
+/// Δż without a change of sign, up to rounding, and Δż = 0 at the start give no point.
 /// @param motion    motion before its next sample; a further call continues the motion
 /// @param samples   number of sampling periods
 /// @param observer  called with each point, a SectionPointOf<N>, in order of time

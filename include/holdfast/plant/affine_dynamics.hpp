@@ -20,8 +20,8 @@ struct AffineDynamicsOf {
 /// The affine dynamics of the plant of two masses (order 4).
 using AffineDynamics = AffineDynamicsOf<4>;
 
-/// The largest absolute row sum ‖A‖ (1/s) of a state matrix A in balanced coordinates. For a time
-/// h, ‖(A h)ⁿ‖ ≤ (‖A‖ h)ⁿ in these coordinates, with little influence of the units of the state.
+/// The maximum-row-sum norm ‖A‖ (1/s) of a state matrix A after balancing (`BalancedMatrix`). For a
+/// time h (s), ‖(A h)ⁿ‖ ≤ (‖A‖ h)ⁿ. The units of the states have little effect on this norm.
 template <class Scalar, int States>
 Scalar balanced_norm(const Matrix<Scalar, States>& a) {
   return BalancedMatrix<Scalar, States>(a).balanced.cwiseAbs().rowwise().sum().maxCoeff();

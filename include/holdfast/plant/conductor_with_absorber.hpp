@@ -19,11 +19,11 @@ struct ConductorWithAbsorber {
   bool has_devices = false;      ///< whether the poles include devices on the span
 };
 
-/// Whether such a loop is analysed in closed form: false, since it is analysed by its poles.
+/// Whether the loop of a `ConductorWithAbsorber` is analysed in closed form: no, by its poles.
 template <>
 inline constexpr bool has_closed_forms<ConductorWithAbsorber> = false;
 
-/// The receptance z/F (m/N) at the absorber's place, without control; s (1/s) is not checked.
+/// The receptance z/F (m/N) at the absorber's place, without control, at s (1/s, unchecked).
 inline std::complex<double> place_receptance(const ConductorWithAbsorber& conductor,
                                              const std::complex<double>& s) {
   if (!conductor.has_devices)

@@ -13,9 +13,9 @@ namespace holdfast {
 ///
 ///     AᵀW + W A = −I     in balanced coordinates
 ///
-/// For a stable plant of any order this gives ‖x(t)‖ ≤ ‖x(0)‖ + ∫ ‖b u + c F‖ ds, as for
-/// EnergyNorm. If A is not stable, no such norm exists and every value is infinite. The same
-/// applies where a check against rounding fails.
+/// A stable plant ẋ = A x + b u + c F of any order has ‖x(t)‖ ≤ ‖x(0)‖ + ∫ ‖b u + c F‖ ds. If A is
+/// not stable, no such norm exists. In this case, and where a check against rounding fails, every
+/// value is infinite.
 ///
 /// W is the sum Σ MᵏᵀQ Mᵏ, computed by doubling, for the Cayley transform M = (p + A)(p − A)⁻¹ and
 /// Q = 2 p (p − A)⁻ᵀ (p − A)⁻¹ with a number p > 0. Two checks guard the bound against rounding: W
@@ -49,7 +49,7 @@ class DecayingNorm {
     return (factor_.transpose() * state).norm();
   }
 
-  /// The dual norm, the largest ℓᵀx over ‖x‖ = 1 (ℓ: N × 1); infinite unless exists().
+  /// The dual norm of a functional ℓ (N × 1): largest ℓᵀx over ‖x‖ = 1; infinite unless exists().
   double dual(const Vector<double, States>& functional) const {
     if (!exists_) return std::numeric_limits<double>::infinity();
     return factor_.template triangularView<Eigen::Lower>().solve(functional).norm();

@@ -16,7 +16,7 @@
 
 namespace holdfast {
 
-/// A proved enclosure of a plant's pole, and of its residue in the transfer function from the
+/// Discs proved to contain a pole of a plant, and its residue in the transfer function from the
 /// command to the measured displacement.
 struct EnclosedPole {
   ComplexEnclosure s;        ///< pole s (1/s): real, or the pole with Im s > 0 of a pair
@@ -232,7 +232,7 @@ inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer
 
 }  // namespace detail
 
-/// Proved enclosures of all poles s_k and residues of a conductor with its absorber and hardware.
+/// Discs proved to contain all poles s_k and residues of a conductor with absorber and hardware.
 /// The transfer function from the command to the measured displacement is n(s)/p(s). Let p have the
 /// degree m and the leading coefficient p_m. Discs about approximate poles z_k with the radii
 ///
@@ -242,9 +242,9 @@ inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer
 /// real z_k this root is real. The residue is n(s_k)/p′(s_k), with p′(s_k) = p_m Π_{j≠k} (s_k −
 /// s_j). Work: 10 m² complex operations.
 ///
-/// The modes' parameters are exactly the given doubles; absorber and hardware have any decimal
-/// parameters that round to the given doubles. Source: B. T. Smith, Error bounds for zeros of a
-/// polynomial based upon Gerschgorin's theorems, J. ACM 17 (1970), pp. 661–674.
+/// The discs are valid for modes with exactly the given doubles, and for all decimal parameters of
+/// absorber and hardware that round to the given doubles. Source: B. T. Smith, Error bounds for
+/// zeros of a polynomial based upon Gerschgorin's theorems, J. ACM 17 (1970), pp. 661–674.
 /// @param conductor  conductor with its approximate poles
 /// @return no poles where `conductor.poles` is incomplete, or two poles are too close to separate
 /// @throws InvalidParameter where conductor, absorber or hardware are not admissible
@@ -254,8 +254,8 @@ inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& con
                                 with_hardware(conductor.poles, conductor.hardware));
 }
 
-/// Proved enclosures of the poles of two masses with hardware, valid for all decimal parameters
-/// that round to the given doubles. @return no poles where two are too close to separate
+/// Discs proved to contain the poles and residues of two masses with hardware, for all decimal
+/// parameters that round to the given doubles. @return no poles where two are too close to separate
 /// @throws InvalidParameter where masses or hardware are not admissible
 inline std::vector<EnclosedPole> enclosed_poles(const TwoMass<double>& masses,
                                                 const LoopHardware& hardware = {}) {

@@ -7,8 +7,8 @@
 
 namespace holdfast {
 
-/// The energy norm ‖z‖; ‖z‖² = k₁ z₁² + k₂ (z₂ − z₁)² + m₁ ż₁² + m₂ ż₂² is twice the energy.
-///
+/// The energy norm ‖z‖ (√J) of a state z of the two masses. Twice the energy of this state is
+/// ‖z‖² = k₁ z₁² + k₂ (z₂ − z₁)² + m₁ ż₁² + m₂ ż₂².
 /// Springs and masses exchange energy and dampers dissipate it. Without input the norm does not
 /// grow: ‖e^{At}‖ ≤ 1, and with input ‖z(t)‖ ≤ ‖z(0)‖ + ∫ ‖b u + c F‖ ds.
 class EnergyNorm {

@@ -11,14 +11,14 @@
 
 namespace holdfast {
 
-/// A linear plant of order N, a conductor with the absorber and its drive:
+/// A linear plant with N states x: a conductor with an absorber and a drive that has backlash.
 ///
-///     ẋ = A x + b s + b_u u + c F,    s = f x + g u  where the drive transmits,  s = 0 in its gap
+///     ẋ = A x + b s + b_u u + c F,    s = f x + g u  where the drive transmits,  s = 0 in the gap
 ///
-/// Here u is the computer's command (N), s the force on conductor and absorber (N). An ideal drive
-/// has s = u (f = 0, g = 1, b_u = 0). A drive with a lag adds states: u acts on them by b_u, and f
-/// gives s from them. The ports are rows that read the measured quantities and the relative motion
-/// at the gap, so that x may be in any coordinates.
+/// u (N) is the computer's command, F (N) the excitation, and s (N) the drive's force on conductor
+/// and absorber. An ideal drive has s = u (f = 0, g = 1, b_u = 0). A drive with a lag adds states:
+/// their input is b_u u, and s = f x. The state x may be in any coordinates, as the ports give the
+/// measured quantities and the relative motion at the gap as functions of x.
 /// @tparam States  N; Eigen::Dynamic where it is known at run time only
 template <class Number, int States = Eigen::Dynamic>
 struct LinearPlant {
@@ -29,16 +29,16 @@ struct LinearPlant {
   Vector<Number, States> command_input;    ///< column b_u (N × 1), per newton of u; 0: ideal drive
   Vector<Number, States> excitation;       ///< column c (N × 1), per newton of the excitation F
   RowVector<Number, States> drive_force;   ///< row f (1 × N): s = f x + g u; 0 for an ideal drive
-  Number direct_transmission{1};           ///< factor g: 1 for an ideal drive, 0 for one with a lag
+  Number direct_transmission{1};           ///< factor g of u in s: 1: ideal drive, 0: with a lag
   Ports<Number, States> connections;       ///< measured quantities and relative motion at the gap
 
-  /// The state matrix A + b f of an engaged drive, N × N.
-  /// @throws InvalidParameter where the sizes of the parts differ, as the next three functions do
+  /// The state matrix A + b f where the drive transmits, N × N (1/s). @throws InvalidParameter
+  /// for parts of different sizes, as do control_input(), excitation_input() and ports()
   Matrix<Number, States> state_matrix() const {
     require_one_order();
     return released_matrix + force_input * drive_force;
   }
-  /// The input b_u + g b of the command with an engaged drive, N × 1 per newton.
+  /// The input b_u + g b of the command u where the drive transmits, N × 1 per newton of u.
   Vector<Number, States> control_input() const {
     require_one_order();
     return command_input + direct_transmission * force_input;
@@ -132,7 +132,7 @@ LinearPlant<Scalar, larger_size(States, More)> enlarged(const LinearPlant<Scalar
 ///
 ///     ż_f = ω_f (z − z_f);   the computer reads z_f and ż_f
 ///
-/// The filter adds one state.
+/// z (m) is the plant's measured displacement. The filter adds one state, z_f (m).
 /// @param plant   plant whose readings are filtered
 /// @param cutoff  cutoff frequency ω_f/2π (Hz) of the filter, > 0
 /// @throws InvalidParameter where the cutoff is not admissible
@@ -151,9 +151,10 @@ LinearPlant<Scalar, larger_size(States, 1)> with_measurement_filter(
   return filtered;
 }
 
-/// The plant with a motor that has a first-order lag, ṡ = ω_d (u − s); this adds one state, s (N).
+/// The plant with a first-order lag of the drive, ṡ = ω_d (u − s). One state is added: the drive's
+/// force s (N), which follows the command u (N).
 /// @param plant      plant with an ideal drive
-/// @param bandwidth  bandwidth ω_d/2π (Hz) of the motor, > 0
+/// @param bandwidth  bandwidth ω_d/2π (Hz) of the drive, > 0
 /// @throws InvalidParameter where the bandwidth is not admissible
 template <class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, 1)> with_drive_lag(const LinearPlant<Scalar, States>& plant,
@@ -169,11 +170,11 @@ LinearPlant<Scalar, larger_size(States, 1)> with_drive_lag(const LinearPlant<Sca
   return driven;
 }
 
-/// The plant with a motor that follows its command with a lag of second order, s̈ = ω_d² (u − s) −
-/// 2 ζ_d ω_d ṡ. This adds two states, s (N) and ṡ/ω_d (N).
+/// The plant with a second-order lag of the drive, s̈ = ω_d² (u − s) − 2 ζ_d ω_d ṡ. Two states are
+/// added: the drive's force s (N), which follows the command u (N), and ṡ/ω_d (N).
 /// @param plant      plant with an ideal drive
-/// @param bandwidth  bandwidth ω_d/2π (Hz) of the motor, > 0
-/// @param damping    damping ratio ζ_d of the motor's lag, > 0
+/// @param bandwidth  bandwidth ω_d/2π (Hz) of the drive, > 0
+/// @param damping    damping ratio ζ_d of the drive's lag, > 0
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, 2)> with_drive_lag(const LinearPlant<Scalar, States>& plant,

@@ -19,10 +19,10 @@ namespace holdfast {
 ///
 ///     F(s) = ω_f/(s + ω_f),   D(s) = ω_d/(s + ω_d)  or  ω_d²/(s² + 2 ζ_d ω_d s + ω_d²)
 ///
-/// The computer reads ẑ = F z and its rate. Without a velocity sensor, (ẑ_j − ẑ_{j−1})/τ replaces
-/// the rate. The force on conductor and absorber is D u.
+/// The computer reads the filtered displacement ẑ = F z and its rate. Without a velocity sensor,
+/// (ẑ_j − ẑ_{j−1})/τ of samples j replaces the rate. The drive's force is D u for the command u.
 struct LoopHardware {
-  static constexpr double ideal = std::numeric_limits<double>::infinity();  ///< bandwidth: no lag
+  static constexpr double ideal = std::numeric_limits<double>::infinity();  ///< infinite: no lag
 
   double measurement_filter = ideal;  ///< cutoff ω_f/2π of the filter (Hz), > 0
   double drive_bandwidth = ideal;     ///< bandwidth ω_d/2π of the drive (Hz), > 0

@@ -220,9 +220,9 @@ struct ModesAtPlace {
 ///     x = [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂]
 ///     f = F + s + k₂ (z₂ − z) + c₂ (ż₂ − ż) − M_c z̈,   m₂ z̈₂ = −s − k₂ (z₂ − z) − c₂ (ż₂ − ż)
 ///
-/// where s is the force of the drive. The clamp mass couples the modes; since it acts at one place,
-/// the mass matrix diag(M_n) + M_c φ φᵀ has the closed inverse of Sherman and Morrison.
-/// The computer reads z and ż of the conductor at the absorber.
+/// F (N) is the excitation and s (N) the drive's force. The clamp mass M_c couples the modes; since
+/// it acts at one place, the mass matrix diag(M_n) + M_c φ φᵀ has the closed inverse of Sherman and
+/// Morrison. The computer reads z and ż of the conductor at the absorber.
 /// @throws InvalidParameter where modes or absorber are not admissible
 template <class Scalar>
 LinearPlant<Scalar> modal_plant(const std::vector<PlaceMode<Scalar>>& modes,

@@ -202,11 +202,11 @@ inline std::vector<std::complex<double>> coupled_roots(
 
 }  // namespace detail
 
-/// All 2N + 2 poles of a conductor, given by N modes, with the absorber, found by `pole_sum_roots`.
-/// The first N poles belong to the modes in turn: the pole with Im s > 0, or one of two real poles.
-/// The modes' other poles and the absorber's two follow. A weakly coupled mode has its own pole;
-/// the assignment of strongly coupled poles to modes is arbitrary. Two sums over the poles test
-/// that none is missing. Work: order N²; the eigenvalues of `modal_plant` take order N³.
+/// Computes all 2N + 2 poles of a conductor of N modes with the absorber, by `pole_sum_roots`.
+/// First comes one pole of each mode: the one with Im s > 0, or one of two real poles. Then come
+/// the modes' other poles, and last the two of the absorber. The assignment of poles to modes is
+/// arbitrary where modes and absorber are strongly coupled. Two sums over the poles test that none
+/// is missing. Work: order N²; the eigenvalues of `modal_plant` take order N³.
 /// @return no poles where not all were found, for example with a critically damped mode or equal
 ///         poles
 /// @throws InvalidParameter where modes or absorber are not admissible
@@ -253,7 +253,7 @@ inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& 
   return detail::are_all_poles(poles, mobility / limit) ? poles : std::vector<PlantPole>{};
 }
 
-/// The longest sampling period (s) that resolves all poles: π / max |s|; infinite without poles.
+/// The longest sampling period π / max |s| (s) that resolves all poles s; infinite without poles.
 inline double nyquist_period(const std::vector<PlantPole>& poles) {
   double fastest = 0.0;
   for (const PlantPole& pole : poles) fastest = std::max(fastest, std::abs(pole.s));

@@ -6,7 +6,7 @@
 
 namespace holdfast {
 
-/// Readings of a plant's state through its ports, and changes of such a state.
+/// Functions that read displacements and velocities from a plant's state x, and that change x.
 /// @tparam Plant  plant of order N with `ports()`; the two masses have a specialisation
 template <class Plant>
 class PortReadings {
@@ -40,7 +40,7 @@ class PortReadings {
   /// The coefficients of Δż in the state, N × 1.
   State velocity_row() const { return ports_.relative_velocity.transpose(); }
 
-  /// Adds a displacement (m) to the conductor's z, by the change of x with the least norm.
+  /// Adds a displacement `by` (m) to the conductor's z by the smallest change of x (least norm).
   void displace_conductor(State& x, const Scalar& by) const {
     x += ports_.displacement.transpose() * (by / ports_.displacement.squaredNorm());
   }
@@ -59,27 +59,27 @@ class PortReadings {
   auto velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.velocity * x);
   }
-  /// The measured displacements of M deviations, the columns of an N × M matrix. @return 1 × M
+  /// The measured displacements (m) of M states, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto measured_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.measured_displacement * x);
   }
-  /// The measured velocities of M deviations, the columns of an N × M matrix. @return 1 × M
+  /// The measured velocities (m/s) of M states, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto measured_velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.measured_velocity * x);
   }
-  /// The relative displacements Δz of M deviations, the columns of an N × M matrix. @return 1 × M
+  /// The relative displacements Δz (m) of M states, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto relative_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.relative_displacement * x);
   }
-  /// The relative velocities Δż of M deviations, the columns of an N × M matrix. @return 1 × M
+  /// The relative velocities Δż (m/s) of M states, the columns of an N × M matrix. @return 1 × M
   template <class Columns>
   auto relative_velocities(const Columns& x) const {
     return (ports_.relative_velocity * x).eval();
   }
-  /// Sets the relative velocity Δż of M deviations to zero, the columns of an N × M matrix.
+  /// Sets the relative velocity Δż to zero in M states, the columns of an N × M matrix.
   template <class Columns>
   void stop_relative_motions(Columns&& x) const {
     x -= ports_.velocity_lift * (ports_.relative_velocity * x).eval();
@@ -120,7 +120,7 @@ class PortReadings<TwoMass<Number>> {
   /// The coefficients [0, −1, 0, 1] of Δż in the state.
   State velocity_row() const { return {Scalar(0), Scalar(-1), Scalar(0), Scalar(1)}; }
 
-  /// Adds a displacement (m) to the conductor's z₁.
+  /// Adds a displacement `by` (m) to the conductor's z₁.
   void displace_conductor(State& x, const Scalar& by) const { x[0] += by; }
   /// Sets the relative velocity Δż to zero, by ż₂ = ż₁.
   void stop_relative_motion(State& x) const { x[3] = x[1]; }
@@ -135,27 +135,27 @@ class PortReadings<TwoMass<Number>> {
   auto velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(1));
   }
-  /// The measured displacements of M deviations, the columns of a 4 × M matrix. @return 1 × M
+  /// The measured displacements z₁ (m) of M states, the columns of a 4 × M matrix. @return 1 × M
   template <class Columns>
   auto measured_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(0));
   }
-  /// The measured velocities of M deviations, the columns of a 4 × M matrix: its second row.
+  /// The measured velocities ż₁ (m/s) of M states, the columns of a 4 × M matrix. @return 1 × M
   template <class Columns>
   auto measured_velocities(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(1));
   }
-  /// The relative displacements of M deviations (columns of a matrix): third row minus first row.
+  /// The relative displacements z₂ − z₁ (m) of M states, the columns of a matrix. @return 1 × M
   template <class Columns>
   auto relative_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(2) - x.row(0));
   }
-  /// The relative velocities of M deviations (columns of a matrix): last row minus second row.
+  /// The relative velocities ż₂ − ż₁ (m/s) of M states, the columns of a matrix. @return 1 × M
   template <class Columns>
   auto relative_velocities(const Columns& x) const {
     return (x.row(3) - x.row(1)).eval();
   }
-  /// Sets Δż to zero in M deviations, the columns of a matrix: copies the second row to the last.
+  /// Sets the relative velocity to zero, by ż₂ = ż₁, in M states, the columns of a 4 × M matrix.
   template <class Columns>
   void stop_relative_motions(Columns&& x) const {
     x.row(3) = x.row(1).eval();

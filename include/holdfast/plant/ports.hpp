@@ -59,14 +59,14 @@ template <class Scalar, int States>
 struct Ports {
   RowVector<Scalar, States> displacement;           ///< z (m) of the conductor at the absorber
   RowVector<Scalar, States> velocity;               ///< ż (m/s) of the conductor at the absorber
-  RowVector<Scalar, States> measured_displacement;  ///< row h_z: reading (m) for P
-  RowVector<Scalar, States> measured_velocity;      ///< row h_v: reading (m/s) for D
+  RowVector<Scalar, States> measured_displacement;  ///< row h_z: reading (m), input of gain P
+  RowVector<Scalar, States> measured_velocity;      ///< row h_v: reading (m/s), input of gain D
   RowVector<Scalar, States> relative_displacement;  ///< Δz (m), absorber against conductor
   RowVector<Scalar, States> relative_velocity;      ///< Δż (m/s), absorber against conductor
-  Vector<Scalar, States> displacement_lift;  ///< column e_z: x + e_z has Δz + 1 m, same Δż
-  Vector<Scalar, States> velocity_lift;      ///< column e_v: x + e_v has Δż + 1 m/s, same Δz
+  Vector<Scalar, States> displacement_lift;  ///< column e_z: x + e_z has Δz 1 m larger, same Δż
+  Vector<Scalar, States> velocity_lift;  ///< column e_v: x + e_v has Δż 1 m/s larger, same Δz
 
-  /// The feedback row K = P h_z + D h_v (1 × N) from the measured rows h_z and h_v; u = K x.
+  /// The feedback row K = P h_z + D h_v (1 × N) of the command u = K x, gains P (N/m), D (N s/m).
   RowVector<Scalar, States> feedback_row(const Scalar& proportional,
                                          const Scalar& differential) const {
     return proportional * measured_displacement + differential * measured_velocity;

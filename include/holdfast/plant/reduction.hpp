@@ -20,7 +20,7 @@ struct FrequencyReduction {
   Scalar second_frequency;     ///< second natural frequency ω₂/2π (Hz), > ω₁/2π
 };
 
-/// The k₂ and m₁ of a plant with the prescribed natural frequencies, and their condition numbers.
+/// Absorber stiffness k₂ and conductor mass m₁ of a two-mass plant with prescribed frequencies.
 struct ReducedMasses {
   double absorber_stiffness;  ///< stiffness k₂ (N/m)
   double conductor_mass;      ///< mass m₁ (kg)
@@ -57,7 +57,7 @@ struct ReductionResult {
   double smallest_conductor_stiffness;  ///< smallest k₁ (N/m) for which a plant exists at this m₂
 };
 
-/// The largest m₂ (kg), k₁ (1/ω₁ − 1/ω₂)², for which a plant has the given k₁, ω₁ and ω₂.
+/// The largest absorber mass m₂ = k₁ (1/ω₁ − 1/ω₂)² (kg) with which a plant has k₁, ω₁ and ω₂.
 template <class Scalar>
 Scalar largest_absorber_mass(const FrequencyReduction<Scalar>& asked) {
   const Scalar room = (Scalar(1) / asked.first_frequency - Scalar(1) / asked.second_frequency) /
@@ -142,8 +142,8 @@ ReducedMasses reduced_masses(const FrequencyReduction<Scalar>& asked, bool large
 
 }  // namespace detail
 
-/// The m₁ and k₂ of all plants with the prescribed k₁, m₂ and natural frequencies. A plant exists
-/// only if 1/ω₁ − 1/ω₂ ≥ √(m₂/k₁); otherwise the outcome is `no_solution`.
+/// Computes m₁ and k₂ of all two-mass plants with given k₁, m₂ and natural frequencies ω₁ and ω₂. A
+/// plant exists only if 1/ω₁ − 1/ω₂ ≥ √(m₂/k₁); otherwise the outcome is `no_solution`.
 /// @throws InvalidParameter unless all inputs are finite and > 0 and the frequencies ascend
 template <class Scalar = double>
 ReductionResult reduce_to_frequencies(const FrequencyReduction<Scalar>& asked) {

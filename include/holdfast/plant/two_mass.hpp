@@ -12,9 +12,9 @@ namespace holdfast {
 ///     m₁ z̈₁ = −k₁ z₁ − c₁ ż₁ + k₂ (z₂ − z₁) + c₂ (ż₂ − ż₁) + u + F
 ///     m₂ z̈₂ =                 − k₂ (z₂ − z₁) − c₂ (ż₂ − ż₁) − u
 ///
-/// With z = [z₁, ż₁, z₂, ż₂]ᵀ (m, m/s, m, m/s; positive downward) this is ż = A z + b u + c F.
-/// Source: Kollár 2022, Eqs. (9)–(10). The fourth row of A has a misprint there. The equations
-/// above give this row as [k₂/m₂, c₂/m₂, −k₂/m₂, −c₂/m₂].
+/// u (N) is the control force and F (N) the excitation. With the state z = [z₁, ż₁, z₂, ż₂]ᵀ (m,
+/// m/s, m, m/s; positive downward), ż = A z + b u + c F. Source: Kollár 2022, Eqs. (9)–(10). The
+/// paper misprints the fourth row of A; here it is [k₂/m₂, c₂/m₂, −k₂/m₂, −c₂/m₂].
 template <class Scalar>
 struct TwoMass {
   static_assert(is_real<Scalar>, "the numbers of a plant are real: TwoMass<double>");

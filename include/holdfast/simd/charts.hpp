@@ -49,7 +49,7 @@ inline void stability_chart(const LoopChart& chart, std::uint8_t* stable, int th
   detail::fill_chart<StabilityChartRows<Pack<double>>>(chart, stable, threads);
 }
 
-/// The stability chart as a vector of cells, 1 (stable) or 0 (not stable), row by row.
+/// The stability chart as a vector, row by row: 1 stable, 0 not. `threads` = 0 uses all cores.
 inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int threads = 0) {
   std::vector<std::uint8_t> stable(detail::cells_of(chart));
   stability_chart(chart, stable.data(), threads);
@@ -69,7 +69,7 @@ inline void radius_chart(const LoopChart& chart, double* radius, int threads = 0
   }
 }
 
-/// The chart of the spectral radius ρ as a vector of cells, row by row.
+/// The spectral radius ρ of all cells of a chart, row by row. `threads` = 0 uses all cores.
 inline std::vector<double> radius_chart(const LoopChart& chart, int threads = 0) {
   std::vector<double> radius(detail::cells_of(chart));
   radius_chart(chart, radius.data(), threads);

@@ -36,7 +36,7 @@ inline std::complex<double> matched_impedance(const TautString<double>& string, 
 /// @param distance           a (m) from the support, > 0; sin ka ≠ 0
 /// @param device             absorber with its computer; its gains are not used
 /// @param angular_frequency  ω (rad/s), > 0; not a multiple of 2π/τ, at which the held force has no
-///                           part of the frequency ω
+///                           component of the frequency ω
 /// @throws InvalidParameter where the device is at a node of the wave, where ω is a multiple of
 /// 2π/τ, or where the velocity is a difference of readings and ω is a multiple of π/τ
 inline PdGains<double> perfect_absorption(const TautString<double>& string, double distance,

@@ -10,6 +10,8 @@
 
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/math/roots/root_from_pole.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/plant_poles.hpp"
@@ -103,23 +105,13 @@ class SpanPoles {
   };
 
   static Complex part(const Pole& pole, std::size_t i, std::size_t l, const Complex& s) {
-    const Complex product = pole.shapes[i] * pole.shapes[l];
+    using detail::plain_product;
+    const Complex product = plain_product(pole.shapes[i], pole.shapes[l]);
     if (product == 0.0) return 0.0;  // where the bundle of another place is, too
-    const Complex own = product / (s - pole.s);
-    return pole.is_pair ? own + std::conj(product) / (s - std::conj(pole.s)) : own;
-  }
-
-  /// The derivative dH_jj/ds of the receptance at place j.
-  Complex slope(std::size_t j, const Complex& s) const {
-    Complex sum(0.0);
-    for (const Pole& pole : poles_) {
-      const Complex square = pole.shapes[j] * pole.shapes[j], away = s - pole.s;
-      if (square == 0.0) continue;
-      sum -= square / (away * away);
-      const Complex other = s - std::conj(pole.s);
-      if (pole.is_pair) sum -= std::conj(square) / (other * other);
-    }
-    return sum;
+    const Complex away = s - pole.s, other = s - std::conj(pole.s);
+    if (!pole.is_pair) return plain_product(product, detail::inverse(away));
+    return plain_product(detail::inverse(plain_product(away, other)),
+                         plain_product(product, other) + plain_product(std::conj(product), away));
   }
 
   void add(const ModeAtPlaces& mode) {
@@ -157,6 +149,10 @@ class SpanPoles {
   template <class Stiffness>
   void attach(const Stiffness& stiffness, const std::vector<Complex>& own, std::size_t place) {
     std::vector<Followed> found;
+    squares_ = detail::ComplexRows<double, 2>();
+    for (const Pole& pole : poles_)
+      squares_.push_back(
+          {pole.s, pole.shapes[place] * pole.shapes[place] / (pole.is_pair ? 1.0 : 2.0)});
     for (const Pole& pole : poles_) {
       const PoleShift shift = shift_alone(pole, stiffness, place);
       if (shift.is_weak)
@@ -164,10 +160,10 @@ class SpanPoles {
       else if (const auto s = next_to(pole, shift, stiffness, place))
         found.push_back({pole.s, *s, pole.is_pair, std::nullopt});
       else
-        follow(found, stiffness, pole.s, pole.is_pair, place);
+        follow(found, stiffness, pole.s, pole.is_pair);
     }
-    for (const Complex& s : own) follow(found, stiffness, s, s.imag() != 0.0, place);
-    separate(found, own, stiffness, place);
+    for (const Complex& s : own) follow(found, stiffness, s, s.imag() != 0.0);
+    separate(found, own, stiffness);
     std::vector<Pole> poles;
     poles.reserve(found.size());
     for (Followed& one : found)
@@ -221,20 +217,40 @@ class SpanPoles {
         nearest = std::min(nearest, std::abs(other.s - pole.s));
     if (!(change < 0.02 * nearest)) return std::nullopt;
     const Complex expected = pole.s - shift.change;
-    const Complex s = polished(expected, stiffness, place);
+    const Complex s = polished(expected, stiffness);
     if (!(std::abs(s - expected) < 0.1 * change)) return std::nullopt;
     return s;
+  }
+
+  /// The receptance H_jj at the place j of the device that is being attached.
+  Complex receptance_here(const Complex& s) const {
+    detail::ComplexLanes<double> sum;
+    for (const auto& [pole, square] : squares_.blocks()) {
+      const auto away = s - pole, other = s - pole.conjugate();
+      sum += (away * other).inverse() * (square * other + square.conjugate() * away);
+    }
+    return sum.sum();
+  }
+
+  /// The derivative dH_jj/ds there.
+  Complex slope_here(const Complex& s) const {
+    detail::ComplexLanes<double> sum;
+    for (const auto& [pole, square] : squares_.blocks()) {
+      const auto away = (s - pole).inverse(), other = (s - pole.conjugate()).inverse();
+      sum += square * (away * away) + square.conjugate() * (other * other);
+    }
+    return -sum.sum();
   }
 
   /// Adds the pole continued from `begin`. If a conjugate pair becomes two real poles, the second
   /// is added as NaN, and `separate` finds it.
   template <class Stiffness>
   void follow(std::vector<Followed>& found, const Stiffness& stiffness, const Complex& begin,
-              bool is_pair, std::size_t place) const {
+              bool is_pair) const {
     const auto loop_gain = [&](const Complex& s) {
-      return -receptance(place, place, s) * stiffness(s).value;
+      return detail::plain_product(-receptance_here(s), stiffness(s).value);
     };
-    const Complex s = polished(root_from_pole(loop_gain, begin), stiffness, place);
+    const Complex s = polished(root_from_pole(loop_gain, begin), stiffness);
     const bool stays = std::abs(s.imag()) > 1e-9 * std::abs(s);
     found.push_back({begin, stays ? upper(s) : s, stays, std::nullopt});
     if (is_pair && !stays) found.push_back({std::conj(begin), std::nan(""), false, std::nullopt});
@@ -250,8 +266,8 @@ class SpanPoles {
     Complex sum(0.0);
     for (std::size_t j = 0; j < motions.size(); ++j) {
       if (std::isnan(motions[j].s.real())) continue;
-      if (j != but) sum += 1.0 / (s - motions[j].s);
-      if (motions[j].is_pair) sum += 1.0 / (s - std::conj(motions[j].s));
+      if (j != but) sum += detail::inverse(s - motions[j].s);
+      if (motions[j].is_pair) sum += detail::inverse(s - std::conj(motions[j].s));
     }
     return sum;
   }
@@ -261,18 +277,17 @@ class SpanPoles {
   /// of the poles already known (Ehrlich 1967, Aberth 1973).
   template <class Stiffness>
   void separate(std::vector<Followed>& found, const std::vector<Complex>& own,
-                const Stiffness& stiffness, std::size_t place) const {
+                const Stiffness& stiffness) const {
     struct Own {
       Complex s;
       bool is_pair;
     };
     std::vector<Own> device;
-    device.reserve(own.size());
     for (const Complex& s : own) device.push_back({s, s.imag() != 0.0});
     const auto all = [&](const Complex& s) {
       const DynamicStiffness k = stiffness(s);
-      const Complex h = receptance(place, place, s);
-      return (slope(place, s) * k.value + h * k.slope) / (1.0 + h * k.value) +
+      const Complex h = receptance_here(s);
+      return (slope_here(s) * k.value + h * k.slope) / (1.0 + h * k.value) +
              pull(poles_, s, poles_.size()) + pull(device, s, device.size());
     };
     for (std::size_t k = 0; k < found.size(); ++k) {
@@ -285,7 +300,7 @@ class SpanPoles {
         s -= step * std::min(1.0, 0.1 / share);
         if (share < 1e-9) break;
       }
-      s = polished(s, stiffness, place);
+      s = polished(s, stiffness);
       found[k].is_pair = std::abs(s.imag()) > 1e-9 * std::abs(s);
       found[k].s = found[k].is_pair ? upper(s) : s;
     }
@@ -305,13 +320,13 @@ class SpanPoles {
     return true;
   }
 
-  /// The approximate pole s refined by Newton's method on 1/H_jj + K at the place j.
+  /// The approximate pole s refined by Newton's method on 1/H_jj + K.
   template <class Stiffness>
-  Complex polished(Complex s, const Stiffness& stiffness, std::size_t place) const {
+  Complex polished(Complex s, const Stiffness& stiffness) const {
     for (int turn = 0; turn < 12; ++turn) {
-      const Complex h = receptance(place, place, s);
+      const Complex h = receptance_here(s);
       const DynamicStiffness k = stiffness(s);
-      const Complex step = (1.0 / h + k.value) / (k.slope - slope(place, s) / (h * h));
+      const Complex step = (1.0 / h + k.value) / (k.slope - slope_here(s) / (h * h));
       s -= step;
       if (turn >= 2 && std::abs(step) <= 1e-15 * std::abs(s)) break;
     }
@@ -321,8 +336,8 @@ class SpanPoles {
   template <class Stiffness>
   Pole at(const Complex& s, bool is_pair, const Stiffness& stiffness, std::size_t place) const {
     const DynamicStiffness k = stiffness(s);
-    const Complex h = receptance(place, place, s);
-    const Complex scale = std::sqrt(-k.value / (k.slope * h + k.value * slope(place, s)));
+    const Complex h = receptance_here(s);
+    const Complex scale = std::sqrt(-k.value / (k.slope * h + k.value * slope_here(s)));
     Pole pole{s, is_pair, {}};
     for (std::size_t i = 0; i < mobility_.size(); ++i)
       pole.shapes.push_back(scale * receptance(i, place, s));
@@ -334,6 +349,7 @@ class SpanPoles {
   }
 
   std::vector<Pole> poles_;
+  detail::ComplexRows<double, 2> squares_;     // s_k and φ_jk², halved for a real pole
   std::vector<std::vector<double>> mobility_;  // Σ φ_i φ_l/M, clamped masses included
 };
 

@@ -37,7 +37,7 @@ class SpanWaves {
     return Complex(0.0, n * pi<double> * string_.wave_speed() / string_.span) * turn_;
   }
 
-  /// The deflection y at the right support for a given s (1/s), over its value without devices.
+  /// y at the right support over its value without devices, at s (1/s); zero if s is an eigenvalue.
   Complex held(const Complex& s) const {
     const Complex rate = s / (string_.wave_speed() * turn_);
     const Complex tension = string_.tension * turn_ * turn_;
@@ -125,8 +125,8 @@ inline SpanRoot span_root(const TautString<double>& string, const std::vector<Sp
 ///     sinh γL + (Z(s)/Z_c) sinh γa sinh γ(L − a) = 0,   γ = s/c
 ///
 /// Each eigenvalue is continued from the mode without devices while the devices' effect grows from
-/// 0 to 1 (`root_from_pole`). If two eigenvalues meet on the way, their modes may be exchanged. The
-/// force of an ActiveAbsorber counts only with its part at the frequency of the motion.
+/// 0 to 1 (`root_from_pole`). If two eigenvalues coincide on the way, their modes may be exchanged.
+/// Of the held force of an ActiveAbsorber, only the component e^{st} is included.
 /// @param string   taut string; its bending stiffness is not used
 /// @param devices  in any order
 /// @param count    number of modes

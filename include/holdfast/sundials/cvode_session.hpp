@@ -22,7 +22,7 @@
 /// The namespace is not called `sundials`, since SUNDIALS itself has one of that name.
 namespace holdfast::cvode {
 
-/// Outcome of an integration; each value stands for one or several of CVODE's return flags.
+/// Outcome of an integration, from CVODE's return flag; several flags may give one outcome.
 enum class IntegrationOutcome {
   completed,           ///< CV_SUCCESS and CV_TSTOP_RETURN: no failure
   model_ended,         ///< CV_ROOT_RETURN: the system's margin() reached zero

@@ -29,7 +29,7 @@ struct LoadRemoval {
   IntegrationCost cost;         ///< cost of the integration; zeros without an equilibrium
 };
 
-/// Simulates the free vibration of a cable, at rest under a force that is removed at t = 0.
+/// Simulates the free vibration of a cable after the sudden removal of a static force at t = 0.
 /// @param cable       `CableElements`, or a type with its members
 /// @param force       removed force (N), downward positive
 /// @param duration    duration (s), > 0; the record ends at the last whole multiple of the interval

@@ -172,7 +172,7 @@ class EventMetricTrack {
   bool steady_ = false, begins_ = false, seeks_extremum_ = true;
 };
 
-/// Computes the metrics of prepared motions, two packs at a time to hide instruction latency.
+/// Computes the metrics of prepared motions, two packs at a time; pause() is called on the way.
 template <class Scalar, class Pause>
 void group_event_metrics(const PreparedEventMotion* motions, std::size_t count,
                          MotionMetrics* results, const Pause& pause) {
@@ -199,8 +199,8 @@ void group_event_metrics(const PreparedEventMotion* motions, std::size_t count,
 
 }  // namespace detail
 
-/// Computes the metrics of many motions whose contact may change between samples. Each lane of
-/// `Scalar` computes one motion at a time. The motions may differ in every parameter.
+/// Computes the metrics of many motions whose contact may change between samples. The type `Scalar`
+/// is a SIMD pack with one motion in each lane, or `double`. Motions may differ in every parameter.
 ///
 /// The metrics equal those of event_metrics() for one motion except for rounding, and do not depend
 /// on the other motions of the batch. Work: that of EventPack, and a few matrix exponentials for
@@ -209,7 +209,7 @@ void group_event_metrics(const PreparedEventMotion* motions, std::size_t count,
 /// @param count     number of motions, ≥ 0
 /// @param duration  length of each motion (s), ≥ 0
 /// @param results   metrics, as many as motions and in their order
-/// @param pause     called every few hundred samples; may throw to stop the computation
+/// @param pause     function pause(), called every few hundred samples; may throw to stop
 /// @throws InvalidParameter where a motion or the duration is not admissible
 template <class Scalar, class Pause>
 void event_metrics(const EventSweepMotion* motions, std::size_t count, double duration,

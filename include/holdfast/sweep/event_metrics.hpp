@@ -75,9 +75,9 @@ MotionMetrics metrics_of_motion(Motion& motion, const SampleSpan& span,
 /// The metrics (MotionMetrics) of one motion of an implemented loop.
 ///
 /// The metrics are evaluated only at the samples t_j of the loop's clock, although the contact may
-/// change in between. The drive transmits at a sample where its contact mode is `engaged`, not
-/// where it is `stick`; u_j is the force transmitted at the sample. For a loop converted from an
-/// IdealLoop the metrics equal those of `motion_metrics` except for rounding.
+/// change in between. The drive counts as transmitting if its contact mode is `engaged`, but not in
+/// `stick`; u_j is the force transmitted at the sample. For a loop converted from an IdealLoop the
+/// metrics equal those of `motion_metrics` except for rounding.
 ///
 ///     event_metrics(implemented_loop(loop), Vector<double, 4>::Zero(), 20.0).steady_peak;
 ///
@@ -85,7 +85,7 @@ MotionMetrics metrics_of_motion(Motion& motion, const SampleSpan& span,
 /// @param loop           loop with its excitation and backlash
 /// @param initial_state  x, N × 1; for the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 /// @param duration       length of the motion (s), ≥ 0
-/// @param pause          called every 2¹⁴ samples; may throw to stop the computation
+/// @param pause          function pause(), called every 2¹⁴ samples; may throw to stop
 /// @throws InvalidParameter where loop or duration is not admissible, or the state not finite
 /// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>
 template <class Plant>

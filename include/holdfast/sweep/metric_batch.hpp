@@ -47,8 +47,8 @@ void group_metrics(const SweepMotion* motions, const SampleSpan* spans, std::siz
 ///     std::vector<MotionMetrics> metrics(motions.size());
 ///     motion_metrics<double>(motions.data(), motions.size(), 20.0, metrics.data());
 ///
-/// The other motions of the batch do not change a bit of a motion's metrics. SIMD packs and scalars
-/// give equal metrics except for rounding. Memory: some 50 bytes per motion plus the results. Work:
+/// A motion's metrics do not depend on the other motions, not even in the last bit. SIMD packs and
+/// scalars give equal metrics up to rounding. Memory: some 50 bytes per motion and results. Work:
 /// see `detail::MetricTrack`, and a few matrix exponentials for each motion whose plant or sampling
 /// differs from that of the motion before it.
 /// @param motions   motions, each with an admissible loop and a finite state
@@ -56,9 +56,9 @@ void group_metrics(const SweepMotion* motions, const SampleSpan* spans, std::siz
 /// @param duration  length of each motion (s), ≥ 0
 /// @param results   metrics, as many as motions and in their order
 /// @param source    SweepMatrices, or a derived class that observes the samples. At every sample
-///                  `source` is called with the numbers of the motions in the lanes, the sample's
-///                  index and the mask of the lanes whose drive transmits. Lanes may be past their
-///                  motion's last sample or repeat a motion. source.pause() is called every few
+///                  `source` is called with the indices of the lanes' motions, the sample's index
+///                  and the mask of the lanes whose drive transmits. A lane may be past the end of
+///                  its motion, or repeat another lane's motion. source.pause() is called every few
 ///                  hundred samples and may throw to stop the computation
 /// @throws InvalidParameter where a motion or the duration is not admissible
 template <class Scalar, class Source = detail::SweepMatrices>

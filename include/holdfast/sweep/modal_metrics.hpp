@@ -13,11 +13,11 @@ namespace holdfast {
 
 /// The metrics (MotionMetrics) of one motion of a conductor given by its modes. Here z₁ is the
 /// conductor's displacement at the absorber. Work: that of ModalMotion.
-/// @param loop      loop; it is not validated
+/// @param loop      the loop with its excitation and backlash; it is not validated
 /// @param poles     all `plant_poles` of the loop's modes and absorber
-/// @param state     initial state in the order of `modal_plant`
+/// @param state     initial state [q₁, q̇₁, …, z₂, ż₂] of `modal_plant`; q_n: coordinate of mode n
 /// @param duration  length of the motion (s), ≥ 0
-/// @param pause     called every 2¹⁴ samples; may throw to stop the computation
+/// @param pause     function pause(), called every 2¹⁴ samples; may throw to stop
 /// @throws InvalidParameter where the duration or the sampling is not admissible
 inline MotionMetrics modal_metrics(const ModalLoop& loop, const std::vector<PlantPole>& poles,
                                    const ModalMotion::Full& state, double duration,

@@ -14,13 +14,13 @@ enum class MotionEnd {
   accumulates,  ///< more contact changes in one period than are computed (SwitchCounts)
 };
 
-/// The metrics of one motion of the sampled loop with backlash in a sweep.
-///
-/// The samples are t_j = j τ, j = 0, 1, …, up to the duration. Samples at or after half the
-/// duration, up to round-off, are steady; without steady samples their metrics are NaN. For a
-/// motion that diverged, `first_peak` keeps its value, `engaged_fraction` and `reversals_per_s` are
-/// NaN, and all other metrics are infinite. For MotionEnd::accumulates all metrics are NaN, and
-/// `samples` counts the samples up to the start of the period with too many contact changes.
+/// The metrics of one motion of the sampled loop with backlash in a sweep. The displacement of the
+/// conductor is z₁, that of the absorber z₂. Samples are taken at t_j = j τ, j = 0, 1, …, up to the
+/// duration. Samples at or after half the duration, up to round-off, are steady; metrics of steady
+/// samples are NaN if there are none. For a motion that diverged, `first_peak` keeps its value,
+/// `engaged_fraction` and `reversals_per_s` are NaN, and all other metrics are infinite. For
+/// MotionEnd::accumulates all metrics are NaN, and `samples` counts the samples up to the start of
+/// the period with too many contact changes.
 struct MotionMetrics {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no value
 

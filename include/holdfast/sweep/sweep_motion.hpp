@@ -15,7 +15,7 @@ struct SweepMotion {
   Vector<double, 4> initial_state;  ///< initial state [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 };
 
-/// The parameters m₁, k₁, c₁, m₂, k₂, c₂ of a plant in SI units.
+/// The parameters m₁, k₁, c₁, m₂, k₂, c₂ of a plant (kg, N/m, N s/m; 1: conductor, 2: absorber).
 inline std::array<double, 6> numbers_of(const TwoMass<double>& plant) {
   return {plant.conductor_mass, plant.conductor_stiffness, plant.conductor_damping,
           plant.absorber_mass,  plant.absorber_stiffness,  plant.absorber_damping};

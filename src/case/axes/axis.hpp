@@ -60,7 +60,7 @@ KeyAxis parse_key_axis(std::string_view option, std::string_view text);
 /// Checks that an option has two texts KEY=… with different keys. @param example  two such texts
 void require_two_keys(const std::string& option, const std::vector<std::string>& texts,
                       const std::string& example);
-/// A grid of at most `most` cells from such texts, each parsed by `parse`.
+/// Grid over two keys from two texts KEY=…, each parsed by `parse`; at most `most` cells.
 KeyGrid key_grid(const std::string& option, const std::vector<std::string>& texts,
                  const std::string& example, std::int64_t most,
                  const std::function<KeyAxis(const std::string&)>& parse);
@@ -82,7 +82,7 @@ struct GridAxis {
   double at(std::size_t index) const;
 };
 
-/// The index along one axis of a cell of the grid; cells are numbered with the first axis slowest.
+/// Index of a grid cell along one axis; cells are numbered with the first axis slowest.
 std::size_t index_along(const std::vector<GridAxis>& axes, std::size_t axis, std::size_t cell);
 
 /// An axis over a key of the case, with its column in a table; units are written as N.s/m.

@@ -34,15 +34,15 @@ struct DeviceKeyName {
 std::optional<DeviceKeyName> device_key_name(std::string_view name);
 std::string device_key_text(std::size_t number, std::string_view key);
 
-/// The keys that define a device, in written order: those that its kind uses, without replaced
-/// keys, empty lists and the mass of a device on the ground.
+/// Keys that define a device, in the order of a written case file: all keys that its kind uses,
+/// except those that another key replaces, empty lists, and the mass with to = "ground".
 std::vector<const DeviceKey*> standing_keys(case_tables::Device device);
 
 /// Sets the key `to` of a device to its kind's default unless the keys `given` contain it.
 void settle_device(case_tables::Device& device, const std::set<std::string>& given);
 
-/// Fault of one device alone, whose given keys are `given`. The keys of the fault are short names
-/// (`damping`); none if the fault is a missing key.
+/// Fault of one device, found without the rest of the case. `given` has the names of its given
+/// keys. The keys of the fault are short names (`damping`); none if a key is missing.
 CaseFault device_fault(const case_tables::Device& device, const std::set<std::string>& given);
 
 /// Fault of a device whose position is not within the span of the conductor.

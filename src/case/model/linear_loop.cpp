@@ -52,6 +52,8 @@ struct LinearLoop::ByPoles {
     });
   }
 
+  mutable SharedCircles shared;  // of the periods that searches for the longest one try
+
  private:
   template <class Part, class Make>
   const Part& kept(std::optional<Part>& part, const Make& make) const {
@@ -212,8 +214,8 @@ MinimumRadius LinearLoop::fastest(double p) const {
 
 MaxDelay LinearLoop::longest_period(const MaxDelayOptions& question) const {
   if (closed_) return max_sampling_period(plant_of(case_), question);
-  return has_own_plant(case_) ? max_sampling_period(modal_plant_of(case_), question)
-                              : modal_max_sampling_period(by_poles_->conductor(), question);
+  if (has_own_plant(case_)) return max_sampling_period(modal_plant_of(case_), question);
+  return modal_max_sampling_period(by_poles_->conductor(), question, 1.03, &by_poles_->shared);
 }
 
 std::vector<Interval<double>> LinearLoop::stable_gains(const MaxDelayOptions& question,

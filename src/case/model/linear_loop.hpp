@@ -22,18 +22,18 @@
 
 namespace holdfast::program {
 
-/// The gains of least largest steady amplitude over a band of frequencies.
+/// Gains that minimise the largest steady amplitude over a frequency band.
 struct MinimaxGains {
   double proportional_gain;   ///< P (N/m); NaN where no gain is admissible
-  MinimaxAmplitude quietest;  ///< D and its largest amplitude
+  MinimaxAmplitude quietest;  ///< D (N s/m) and the largest amplitude ratio with it
 };
 
-/// The linear loop of a case, with the characteristic equation 1 = P G_z + D G_v and the sampled
-/// transfer functions G_z, G_v from force to displacement and velocity readings. Filters, lags,
-/// delays and a velocity by difference are included; play, quanta, force limit and jitter are not.
-///
-/// This class alone decides the method: closed forms for a loop of order 4 + 1, else sums over the
-/// poles from the command to the readings. Thread-safe.
+/// Linear control loop of a case, for stability and steady response. Its characteristic equation is
+/// 1 = P G_z + D G_v: gains P (N/m) and D (N s/m), sampled transfer functions G_z, G_v from command
+/// to displacement and velocity readings. τ is the sampling period (s), δ the processing delay (s).
+/// Filters, drive lag, delay and a velocity by difference are included; play, quanta, force limit
+/// and jitter are not. The class chooses the method: closed forms for two masses with measured
+/// velocity (order 4 + 1), else sums over the poles from command to readings. Thread-safe.
 class LinearLoop {
  public:
   /// Prepares the loop; throws MissingKeys. The functions for best gains, margins and longest
@@ -45,48 +45,49 @@ class LinearLoop {
   LinearLoop& operator=(const LinearLoop&) = delete;
   ~LinearLoop();
 
-  /// Whether the limits of τ and δ are found in steps, not in closed form.
+  /// Whether the stability limits of τ and δ are searched in steps, not computed in closed form.
   bool walks() const { return !closed_; }
 
-  /// The open intervals of one gain, the other being fixed, in which the loop is stable.
+  /// Open intervals of one gain (`free`) in which the loop is stable, for a fixed other gain.
   std::vector<Interval<double>> stable_gains(FreeGain free, const PdGains<double>& gains) const;
-  /// A function that writes, at a given P, 1 (stable) or 0 for each D of the axis.
+  /// Function that fills a row of a stability chart: 1 (stable) or 0 for each D of the axis at P.
   std::function<void(double p, std::uint8_t* flags)> stable_rows(const Axis& differential) const;
   /// The spectral radius, the largest modulus of the characteristic roots.
   double radius(const PdGains<double>& gains) const;
   /// The stability boundary in the plane of P and D over a range of P (N/m).
   std::vector<BoundaryPoint<double>> boundary(const Interval<double>& proportional) const;
 
-  /// The steady response at f (Hz), relative to that without control under the true force.
+  /// Steady response at f (Hz), relative to that without control under the continuous (true) force.
   SteadyResponse<double> response(double frequency) const;
-  /// The D of least steady amplitude at f (Hz) and P.
+  /// D that minimises the steady amplitude at a frequency (Hz), for a given P (N/m).
   MinimumAmplitude quietest(const AmplitudeOptions& options, double frequency, double p) const;
-  /// The P and D of least steady amplitude at f (Hz), with the modulus margin of the options.
+  /// P and D that minimise the steady amplitude at f (Hz), with the options' modulus margin.
   MinimumAmplitudeGains quietest_pair(const AmplitudeOptions& options, double frequency) const;
-  /// The D at P whose largest steady amplitude over a band is least.
+  /// D that minimises the largest steady amplitude over a band, for a given P (N/m).
   MinimaxAmplitude quietest_over(const AmplitudeOptions& options, double p,
                                  const FrequencyBand& band) const;
-  /// The gains whose largest steady amplitude over several loops and a band (or one frequency) is
-  /// least, among the gains with the modulus margin of the options in every loop.
-  /// @param options  options of each loop
+  /// Gains that minimise the largest steady amplitude over all loops and a band (or one frequency).
+  /// They keep the modulus margin of the options in every loop.
+  /// @param options  options of each loop, as many as loops
   /// @param p        P (N/m); none: P is optimised too
   static MinimaxGains quietest_for_all(const std::vector<LinearLoop>& loops,
                                        const std::vector<AmplitudeOptions>& options,
                                        const FrequencyBand& band, std::optional<double> p);
   /// The lowest natural frequency of the conductor (Hz).
   double first_frequency() const;
-  /// The D of least spectral radius at P.
+  /// D that minimises the spectral radius (fastest decay), for a given P (N/m).
   MinimumRadius fastest(double p) const;
-  /// The largest feasible sampling period, for the δ/τ and criterion of the question.
+  /// Largest feasible sampling period, by the criterion and with the ratio δ/τ of the question.
   MaxDelay longest_period(const MaxDelayOptions& question) const;
-  /// The stable intervals of D at another sampling period (s), for the δ/τ of the question.
+  /// Stable intervals of D at another τ (`period`), with P and δ/τ of the question. For two masses
+  /// in closed form, D must also meet the question's criterion.
   std::vector<Interval<double>> stable_gains(const MaxDelayOptions& question, double period) const;
-  /// The spectral radius minus 1 at another sampling period and delay.
+  /// Spectral radius minus 1 for another τ and δ; below 0: stable.
   double excess(const Sampling<double>& sampling, const PdGains<double>& gains) const;
 
-  /// Stability limits of D, P, τ and δ, each changed alone; by poles, up to 100 times the case's τ.
+  /// Stability limits of D, P, τ and δ, each varied alone; by poles, τ up to 100 times the case's.
   StabilityMargins margins(const PdGains<double>& gains, bool of_delay = true) const;
-  /// Gain, phase and delay margins of the whole loop.
+  /// Gain, phase and delay margins of the loop, opened at the command.
   LoopMargins whole_margins(const PdGains<double>& gains) const;
 
  private:
@@ -94,7 +95,7 @@ class LinearLoop {
 
   /// Throws NoAnswer if the loop is not a sum over its poles, since two poles nearly coincide.
   void require_poles() const;
-  /// The intervals of D at P that keep the modulus margin and the radius of the options.
+  /// Intervals of D at P that keep the modulus margin and spectral radius of the options.
   std::vector<Interval<double>> gains_of_modulus(const AmplitudeOptions& options, double p) const;
   /// The initial search range of P (N/m), around the P tuned to f (Hz).
   Interval<double> range_about_tuned(double frequency) const;

@@ -11,7 +11,7 @@
 
 namespace holdfast::program {
 
-/// Options of a motion of a case: its switching, and with or without control.
+/// Model options of a motion: when the drive's contact switches, and whether the controller acts.
 struct MotionChoice {
   Switching switching = Switching::sampled;
   bool controlled = true;
@@ -34,10 +34,10 @@ ControllerLimits controller_limits_of(const Case& the_case);
 /// Whether the computer has no quanta, no velocity by difference, no force limit and no jitter.
 bool has_ideal_computer(const Case& the_case);
 
-/// The four models of a motion. `masses`: two masses, delay at most one sampling period.
-/// `modes` or `plant`: a conductor by its modes, or any filter, drive lag, longer delay or user-
-/// defined part. `sampled`: the paper's model of IdealLoop: switching at samples, its backlash law
-/// or none, one harmonic, ideal computer. `built`: all others, integrated from event to event.
+/// Model by which a motion is computed. `…_masses`: two masses, delay at most a sampling period;
+/// `…_modes` and `…_plant`: a conductor by its modes, or a filter, drive lag, longer delay or user-
+/// defined part. `sampled_…`: the paper's model (IdealLoop): contact switches at samples, backlash
+/// law "kollar" or "none", one harmonic, ideal computer. `built_…`: all else, from event to event.
 enum class MotionKind { sampled_masses, built_masses, sampled_modes, built_plant };
 MotionKind motion_kind_of(const Case& the_case, Switching switching);
 
@@ -48,11 +48,11 @@ constexpr bool is_of_masses(MotionKind kind) {
   return kind == MotionKind::sampled_masses || kind == MotionKind::built_masses;
 }
 
-/// Whether the linear loop has closed forms (order 4 + 1): two masses with measured velocity.
+/// Whether the linear loop has closed forms (order 4 + 1): a `…_masses` kind, measured velocity.
 bool has_closed_forms(const Case& the_case);
 
-/// The loop of a case that differs from the paper's model only by exact switching: play or none,
-/// one harmonic, an ideal computer. None for any other case.
+/// The paper's loop for exact switching of the contact. nullopt unless the case has two masses, one
+/// harmonic, an ideal computer, and a backlash law other than "dead_zone".
 std::optional<IdealLoop<double>> exactly_switched_loop_of(const Case& the_case);
 
 /// Throws MissingKeys for missing keys of the loop and its motion. A long job calls it first.
@@ -69,7 +69,7 @@ ImplementedLoopOf<Plant> uncontrolled(ImplementedLoopOf<Plant> loop) {
   return loop;
 }
 
-/// Bound of the state (m, m/s) in bounded motions of the case, even if kicked by `kick` (m).
+/// Size (m, m/s) that no bounded motion of the case reaches, even after a displacement `kick` (m).
 double divergence_bound(const Case& the_case, double kick);
 
 /// A warning that a motion diverges: its size exceeds divergence_bound(), or the loop is unstable

@@ -15,25 +15,25 @@
 
 namespace holdfast::program {
 
-/// Two masses in the paper's model, computed from sample to sample.
+/// Two masses in the paper's model (IdealLoop), with the motion computed from sample to sample.
 struct SampledMasses {
   static constexpr bool by_events = false;
   IdealLoop<double> loop;
   Vector<double, 4> state;  ///< initial [z1, v1, z2, v2] (m, m/s)
 };
 
-/// Two masses with all features of a case, computed from event to event.
+/// Two masses with all features of a case, computed from event to event (sample, contact change).
 struct BuiltMasses {
   static constexpr bool by_events = true;
   ImplementedLoop loop;
-  Vector<double, 4> state;
+  Vector<double, 4> state;  ///< initial [z1, v1, z2, v2] (m, m/s)
 };
 
 /// A conductor given by its modes in the paper's model, computed from sample to sample.
 struct SampledModes {
   static constexpr bool by_events = false;
   ModalLoop loop;
-  ModalMotion::Full state;
+  ModalMotion::Full state;       ///< initial state of the modes and the absorber
   std::vector<PlantPole> poles;  ///< poles of conductor and absorber
 };
 
@@ -44,14 +44,14 @@ struct BuiltPlant {
   Vector<double, Eigen::Dynamic> state;
 };
 
-/// The loop of a case with its initial state, in the model by which its motion is computed. Jobs
-/// handle it by an overload for each model, or by a visitor of `loop` and `state`.
+/// Control loop with its initial state, in one of the four models of MotionKind. Jobs handle it by
+/// an overload for each model, or by a visitor of `loop` and `state`.
 using MovingLoop = std::variant<SampledMasses, BuiltMasses, SampledModes, BuiltPlant>;
 
 /// The moving loops that are computed from event to event.
 using BuiltLoop = std::variant<BuiltMasses, BuiltPlant>;
 
-/// The moving loop of a case.
+/// Loop and initial state of a case, in the model that motion_kind_of() gives.
 /// @throws MissingKeys, WrongInput, NoAnswer or InvalidParameter where the case has no such motion
 MovingLoop moving_loop_of(const Case& the_case, const MotionChoice& choice);
 
@@ -86,9 +86,9 @@ double period_of(const MovingLoop& moving);
 /// A size (m, m/s) that no bounded motion of a moving loop reaches.
 double divergence_bound(const MovingLoop& moving);
 
-/// The motion of the plant without control under the true force: P = D = 0, no backlash, and
-/// samples fine enough for the peaks; in the paper's model if the force has one harmonic. Of
-/// [control] and [backlash] only the sampling period matters: it may select the conductor's modes.
+/// Loop for the motion without control: P = D = 0, no backlash, a force that is not held, and a
+/// sampling period short enough to show the peaks. Of [control] and [backlash] only the sampling
+/// period is used, to choose the conductor's modes.
 /// @param duration  duration of the motion (s)
 MovingLoop motion_without_control(const Case& the_case, double duration);
 

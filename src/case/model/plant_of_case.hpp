@@ -13,16 +13,16 @@
 
 namespace holdfast::program {
 
-/// The plant, control and excitation of a case as library objects. Each function below throws
-/// MissingKeys if the case does not have a key that it needs.
+/// Plant of a case: two masses. This and the next eight functions convert parts of a case into
+/// library objects; each throws MissingKeys if the case lacks a key that it needs.
 TwoMass<double> plant_of(const Case& the_case);
 PdGains<double> gains_of(const Case& the_case);
 Sampling<double> sampling_of(const Case& the_case);
-/// The exact discretisation of the loop, and the parameters on which its stability depends.
+/// Exact discretisation of the two-mass loop; operating_point_of() gives its parameters.
 SampledLoop<double> loop_of(const Case& the_case);
 OperatingPoint operating_point_of(const Case& the_case);
 HarmonicExcitation<double> excitation_of(const Case& the_case);
-/// Excitation of a motion: without amplitude and frequency, 0 N with one period per sample.
+/// Excitation of a motion. If the case gives neither amplitude nor frequency: 0 N, 1/τ (Hz).
 HarmonicExcitation<double> motion_excitation_of(const Case& the_case);
 ForceHold force_hold_of(const Case& the_case);
 Vector<double, 4> initial_state_of(const Case& the_case);
@@ -30,7 +30,7 @@ Vector<double, 4> initial_state_of(const Case& the_case);
 /// Duration (s) of the case's recorded force, up to its last row; infinite without a record.
 double end_of_force(const Case& the_case);
 
-/// Throws NoAnswer if motions have more than 10¹⁰ samples in all.
+/// Throws NoAnswer if a number of samples, the sum over all motions of a job, exceeds 10¹⁰.
 void require_bearable(double samples);
 
 /// Number of samples of a motion of the case: t = 0, τ, … up to `duration` (s). Throws WrongInput

@@ -25,8 +25,8 @@ TwoMass<double> plant_without_absorber_damping(const Case& the_case);
 /// Throws NoAnswer if no such plant exists or the program lacks an optional package.
 std::string settle_plant(Case& the_case);
 
-/// Completes the absorber of a case, the only part of [plant] for a conductor by its modes: its
-/// mass is absorber.mass unless plant.absorber_mass is given.
+/// Completes the absorber of a conductor modelled by its modes, which uses no other part of
+/// [plant]: its mass is absorber.mass unless plant.absorber_mass is given.
 /// @return names of its keys with built-in values, as a remark, or an empty text
 std::string settle_absorber(Case& the_case);
 

@@ -11,7 +11,7 @@ namespace holdfast::program {
 /// materials of a named conductor, or youngs_modulus and thermal_expansion. Throws MissingKeys.
 ConductorCurves conductor_curves_of(const Case& the_case);
 
-/// The weather of the bare conductor at a temperature (°C), and of the heaviest ice and wind.
+/// State (°C, N/m) of the bare conductor at a temperature (°C), and under the heaviest load.
 SpanWeather bare_weather_of(const Case& the_case, double temperature);
 SpanWeather loaded_weather_of(const Case& the_case);
 
@@ -30,7 +30,7 @@ StrungSpan strung_span_of(const Case& the_case);
 SpanTension tension_in(const Case& the_case, const StrungSpan& span, const SpanWeather& weather,
                        bool is_new);
 
-/// Fault of [stringing] and [weather] or their contradiction with [conductor].
+/// Fault in [stringing] or [weather], alone or together with [conductor].
 CaseFault stringing_fault(const Case& the_case);
 
 }  // namespace holdfast::program

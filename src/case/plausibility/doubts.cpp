@@ -294,7 +294,7 @@ std::string borrowed_damping_text(const Case& the_case) {
       the_case.is_given("conductor.damping_ratio"))
     return "";
   return "conductor.damping_ratio is " + format_number(the_case.conductor.damping_ratio) +
-         ", the value of the built-in cable: the library lists no ratio, and a stranded conductor "
+         ", the value of the built-in cable: no data sheet gives one, and a stranded conductor "
          "under tension has about 0.0001 to 0.002; give conductor.damping_ratio";
 }
 

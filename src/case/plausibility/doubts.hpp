@@ -20,7 +20,7 @@ struct UnitGuess {
 UnitGuess guessed_unit(const Case& the_case, const std::vector<std::string>& keys,
                        const std::vector<PlausibleQuantity>& quantities);
 
-/// The part of first_fault() that concerns quantities impossible for any cable, wind or drive.
+/// Fault of the first quantity impossible for any cable, wind or drive; part of first_fault().
 CaseFault impossible_fault(const Case& the_case);
 
 /// The quantities that concern the case: without plant.conductor_* unless the plant is two masses,
@@ -28,19 +28,19 @@ CaseFault impossible_fault(const Case& the_case);
 std::vector<PlausibleQuantity> in_question(const Case& the_case,
                                            const std::vector<PlausibleQuantity>& quantities);
 
-/// Doubts about quantities outside their usual ranges, a line each: place of the key, quantity,
-/// usual range, reason and likely unit. A mistaken unit is reported once for all quantities that it
-/// explains. Quantities that depend on no given key are skipped.
+/// Doubts about quantities outside their usual ranges, a line each: place of the key in the input,
+/// quantity, usual range, reason and likely unit. One mistaken unit gives one line even if it
+/// explains several quantities. Quantities that depend on no given key are skipped.
 std::vector<std::string> doubts_about(const Case& the_case,
                                       const std::vector<PlausibleQuantity>& quantities);
 
-/// A warning that the given plant contradicts the given conductor: k1, m2 or a natural frequency,
-/// the four inputs of a reduction, differs by more than 5 %. (Its results m1 and k2 may differ 30
-/// times as much near a double solution.) Empty otherwise.
+/// Warning that a plant given in full contradicts the given conductor: k1, m2 or one of the two
+/// natural frequencies, the inputs of a reduction, differs by more than 5 %. m1 and k2 are not
+/// compared: near a double solution they may differ 30 times as much. Empty otherwise.
 std::string contradicted_conductor_text(const Case& the_case);
 
-/// A warning of values given besides conductor.name that differ by more than a tenth from the
-/// library: both values, their ratio, and the unit that would explain it. Empty otherwise.
+/// Warning about values given together with conductor.name that differ by more than a tenth from
+/// the library: both values, their ratio, and a unit that explains the ratio. Empty otherwise.
 std::string contradicted_name_text(const Case& the_case);
 
 /// A warning that a named conductor has the built-in cable's damping ratio. Empty otherwise.

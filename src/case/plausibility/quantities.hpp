@@ -25,7 +25,7 @@ const std::vector<PlausibleQuantity>& quantities_of_case();
 /// Quantities of the plant, known once it is computed. Odd values are doubted but not refused.
 const std::vector<PlausibleQuantity>& quantities_of_plant();
 
-/// The reach (m) of the absorber's place, the largest displacement for a model of small motions:
+/// Largest displacement (m) of the absorber's place for which a model of small motions is valid:
 /// half of its distance from the nearer support; 3 m if the case gives no cable of its own.
 double reach_of_absorber(const Case& the_case);
 

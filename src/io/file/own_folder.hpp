@@ -9,7 +9,7 @@
 namespace holdfast::program {
 
 /// A folder owned by the effective user, opened directly and not through a symbolic link. Entries
-/// are removed from the opened folder, even if its path leads elsewhere meanwhile. Only regular
+/// are removed from the opened folder, even if its path now names another folder. Only regular
 /// files and empty folders are removed, no links and no devices.
 class OwnFolder {
  public:

@@ -17,7 +17,7 @@ namespace holdfast::program {
 /// The axes of a chart over P and D.
 std::vector<GridAxis> gain_axes(const GainGrid& grid);
 
-/// Caller's memory for the rows of a chart: stability flags, and the chart's columns of numbers.
+/// Memory into which a chart is written: stability flags, and the chart's columns of numbers.
 struct ChartMemory {
   std::size_t columns;  ///< number of values in a row
   std::uint8_t* first_flags;
@@ -56,15 +56,15 @@ void fill_chart(const ChartRows& chart, const ChartMemory& memory, int threads);
 /// Chart of a sampled loop; columns: stable and, with `radius`, the spectral radius.
 ChartRows sampled_chart(const LoopChart& chart, bool radius, InstructionSet instructions);
 
-/// Stability chart over P and D of a case's loop, for any plant. Columns as of sampled_chart().
+/// Stability chart over P and D of a case's loop, for any plant; columns as in sampled_chart().
 ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool radius,
                              InstructionSet instructions);
 
 /// Chart of a continuous loop; columns: stable and, with `abscissa`, the spectral abscissa (1/s).
 ChartRows continuous_chart(const TwoMass<double>& plant, const GainGrid& grid, bool abscissa);
 
-/// Chart of the response; columns: stable, steady amplitude (m) of z1 and its ratio to that without
-/// control, both NaN where the loop is unstable. For any plant of the case.
+/// Chart of the steady response; columns: stable, steady amplitude (m) of z1, and its ratio to that
+/// without control. Both numbers are NaN where the loop is unstable. For any plant of the case.
 ChartRows response_chart(const JobContext& context, const SteadyResponse<double>& response,
                          double force_amplitude, const GainGrid& grid);
 

@@ -14,7 +14,7 @@ std::vector<EnclosedPole> proved_poles_of(const Case& the_case);
 /// Enclosures of the poles as of proved_poles_of(); empty where nothing can be proved.
 std::vector<EnclosedPole> poles_if_proved(const Case& the_case);
 
-/// Whether texts/support.toml admits --prove for the kind of the case.
+/// Whether --prove is possible: ideal computer, no user-defined part, device or endless string.
 bool may_be_proved(const Case& the_case);
 
 }  // namespace holdfast::program

@@ -12,15 +12,15 @@
 
 namespace holdfast::program {
 
-/// Options of the search for the D of least amplitude: an upper limit of the spectral radius, or
-/// else a stability margin (default `usual_margin`). The margin refers to the decay rate for two
-/// masses and to the modulus margin for a modal conductor, both with or without filter and lag.
+/// Options of the search for the D of least steady amplitude: an upper limit of the spectral radius
+/// and a margin, by default `usual_margin`, or 0 with a given limit. The margin refers to the decay
+/// rate for two masses and to the modulus margin for other plants, with or without filter and lag.
 AmplitudeOptions amplitude_options_of(const Case& the_case,
                                       std::optional<double> largest_radius = std::nullopt,
                                       std::optional<double> margin = std::nullopt);
 
-/// Search for the D of least steady amplitude whose motion settles within T/2, half of a duration
-/// T. The spectral radius is at most e^{−10 τ/T}, so the transient falls to e^{−5} within T/2.
+/// Search for the D of least steady amplitude with which a motion of duration T settles in T/2: the
+/// spectral radius is at most e^{−10 τ/T}, so that transients fall to e^{−5} in T/2.
 class BestGains {
  public:
   /// Prepares searches. @param duration  duration T (s) of the motion, > 0
@@ -38,15 +38,15 @@ class BestGains {
   MinimumAmplitude answer_{};
 };
 
-/// Warning that the case's play leaves more vibration than the ratio `ideal` of gains chosen
-/// without play; two masses are simulated with and without control. Empty if the ratio rises by at
-/// most 5 %, without play, finite D or force, and for a plant other than two masses.
+/// Warning that gains chosen without play leave more vibration with the case's play. Two masses are
+/// simulated with and without control. Empty if the amplitude ratio is at most 5 % above `ideal`;
+/// without play, finite D or force; and for a plant other than two masses.
 /// @param gains  P (N/m), D (N s/m)
 /// @param ideal  ratio of the amplitude with the gains, without play, to that without control
 std::string play_warning(const Case& the_case, const PdGains<double>& gains, double ideal,
                          InstructionSet set);
 
-/// Options of the search for the longest sampling period that attenuates at a frequency (Hz), with
-/// P tuned to this frequency by Eq. 6. The ratio δ/τ of the case is kept.
+/// Options of the search for the longest sampling period that attenuates at a frequency (Hz). P is
+/// tuned to this frequency by Eq. 6; with a user-defined plant P and always δ/τ are the case's.
 MaxDelayOptions tuned_delay_question(const Case& the_case, double frequency);
 }  // namespace holdfast::program

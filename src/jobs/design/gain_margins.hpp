@@ -7,8 +7,8 @@
 
 namespace holdfast::program {
 
-/// Default margin of a recommended D: half of the way from the stability boundary to the D of
-/// fastest decay (`AmplitudeOptions::margin`).
+/// Default of `AmplitudeOptions::margin` for a recommended D: half of the distance from the
+/// stability boundary, and half of the decay rate, that the D of fastest decay has.
 inline constexpr double usual_margin = 0.5;
 
 /// Stability margins of a loop with given gains, in the tables' units; NaN where it is not stable.
@@ -16,7 +16,7 @@ struct GainMargins {
   double spectral_radius;
   double gain_decibels;     ///< gain margin (dB) of both gains; ∞: any increase is stable
   double phase_degrees;     ///< phase margin; ∞ where the open-loop gain is never 1
-  double delay;             ///< delay margin (s) beside δ; or the end of the search
+  double delay;             ///< delay margin (s) in addition to δ; or the end of the search
   bool is_delay_of_search;  ///< whether `delay` is the end of the search
 };
 
@@ -26,16 +26,16 @@ GainMargins gain_margins(const LinearLoop& loop, const PdGains<double>& gains);
 /// Warns that gains lie on the stability boundary and have no margin.
 void warn_of_edge(double spectral_radius, double sampling_period, bool quiet);
 
-/// Stable ranges of P, D, τ and δ around the values of a case.
+/// Stable ranges of the gains P, D, the sampling period τ and the delay δ around those of a case.
 struct CaseMargins {
   StabilityMargins margins;
-  /// Whether τ and δ surely have no unstable interval within their ranges: found by formula, or by
-  /// a proof that takes about a second at most.
+  /// Whether the ranges of τ and δ are known to contain no unstable interval: by formula, or by a
+  /// proof that takes about a second at most.
   bool looked_everywhere;
 };
 
-/// Margins in floating point, with a quick proof that no step missed an unstable interval.
-/// @param of_delay  whether δ is searched, too
+/// Stability margins in floating point. If τ and δ are searched in steps, a proof of about a second
+/// checks for unstable intervals between steps. @param of_delay  whether δ is searched, too
 CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains,
                                  bool of_delay = true);
 

@@ -33,9 +33,9 @@ std::vector<FamilyMember> family_members(const Case& the_case, int draws);
 /// Function that computes a job's table for one member.
 using MemberAnswer = std::function<ReceivedTable(const FamilyMember&)>;
 
-/// Writes a job's table over a family: each row is that of the worst member, whose name is added.
-/// [worst] of texts/jobs.toml defines which column decides; stable intervals are intersected. Warns
-/// that other members are not covered, unless intervals are to be proved, see proved_interval().
+/// Writes a job's table over a family: each row is that of the worst member, with its values added.
+/// [worst] of texts/jobs.toml names the columns that decide; stable intervals are intersected.
+/// Warns that members between the drawn ones are not checked, unless `prove`: proved_interval().
 /// Throws WrongInput where [worst] has no column for the job, NoAnswer where members give different
 /// numbers of rows, and what a member's answer throws, with the member named.
 void write_worst_of_family(const JobContext& context, int draws, bool prove,

@@ -204,7 +204,7 @@ FamilyProof family_proof_of(const JobContext& context, std::size_t parts) {
   throw WrongInput(
       "--family --prove works only for plant.model = \"two_masses\", or \"string\" with "
       "conductor.damping = \"ratio\", in both cases without [[device]] and with an ideal computer "
-      "and drive (docs/support.md); leave --prove out to compare members of any loop");
+      "and drive (docs/support.md); without --prove, members of any loop's family are compared");
 }
 
 std::optional<Interval<double>> proved_interval(JobContext context, const std::string& gain,

@@ -27,9 +27,9 @@ struct FamilyProof {
 /// @param parts  largest number of sub-boxes to examine
 FamilyProof family_proof_of(const JobContext& context, std::size_t parts = 4000);
 
-/// Interval of a gain in which every member of the family is proved stable: the given interval
-/// shortened at each end by a share of its length, from 0.002 to at most 0.1; an unstable member
-/// found replaces an end. nullopt where no such interval is proved.
+/// Interval of a gain in which every member of the family is proved stable: the given interval,
+/// shortened at each end by 0.002 to 0.1 of its length. The gain of an unstable member that the
+/// proof finds replaces the nearer end. nullopt where nothing is proved.
 /// @param gain      "proportional_gain" or "differential_gain"
 /// @param other     value of the other gain
 /// @param interval  interval in which the drawn members are stable

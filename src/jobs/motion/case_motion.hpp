@@ -13,9 +13,9 @@
 
 namespace holdfast::program {
 
-/// Motion of a case from its initial state, by the library's motion class for its loop. States are
-/// [z1, v1, z2, v2] of conductor and absorber at the absorber's position. Satisfies is_motion_v; as
-/// a wrapper it compiles the library's motion templates only once.
+/// Motion of a case from its initial state, for any of the four models of MovingLoop. States are
+/// [z1, v1, z2, v2] of conductor and absorber at the absorber's position. Satisfies is_motion_v;
+/// templates over motions need be compiled for this class alone.
 class CaseMotion {
  public:
   using State = Vector<double, 4>;  ///< [z1, v1, z2, v2] (m, m/s, m, m/s)
@@ -55,8 +55,8 @@ ReachedState end_of(const Motion& motion) {
   return {motion.time(), motion.state().cwiseAbs().maxCoeff(), motion.counts()};
 }
 
-/// Reports doubts about a finished motion: throws NoAnswer where contact changes accumulate, so
-/// that the motion is unreliable. Warns where rounding decided contact changes, and where the
+/// Reports doubts about a finished motion. Throws NoAnswer where too many contact changes within a
+/// sampling period ended it. Warns where rounding errors decided contact changes, and where the
 /// motion diverges, even without overflow.
 /// @param kick  displacement imposed during the motion, m
 void tell_of_end(const JobContext& context, const ReachedState& end, bool controlled = true,

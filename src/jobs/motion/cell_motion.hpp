@@ -15,20 +15,20 @@
 
 namespace holdfast::program {
 
-/// The motion of one cell of a sweep. Throws InvalidParameter where the loop is not admissible,
-/// WrongInput where a recorded force ends before the duration; NoAnswer where natural motions
-/// cannot be told apart.
+/// Loop and initial state of one cell of a sweep. Throws InvalidParameter where the loop is not
+/// admissible, WrongInput without absorber or where a recorded force ends before the duration (s),
+/// NoAnswer where two poles nearly coincide.
 MovingLoop cell_motion(const Case& the_case, Switching switching, double duration);
 
-/// Metrics of each motion. Motions in the paper's model are computed in SIMD lanes of `set`. A
-/// motion beyond its loop's divergence_bound() counts as diverged. Throws Interrupted.
+/// Metrics of each motion over a duration (s). Two masses are computed in SIMD lanes of `set` where
+/// possible. A motion beyond its loop's divergence_bound() counts as diverged. Throws Interrupted.
 std::vector<MotionMetrics> metrics_of(const std::vector<MovingLoop>& motions, double duration,
                                       InstructionSet set);
 
-/// Metrics of a diverging motion, where the computed samples do not show the divergence.
+/// Metrics of a motion that diverges, although the computed samples do not overflow.
 MotionMetrics diverging(const MotionMetrics& metrics);
 
-/// Lyapunov exponents of a motion, and its end: for switching at samples, only the time is set.
+/// Lyapunov exponents of a motion, and its end; in the paper's model only the end's time is set.
 struct ExponentsOfMotion {
   LyapunovResult result;
   ReachedState end;

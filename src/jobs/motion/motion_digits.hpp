@@ -14,11 +14,11 @@
 
 namespace holdfast::program {
 
-/// Largest number of samples compared to find a motion's trusted digits, counted from the first.
+/// Largest number of samples, from the first on, that are compared to find the trusted digits.
 inline constexpr std::int64_t most_compared_samples = 100'000;
 
 /// Motion of a case with one more rounding error per sample: z1 is moved up or down by 2⁻⁵² of the
-/// largest |z1| so far. It replaces a motion in a wider number type where there is none.
+/// largest |z1| so far. It is the reference where the motion cannot be computed in long double.
 class RoundedMotion {
  public:
   explicit RoundedMotion(const CaseMotion& motion) : motion_(motion) {}
@@ -32,12 +32,12 @@ class RoundedMotion {
   double largest_ = 0.0;  // |z1|, m
 };
 
-/// Observer that finds the trusted digits of a motion: it runs the same motion in long double, or
-/// with other rounding errors, and compares the states. Differences are relative to the largest
-/// displacement or velocity so far, so that zero crossings cost no digits.
+/// Observer that finds the trusted digits of a motion: it compares the states with a reference, the
+/// same motion in long double or with other rounding errors. Differences are relative to the
+/// largest displacement or velocity so far, so that zero crossings do not reduce the digits.
 class MotionDigits {
  public:
-  /// Reference in long double, for a motion of the paper's model.
+  /// Observer with a reference in long double, for a motion of the paper's model.
   /// @param loop           loop of the motion
   /// @param initial_state  z₀, 4 × 1 (m, m/s, m, m/s)
   /// @param kick           kick given to run_trajectory()
@@ -45,7 +45,7 @@ class MotionDigits {
   MotionDigits(const IdealLoop<double>& loop, const Vector<double, 4>& initial_state,
                const std::optional<Kick>& kick = std::nullopt, double from = 0.0);
 
-  /// Reference with other rounding errors, for any motion of two masses.
+  /// Observer with a reference with other rounding errors, for any motion of two masses.
   MotionDigits(const CaseMotion& motion, const std::optional<Kick>& kick, double from);
 
   /// Compares one sample; must be called for every sample from the first on.
@@ -69,18 +69,18 @@ class MotionDigits {
   std::int64_t compared_ = 0;
 };
 
-/// Observer of the trusted digits of a motion from `from` (s) on: with a reference in long double
-/// for the paper's model, otherwise with other rounding errors. nullopt for a modal conductor.
+/// Observer of the trusted digits of a motion from the time `from` (s) on. Reference: long double
+/// for the paper's model, else other rounding errors. nullopt for plants other than two masses.
 std::optional<MotionDigits> digits_beside(const MovingLoop& moving, const std::optional<Kick>& kick,
                                           double from);
 
-/// Trusted digits of the first `samples` samples of a motion, run here as the event-driven motion
-/// of the same loop `built`; 17 where the motion cannot be checked.
+/// Trusted digits of the first `samples` samples of a motion; differences before `from` (s) do not
+/// count. The motion is computed here by events, from `built`. 17 digits where there is no check.
 TrustedDigits trusted_digits_of_motion(const MovingLoop& moving, const BuiltLoop& built,
                                        std::int64_t samples, double from);
 
-/// Trusted digits of the deviation of a neighbour whose z₁ starts `offset` (m) away, relative to
-/// this deviation; 17 where it cannot be checked.
+/// Trusted digits of the difference between two motions whose z₁ initially differs by `offset` (m);
+/// 17 digits where it cannot be checked.
 TrustedDigits trusted_digits_of_deviation(const MovingLoop& moving, double offset,
                                           std::int64_t samples);
 

@@ -21,9 +21,9 @@ auto orbit_of(const Moving& moving, const OrbitLimits& limits) {
     return find_periodic_orbit(moving.loop, moving.state, limits);
 }
 
-/// Certified periodic orbit to which a loop's motion converges. For a modal conductor it has the
-/// ten largest multipliers and, with exact switching, the states of conductor and absorber. Warns
-/// where a switching surface is near; throws NoAnswer, with the reason, where none is found.
+/// Certified periodic orbit to which a loop's motion converges. Of SampledModes and BuiltPlant it
+/// has only the ten largest multipliers, of BuiltPlant only the states of conductor and absorber.
+/// Warns where a switching surface is near; throws NoAnswer, with the reason, where none is found.
 /// @param largest_period  longest period searched (samples)
 PeriodicOrbit certified_orbit(const JobContext& context, const SampledMasses& moving,
                               std::int64_t largest_period);
@@ -34,7 +34,7 @@ PeriodicOrbit certified_orbit(const JobContext& context, const SampledModes& mov
 EventOrbit certified_orbit(const JobContext& context, const BuiltPlant& moving,
                            std::int64_t largest_period);
 
-/// Certified orbit of two masses with exact switching, and its start.
+/// Certified orbit of two masses with exact switching, with the full result of its search.
 EventOrbitResult<DriveContact<>> certified_event_orbit(const JobContext& context,
                                                        const BuiltMasses& moving,
                                                        std::int64_t largest_period);
@@ -45,8 +45,8 @@ struct CaptureRadii {
   double largest;   ///< largest radius along the orbit (m)
 };
 
-/// Capture radii of a modal conductor: `smallest` belongs to a ball in all states, `largest` to the
-/// ellipsoid around that ball.
+/// Capture radii of a modal conductor: `largest` is that of an ellipsoid of attraction in the space
+/// of all states, `smallest` that of the largest ball in it. Both are 0 if none is found.
 CaptureRadii capture_radii_of(const ModalLoop& loop, const PeriodicOrbit& orbit);
 
 /// Capture radii of two masses, over the balls of attraction_balls() along the orbit.

@@ -24,8 +24,8 @@ struct FollowedKey {
 FollowedKey followed_key(const Case& the_case, const std::string& option, const std::string& text);
 
 /// Writes the border of the region, in the plane of two keys, in which the case's periodic motion
-/// exists and attracts. Each piece of the border is named by the event that ends the motion. If a
-/// key is the sampling period τ or the excitation frequency f, the other changes so that f τ stays.
+/// exists and is stable. Each piece of the border has the name of the event that ends the motion.
+/// If a key is the sampling period τ or excitation frequency f, the other varies with constant f τ.
 /// Throws WrongInput where the motion cannot be followed along the keys, NoAnswer where it has no
 /// certified orbit.
 /// @param axes            two texts KEY=MIN:MAX

@@ -78,7 +78,7 @@ class AeolianBalance : SpanInWind {
 };
 
 /// Fast version of `AeolianBalance::largest` for many sets of devices at fixed frequencies. Wind
-/// power and self-damping are computed once per pair of laws, on the grid of `balanced_amplitude`.
+/// power and self-damping on the amplitude grid of `balanced_amplitude` are computed only once.
 class LargestVibration : SpanInWind {
  public:
   /// @param frequencies  frequencies (Hz) at which at() can be called

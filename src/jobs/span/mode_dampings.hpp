@@ -12,15 +12,15 @@ namespace holdfast::program {
 struct ModeRow {
   double frequency;           ///< frequency (Hz) of the bare conductor
   double bare;                ///< damping ratio ζ of the bare conductor
-  std::complex<double> root;  ///< eigenvalue s (1/s); NaN where the search lost it
+  std::complex<double> root;  ///< eigenvalue s (1/s); NaN where it is not found
   double first_order;         ///< ζ by the approximation for light devices
   double asymptotic;          ///< ζ by Krenk's asymptote for devices near a support
 
   double damping() const;  ///< −Re s/|s|; negative: the mode grows
 };
 
-/// Modes of a case's conductor, from the lowest on. With [[device]]: modes of the taut string with
-/// all devices and the absorber; otherwise of the case's plant with its absorber. Throws WrongInput
+/// Dampings of the lowest modes of a case's conductor. With [[device]]: modes of the taut string
+/// with all devices and the absorber; else of the case's plant with its absorber. Throws WrongInput
 /// for a plant without modes.
 /// @param count       largest number of modes
 /// @param controlled  whether the computer acts

@@ -114,11 +114,11 @@ std::string life_advice(const FatigueLife& life, double years) {
            "of the diameter (" +
            band + " years)";
   if (served.lowest >= years)
-    return "by every pair of laws the conductor lives longer than the " + asked +
-           " of site.years (" + band + " years)";
+    return "by every pair of laws (wind, self-damping) the conductor lives longer than the " +
+           asked + " of site.years (" + band + " years)";
   if (served.highest < years)
-    return "by every pair of laws the conductor lives less than the " + asked + " of site.years (" +
-           band + " years): damp the conductor more, or lower its tension";
+    return "by every pair of laws (wind, self-damping) the conductor lives less than the " + asked +
+           " of site.years (" + band + " years): damp the conductor more, or lower its tension";
   return "whether the conductor lives the " + asked + " of site.years depends on the law: " + band +
          " years; measure the vibration, or damp the conductor until the shortest life is enough";
 }

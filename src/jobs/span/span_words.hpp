@@ -25,8 +25,8 @@ Axis parse_frequencies(std::string_view option, std::string_view text);
 /// Note that strains are NaN because the conductor's wires are not given; else empty.
 std::string unknown_strain_note(const AeolianBalance& balance);
 
-/// Note that the span is unstable at rest or the absorber's loop grows, so that there is no steady
-/// vibration; empty for a stable loop or without absorber.
+/// Note that the span is unstable at rest, that the absorber's loop is unstable, or that a measured
+/// device leaves its stability unknown; else empty.
 std::string instability_note(const Case& the_case, bool controlled);
 
 /// Note that the self-damping laws were measured on conductors of another kind, or that the kind is

@@ -58,8 +58,8 @@ std::vector<Figure> listed_figures(const std::string& list, const Values& values
 /// Strings of a TOML table, by their keys.
 Values values_of(const toml::table& table);
 
-/// Figure of a [kind] in texts/figures.toml.
-/// @param figure  its name, title and caption
+/// Figure of one of the kinds that [kind] in texts/figures.toml lists.
+/// @param figure  name, title and caption of the figure
 /// @param tables  suffix of the name and command of each table; null: the tables of the kind
 Figure figure_of_kind(Figure figure, const std::string& kind_name, const toml::array* tables,
                       const Values& given, const std::vector<Values>& panels);
@@ -79,8 +79,8 @@ std::vector<Figure> figures_of(const Case& the_case, bool builtin);
 /// Ranges "P" and "D" of a window of gains around the gains of the case, as wide as these gains.
 Values window_of_gains(const Case& the_case);
 
-/// Range of --p or --d in a chart of gains: the given range, else the paper's. A range around the
-/// case's gains replaces the paper's if these lie outside it or the absorber is of another size.
+/// Range of --p or --d in a chart of gains: `range` if the user gave the option, or if gains and
+/// absorber stiffness are within the paper's ranges; else a range around the case's gains.
 /// @param range  given or paper's range, MIN:MAX or MIN:MAX:COUNT
 std::string shown_gains(const JobContext& context, const std::string& option,
                         const std::string& range);
@@ -106,7 +106,7 @@ std::string shell_text(const std::vector<std::string>& arguments,
 /// Text of a number with `digits` significant digits.
 std::string rounded(double value, int digits);
 
-/// End of an axis: a number with one digit, a little above the value.
+/// End of an axis: the value plus 2 %, rounded up to one significant digit.
 double rounded_up(double value);
 
 /// Unit (mm, µm or nm) in which a length (m) is a number of about 0.1 to 100.
@@ -139,8 +139,8 @@ std::string shown_on(const MapAxis& axis, const std::string& value);
 /// tics", and "x", the expression of the displayed value of a column.
 Values values_of(const std::string& letter, const MapAxis& axis, const std::string& column);
 
-/// Label of an axis over a key of the case, with the displayed unit: "sampling period τ (ms)". Any
-/// other word is its own label.
+/// Label of an axis over a key of the case, with the displayed unit: "sampling period τ (ms)". A
+/// word that is no key is returned unchanged.
 std::string label_of(const std::string& key);
 
 /// Ratio of the displayed value to the key's value, on an axis with the label of label_of().

@@ -369,8 +369,12 @@ Answer how_slow(const Case& the_case) {
   const char* text = "up to a period";
   if (longest.outcome == MaxDelayOutcome::beyond_search) text = "at least a period";
   if (!(longest.sampling_period > 0.0)) text = "no period serves";
-  answer.answer = page_text(text, {{"longest", milliseconds(longest.sampling_period)}}) +
-                  own_period_text(the_case);
+  const double p = question.proportional_gain, own = gains_of(the_case).proportional;
+  const bool is_tuned = std::abs(p - own) <= 0.01 * std::abs(own);
+  answer.answer =
+      page_text(text, {{"longest", milliseconds(longest.sampling_period)},
+                       {"gains", is_tuned ? "D" : "P = " + rounded(p, 4) + " N/m and D"}}) +
+      own_period_text(the_case);
   return answer;
 }
 

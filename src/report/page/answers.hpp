@@ -18,7 +18,7 @@ struct Answer {
   std::vector<std::string> arguments;  ///< command line, without the options of the case
 };
 
-/// Question by its name in texts/page.toml, with detail and command but no answer yet.
+/// Answer object for a question of texts/page.toml: question, detail and command, no answer yet.
 Answer asked(const std::string& name, const Values& values = {});
 
 /// Answers questions about a case, with contact changes only at samples: doubtful values, if any;
@@ -55,7 +55,7 @@ struct MotionRow {
 /// Text of sampling period and play: "τ = 1 ms, r₀ = 0.5 mm".
 std::string loop_text(const Case& the_case);
 
-/// The motions of Kollár's Figs. 6–13 with their neighbours, and some beyond them.
+/// Rows for the motions of Kollár's Figs. 6–13, for motions near these, and for some others.
 /// @param the_case  the built-in case
 std::vector<MotionRow> paper_motions(const Case& the_case);
 

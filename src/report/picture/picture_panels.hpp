@@ -23,14 +23,14 @@ struct PicturePanel {
   PanelAxis x, y, right_axis;
 };
 
-/// gnuplot plots, each followed by a command by which gnuplot prints the panel's place and axes.
+/// gnuplot commands with, after each plot, a command that prints the panel's place and axes.
 std::string with_measured_panels(const std::string& plot);
 
 /// Panels measured by gnuplot, from its messages. A panel without a label gets the label of the
 /// panel below or to the left, with which it shares the axis.
 std::vector<PicturePanel> measured_panels(const std::string& messages);
 
-/// Messages of gnuplot without those about panels.
+/// Messages of gnuplot without the lines that with_measured_panels() makes it print.
 std::string without_panels(const std::string& messages);
 
 /// Label of an axis as plain text, without gnuplot's marks for fonts, indices and non-breaking

@@ -64,7 +64,7 @@ TEST(SpanReport, ShowsWhatTheJobsTellOfALine) {
                         "frequency of vibration f"});
   expect_holds(page, {"vibrate without devices?", "vibrate with the devices?", "150 peak to peak",
                       "winds of 1 to 8 m/s", "no computer acts on this span",
-                      "Advice: by every pair of laws the conductor lives less"});
+                      "(wind, self-damping) the conductor lives less"});
   EXPECT_EQ(page.find("Not computed"), std::string::npos);
   EXPECT_EQ(page.find("No picture"), std::string::npos);
 }

@@ -30,7 +30,7 @@ inline double rounded_modulus(const std::complex<double>& z) {
 /// does not widen a disc, whereas it would widen a rectangle.
 ///
 /// Every operation gives a disc that contains the exact result for all numbers in the discs of its
-/// arguments. Division by a number that may be 0, or overflow, gives an infinite radius.
+/// arguments. The radius is infinite after an overflow or a division by a number that may be 0.
 class ComplexEnclosure {
  public:
   /// Constructs the exact number 0.

@@ -60,10 +60,15 @@ struct ComplexLanes {
     const Reals scale = (re * re + im * im).inverse();
     return {re * scale, -im * scale};
   }
+  /// The conjugate in every lane.
+  EIGEN_ALWAYS_INLINE ComplexLanes conjugate() const { return {re, -im}; }
   EIGEN_ALWAYS_INLINE ComplexLanes& operator+=(const ComplexLanes& other) {
     re += other.re;
     im += other.im;
     return *this;
+  }
+  EIGEN_ALWAYS_INLINE friend ComplexLanes operator+(const ComplexLanes& a, const ComplexLanes& b) {
+    return {a.re + b.re, a.im + b.im};
   }
   EIGEN_ALWAYS_INLINE friend ComplexLanes operator-(const ComplexLanes& a, const ComplexLanes& b) {
     return {a.re - b.re, a.im - b.im};

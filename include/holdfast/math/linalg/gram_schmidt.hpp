@@ -21,7 +21,7 @@ using Alive = std::array<bool, 5>;
 /// The factor R of the factorisation B = Q R: its squared diagonal and the squared norm of R⁻¹.
 template <class Number, int Columns>
 struct Stretches {
-  Vector<Number, Columns> squares;  ///< R_ii²; 0 for a zero column i, 1 if `alive` was false
+  Vector<Number, Columns> squares;  ///< R_ii²; 0 for a zero column i, 1 if its flag was false
   Number inverse;  ///< ‖R⁻¹‖_F², Frobenius norm over the columns that remain alive
 };
 
@@ -53,8 +53,8 @@ Number inverse_square_norm(const Number (&unit_upper)[Columns][Columns],
 /// relative error of R and the deviation of Q from orthogonality are about round-off times
 /// ‖B‖ ‖R⁻¹‖. Source: Å. Björck, BIT 7 (1967).
 /// @param basis  matrix B, replaced by Q; a column whose flag is false in the end becomes zero
-/// @param alive  flags of the columns; all flags become false from the first column on that has a
-///               false flag or depends linearly on earlier columns
+/// @param alive  flags of the columns. The first column that has a false flag or is a linear
+///               combination of earlier ones gets a false flag, and so do all later columns
 /// @return R_ii² and ‖R⁻¹‖_F²
 template <class Number, int Columns>
 Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, Alive& alive) {

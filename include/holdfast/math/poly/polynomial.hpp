@@ -183,7 +183,7 @@ std::vector<typename Coefficients::Scalar> positive_roots(
 }
 
 /// The number of roots with positive real part. All roots are computed.
-/// @param polynomial  coefficients, constant term first; in s, or in w of in_half_plane()
+/// @param polynomial  coefficients, constant term first; for a sampled loop from in_half_plane()
 template <class Coefficients>
 int unstable_roots(const Eigen::MatrixBase<Coefficients>& polynomial) {
   using Scalar = typename Coefficients::Scalar;

@@ -83,4 +83,29 @@ SignChange<Scalar> bracketing_root(const Function& function, const SignChange<Sc
   return {near.x, far.x, near.value, far.value, evaluations};
 }
 
+namespace detail {
+
+/// Narrows an interval about a function's minimum by golden section, with one value per step.
+/// @return the middle of the last interval
+template <class Scalar, class Value>
+Scalar narrow_to_minimum(Scalar lower, Scalar upper, int steps, const Value& value) {
+  const Scalar golden(0.3819660112501051);
+  Scalar left = lower + golden * (upper - lower), right = upper - golden * (upper - lower);
+  Scalar at_left = value(left), at_right = value(right);
+  for (int k = 0; k < steps; ++k) {
+    if (at_left < at_right) {
+      upper = std::exchange(right, left);
+      left = lower + golden * (upper - lower);
+      at_right = std::exchange(at_left, value(left));
+    } else {
+      lower = std::exchange(left, right);
+      right = upper - golden * (upper - lower);
+      at_left = std::exchange(at_right, value(right));
+    }
+  }
+  return (lower + upper) / Scalar(2);
+}
+
+}  // namespace detail
+
 }  // namespace holdfast

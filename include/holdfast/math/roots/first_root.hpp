@@ -83,9 +83,9 @@ inline FirstRoot first_root_of_positive(const Series& q) {
 /// The first root in [0, 1] of a polynomial p(x) = Σ c_k xᵏ. No root is missed.
 ///
 /// On [0, 1], |p″| ≤ M = Σ k (k − 1) |c_k| and hence p(x + s) ≥ p(x) + p′(x) s − M s²/2. The search
-/// moves from x to the root of this parabola in s; p has no root before. It converges quadratically
-/// to a crossing, linearly where p touches zero. A root at x = 0 with p > 0 just after it does not
-/// count. If p < 0 just after x = 0, the root is 0.
+/// moves from x to the root of this parabola in s; p has no root in between. It converges
+/// quadratically to a crossing, linearly where p touches zero. A root at x = 0 does not count if
+/// p > 0 just after it. If p < 0 just after x = 0, the root is 0.
 ///
 /// Work: one Horner evaluation of p and p′ per step; about five steps for a crossing. After 2048
 /// steps the point reached is returned as grazing.

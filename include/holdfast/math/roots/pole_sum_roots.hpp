@@ -6,7 +6,6 @@
 #include <complex>
 #include <cstddef>
 #include <limits>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -59,20 +58,16 @@ class RootIteration {
 
   /// @param extra     number of roots in excess of the poles: order of the pole of p at λ = 0
   /// @param mirrored  whether roots of conjugate poles are first assumed to be conjugate
-  /// @param enough    admissible error of a root, as a share of its distance from the unit circle
-  ///                  or of |d|, whichever is less
-  RootIteration(const PoleSum<Scalar>& sum, int extra, bool mirrored, const Scalar& enough)
+  RootIteration(const PoleSum<Scalar>& sum, int extra, bool mirrored)
       : weight_(sum.weight),
         radius_(sum.radius),
         power_(sum.power),
         past_(sum.past),
-        enough_(enough),
         poles_(sum.parts.size()),
         settled_(poles_ + static_cast<std::size_t>(extra), 0),
         steps_(settled_.size()) {
     for (const auto& part : sum.parts) {
       parts_.push_back({part.increment, part.present, part.past, Complex(0)});
-      rough_.push_back(rough_row(part.increment, part.present));
       if (part.past != Complex(0)) past_from_ = std::min(past_from_, parts_.blocks().size() - 1);
     }
     find_mirrors(mirrored);
@@ -121,11 +116,11 @@ class RootIteration {
 
   /// The Taylor series about a root λ of the sums over all poles e but the root's own: coefficients
   /// Σ a/(λ − e)^{m+1} and Σ b/(λ − e)^{m+1} of (−δ)^m at λ + δ. `nearest` is the distance of the
-  /// nearest of these poles, `rounding` bounds the error of the first sum in single precision.
+  /// nearest of these poles.
   struct Series {
     static constexpr std::size_t terms = 3;
     std::array<Complex, terms> a, b;
-    Scalar nearest, rounding;
+    Scalar nearest;
   };
 
   /// The sums over all poles e at a given λ, with their derivatives by λ.
@@ -218,9 +213,8 @@ class RootIteration {
     const Factors at = factors_at(own[0] + d);
     const Value left = without_pole(own, d, at, sums_near(others, d - own[3]));
     const Scalar error = size_of(d) / size_of(left.slope) *
-                         (size_of(at.a) * (left_out(others.a) + others.rounding) +
-                          size_of(at.b) * left_out(others.b));
-    return is_negligible(Scalar(10) * error, d, Complex(1) + (own[0] + d));
+                         (size_of(at.a) * left_out(others.a) + size_of(at.b) * left_out(others.b));
+    return Scalar(10) * error <= tolerance_ * size_of(d) + floor_;
   }
 
   /// Restarts unconverged roots of conjugate poles separately, since they may be real and unequal.
@@ -243,57 +237,36 @@ class RootIteration {
     parts_.set(i, row);
   }
 
-  static typename ComplexRows<float, 2>::Row rough_row(const Complex& increment,
-                                                       const Complex& present) {
-    return {std::complex<float>(increment), std::complex<float>(present)};
-  }
-
-  /// The Taylor series, over all other poles, about the root that belongs to pole i. For the first
-  /// estimate (d = 0) the sums of a are in single precision if the roots need not be accurate.
+  /// The Taylor series, over all other poles, about the root that belongs to pole i.
   Series series_about(std::size_t i, const Row& own) {
     Series series{};
-    if (enough_ > Scalar(0) && own[3] == Complex(0)) {
-      rough_.set(i, rough_row(Complex(parked), Complex(0)));
-      Scalar size(0);
-      series.nearest = add_series<float, 1>(rough_, own, 0, series.a, &size);
-      rough_.set(i, rough_row(own[0], own[1]));
-      series.rounding = Scalar(6e-8) * (Scalar(4) + std::abs(own[0]) / series.nearest) * size;
-    }
     parts_.set(i, {Complex(parked), Complex(0), Complex(0), Complex(0)});
-    if (series.nearest == Scalar(0))
-      series.nearest = add_series<Scalar, 1>(parts_, own, 0, series.a);
-    if (past_from_ < parts_.blocks().size())
-      add_series<Scalar, 2>(parts_, own, past_from_, series.b);
+    series.nearest = add_series<1>(own, 0, series.a);
+    if (past_from_ < parts_.blocks().size()) add_series<2>(own, past_from_, series.b);
     parts_.set(i, own);
     return series;
   }
 
   /// Computes a (`column` 1) or b (2) of a `Series` from the poles of blocks `from` and later.
-  /// @param size  if given, set to Σ (|Re| + |Im|) over the terms of series[0]
   /// @return distance from λ to the nearest pole
-  template <class Real, std::size_t column, class Rows>
-  static Scalar add_series(const Rows& rows, const Row& own, std::size_t from,
-                           std::array<Complex, Series::terms>& series, Scalar* size = nullptr) {
-    using Lanes = ComplexLanes<Real>;
+  template <std::size_t column>
+  Scalar add_series(const Row& own, std::size_t from,
+                    std::array<Complex, Series::terms>& series) const {
+    using Lanes = ComplexLanes<Scalar>;
     Lanes first, second, third;
-    typename Lanes::Reals nearest = first.re, sizes = first.re;
-    const std::complex<Real> pole(own[0]), distance(own[3]);
-    const std::size_t blocks = rows.blocks().size();
-    for (std::size_t k = from; k < blocks; ++k) {
-      const auto& block = rows.blocks()[k];
-      const Lanes away = (pole - block[0]) + distance;
+    typename Lanes::Reals nearest = first.re;
+    for (std::size_t k = from; k < parts_.blocks().size(); ++k) {
+      const auto& block = parts_.blocks()[k];
+      const Lanes away = (own[0] - block[0]) + own[3];
       const typename Lanes::Reals scale = (away.re * away.re + away.im * away.im).inverse();
       const Lanes inverse{away.re * scale, -away.im * scale};
       nearest = nearest.max(scale);
       const auto one = block[column] * inverse, two = one * inverse;
-      const auto three = two * inverse;
-      if constexpr (std::is_same_v<Real, float>) sizes += one.re.abs() + one.im.abs();
       first += one;
       second += two;
-      third += three;
+      third += two * inverse;
     }
     series = {first.sum(), second.sum(), third.sum()};
-    if (size != nullptr) *size = sizes.sum();
     return Scalar(1) / std::sqrt(nearest.maxCoeff());
   }
 
@@ -398,16 +371,7 @@ class RootIteration {
     if (!std::isfinite(size)) return std::abs(lambda) < Scalar(1e-15);
     unknown -= step;
     const Scalar shrinking = std::min(Scalar(1), size / std::exchange(steps_[i], size));
-    // Two real roots would be returned as a pair near their mean, whose sum is right.
-    const bool may_be_real =
-        i < poles_ && mirrors_[i] != i && !(size < enough_ * std::abs(lambda.imag()));
-    return size * shrinking <= tolerance_ * std::abs(unknown) + floor_ ||
-           (!may_be_real && is_negligible(size, unknown, lambda));
-  }
-
-  bool is_negligible(const Scalar& error, const Complex& unknown, const Complex& lambda) const {
-    return error <= tolerance_ * size_of(unknown) + floor_ ||
-           error < enough_ * std::min(std::abs(Scalar(1) - size_of(lambda)), size_of(unknown));
+    return size * shrinking <= tolerance_ * std::abs(unknown) + floor_;
   }
 
   /// Whether the roots z have the right sum: the sum of the poles, plus w(∞) (g + Σ a) where n = 0.
@@ -425,8 +389,7 @@ class RootIteration {
       sum += root;
       size += std::abs(root);
     }
-    const Scalar share(enough_ > Scalar(0) ? 1e-4 : 1e-9);
-    return std::abs(sum) <= share * size + Scalar(1e-14) * Scalar(poles_);
+    return std::abs(sum) <= Scalar(1e-9) * size + Scalar(1e-14) * Scalar(poles_);
   }
 
   typename PoleSum<Scalar>::Weight weight_;
@@ -434,11 +397,10 @@ class RootIteration {
   int power_;
   Complex past_;                                                     // g
   std::size_t past_from_ = std::numeric_limits<std::size_t>::max();  // first block with a b
-  Scalar tolerance_{1e-14}, floor_{1e-17}, enough_;
+  Scalar tolerance_{1e-14}, floor_{1e-17};
   std::size_t poles_;
   std::vector<std::size_t> mirrors_;
   ComplexRows<Scalar, 4> parts_{parked};
-  ComplexRows<float, 2> rough_{static_cast<float>(parked)};  // e − 1 and a
   std::vector<Complex> extras_;
   std::vector<char> settled_;
   std::vector<Scalar> steps_;  // last step of each root
@@ -449,13 +411,10 @@ class RootIteration {
 /// All roots λ of a PoleSum of N poles, by about 3 to 30 iterations of N² operations.
 /// @param sum     function p with one pole or more; complex poles are in conjugate pairs
 /// @param late    whether any coefficient b or g differs from zero
-/// @param enough  admissible error of a root relative to its distance from its pole or from the
-///                unit circle, whichever is less; 0: full precision
 /// @return all roots; empty if n > 19, or if the iteration does not converge to roots with the
 ///         correct sum, as happens for multiple roots
 template <class Scalar>
-std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late,
-                                                 const Scalar& enough = Scalar(0)) {
+std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late) {
   using Complex = std::complex<Scalar>;
   const auto all = std::exchange(sum.parts, {});
   // Poles that decay within a sample count as one pole at λ = 0; the others become roots there.
@@ -473,12 +432,9 @@ std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late,
   const int extra = sum.power + (late ? 1 : 0) + (sum.weight.change != Scalar(0) ? 1 : 0);
   if (of_dead > 0) sum.parts.push_back(dead);
   if (sum.parts.empty() || sum.power > 19) return {};
-  using Iteration = detail::RootIteration<Scalar>;
-  Iteration iteration(sum, extra, true, enough);
+  detail::RootIteration iteration(sum, extra, true);
   // If two iterates have converged to the same root, all restart without assumed symmetry.
-  if (!iteration.converge() &&
-      !(enough > Scalar(0) && (iteration = Iteration(sum, extra, true, Scalar(0))).converge()) &&
-      !(iteration = Iteration(sum, extra, false, Scalar(0))).converge())
+  if (!iteration.converge() && !(iteration = detail::RootIteration(sum, extra, false)).converge())
     return {};
   auto roots = iteration.roots();
   for (; of_dead > 1; --of_dead) roots.emplace_back(0);
@@ -486,8 +442,7 @@ std::vector<std::complex<Scalar>> pole_sum_roots(PoleSum<Scalar> sum, bool late,
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template std::vector<std::complex<double>> pole_sum_roots(PoleSum<double>, bool,
-                                                                 const double&);
+extern template std::vector<std::complex<double>> pole_sum_roots(PoleSum<double>, bool);
 #endif
 
 }  // namespace holdfast

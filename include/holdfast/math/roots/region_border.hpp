@@ -39,7 +39,7 @@ struct RegionBorder {
   std::vector<BorderPoint<Label>> points;  ///< if closed, the last point repeats the first one
   bool closed = false;  ///< whether the trace returned to its start; if not, the trace lost the
                         ///< border, changed to a touching part of the region or reached the limit
-  int looks = 0;        ///< points examined; `most_looks` if the trace lost its border or part
+  int looks = 0;        ///< points examined; `most_looks` if the trace failed (see `closed`)
 };
 
 /// The step lengths, accuracies and limits for following a border.
@@ -47,7 +47,7 @@ struct BorderSteps {
   double longest = 0.02;     ///< longest step, in the unit of x and y
   double shortest = 1e-9;    ///< shortest step and accuracy of a corner, in the unit of x and y
   double tolerance = 1e-13;  ///< accuracy of a border point, in the unit of x and y
-  double jump = 1e-4;        ///< margin just inside the border above which a jump is assumed there
+  double jump = 1e-4;        ///< a margin above this just inside the border counts as discontinuous
   int most_looks = 1'000'000;  ///< limit of the number of points examined
 };
 

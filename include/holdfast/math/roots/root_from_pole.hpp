@@ -47,7 +47,8 @@ std::complex<double> root_from_pole(const LoopGain& loop_gain, const std::comple
       before = s;
       at_before = at_s;
       s += (on_path(next) - at_s) / (std::isfinite(std::abs(secant)) ? secant : slope);
-      settled = std::abs(s - before) <= 1e-12 * std::abs(s) + 1e-9 * way;
+      const double enough = next < 1.0 ? 1e-3 : 1e-9;  // the next correction would be far smaller
+      settled = std::abs(s - before) <= 1e-12 * std::abs(s) + enough * way;
     }
     if (!settled || !(std::abs(s - expected) <= 0.1 * way)) {
       step /= 3.0;

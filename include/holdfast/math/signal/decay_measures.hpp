@@ -16,7 +16,7 @@ struct DecayRecord {
   std::vector<double> displacements;  ///< displacements (m) from the equilibrium, downward positive
 };
 
-/// The measures of a free decay after removal of a load; one is NaN if the record is too short.
+/// The measures of a free decay after removal of a load; NaN if the record is too short for them.
 struct DecayMeasures {
   double first_peak;             ///< extremum (m) between crossings 1 and 2 of the equilibrium
   double first_peak_time;        ///< time (s) from the start of the record to first_peak

@@ -62,8 +62,8 @@ std::vector<SpectralLine> amplitude_spectrum(std::vector<Scalar> signal, double 
   return lines;
 }
 
-/// The number q of samples in the common period q τ = p/f; f τ = p/q is a fraction in lowest terms.
-/// @return q; 0 if f τ is not a fraction with a denominator q ≤ `largest`
+/// The number q of samples after which a signal of frequency f (Hz), sampled with period τ (s),
+/// repeats: f τ = p/q in lowest terms. @return q; 0 if f τ has no denominator q ≤ `largest`
 /// @throws InvalidParameter unless f is finite and ≥ 0, τ finite and > 0
 inline std::int64_t samples_per_common_period(double frequency, double sampling_period,
                                               std::int64_t largest = 1'000'000) {
@@ -74,9 +74,9 @@ inline std::int64_t samples_per_common_period(double frequency, double sampling_
   return ratio ? ratio->denominator : 0;
 }
 
-/// The number of samples in the longest record that lasts a whole number of forcing periods. With a
-/// rectangular window such a record has no leakage from the forcing frequency and its harmonics.
-/// @return number of samples, at most `available`; `available` if every such record is longer
+/// The number of samples in the longest record that lasts a whole number of periods of a force of
+/// given frequency (Hz). With a rectangular window such a record has no leakage from this frequency
+/// and its harmonics. @return at most `available`; `available` if every such record is longer
 /// @throws InvalidParameter under the conditions of samples_per_common_period()
 inline std::int64_t whole_period_samples(std::int64_t available, double frequency,
                                          double sampling_period) {

@@ -43,15 +43,14 @@ struct SubharmonicOptions {
   double share = 0.999;       ///< required share of the power, 10⁻⁹ ≤ share ≤ 1
 };
 
-/// The shares of a signal's power, without its mean, at the multiples of f/m (f: base frequency).
-///
-/// A line counts if it lies within half a line spacing of a multiple. To avoid leakage, use a
+/// The shares of a signal's power, without its mean, at the multiples of f/m (f: base frequency). A
+/// line counts if it lies within half a line spacing of a multiple. To avoid leakage, use a
 /// rectangular window and a record of whole periods m/f. If the multiples are less than three line
 /// spacings apart, the share is set to 0, since almost every line would count.
 ///
 /// Multiples of a frequency f above the Nyquist frequency are aliased. If f τ = p/q, they appear at
 /// multiples of f/p = 1/(q τ): use f/p as the base frequency. Work: one comparison per line and m.
-/// @throws InvalidParameter where an option is out of range or the lines do not match N
+/// @throws InvalidParameter where an option is out of range, or the lines do not match `samples`
 inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lines,
                                             std::size_t samples,
                                             const SubharmonicOptions& options) {
@@ -77,7 +76,8 @@ inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lin
   return result;
 }
 
-/// The least number of lines that hold a given share of the power without mean; 0 for zero power.
+/// The least number of spectral lines whose powers add up to at least a given share of the total
+/// power. The mean is left out; 0 for zero power.
 /// @param lines    spectrum of amplitude_spectrum()
 /// @param samples  number N of samples of the record
 /// @param share    required share of the power, 10⁻⁹ ≤ share ≤ 1

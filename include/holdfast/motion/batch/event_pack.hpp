@@ -26,7 +26,7 @@ namespace holdfast {
 /// A pack of motions, one in each SIMD lane, whose contacts may change between samples. Each motion
 /// has its own loop; all motions are at the same sample.
 ///
-/// Each lane uses the method of EventMotion. Lanes in which a guard may reach zero advance
+/// Each lane uses the method of EventMotion. Lanes where a guard (GuardOf) may reach zero advance
 /// together, each to its next contact change, while the other lanes wait. DriveContact computes the
 /// new mode, lane by lane. The results of a lane do not depend on the other lanes.
 ///
@@ -47,7 +47,7 @@ class EventPack {
     LaneMask engaged;      ///< lanes whose drive transmits the command
   };
 
-  /// @param starts  one start per lane; an unused lane gets a copy of another one; then `sleep` it
+  /// @param starts  one motion per lane; for an unused lane, repeat a motion and then call `sleep`
   explicit EventPack(const std::array<EventStart, lanes>& starts)
       : excitation_(
             [&](std::size_t lane) -> const DigitalLoop& { return starts[lane].loop->digital; }),

@@ -31,8 +31,8 @@ inline bool has_event_pack(const ImplementedLoop& loop) {
 }
 
 /// The growth rate of the powers of A (1/s): the largest ‖Aᵏ‖^{1/k}, k = 10 … most_terms, in the
-/// row-sum norm of the balanced matrix. It is usually smaller than balanced_norm(). As the argument
-/// of terms_for(rate h) it gives the Taylor series of e^{A h} the same error bound.
+/// row-sum norm of the balanced matrix. It is usually smaller than balanced_norm(). With
+/// terms_for(rate h) terms the Taylor series of e^{A h} has the error bound stated at terms_for().
 /// @tparam States  N, the order of the plant
 template <int States>
 double rate_of_powers(const Matrix<double, States>& a) {
@@ -86,7 +86,7 @@ class EventTable {
   /// The motion of the two masses in a mode of the contact, given by its number.
   const Motion& motion(int mode) const { return motions_[at(mode)]; }
   /// Whether the equations of motion of two modes are equal except for the effect of the command.
-  /// The mode −1 (no mode) is alike to itself only.
+  /// A mode −1 means no mode; it equals only −1.
   bool move_alike(int mode, int other) const {
     return mode == other || (mode >= 0 && other >= 0 && alike_[at(mode)][at(other)]);
   }

@@ -23,7 +23,7 @@ namespace holdfast {
 ///
 ///     g(x h) ≥ g_0 + (g_1 − g_0) x − 4 d x (1 − x),   d = M h²/8,   0 ≤ x ≤ 1.
 ///
-/// This lower bound has the minimum min(g_0, g_1) − max(4 d − |g_1 − g_0|, 0)² / 16 d, tested > 0.
+/// True if this bound is > 0 for all x: min(g_0, g_1) > max(4 d − |g_1 − g_0|, 0)² / 16 d.
 /// @param begin  value g_0 at the first instant, in any unit
 /// @param end    value g_1 at the second instant, in the same unit
 /// @param drop   d > 0, from NoEventBoundOf::drop_below_chord(); for d = 0 the result is false

@@ -114,8 +114,8 @@ struct LanePhasor {
 ///
 ///     d_{k+1} = h (A d_k + k! w_k),   z(t + x h) = Σ d_k x^k / k!
 ///
-/// with A and w_k as in TaylorStep. Work per term: 8 multiply-adds and 9 products, and 3 more for
-/// each harmonic.
+/// with the state matrix A and the coefficients w_k of the inputs (TaylorStep). Work per term: 8
+/// multiply-adds and 9 products, and 3 more for each harmonic.
 template <class Scalar>
 struct TwoMassSeries {
   std::array<LaneSeries<Scalar>, 4> state;  ///< series of z₁, ż₁, z₂, ż₂

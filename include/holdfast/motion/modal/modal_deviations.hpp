@@ -21,13 +21,13 @@ namespace holdfast {
 /// conjugate pairs; u_{j−1}], all scaled to metres. An amplitude ξ is scaled by the displacement of
 /// the conductor at the absorber, a command by a bound of the displacement it causes in one period.
 ///
-/// Two matrix products advance the deviations by a block of samples. Work per sample for m
-/// coordinates: up to 2 m multiply-adds per deviation, m per reading of each, and 60 m in common.
+/// Two matrix products advance the deviations by a block of samples. Work per sample with m
+/// coordinates: up to 2 m multiply-adds for each deviation and m for each reading of it, and 60 m.
 class ModalDeviations {
  public:
   using Columns = Eigen::MatrixXd;  ///< one deviation per column, order() rows
   using Readings = Columns;         ///< one row per reading, one column per deviation
-  static constexpr int block = 64;  ///< maximum of samples in a block or between take_readings()
+  static constexpr int block = 64;  ///< most samples in a block or between calls of take_readings()
 
   /// Constructs the deviations, initially the unit vectors of all coordinates.
   /// @param motions  natural motions of the loop
@@ -118,8 +118,8 @@ class ModalDeviations {
   }
 
  private:
-  /// The weights of a reading Σ Re(w ξ): `of_start` for the coordinates at the start of the block,
-  /// one row for each sample since; `of_command` for a command 1, 2, … samples earlier.
+  /// The weights of a reading Σ Re(w ξ): row k of `of_start` for ξ at the start of the block, k
+  /// samples earlier; `of_command[k]` for a command k + 1 samples earlier.
   struct Sensor {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> of_start;
     Eigen::VectorXd of_command;

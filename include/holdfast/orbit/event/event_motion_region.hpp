@@ -183,7 +183,7 @@ class EventContinuation {
 ///
 /// The kind of a border is the cause that ends the motion: a multiplier at the unit circle or a
 /// margin of EventOrbit at zero. If a contact change crosses a sample, the multipliers jump but the
-/// motion may last. A symmetric motion (opposite after half a period) is followed while symmetric.
+/// motion may last. The region of a symmetric motion ends where the motion loses its symmetry.
 /// @param family  (x, y) ↦ ImplementedLoop, with the same f τ everywhere
 /// @param orbit   certified orbit of family(at); its drive leaves every gap that it enters
 /// @param window  range of the parameters that is searched, around `at`

@@ -206,7 +206,7 @@ inline bool is_idle(const Itinerary& itinerary) {
   return std::all_of(itinerary.begin(), itinerary.end(), [](auto contact) { return contact == 0; });
 }
 
-/// The periodic solution for an idle drive, each natural motion alone; otherwise nullopt.
+/// The periodic solution if the drive never transmits; nullopt otherwise or if it is not finite.
 inline std::optional<PeriodicSolution<ModalItineraryMaps>> solution_without_blocks(
     const ModalItineraryMaps& maps, const Itinerary& itinerary) {
   if (!is_idle(itinerary)) return std::nullopt;
@@ -249,7 +249,7 @@ inline std::vector<Multiplier> largest_of(std::vector<Multiplier> all, Eigen::In
   return all;
 }
 
-/// The largest multipliers e^{sτN} of N samples in the backlash.
+/// The `most` largest multipliers of N = `samples` samples in the backlash: e^{sτN}, s a pole.
 inline std::vector<Multiplier> idle_multipliers(const ModalItineraryMaps& maps, std::size_t samples,
                                                 Eigen::Index most) {
   std::vector<Multiplier> found;

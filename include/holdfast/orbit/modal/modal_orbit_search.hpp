@@ -241,7 +241,7 @@ OrbitResult find_periodic_orbit(const Loop& loop, const std::vector<PlantPole>& 
   return detail::orbit_by_returns(loop, *ratio, limits, *motion,
                                   detail::ModalRegion<Loop>(loop, maps));
 }
-/// Finds the periodic orbit; computes the poles itself. @throws InvalidParameter as with poles
+/// Finds the periodic orbit; the poles are computed. @throws InvalidParameter as the first overload
 template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 OrbitResult find_periodic_orbit(const Loop& loop, const ModalMotion::Full& initial_state,
                                 const OrbitLimits& limits = {}) {

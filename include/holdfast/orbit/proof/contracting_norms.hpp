@@ -30,8 +30,8 @@ class ContractingNorms {
   /// The two maps from which the sequence is composed, as interval matrices (Enclosure).
   using Maps = std::array<Matrix<Enclosure, Size>, 2>;
 
-  /// Computes the norms and proves the contraction at all corners. The proof is then valid for all
-  /// loops between the corners, since eᵀMᵀPM e is convex in M.
+  /// Computes the norms and proves that the maps of each given loop (corner) contract. The proof is
+  /// then valid for all loops between the corners, since eᵀMᵀPM e is convex in M.
   /// @param corners      maps at the corners of a segment or box of loops, for all of which the
   ///                     norms are valid; one corner for a single loop
   /// @param sequence     index (0 or 1) of the map that moves sample j, for each j; not empty
@@ -55,7 +55,7 @@ class ContractingNorms {
     return norms;
   }
 
-  /// An upper bound of V_j(e), j = `sample`, over all e in the intervals of `vector`.
+  /// An upper bound of the norm V_j(e), j = `sample`, over all e in the intervals of `vector`.
   Enclosure size(std::size_t sample, const Vector<Enclosure, Size>& vector) const {
     const Vector<Enclosure, Size> image = forms_[sample].template cast<Enclosure>() * vector;
     return sqrt(Enclosure(vector.dot(image).magnitude()));

@@ -38,7 +38,7 @@ struct EventOrbitProof : ProvedBounds {
   /// a share of the states' extent.
   double miss = 0.0;
   double instant_error = 0.0;  ///< error bound of the recorded instants of contact changes (s)
-  /// The inequality with the least ratio decided_by(); for `near_surface` the unproved inequality.
+  /// Inequality with the least ratio decided_by(); if outcome is `near_surface`, the unproved one.
   ContactTest nearest;
   /// Radius (m) of the ball about the first given state, in the norm and weights of AttractionBall;
   /// ∞ without backlash. Deviations that the contact of this state excludes are not in the ball: in
@@ -314,7 +314,7 @@ class EventOrbitProver {
 /// @param loop          the loop, its numbers in doubles
 /// @param orbit         the orbit to be proved: its states, period and multipliers are used
 /// @param first         state at which the orbit begins, at phase 0 of the forcing
-/// @param largest_miss  largest allowed `miss`; a larger one gives the outcome `not_closed`
+/// @param largest_miss  largest allowed EventOrbitProof::miss, else the outcome is `not_closed`
 /// @throws InvalidParameter where the loop is not admissible, its f τ is not the orbit's p/q, or
 ///         the orbit's number of samples is no multiple of q
 /// Work: about 20 passes through the period, each 0.1 ms per sample and 1 ms per change of contact.

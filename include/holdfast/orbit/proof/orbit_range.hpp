@@ -18,7 +18,7 @@ namespace holdfast {
 struct ProvedOrbitRange {
   double from;       ///< least value of the parameter
   double to;         ///< largest value of the parameter
-  OrbitProof proof;  ///< result for every loop of the range, without a ball (radius 0)
+  OrbitProof proof;  ///< proof for every loop of the range; without ball of attraction (radius 0)
 };
 
 namespace detail {

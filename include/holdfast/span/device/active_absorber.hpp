@@ -18,7 +18,7 @@ struct ActiveAbsorber {
   LoopHardware hardware = {};  ///< measurement filter and drive
 };
 
-/// The impedance Z(s) (N s/m) by `absorber_impedance`, force over velocity of the conductor.
+/// The impedance Z(s) (N s/m) of the device, force over velocity, by `absorber_impedance`.
 /// @param device  absorber with its computer (unchecked)
 /// @param s       complex frequency (1/s), ≠ 0
 inline std::complex<double> impedance(const ActiveAbsorber& device, const std::complex<double>& s) {

@@ -84,7 +84,7 @@ struct StockbridgeData {
 
 /// A Stockbridge damper as a lumped device with two parallel branches, one for each resonance. A
 /// branch is a mass on a spring and a dashpot; both masses together are the mass of the weights.
-/// @throws InvalidParameter where the data are not admissible; their order is not checked
+/// @throws InvalidParameter where data are not admissible; the frequencies' order is not checked
 inline LumpedDevice stockbridge(const StockbridgeData& data) {
   require_positive("mass of both weights of a Stockbridge damper", data.mass, "kg");
   require_within("mass share of a Stockbridge damper's lower resonance", data.mass_share, "", 0, 1);

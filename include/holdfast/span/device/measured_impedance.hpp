@@ -13,8 +13,8 @@ namespace holdfast {
 
 /// A device's impedance measured on a shaker: force over clamp velocity at ascending frequencies.
 ///
-/// Real and imaginary part are interpolated linearly between rows. As Re Z ≥ 0 in every row, no
-/// interpolated value supplies power. Outside the measured range the result is NaN.
+/// Real and imaginary part are interpolated linearly between rows. Re Z ≥ 0 (to round-off) in every
+/// row, so that no interpolated value supplies power. Outside the measured range Z is NaN.
 class MeasuredImpedance {
  public:
   /// One row of the measurement: a frequency and the impedance at this frequency.
@@ -64,8 +64,8 @@ class MeasuredImpedance {
   std::vector<Row> rows_;
 };
 
-/// The impedance Z (N s/m) of a measured device at the complex frequency s (1/s), taken at ω = |s|.
-/// It is exact for s = iω, and an approximation for modes that decay by a few per cent per cycle.
+/// The impedance Z (N s/m) of a measured device at the complex frequency s (1/s): the value at ω =
+/// |s|. It is exact for s = iω and approximate for modes that decay by a few per cent per cycle.
 /// @return Z, conjugate where Im s < 0; NaN outside the measured range
 inline std::complex<double> impedance(const MeasuredImpedance& device,
                                       const std::complex<double>& s) {

@@ -44,11 +44,11 @@ inline std::vector<WindHours> weibull_hours(double scale, double shape, double l
 /// A stress amplitude of a conductor and the number of its cycles per year.
 struct StressCycles {
   double stress;  ///< stress σ (Pa), zero to peak
-  double cycles;  ///< number n of cycles per year; none if ≤ 0
+  double cycles;  ///< number n of cycles per year; values ≤ 0 count as 0
 };
 
-/// The damage per year by Miner's rule, Σ n/N(σ), for the fatigue line N(σ). Its inverse is the
-/// number of years to failure, the first broken wire.
+/// The damage per year by Miner's rule: Σ n/N(σ) over the entries of `year`, with the fatigue line
+/// N(σ). The inverse of the damage is the number of years to failure, the first broken wire.
 /// @tparam LifeLine  type with `cycles(stress)`, the number N of cycles to failure at σ (Pa)
 template <class LifeLine>
 double miner_damage(const std::vector<StressCycles>& year, const LifeLine& line) {

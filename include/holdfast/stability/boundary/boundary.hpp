@@ -24,9 +24,9 @@ struct CurvePlace {
   PdGains<Scalar> gains;  // not finite at a pole
 };
 
-/// Tracer of the curve of gains with a root pair on the stability boundary, over a range of P. It
-/// halves each piece of the curve until the chord spans at most 1/50 of the range and three inner
-/// points are within 0.001 of the chord (`distance`). Pieces outside the range are left out.
+/// Tracer of the curve of gains with a root pair on the stability boundary, over a range of P. Each
+/// piece of the curve is halved until its chord spans at most 1/50 of the range, and three inner
+/// points have a scaled `distance` ≤ 0.001 from the chord. Pieces outside the range are left out.
 /// @tparam Curve  `BoundaryCurves` or `CircleBoundary`, with functions `gains`, `between` and
 ///                `angle` of the curve's parameter, and `pair_kind`
 template <class Scalar, class Curve>
@@ -35,7 +35,7 @@ class CurveTracer {
   using Place = CurvePlace<Scalar>;
   using Points = std::vector<BoundaryPoint<Scalar>>;
 
-  /// @param curve    curve to trace; must outlive this object
+  /// @param curve    curve to trace within the range of P; must outlive this object
   /// @param deepest  largest number of successive halvings of a piece
   CurveTracer(const Curve& curve, const Interval<double>& range, int deepest)
       : curve_(curve), range_(range), deepest_(deepest) {}
@@ -115,9 +115,9 @@ class CurveTracer {
   int deepest_;
 };
 
-/// Parameters Y (`RootPairCurve`), ascending, that divide the curve into parts with monotone P and
-/// D, so that no branch is missed. They are the poles and the Y where P is at an end of its range
-/// or P or D is stationary. Y ranges over 10⁻¹² … 10¹², up to θ = π − 2·10⁻⁶ in the sampled loop.
+/// Points that divide the curve into parts with monotone P and D, by ascending Y (`RootPairCurve`):
+/// poles, stationary points of P or D, points with P at an end of its range, and the least and the
+/// largest Y. These are 10⁻¹² and 10¹² (sampled loop: 10¹²/unit², where θ = π − 2·10⁻⁶).
 template <class Scalar, int Degree>
 std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>& curves,
                                            const Interval<double>& range) {
@@ -154,8 +154,8 @@ std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>&
 ///
 /// The sampled loop (degree 5) has lines with a root λ = +1 or −1 and a curve of pairs e^{±iθ}. The
 /// continuous loop (degree 4) has a line s = 0 and a curve of pairs ±iω. A line is absent if no
-/// gain moves its root. For two masses λ = +1 and s = 0 are absent, since a
-/// constant force u between the masses does not move the conductor.
+/// gain moves its root. For two masses the lines λ = +1 and s = 0 are absent, since a constant
+/// control force between the masses does not move the conductor.
 /// @param polynomial  `characteristic_polynomial` of the sampled or the continuous loop
 /// @param range       range of P (N/m), its ends included
 /// @throws InvalidParameter unless range.lower < range.upper, both finite

@@ -67,7 +67,7 @@ void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<
 ///
 /// In the sampled loop (degree 5) the polynomial's variable is w with λ = (1 + w)/(1 − w); roots
 /// e^{±iθ} have Y = tan²(θ/2)/unit². In the continuous loop (degree 4) the variable is s; roots ±iω
-/// have Y = ω²/unit², with `RootPairCurve::unit()`. A line is absent if no gain moves its root.
+/// have Y = ω²/unit²; unit is `RootPairCurve::unit()`. A line is absent if no gain moves its root.
 template <class Scalar, int Degree>
 class BoundaryCurves {
  public:
@@ -99,7 +99,7 @@ class BoundaryCurves {
   /// The gains P and D of the curve of root pairs at the parameter Y; not finite at a pole.
   PdGains<Scalar> gains(const Scalar& square) const { return pairs_.gains(square); }
 
-  /// A parameter Y between two positive ones: their geometric mean.
+  /// The geometric mean of two positive parameters Y.
   static Scalar between(const Scalar& lower, const Scalar& upper) {
     return std::sqrt(lower) * std::sqrt(upper);
   }

@@ -120,8 +120,8 @@ std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scal
 ///
 /// At the gains of such a point the loop has two pairs ±iy₁, ±iy₂ and, for degree 5, a real root.
 /// The polynomial is then (1 + νw) e(−w²) with e(Y) ∝ (Y − Y₁)(Y − Y₂), so that its odd part is ν
-/// times its even part. With the coefficients of the odd part O (1, P, D)ᵀ and of the even part E
-/// (1, P, D)ᵀ, the number ν is an eigenvalue of a 3 × 3 pencil:
+/// times its even part. The coefficients of the even part are E (1, P, D)ᵀ, those of the odd part
+/// O (1, P, D)ᵀ, with 3 × 3 matrices E and O. Hence ν is an eigenvalue of their pencil:
 ///
 ///     (ν E − O) (1, P, D)ᵀ = 0,   det(ν E − O) = 0
 ///
@@ -277,10 +277,9 @@ class FeatureFinder {
 
 /// The special points of the stability boundary in a window: tangents, cusps, crossings and ends.
 ///
-/// Each special point is computed from the roots of a polynomial of degree at most six, so that
-/// none is missed. The polynomials are of degree six for tangents and cusps, of degree four for
-/// crossings of the curve of root pairs with a line, and of degree three for crossings of this
-/// curve with itself (`double_neimark_sacker_points`).
+/// All roots of certain polynomials are computed, so that no point is missed. Their degree is six
+/// for tangents and cusps, four for crossings of the curve of root pairs with a line, and three for
+/// crossings of this curve with itself (`double_neimark_sacker_points`).
 /// @param polynomial  `characteristic_polynomial` of the sampled or the continuous loop
 /// @param window      window of P (N/m) and D (N s/m), its edges included
 /// @throws InvalidParameter unless both ranges of the window are finite with lower < upper

@@ -14,14 +14,14 @@ template <class Scalar>
 class CircleBoundary {
  public:
   CircleBoundary(const ModalResponse<Scalar>& response, const Interval<double>& range)
-      : response_(response), range_(range) {
+      : response_(response), range_(range), nearby_(response, Scalar(0)) {
     for (const std::complex<Scalar>& increment : response.pole_increments())
       if (increment.imag() > Scalar(0)) pole_angles_.push_back(std::arg(Scalar(1) + increment));
   }
 
   /// The gains with a root pair e^{±iθ}: P = Im G_v / Im(Ḡ_z G_v), D = −Im G_z / Im(Ḡ_z G_v).
   PdGains<Scalar> gains(const Scalar& angle) const {
-    const CommandResponse<Scalar> g = response_.at_angle(angle);
+    const CommandResponse<Scalar> g = nearby_.read(angle).first;
     const Scalar determinant = std::imag(std::conj(g.displacement) * g.velocity);
     return {g.velocity.imag() / determinant, -g.displacement.imag() / determinant};
   }
@@ -75,6 +75,7 @@ class CircleBoundary {
   const ModalResponse<Scalar>& response_;
   Interval<double> range_;
   std::vector<Scalar> pole_angles_;
+  mutable typename ModalResponse<Scalar>::Nearby nearby_;  // the angles asked for mostly ascend
 };
 
 }  // namespace detail

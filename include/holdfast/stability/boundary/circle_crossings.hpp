@@ -27,14 +27,15 @@ struct GainCrossing {
 
 namespace detail {
 
-/// Free gain x(θ) = (1 − y G_fixed)/G_free with the root e^{iθ}. y: fixed gain; G: G_z or G_v.
+/// Free gain x(θ) = (1 − y G_fixed)/G_free at which the loop has the root e^{iθ}; y is the fixed
+/// gain. G is the transfer function G_z for the gain P and G_v for D (`LoopResponse`).
 template <class Scalar>
 class FreeGainOnCircle {
  public:
   FreeGainOnCircle(const LoopMap<Scalar>& map, FreeGain free, const PdGains<Scalar>& gains)
       : response_(map), free_(free), gains_(gains) {}
 
-  /// The complex value x(θ). A crossing is at an angle θ at which its imaginary part is 0.
+  /// The complex value x(θ). Roots cross the unit circle where its imaginary part is 0.
   std::complex<Scalar> at(const Scalar& angle) const {
     const CommandResponse<Scalar> g = response_.at_angle(angle);
     return free_ == FreeGain::differential
@@ -66,9 +67,9 @@ class FreeGainOnCircle {
 /// Angles θ, 0 < θ < π, of the eigenvalues of a pencil M − λ L on the unit circle. Eigenvalues
 /// within 10⁻⁴ of the circle in the variable w of λ = (w + a)/(1 + a w) are included.
 ///
-/// The variable w preserves the circle and turns the pencil into the matrix (L − a M)⁻¹(M − a L)
-/// with the eigenvalues w. Eigenvalues λ = 0 and ∞ become −a and −1/a, both finite. With a near 1
-/// the eigenvalues near λ = 1 are moved apart.
+/// The map from λ to w maps the circle onto itself. The w are eigenvalues of the matrix
+/// (L − a M)⁻¹(M − a L). λ = 0 and ∞ become w = −a and −1/a, both finite. With a near 1 the
+/// eigenvalues near λ = 1 are moved apart.
 /// @param spread  (1 − a)/(1 + a), 0 … 1
 template <class Scalar>
 std::vector<Scalar> angles_on_circle(const Matrix<Scalar, Eigen::Dynamic>& m,
@@ -84,8 +85,8 @@ std::vector<Scalar> angles_on_circle(const Matrix<Scalar, Eigen::Dynamic>& m,
   return angles;
 }
 
-/// The pencil M − λ L of `circle_crossings`; crossings are its eigenvalues on the unit circle.
-/// @param s, b, h  map, command column and reading row of the balanced loop; b and h in any unit
+/// The pencil M − λ L of `circle_crossings`. Its eigenvalues on the unit circle give the crossings.
+/// @param s, b, h  balanced loop's map, input column and row of the free gain; b, h at any scale
 template <class Scalar>
 std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossing_pencil(
     const Matrix<Scalar, Eigen::Dynamic>& s, const Vector<Scalar, Eigen::Dynamic>& b,
@@ -111,10 +112,10 @@ std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossi
 /// All finite values of one gain, for a fixed value of the other, at which a loop of any order has
 /// a root on the unit circle; ascending.
 ///
-/// The n × n map S of the loop with the fixed gain alone, the input column s and the row h of the
-/// free gain x are from `LoopMap`. λ is a root if x g(λ) = 1, where g = h (λI − S)⁻¹ s. On the unit
-/// circle x is real if g(λ) = g(1/λ). Each such λ is an eigenvalue, with the eigenvector (y₁, y₂,
-/// w), of a pencil of size 2n + 1:
+/// Let S be the n × n map of the loop with only the fixed gain, s its input column and h the output
+/// row that the free gain x multiplies (`LoopMap`). The number λ is a root if x g(λ) = 1 with g(λ)
+/// = h (λI − S)⁻¹ s. For a λ on the unit circle, x is real if g(λ) = g(1/λ). Each such λ is an
+/// eigenvalue, with the eigenvector (y₁, y₂, w), of a matrix pencil of size 2n + 1:
 ///
 ///     λ y₁ = S y₁ + s w,   y₂ = λ (S y₂ + s w),   h (y₁ − y₂) = 0
 ///
@@ -152,7 +153,6 @@ std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain 
 }
 
 /// The open intervals of one gain, for a fixed value of the other, in which a loop is stable.
-///
 /// The crossings divide the gains into intervals. One gain in each interval is tested by the
 /// spectral radius. Adjacent stable intervals are joined if the loop is stable at their common end.
 /// @param map    the loop, of any order

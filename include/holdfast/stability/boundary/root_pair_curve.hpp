@@ -11,21 +11,21 @@
 
 namespace holdfast {
 
-/// End of an arc of the `RootPairCurve`: Y, with n and Δ of P = n/Δ. At Y = 0 (∞) these are
-/// replaced by their coefficients of the lowest (highest) power of Y that occurs in n or Δ.
+/// End of an arc of the `RootPairCurve`: its parameter Y, and the values there of n and Δ in P(Y) =
+/// n/Δ. At Y = 0 (∞) these are the coefficients of the lowest (highest) power of Y in n or Δ.
 template <class Scalar>
 struct ArcEnd {
   Scalar square;     ///< parameter Y, 0 … ∞
   Scalar numerator;  ///< numerator n of P; n/|Y − pole| at a pole of D where P is finite
   Scalar denominator;  ///< denominator Δ of P; Δ/|Y − pole| at a pole of D alone; 0 at a pole of P
 
-  /// The residual n − P Δ at a given P (N/m). If P occurs on an arc, the signs at its ends differ.
+  /// The residual n − P Δ for a given P (N/m). It changes sign along an arc on which P occurs.
   Scalar residual(const Scalar& proportional_gain) const {
     return numerator - proportional_gain * denominator;
   }
 };
 
-/// An arc, a part of the curve of root pairs on which P is monotone and finite.
+/// Arc: a part of the curve of root pairs on which P is monotone and finite.
 template <class Scalar>
 struct MonotoneArc {
   ArcEnd<Scalar> start;  ///< end at the lower Y ≥ 0
@@ -132,7 +132,7 @@ class RootPairCurve {
   }
 
   /// The parameter Y at which P has the given value (N/m) on an arc. If P does not occur on the
-  /// arc, Y of the end with the nearer P is returned, which is then positive and finite.
+  /// arc, Y is that of the end with the nearer P, limited to positive finite values.
   Scalar square(MonotoneArc<Scalar> arc, const Scalar& proportional_gain) const {
     const Scalar largest = std::pow(std::numeric_limits<Scalar>::max(), Scalar(0.125));
     arc.start.square = std::max(arc.start.square, Scalar(1) / largest);
@@ -144,7 +144,7 @@ class RootPairCurve {
     return distance(arc.start) < distance(arc.end) ? arc.start.square : arc.end.square;
   }
 
-  /// The crossing at P (N/m) and Y = `square`; D from the even or odd part with less round-off.
+  /// The crossing at P (N/m) and Y = `square`. D is from the part, even or odd, with less error.
   RowCrossing<Scalar> crossing(const Scalar& proportional_gain, const Scalar& square) const {
     const Scalar even_slope = evaluate(differential_.even, square);
     const Scalar odd_slope = evaluate(differential_.odd, square);

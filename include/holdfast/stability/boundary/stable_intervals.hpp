@@ -14,14 +14,14 @@
 namespace holdfast {
 
 /// Values x, ascending, at which a(w) + x d(w) has a root on the imaginary axis or at infinity.
-///
-/// A root w = 0 needs a₀ + x d₀ = 0; a root w = ∞ needs a_n + x d_n = 0. At a root w = iy the even
-/// part (e) and the odd part (o) are both 0. Without x they give a polynomial in Y = y²:
+/// The polynomials a (`constant_part`) and d (`slope_part`) have ascending powers. A root w = 0
+/// needs a₀ + x d₀ = 0; a root w = ∞ needs a_n + x d_n = 0. At a root w = iy the even part (e) and
+/// the odd part (o) of the sum are both 0. Elimination of x gives a polynomial in Y = y²:
 ///
 ///     a_e(Y) d_o(Y) − a_o(Y) d_e(Y) = 0,   x = −a_e / d_e = −a_o / d_o
 ///
 /// All its positive roots are found. An x is left out if its denominator is below 1e−12 of the
-/// largest coefficient of d; w is first scaled by the mean root modulus of a.
+/// largest coefficient of d. For this test w is scaled by the mean root modulus of a.
 template <class Scalar, int Size>
 std::vector<Scalar> boundary_crossings(const Vector<Scalar, Size>& constant_part,
                                        const Vector<Scalar, Size>& slope_part) {
@@ -56,8 +56,8 @@ namespace detail {
 
 /// The gaps between ascending `ends` in which the loop is stable; the first and the last gap are
 /// unbounded. Adjacent stable gaps are joined where the loop is stable at their common end too.
-/// @param inside     function from a gap to a point in the gap
-/// @param stable_at  function from a point to whether the loop is stable there
+/// @param inside     function that returns a point inside a gap
+/// @param stable_at  predicate: whether the loop is stable at a point
 template <class Scalar, class Inside, class StableAt>
 std::vector<Interval<Scalar>> stable_gaps(const std::vector<Scalar>& ends, const Inside& inside,
                                           const StableAt& stable_at) {
@@ -80,9 +80,9 @@ std::vector<Interval<Scalar>> stable_gaps(const std::vector<Scalar>& ends, const
 
 /// The open intervals of x, ascending, in which all roots w of a(w) + x d(w) have Re w < 0.
 ///
-/// One Hurwitz test decides each gap between neighbouring values of `boundary_crossings`. Adjacent
-/// stable gaps are joined if the polynomial is stable at the value between them. The leading
-/// coefficient may change sign along x.
+/// The values of `boundary_crossings` divide the x axis into intervals. One Hurwitz test decides
+/// each interval. Adjacent stable intervals are joined if the polynomial is stable at their common
+/// end. The leading coefficient may change sign along x.
 template <class Scalar, int Size>
 std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
                                                const Vector<Scalar, Size>& d) {

@@ -39,7 +39,7 @@ struct BoundaryBranch {
   MonotoneArc<Scalar> arc;             ///< the arc, unless `curve` is null
   BoundaryLine<Scalar> line;           ///< the line, if `curve` is null
 
-  /// Whether the branch has a D at P (N/m): an arc only within its range of P, a line at every P.
+  /// Whether the branch contains a point with P (N/m). A line does for every P.
   bool passes(const Scalar& proportional_gain) const {
     return curve == nullptr || arc.passes(proportional_gain);
   }
@@ -64,8 +64,8 @@ struct GainSlab {
 /// changes its shape: at special points (`boundary_features`), vertical lines and the window's
 /// edges. The cells of neighbouring slabs are joined into regions.
 ///
-/// A curve of root pairs on a line P = const would be missed. No plant has such a curve. With P and
-/// D exchanged the undamped continuous loop would have one, on the line D = 0.
+/// A curve of root pairs that is a line P = const would be missed; no plant has such a curve. With
+/// P and D exchanged the undamped continuous loop would have one, the line D = 0.
 template <class Scalar, int Degree>
 class RegionBuilder {
  public:
@@ -280,8 +280,8 @@ class RegionBuilder {
 }  // namespace detail
 
 /// The regions into which the stability boundary divides a window of gains, with their areas.
-/// The window is cut into slabs, ranges of P in which the same boundary curves D₁(P) < D₂(P) < …
-/// cross it. Between two neighbouring curves a slab has a cell of the area ∫ (D_{k+1} − D_k) dP.
+/// The window is cut into slabs: ranges of P with the same boundary curves D₁(P) < D₂(P) < … Two
+/// neighbouring curves enclose a cell of the slab, of area ∫ (D_{k+1} − D_k) dP.
 /// The unstable roots are counted at the middle of each cell. Cells of neighbouring slabs form one
 /// region if they share more than 1e−9 of the window's range of D and no boundary lies between.
 /// Areas are accurate to 1e−10 of the window's area; regions below 1e−12 of it are left out.

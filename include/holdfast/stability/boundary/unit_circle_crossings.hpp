@@ -28,28 +28,32 @@ struct GainPassage {
 
 /// Crossings of the unit circle by roots of a loop of any order, from the transfer functions G_z
 /// and G_v (`ModalResponse`) at stored angles θ. The winding of p about 0 gives the number n_out of
-/// roots outside the circle; n_plant is this number without control:
+/// roots outside the circle. Without control this number is n_plant:
 ///
 ///     p(λ) = 1 − P G_z(λ) − D G_v(λ),   n_out = n_plant − (1/π) [arg p(e^{iθ})] from 0 to π
 ///
-/// If y is the fixed gain, p(e^{iθ}) = 0 at the free gain X(θ) = (1 − y G_fixed)/G_free. Roots
-/// cross where X is real; as the free gain grows, they move outward if Im X rises with θ. The
-/// winding gives n_out in one interval between crossings, and the crossings give it in the others.
-/// The winding checks these if there are at most twelve intervals, else those with n_out ≤ 4 or
-/// the least n_out. If a check fails, n_out is from the winding alone. About 30 angles per pole are
-/// stored. Work for each fixed gain: 10 operations per angle, 10 values of G per crossing.
+/// One gain y is fixed, the other varies. With the value X(θ) = (1 − y G_fixed)/G_free of the other
+/// gain the loop has the root e^{iθ}. Roots cross where X is real. As this gain grows, they leave
+/// the circle if Im X rises with θ. The crossings divide the gain's axis into intervals. Winding
+/// gives n_out in one of them; each crossing then gives the change of n_out. Winding checks the
+/// results: all for at most twelve intervals, otherwise n_out ≤ 4 and the least n_out. If a check
+/// fails, only winding is used. Work: 10 operations per angle, 10 values of G per crossing.
 template <class Scalar>
 class UnitCircleCrossings {
  public:
-  /// Transfer functions from the command to the readings at one angle on the unit circle.
+  /// Transfer functions from the command to the measured displacement and velocity, at one angle.
   struct Place {
     Scalar angle;               ///< θ (rad)
     CommandResponse<Scalar> g;  ///< transfer functions G_z and G_v at e^{iθ}
   };
 
+  static constexpr Scalar coarse{0.5};  ///< step that suffices to count roots outside the circle
+
   /// @param response  response of the loop; a copy is stored
-  explicit UnitCircleCrossings(ModalResponse<Scalar> response) : response_(std::move(response)) {
-    const Scalar close(0.12);
+  /// @param close     largest step from angle to angle, as a share of the distance to the nearest
+  ///                  pole, to θ = 0 and to π; `coarse` suffices for `roots_outside`
+  explicit UnitCircleCrossings(ModalResponse<Scalar> response, const Scalar& close = Scalar(0.12))
+      : response_(std::move(response)) {
     // At smaller angles Im X is only round-off.
     const auto from = [&](const std::complex<Scalar>& end) {
       return Scalar(1e-4) * Nearby(response_, end).nearest(end);
@@ -58,7 +62,7 @@ class UnitCircleCrossings {
     const Scalar last = pi<Scalar> - from(Scalar(-2));
     Nearby nearby(response_, circle_increment(angle));
     while (angle < last) {
-      const auto [g, to_pole] = read(angle, nearby);
+      const auto [g, to_pole] = nearby.read(angle);
       places_.push_back({angle, g});
       const Scalar step = close * std::min({to_pole, angle, pi<Scalar> - angle});
       const Scalar least = Scalar(1e-13) + Scalar(1e-14) * angle;
@@ -95,7 +99,7 @@ class UnitCircleCrossings {
   }
 
   /// Estimates of the offsets λ − 1 of roots near the unit circle, nearest first: one Newton step
-  /// from each minimum of |p| on the circle. Serves where `loop_roots` does not converge.
+  /// from each minimum of |p| on the circle. For use where `loop_roots` does not converge.
   std::vector<std::complex<Scalar>> roots_nearby(const PdGains<Scalar>& gains) const {
     std::vector<std::pair<Scalar, std::complex<Scalar>>> found;
     const auto size = [&](std::size_t i) { return std::abs(characteristic(places_[i].g, gains)); };
@@ -147,29 +151,21 @@ class UnitCircleCrossings {
   /// The open intervals of one gain, for a fixed value of the other, in which the loop is stable.
   /// @param free   the gain that varies
   /// @param gains  the fixed gain; the value of the free gain is not used
+  /// @param checks whether root numbers that follow from the crossings are checked by winding
   /// @throws InvalidParameter where the fixed gain is not finite
-  std::vector<Interval<Scalar>> stable_gains(FreeGain free, const PdGains<Scalar>& gains) const {
+  std::vector<Interval<Scalar>> stable_gains(FreeGain free, const PdGains<Scalar>& gains,
+                                             bool checks = true) const {
     detail::require_held(gains, free);
     const auto found = passages(free, gains);
     const auto outside = [&](const Interval<Scalar>& gap) {
       const Scalar x = gap.contains(Scalar(0)) ? Scalar(0) : gap.representative();
       return roots_outside(detail::with_gain(gains, free, x));
     };
-    return without_roots_outside(found, outside);
+    return without_roots_outside(found, outside, checks);
   }
 
  private:
   using Nearby = typename ModalResponse<Scalar>::Nearby;
-
-  /// The transfer functions at an angle, and the distance of the nearest pole. Near θ = 0 and π,
-  /// where Im X needs full accuracy, all terms are summed; elsewhere the series of `nearby`.
-  std::pair<CommandResponse<Scalar>, Scalar> read(const Scalar& angle, Nearby& nearby) const {
-    const std::complex<Scalar> mu = circle_increment(angle);
-    nearby.follow(mu);
-    const Scalar to_pole = nearby.nearest(mu);
-    const bool at_end = std::min(angle, pi<Scalar> - angle) < Scalar(0.1) * to_pole;
-    return {at_end ? response_.at_angle(angle) : nearby.at(mu), to_pole};
-  }
 
   /// Line in the plane of P and D along which one gain varies.
   struct Line {
@@ -249,9 +245,9 @@ class UnitCircleCrossings {
                 const Scalar& at_upper, Nearby& nearby,
                 std::vector<GainPassage<Scalar>>& found) const {
     const auto zero = bracketing_root<Scalar>(
-        [&](const Scalar& angle) { return line.imaginary(read(angle, nearby).first); },
+        [&](const Scalar& angle) { return line.imaginary(nearby.read(angle).first); },
         {lower, upper, at_lower, at_upper}, Scalar(0));
-    keep({line.gain(read(zero.lower, nearby).first), zero.lower, at_upper > Scalar(0) ? 2 : -2},
+    keep({line.gain(nearby.read(zero.lower).first), zero.lower, at_upper > Scalar(0) ? 2 : -2},
          line, found);
   }
 
@@ -284,34 +280,27 @@ class UnitCircleCrossings {
         std::abs(here) > std::abs(after))
       return;
     const Scalar sign = here > Scalar(0) ? Scalar(1) : Scalar(-1);
-    Scalar lower = places_[i - 1].angle, upper = places_[i + 1].angle;
+    const Scalar lower = places_[i - 1].angle, upper = places_[i + 1].angle;
     // Two crossings are excluded by a parabola through the three values far from zero.
     const Scalar way = places_[i].angle - lower, on = upper - places_[i].angle;
     const Scalar curvature = ((after - here) / on - (here - before) / way) / (way + on);
     const Scalar at_here = (here - before) / way + curvature * way;
     const Scalar vertex = sign * (here - at_here * at_here / (Scalar(4) * curvature));
     if (vertex > Scalar(0.1) * std::max(std::abs(before), std::abs(after))) return;
-    const Scalar golden(0.3819660112501051);
-    for (int step = 0; step < 40; ++step) {
-      const Scalar left = lower + golden * (upper - lower),
-                   right = upper - golden * (upper - lower);
-      const Scalar at_left = sign * line.imaginary(read(left, nearby).first);
-      const Scalar at_right = sign * line.imaginary(read(right, nearby).first);
-      if (std::min(at_left, at_right) <= Scalar(0)) {
-        const Scalar beyond = at_left < at_right ? left : right;
-        const Scalar value = sign * std::min(at_left, at_right);
-        add_pair(line, places_[i - 1].angle, before, beyond, value, nearby, found);
-        add_pair(line, beyond, value, places_[i + 1].angle, after, nearby, found);
-        return;
-      }
-      (at_left < at_right ? upper : lower) = at_left < at_right ? right : left;
-    }
+    const auto at_angle = [&](const Scalar& angle) {
+      return sign * line.imaginary(nearby.read(angle).first);
+    };
+    const Scalar beyond = detail::narrow_to_minimum(lower, upper, 40, at_angle);
+    const Scalar value = sign * at_angle(beyond);
+    if (sign * value > Scalar(0)) return;
+    add_pair(line, lower, before, beyond, value, nearby, found);
+    add_pair(line, beyond, value, upper, after, nearby, found);
   }
 
   /// The intervals between crossings with no root outside the circle; undecided ones are left out.
   template <class Outside>
   static std::vector<Interval<Scalar>> without_roots_outside(
-      const std::vector<GainPassage<Scalar>>& found, const Outside& outside) {
+      const std::vector<GainPassage<Scalar>>& found, const Outside& outside, bool checks) {
     std::vector<Interval<Scalar>> gaps(found.size() + 1);  // unbounded at first
     for (std::size_t k = 0; k < found.size(); ++k)
       gaps[k].upper = gaps[k + 1].lower = found[k].gain;
@@ -330,7 +319,7 @@ class UnitCircleCrossings {
     const int fewest = *std::min_element(roots.begin(), roots.end());
     const int doubtful = gaps.size() <= 12 ? std::numeric_limits<int>::max() : std::max(4, fewest);
     bool agree = fewest >= 0;
-    for (std::size_t k = 0; k < gaps.size() && agree; ++k)
+    for (std::size_t k = 0; k < gaps.size() && agree && checks; ++k)
       if (k != first && roots[k] <= doubtful && gaps[k].lower < gaps[k].upper) {
         const int counted = outside(gaps[k]);
         agree = counted == roots[k] || counted < 0;
@@ -348,11 +337,11 @@ class UnitCircleCrossings {
   Scalar size_of_z_{0}, size_of_v_{0};  // max |G_z| and |G_v| over them
 };
 
-/// The excess ρ − 1 of a loop with spectral radius ρ. If `loop_roots` does not converge, ρ is found
-/// to ten digits by bisecting the radius of a circle, with the roots outside it counted.
+/// The excess ρ − 1 of a loop with spectral radius ρ. If `loop_roots` does not converge, the excess
+/// is found to ten digits by bisection over circles: the roots outside a circle are counted.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P (N/m) and D (N s/m)
-/// @return the excess; NaN if `loop_roots` fails and the response is not a sum over poles
+/// @return excess, by bisection at least −0.44; NaN if the response is then not a sum over poles
 template <class Scalar>
 Scalar loop_excess_or_turn(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains) {
   const Scalar excess = loop_excess(response, gains);

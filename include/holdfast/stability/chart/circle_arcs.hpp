@@ -20,8 +20,8 @@ namespace holdfast {
 ///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ)   (k delayed commands; F_z and F_v of `EnclosedResponse`)
 ///
 /// of a loop is enclosed by a linear function of the angle plus an error bound. The class finds the
-/// arcs on which a loop with gains in a box may have a root, and counts the roots outside the
-/// circle. Arcs are halved where needed; the halves are stored.
+/// arcs on which a loop with gains in a rectangle (`GainBox`) may have a root, and counts a loop's
+/// roots outside the circle. Arcs are halved where needed; the halves are stored.
 class CircleArcs {
  public:
   /// List of arcs, each given by its index in this object.
@@ -38,8 +38,8 @@ class CircleArcs {
   /// The list with one arc, the undivided half circle.
   Arcs all() const { return {0}; }
 
-  /// The parts of the arcs `among` on which a loop with gains in the box may have a root. All other
-  /// parts are proved to contain no root. Arcs are halved while this sharpens the result.
+  /// The parts of the arcs `among` on which a loop with gains in the rectangle `box` may have a
+  /// root. All other parts are proved to contain none. Arcs are halved while this excludes more.
   Arcs meeting(const GainBox& box, const Arcs& among) {
     const Gains gains(box);
     if (!gains.are_finite()) return among;

@@ -68,7 +68,7 @@ struct LoopAxis {
 
 /// Chart of a sampled loop over any two parameters; all others have their values in `point`.
 struct LoopChart {
-  /// Loop of which each cell replaces the two axis parameters. If δ is on no axis, δ/τ is constant.
+  /// Loop with the other parameters' values. If δ is on no axis, δ/τ is the same in all cells.
   OperatingPoint point;
   LoopAxis slow;  ///< axis with one value for each row
   LoopAxis fast;  ///< axis with one value for each column

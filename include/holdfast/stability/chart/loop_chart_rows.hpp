@@ -254,7 +254,8 @@ class RadiusChartRows {
   }
 
   /// Writes the spectral radii of up to `most_rows` rows; results of unused lanes are dropped.
-  /// @param polynomial_at  function (pack, column) → Pack
+  /// @param polynomial_at  function (index of the pack, column) → characteristic polynomials, a
+  /// Pack
   template <class PolynomialAt>
   void follow(std::int64_t rows, std::int64_t columns, const PolynomialAt& polynomial_at,
               double* radius) {

@@ -22,7 +22,7 @@
 
 namespace holdfast {
 
-/// Stability proved for all loops with gains in a box.
+/// Verdict of a stability proof on all loops of a box, that is, a closed range of parameters.
 enum class ProvedStability {
   stable,     ///< every loop is asymptotically stable
   unstable,   ///< every loop has a root with |λ| > 1, or Re s > 0 in the continuous loop

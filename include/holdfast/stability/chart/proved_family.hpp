@@ -40,7 +40,7 @@ struct ProvedFamily {
   double stable_share = 0.0;                           ///< proved stable share of the box's volume
   double undecided_share = 0.0;                        ///< undecided share of the box's volume
   std::optional<std::array<double, N>> unstable_loop;  ///< a loop proved unstable, if one was found
-  std::size_t parts = 0;                               ///< boxes examined, or skipped at the limit
+  std::size_t parts = 0;                               ///< number of boxes, also those not examined
 
   /// The verdict: every loop is stable, some loop is unstable, or undecided.
   ProvedStability verdict() const {
@@ -431,7 +431,7 @@ std::vector<ParameterBox<N>> halves_of(const ParameterBox<N>& box, std::size_t a
 /// @param loop    family of loops: TwoMassFamily or StringFamily
 /// @param box     box of the family's parameters
 /// @param limits  limits of the search
-/// @param go_on   () → void, called before each box is examined; may throw
+/// @param go_on   function called before each box is examined; an exception from it ends the work
 /// @throws InvalidParameter where a loop of the box is not admissible
 /// Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009;
 /// J. Ackermann, Robust Control, Springer 1993 (zero exclusion principle).
@@ -501,9 +501,9 @@ struct TwoMassFamily {
     return point;
   }
 
-  /// Data to evaluate F near a frequency; empty for two masses (compare `StringFamily::Frame`).
+  /// Data to evaluate the characteristic function F near a frequency; none for two masses.
   struct Frame {
-    /// The ratio c of `angle_at`; 1, as the natural frequencies of two masses have no common ratio.
+    /// Ratio of natural frequencies between two loops: 1 here; two masses have no common ratio.
     static EnclosedSlope tuning(const Parameters<EnclosedSlope>&) { return 1.0; }
   };
   /// The empty Frame, at every frequency.
@@ -543,8 +543,8 @@ struct TwoMassFamily {
     return plant<Enclosure>(x, at.omega);
   }
 
-  /// The alias sum of a box as a map θ → AliasSum, for G = −m₂ω²/Δ; a_k: coefficient of s^k in Δ.
-  /// Its `ResponseBounds` above ω are, with e = m₁m₂ − a₂/ω²,
+  /// The function θ → AliasSum that encloses the alias sum of all loops of a box, for G = −m₂ω²/Δ.
+  /// With the coefficient a_k of s^k in Δ and e = m₁m₂ − a₂/ω², the `ResponseBounds` above ω are
   ///
   ///     g = m₂/e,   μ = 1/m₁,   h = (a₃ + a₂/ω + a₁/ω² + k₁k₂/ω³)/(m₁ e).
   static auto aliases(const Parameters<Enclosure>& x) {

@@ -62,9 +62,9 @@ inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, J
 
 }  // namespace detail
 
-/// The regions of boxes: for each box, the index of its region's representative box, which is the
-/// same for all boxes of a region. A region is a set of boxes connected through common sides.
+/// Groups boxes into regions: sets of boxes connected through common sides.
 /// @param boxes  boxes that do not overlap; coordinates of common sides are identical doubles
+/// @return for each box the index of one box of its region, the same for all boxes of the region
 inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) {
   std::vector<detail::BoxSide> left, right, lower, upper;
   for (std::size_t k = 0; k < boxes.size(); ++k) {
@@ -151,7 +151,7 @@ class ModalChart {
   }
 
  private:
-  /// Halves a range of cells down to single cells; stores each as free, unstable or undecided.
+  /// Halves a range to single cells, stored as free of roots on |λ| = 1, unstable or undecided.
   void open_cells(const CellRange& range, const CrossedBox& around) {
     CrossedBox box = part_of(around, range.box());
     if (range.is_cell()) return take(std::move(box));
@@ -208,10 +208,10 @@ class ModalChart {
 
 }  // namespace detail
 
-/// Chart of the stability proved on the cells of a grid, for a loop of any order. A box is free if
-/// no loop with its gains has a root on the unit circle. All loops of connected free boxes have the
-/// same number of roots outside this circle, counted once (`CircleArcs::roots_outside`). Any other
-/// box is unstable if its loops have roots outside a wider circle and none on the wider circle.
+/// Chart of the stability proved on the cells of a grid, for a loop of any order. If no loop with
+/// gains in connected boxes has a root on the unit circle, all these loops have the same number of
+/// roots outside, counted once (`CircleArcs::roots_outside`). Any other box is proved unstable if
+/// all its loops have roots outside a wider circle and none on that circle.
 /// Undecided boxes are quartered until their share of the area is at most `undecided`.
 /// @param response    enclosed response of the loop
 /// @param grid        grid points, at least 2 on each ascending axis; cells lie between the points

@@ -40,7 +40,7 @@ enum class StringParameter {
 /// The string's receptance at the absorber is H(s) = Σ h_n/d_n with h_n = 2 sin²(nπa/L)/(μL) and
 /// d_n = s² + 2ζω_n s + ω_n². As H is large near resonance, the characteristic function F is
 /// multiplied by d_m of the nearest mode m. With S = H d_m, q = m₂ s² + c₂ s + k₂, κ = c₂ s + k₂,
-/// U₀ = sinc(θ/2) e^{−iθ(δ/τ + 1/2)} and A of `alias_sum`,
+/// U₀ = sinc(θ/2) e^{−iθ(δ/τ + 1/2)}, θ = ωτ, the alias sum A, and symbols of StringParameter,
 ///
 ///     F = q (d_m + M_c s² S) + m₂ s² S (κ − (P + sD) U₀) − (q (d_m + M_c s² S) + m₂ s² S κ) A.
 class StringFamily {
@@ -76,23 +76,23 @@ class StringFamily {
     }
   }
 
-  /// Data to evaluate F near a frequency: the nearest mode m, the wave speed of a box's middle loop
-  /// and a modal sum, which as a function of Ω = ω/c (see `tuning`) holds for all wave speeds.
+  /// Data to evaluate F near a frequency: nearest mode m, squared wave speed at a box's midpoint,
+  /// and the sum over the other modes at Ω = ω/c, c being the ratio of `tuning`.
   struct Frame {
-    int nearest;                               ///< index of the nearest mode m, from 0
-    Enclosure squared_speed;                   ///< squared wave speed T/μ, middle loop (m²/s²)
+    int nearest;              ///< index of the nearest mode m, from 0
+    Enclosure squared_speed;  ///< squared wave speed T₀/μ₀ at the midpoint (m²/s²)
     detail::Parts<Enclosure> others = {};      ///< sum Σ μh_n/d_n over the modes other than m
     detail::Parts<Enclosure> by_tuned = {};    ///< derivative of `others` with respect to Ω
     detail::Parts<Enclosure> by_damping = {};  ///< derivative of `others` with respect to ζ
     detail::Parts<Enclosure> by_tension = {};  ///< derivative of `others` with respect to T
 
-    /// The ratio c = √((T/μ)/(T₀/μ₀)) of wave speeds; T₀ and μ₀ are those of the middle loop.
+    /// The ratio c = √((T/μ)/(T₀/μ₀)) of wave speeds; T₀ and μ₀ are T and μ at the box's midpoint.
     EnclosedSlope tuning(const Parameters<EnclosedSlope>& x) const {
       return sqrt(x[0] / (x[1] * constant<EnclosedSlope>(squared_speed)));
     }
   };
   /// Data to evaluate F near a frequency, without the modal sums, which `sum_modes` adds.
-  /// @param x      parameters of the middle loop of a box
+  /// @param x      parameters at the midpoint of a box
   /// @param omega  frequency ω (rad/s)
   Frame frame_at(const Parameters<double>& x, double omega) const {
     const double first = std::sqrt(squared_waves_.front().middle() * x[0] / x[1]);
@@ -145,7 +145,7 @@ class StringFamily {
     return at(x, angle.omega, angle.tuned, frame).own;
   }
 
-  /// The alias sum of a box's loops, a map θ → AliasSum, for
+  /// The function θ → AliasSum that encloses the alias sum of all loops of a box, for
   /// G = m₂ s² H/(q (1 + M_c s² H) + m₂ s² H κ). Where ω exceeds all ω_n, Re(s² H) > 0 and
   /// |1 + M_c s² H| ≥ 1. Let η₀ = Σ h_n, r = k₂/ω + c₂ ≥ |κ|/ω, |H| ≤ η/ω² and
   /// |H + η₀/ω²| ≤ ε/ω³. Then the `ResponseBounds` are

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -15,7 +17,6 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/core/interval_sets.hpp"
-#include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/math/roots/first_crossing.hpp"
 #include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/plant/linear_plant.hpp"
@@ -23,7 +24,6 @@
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/design/attenuating_stretch.hpp"
-#include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
 #include "holdfast/stability/margins/slow_sampling.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
@@ -46,17 +46,17 @@ struct MaxDelayOptions {
   DelayCriterion criterion = DelayCriterion::attenuates;  ///< criterion for a feasible period
   ForceHold hold = ForceHold::sampled;  ///< hold of the excitation; used by `attenuates` only
   double delay_fraction = 0.0;  ///< constant δ/τ: 0 … 1, or 0 … 1000 for a conductor given by modes
-  double shortest_period = 1e-5;  ///< start of the search (s); replaced by 1/(1000 f) if longer
+  double shortest_period = 1e-5;  ///< start of the search (s), > 0; at most 1/(1000 f) is used
   /// The end of the search (s), > `shortest_period`; 0: a default. The default is 1/(2f) for
   /// `attenuates`. For `stable` it is the period beyond which the loop with D = 0 is proved stable;
   /// if none is known within 200 periods of the plant's slowest mode, 20 of these periods.
   double longest_period = 0.0;
-  double search_ratio = 1.00001;  ///< ratio, > 1, of two feasible periods up to which all periods
-                                  ///< between them are assumed to be feasible without proof
+  double search_ratio = 1.00001;  ///< > 1; where two feasible periods have at most this ratio,
+                                  ///< the periods between them are assumed to be feasible
   int most_steps = 20000;  ///< largest number of steps, ≥ 1; for two masses one takes 40 µs or more
   std::function<void()> watch = {};  ///< called at each step; may throw to end the search
-  /// Reference of `attenuates`, an amplitude without control: true for the amplitude under the true
-  /// force, false for the amplitude under the held force (see `AmplitudeOptions`).
+  /// Whether `attenuates` compares with the uncontrolled amplitude under the true force (true) or
+  /// under the held force (false); see `AmplitudeOptions`.
   bool relative_to_true_force = false;
 
   /// The angular frequency ω = 2π f (rad/s).
@@ -100,23 +100,21 @@ DelayOffer delay_offer(const Plant& plant, const MaxDelayOptions& options, doubl
 /// The steady response of a conductor given by its modes, at one sampling period.
 template <class Scalar = double>
 SteadyResponse<Scalar> delay_response(const ConductorWithAbsorber& plant,
-                                      const MaxDelayOptions& options, double sampling_period) {
+                                      const MaxDelayOptions& options, double period) {
   const double omega = options.angular_frequency();
-  const auto response =
-      steady_response<Scalar>(plant, options.sampling(sampling_period), options.hold, omega);
-  if (!options.relative_to_true_force) return response;
-  return response.relative_to(true_amplitude_per_force(plant, omega));
+  const auto held = steady_response<Scalar>(plant, options.sampling(period), options.hold, omega);
+  if (!options.relative_to_true_force) return held;
+  return held.relative_to(true_amplitude_per_force(plant, omega));
 }
 
 /// The stabilising D and the steady response of a conductor given by its modes.
 template <class Scalar = double>
 DelayOffer delay_offer(const ConductorWithAbsorber& plant, const MaxDelayOptions& options,
-                       double sampling_period) {
-  const UnitCircleCrossings<Scalar> circle(
-      modal_response<Scalar>(plant, options.sampling(sampling_period)));
+                       double period) {
+  const UnitCircleCrossings<Scalar> circle(modal_response<Scalar>(plant, options.sampling(period)));
   DelayOffer offer{circle.stable_gains(FreeGain::differential, {options.proportional_gain, 0.0})};
   if (options.criterion != DelayCriterion::stable && !offer.stable.empty())
-    offer.response = delay_response<Scalar>(plant, options, sampling_period);
+    offer.response = delay_response<Scalar>(plant, options, period);
   return offer;
 }
 
@@ -190,6 +188,24 @@ struct MaxDelay {
   MaxDelayLimit limit;  ///< cause of infeasibility beyond τ*, or of the shortest period for `never`
 };
 
+/// Store of the `UnitCircleCrossings` of one conductor's loop, one for each sampling, for searches
+/// at several frequencies, which examine the same periods. Thread-safe.
+class SharedCircles {
+ public:
+  /// The stored crossings of a sampling (τ, δ); `make()` computes them at the first call with it.
+  template <class Make>
+  const UnitCircleCrossings<double>& at(const Sampling<double>& sampling, const Make& make) {
+    const std::lock_guard lock(guard_);
+    const std::pair key(sampling.period, sampling.processing_delay);
+    const auto found = circles_.find(key);
+    return found != circles_.end() ? found->second : circles_.emplace(key, make()).first->second;
+  }
+
+ private:
+  std::mutex guard_;
+  std::map<std::pair<double, double>, UnitCircleCrossings<double>> circles_;
+};
+
 namespace detail {
 
 /// The period (s) beyond which D = 0 is proved to stabilise; infinite where nothing is proved.
@@ -221,9 +237,11 @@ class DelaySearch {
  public:
   using Intervals = std::vector<Interval<double>>;
 
-  DelaySearch(const Plant& plant, const MaxDelayOptions& options)
+  /// @param shared  circles of this plant, also used by other searches; or null
+  DelaySearch(const Plant& plant, const MaxDelayOptions& options, SharedCircles* shared = nullptr)
       : plant_(plant),
         options_(options),
+        shared_(shared),
         reference_(options.relative_to_true_force
                        ? true_amplitude_per_force(plant, options.angular_frequency())
                        : std::numeric_limits<double>::quiet_NaN()) {
@@ -266,7 +284,11 @@ class DelaySearch {
   Intervals gains_at(double period) const {
     return feasible_differential_gains(plant_, options_, period);
   }
-  double gain_at(double period) const { return serving_gain(options_, period, offer_at(period)); }
+  /// The best D at a period, or the D that served there if round-off hides the interval around it.
+  double gain_at(double period) const {
+    const double best = serving_gain(options_, period, offer_at(period));
+    return is_walked_ && std::isnan(best) ? start_ : best;
+  }
 
   /// The cause of infeasibility at a period. Where the least amplitude ratio jumps, an interval of
   /// stabilising D has vanished, so that the cause is stability.
@@ -306,7 +328,7 @@ class DelaySearch {
       const double part = std::clamp(shown_, feasible_, 10.0 * feasible_);
       const double next = std::min(goal, feasible_ + (ratio - 1.0) * part);
       if constexpr (is_walked_) {
-        if (!is_served(next)) return next;
+        if (!is_served(next, shared_)) return next;
         feasible_ = next;
       } else {
         Intervals gains = gains_at(next);
@@ -323,24 +345,43 @@ class DelaySearch {
     return std::nullopt;
   }
 
-  /// Whether a period is feasible with some D; such a D is stored. For a conductor given by its
-  /// modes the last feasible D is tested first, at less cost than finding all stable intervals.
-  bool is_served(double period) {
-    if constexpr (is_walked_) {
-      const PdGains<double> gains{options_.proportional_gain, start_};
-      double ratio = 0.0;
-      if (!shows_vibration(options_, period)) return false;
-      if (options_.criterion == DelayCriterion::attenuates) {
-        const auto response = delay_response(plant_, options_, period);
-        if (response.differential_gains_below(gains.proportional).empty()) return false;
-        ratio = response.ratio_to_uncontrolled(gains);
-      }
-      const auto loop = modal_response<double>(plant_, options_.sampling(period));
-      if (ratio < 1.0 && loop_excess(loop, gains, 1e-3) < 0.0) return true;
-    }
+  /// Whether a period is feasible with some D; such a D is stored.
+  bool is_served(double period, SharedCircles* shared = nullptr) {
+    if (is_served_coarsely(period, shared)) return true;
     const Intervals gains = gains_at(period);
     if (!gains.empty()) start_ = gains.front().representative();
     return !gains.empty();
+  }
+
+  /// Whether a period is feasible, from fewer angles, for a conductor given by its modes. A stable
+  /// interval may be missed if both its ends are crossings between two angles.
+  bool is_served_coarsely(double period, SharedCircles* shared) {
+    if constexpr (is_walked_) {
+      const double p = options_.proportional_gain;
+      Intervals below{{-infinity, infinity}};
+      if (options_.criterion == DelayCriterion::attenuates)
+        below = delay_response(plant_, options_, period).differential_gains_below(p);
+      if (below.empty() || !shows_vibration(options_, period)) return false;
+      const auto sampling = options_.sampling(period);
+      const auto circle = [&] {
+        using Circle = UnitCircleCrossings<double>;
+        return Circle(modal_response<double>(plant_, sampling), Circle::coarse);
+      };
+      const auto serves = [&](const UnitCircleCrossings<double>& on) {
+        const auto is_stable = [&](double d) { return on.roots_outside({p, d}) == 0; };
+        const bool attenuates =
+            std::any_of(below.begin(), below.end(),
+                        [&](const Interval<double>& gains) { return gains.contains(start_); });
+        if (attenuates && is_stable(start_)) return true;
+        const auto stable = on.stable_gains(FreeGain::differential, {p, 0.0}, false);
+        const Intervals gains = intersection(stable, below);
+        if (gains.empty() || !is_stable(gains.front().representative())) return false;
+        start_ = gains.front().representative();
+        return true;
+      };
+      return shared ? serves(shared->at(sampling, circle)) : serves(circle());
+    }
+    return false;
   }
 
   /// Whether one D is proved to be feasible at all periods from `feasible_` to `next`.
@@ -378,59 +419,30 @@ class DelaySearch {
            WalkOutcome::clear;
   }
 
-  /// The stability margin 1 − min ρ over D, to four digits; positive where some D stabilises.
-  double stability_reserve(double period) {
-    const auto loop = loop_polynomial(sampled_loop(plant_, options_.sampling(period)));
-    const auto least = MinimumRadiusSearch(loop, options_.proportional_gain, 1e-5).from(start_);
-    start_ = least.differential_gain;
-    return least.margin;
-  }
-
-  /// The attenuation margin: 1 minus the least amplitude ratio over all stabilising D. It is
-  /// positive where some such D attenuates; −1 where no D stabilises.
-  double attenuation_reserve(double period) {
-    const auto offer = offer_at(period);
-    return offer.response ? 1.0 - least_ratio(options_, offer) : -1.0;
-  }
-
-  /// The last feasible period between a feasible and an infeasible one. A wide bracket is bisected,
-  /// since a feasibility test costs less than a margin; without closed forms it is only bisected.
+  /// The last feasible period between a feasible and an infeasible one, by bisection.
   double boundary_between(double feasible, double infeasible) {
-    constexpr double wide = is_walked_ ? 1.0 + 1e-9 : has_closed_forms<Plant> ? 1.01 : 1.0 + 1e-13;
-    while (infeasible > wide * feasible) {
-      const double middle = std::sqrt(feasible * infeasible);
-      (is_served(middle) ? feasible : infeasible) = middle;
-    }
-    if constexpr (has_closed_forms<Plant>)
-      return narrowed_between(feasible, infeasible);
-    else
-      return feasible;
-  }
-
-  double narrowed_between(double feasible, double infeasible) {
-    const auto narrow = [&](double (DelaySearch::*reserve)(double)) {
-      const auto at = [&](double period) { return (this->*reserve)(period); };
-      const SignChange<double> bracket{feasible, infeasible, at(feasible), at(infeasible)};
-      infeasible = bracketing_root(at, bracket, 1e-13 * feasible).upper;
+    constexpr double wide = 1.0 + (is_walked_ ? 1e-9 : 1e-13);
+    const double beyond = infeasible;
+    const auto halve = [&](const auto& is_feasible) {
+      while (infeasible > wide * feasible) {
+        const double middle = std::sqrt(feasible * infeasible);
+        (is_feasible(middle) ? feasible : infeasible) = middle;
+      }
     };
-    if (offer_at(infeasible).stable.empty()) narrow(&DelaySearch::stability_reserve);
-    if (options_.criterion == DelayCriterion::attenuates) narrow(&DelaySearch::attenuation_reserve);
-    return last_feasible_before(feasible, infeasible);
-  }
-
-  /// The last period before `infeasible` with a feasible D (round-off may shift the sign change).
-  double last_feasible_before(double feasible, double infeasible) const {
-    for (double step = 1e-13 * infeasible; infeasible - step > feasible; step *= 2.0)
-      if (!gains_at(infeasible - step).empty()) return infeasible - step;
+    if (is_walked_) halve([&](double period) { return is_served_coarsely(period, nullptr); });
+    if (is_walked_ && gains_at(infeasible).empty()) return feasible;
+    infeasible = beyond;
+    halve([&](double period) { return is_served(period); });
     return feasible;
   }
 
   Plant plant_;
   MaxDelayOptions options_;
+  SharedCircles* shared_;
   double feasible_ = 0.0;  // every period up to it is feasible
   Intervals gains_;        // that serve there
   int steps_ = 0;          // of the search so far
-  double start_ = 0.0;     // D of minimum radius, or inside what serves, at a neighbouring period
+  double start_ = 0.0;     // D that serves at a neighbouring period
   double reference_;       // m/N, of the true force; NaN where the held one is it
   double shown_ = 0.0;     // s; the longest period that shows all, by parts of which it is walked
 };
@@ -440,11 +452,9 @@ class DelaySearch {
 /// The largest feasible sampling period τ*, found in steps that are proved to be feasible.
 ///
 /// In each step one D is proved to be feasible at all periods of the step (`MovingSpectrum`,
-/// `detail::attenuation`). If a period is infeasible, the boundary before it is a zero of 1 − min ρ
-/// over D (`minimum_radius`), or of 1 − the minimum amplitude ratio over the stabilising D. A
-/// bracketing root finder finds it for two masses, bisection for other plants. A step by a ratio
-/// below `search_ratio`, such as the last one to τ*, is tested at its ends only and assumed to be
-/// feasible between them. Source: Kollár 2022, Fig. 5.
+/// `detail::attenuation`). Before an infeasible period, bisection finds the boundary. A step whose
+/// ends have at most the ratio `search_ratio`, such as the last step to τ*, is tested only at its
+/// ends; the periods between them are assumed to be feasible. Source: Kollár 2022, Fig. 5.
 /// @tparam Plant  two masses, in closed form, or a plant of any order with ports (validated)
 /// @throws InvalidParameter where the plant or an option is outside its admissible range
 template <class Plant>
@@ -464,11 +474,13 @@ MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options)
 /// step may be missed; nothing is proved between the steps or beyond.
 /// @param plant    conductor with its poles, which exclude the poles of its hardware
 /// @param options  options within their ranges; `search_ratio` and `most_steps` have no effect
-/// @param ratio    ratio of two successive periods, > 1
+/// @param ratio    determines the step length (ratio − 1) T, > 1
+/// @param shared   circles of this plant, also used by other searches; or null
 /// @throws InvalidParameter outside these ranges
 template <class Scalar = double>
 MaxDelay modal_max_sampling_period(const ConductorWithAbsorber& plant,
-                                   const MaxDelayOptions& options, double ratio = 1.03) {
+                                   const MaxDelayOptions& options, double ratio = 1.03,
+                                   SharedCircles* shared = nullptr) {
   validate(plant.modes, plant.absorber);
   validate(options);
   require_positive("number of poles", static_cast<double>(plant.poles.size()), "");
@@ -476,14 +488,15 @@ MaxDelay modal_max_sampling_period(const ConductorWithAbsorber& plant,
   MaxDelayOptions walked = options;
   walked.search_ratio = ratio;
   walked.most_steps = std::numeric_limits<int>::max();
-  return detail::DelaySearch(plant, walked).answer();
+  return detail::DelaySearch(plant, walked, shared).answer();
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template MaxDelay max_sampling_period(const TwoMass<double>&, const MaxDelayOptions&);
 extern template MaxDelay max_sampling_period(const LinearPlant<double>&, const MaxDelayOptions&);
 extern template MaxDelay modal_max_sampling_period<double>(const ConductorWithAbsorber&,
-                                                           const MaxDelayOptions&, double);
+                                                           const MaxDelayOptions&, double,
+                                                           SharedCircles*);
 #endif
 
 }  // namespace holdfast

@@ -15,6 +15,7 @@
 #include "holdfast/core/interval.hpp"
 #include "holdfast/math/linalg/resolvent.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
+#include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"

@@ -47,7 +47,7 @@ struct AmplitudeOptions {
   /// (`true_amplitude_per_force`). If not, the reference is the plant without control under the
   /// force held as with control (Kollár 2022, Fig. 5).
   bool relative_to_true_force = false;
-  /// Whether D* is the D of minimum spectral radius for a ModalResponse too.
+  /// Whether D* of `margin` is the D of minimum spectral radius for a ModalResponse too.
   bool by_decay = false;
 };
 
@@ -72,27 +72,6 @@ inline void validate(const AmplitudeOptions& options) {
 }
 
 namespace detail {
-
-/// Narrows an interval about a function's minimum by golden section, with one value per step.
-/// @return the middle of the last interval
-template <class Scalar, class Value>
-Scalar narrow_to_minimum(Scalar lower, Scalar upper, int steps, const Value& value) {
-  const Scalar golden(0.3819660112501051);
-  Scalar left = lower + golden * (upper - lower), right = upper - golden * (upper - lower);
-  Scalar at_left = value(left), at_right = value(right);
-  for (int k = 0; k < steps; ++k) {
-    if (at_left < at_right) {
-      upper = std::exchange(right, left);
-      left = lower + golden * (upper - lower);
-      at_right = std::exchange(at_left, value(left));
-    } else {
-      lower = std::exchange(left, right);
-      right = upper - golden * (upper - lower);
-      at_left = std::exchange(at_right, value(right));
-    }
-  }
-  return (lower + upper) / Scalar(2);
-}
 
 /// The interval that contains `from`, shrunk about this point by a factor `share`; or none.
 template <class Scalar>

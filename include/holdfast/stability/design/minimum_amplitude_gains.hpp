@@ -9,6 +9,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/core/interval_sets.hpp"
+#include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/modal_design.hpp"

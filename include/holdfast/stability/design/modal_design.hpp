@@ -14,6 +14,7 @@
 #include "holdfast/core/interval.hpp"
 #include "holdfast/core/interval_sets.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/stability/boundary/unit_circle_crossings.hpp"
 #include "holdfast/stability/design/minimax_amplitude.hpp"
@@ -187,10 +188,8 @@ class ModulusLevels {
   }
   /// The coefficients of |p|² at an angle near the tabulated `place`, from a series that is stored.
   Place near(std::size_t place, const Scalar& angle) {
-    const std::complex<Scalar> mu = circle_increment(angle);
-    Nearby& nearby = nearby_.try_emplace(place, response_, mu).first->second;
-    nearby.follow(mu);
-    return at(angle, nearby.at(mu));
+    Nearby& nearby = nearby_.try_emplace(place, response_, circle_increment(angle)).first->second;
+    return at(angle, nearby.read(angle).first);
   }
 
   /// The angle at which `value` is largest, between the neighbours of the tabulated `place`.

@@ -19,8 +19,8 @@ struct ProvedPeriodWalk {
 };
 
 /// The largest period T (s) such that for every period from `walk.from` to T some D (N s/m) is
-/// proved to stabilise the loop; one D per step (`SamplingProof`). Nothing is claimed below
-/// `walk.from`. Longer periods than T may have a stabilising D too.
+/// proved to stabilise the loop. Within a step (`SamplingProof`) D is the same. Nothing is claimed
+/// for periods below `walk.from`. Longer periods than T may have a stabilising D too.
 /// @param poles              poles as for EnclosedResponse
 /// @param proportional_gain  gain P (N/m)
 /// @param line               samplings with constant δ/τ and varying period

@@ -57,11 +57,12 @@ LoopMap<Scalar> with_velocity_by_difference(const LoopMap<Scalar>& map) {
   return other;
 }
 
-/// The open intervals of D (N s/m) with which every root of a loop of any order has |λ| < radius.
-/// They are the D that stabilise the loop with the roots λ/radius; radius 1 gives `stable_gains`.
+/// The open intervals of D (N s/m) in which every root of a loop of any order has |λ| < radius.
+/// Computed as `stable_gains` of a loop with the roots λ/radius.
 /// @param map                loop of `loop_map`
 /// @param proportional_gain  P (N/m), finite
 /// @param radius             bound of |λ|, > 0
+/// @throws InvalidParameter where P is not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> differential_gains_within_radius(
     LoopMap<Scalar> map, const detail::Undeduced<Scalar>& proportional_gain,
@@ -87,8 +88,8 @@ auto loop_of(const Plant& plant, const Sampling<double>& sampling) {
   }
 }
 
-/// The plant with ports (readings of the drive's two sides): the plant itself, or `linear_plant`
-/// for two masses. The loop of a plant with ports may have a delay of many samples.
+/// The plant in a form with `Ports` (inputs and outputs): the plant itself, or `linear_plant` for
+/// two masses. The loop of a plant with ports may have a delay of many samples.
 template <class Plant>
 decltype(auto) with_ports(const Plant& plant) {
   if constexpr (has_closed_forms<Plant>) {

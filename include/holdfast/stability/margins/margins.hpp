@@ -80,10 +80,10 @@ struct MarginSearch {
 
 namespace detail {
 
-/// The length next to a boundary of τ or δ, as a share of τ or δ there, over which stability may
-/// remain unproved. An earlier boundary could lie only within this length.
+/// Longest range next to a boundary of τ or δ in which stability may be unproved, as a share of τ
+/// or δ there. A boundary could be missed only in this range.
 constexpr double smallest_step = 1e-6;
-/// The number of samples beyond δ at which the search for longer delays ends.
+/// Range of the search for longer delays, in sampling periods beyond δ.
 constexpr double most_delays = 10.0;
 
 /// The end of a stable interval at which a root λ crosses the unit circle.
@@ -136,8 +136,8 @@ TwoSidedMargin margin_in(const std::vector<Interval<double>>& intervals, double 
   return {};
 }
 
-/// The MarginEnd at the first loss of stability in a family of samplings, with constant gains, from
-/// `value` to `limit`; `otherwise` if stability is not lost.
+/// The MarginEnd at the first loss of stability in a family of samplings between `value` and
+/// `limit`, with constant gains. It is `otherwise` if stability is not lost.
 /// @param first  length of the first step (s), > 0
 template <class Family>
 MarginEnd margin_along(const Family& family, const PdGains<double>& gains, double value,
@@ -190,9 +190,9 @@ TwoSidedMargin period_margin(const Plant& plant, const Sampling<double>& samplin
           towards(std::max(period, std::min(certain, longest)), no_longer)};
 }
 
-/// Both margins of δ, from a search in each range (k − 1) τ … k τ of δ, which has a constant number
-/// k of delayed commands. From range to range a root appears or vanishes at λ = 0, and no other
-/// root moves. A loop without gains is stable for any delay.
+/// Both margins of δ, from one search in each range (k − 1) τ … k τ, where the number k of delayed
+/// commands is constant. At δ = k τ a root appears or vanishes at λ = 0, and the other roots are
+/// continuous. For zero gains a stable loop is stable for any delay.
 template <class Plant>
 TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling,
                             const PdGains<double>& gains, const MarginSearch& search) {
@@ -236,8 +236,8 @@ inline void validate(const MarginSearch& search) {
 /// For D and P: the stable interval around the value, from all crossings of the unit circle
 /// (`circle_crossings`). For τ and δ: steps outwards from the value, each with a proof that all
 /// roots stay inside the unit circle (`MovingSpectrum`), so that no boundary is missed. Where the
-/// proof fails, a bracketing root finder on ρ − 1 finds the boundary. For periods below 10⁻⁶ τ the
-/// continuous loop decides; `SlowSamplingBound` may prove all long periods stable.
+/// proof fails, the boundary is a zero of ρ − 1 (ρ: spectral radius). At periods below 10⁻⁶ τ the
+/// continuous loop is tested instead. `SlowSamplingBound` may prove all long periods stable.
 /// @tparam Plant    two masses, or a plant of any order with ports; `validate` checks it
 /// @param plant     plant within its ranges
 /// @param sampling  τ (s) > 0; δ (s): 0 … τ for two masses, 0 … 1000 τ for a plant with ports
@@ -276,8 +276,8 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
 
 /// Margins of a loop as a whole: gain margin, phase margin and delay margin.
 ///
-/// If both gains are multiplied by x, the characteristic polynomial is a + x b; the given loop has
-/// x = 1. Opened at the drive, this loop has the return ratio L = −b/a; its roots satisfy L = 1.
+/// If both gains are multiplied by x, the characteristic polynomial is a(λ) + x b(λ). The given
+/// loop has x = 1; its return ratio at the drive is L(λ) = −b/a, and its roots satisfy L(λ) = 1.
 struct LoopMargins {
   MarginOutcome outcome;  ///< whether stable; if not, all margins but `unit_circle` are NaN
   double unit_circle;     ///< 1 − ρ, ρ: spectral radius; ≤ 0 where the loop is not stable
@@ -291,8 +291,8 @@ struct LoopMargins {
 
 namespace detail {
 
-/// The phase margin (rad): the least |arg L| on the unit circle where |L| = 1, with L = −b/a of the
-/// polynomial a + x b. There w = iy, and |a|² − |b|² is a polynomial in Y = y².
+/// The phase margin (rad): the least |arg L| with |L| = 1 on the unit circle, L = −b/a. In the
+/// variable w of `in_half_plane`, w = iy there, and |a|² − |b|² is a polynomial in Y = y².
 template <class Scalar>
 Scalar phase_margin(const Polynomial<Scalar, 5>& constant_part,
                     const Polynomial<Scalar, 5>& slope_part) {

@@ -23,6 +23,7 @@ namespace detail {
 template <class Scalar>
 struct ModalMargins {
   using Response = ModalResponse<Scalar>;
+  using Circle = UnitCircleCrossings<Scalar>;
 
   const std::vector<PlantPole>& poles;
   Sampling<Scalar> sampling;
@@ -79,23 +80,26 @@ struct ModalMargins {
   template <class SamplingAt, class Next>
   MarginEnd walk(Scalar value, Scalar limit, const SamplingAt& sampling_at,
                  const Next& next) const {
-    const auto excess = [&](const Scalar& x) { return excess_of(response_at(sampling_at(x))); };
+    const auto excess = [&](const Scalar& x) {
+      return loop_excess_or_turn(response_at(sampling_at(x)), gains);
+    };
     Scalar inside = value;
     while (inside != limit) {
       const Scalar beyond =
           limit > value ? std::min(limit, next(inside)) : std::max(limit, next(inside));
-      const Scalar there = excess(beyond);
-      if (there < Scalar(0)) {
+      const Circle circle(response_at(sampling_at(beyond)), Circle::coarse);
+      const int outside = circle.roots_outside(gains);
+      if (outside == 0 || (outside < 0 && excess(beyond) < Scalar(0))) {
         inside = beyond;
         continue;
       }
-      SignChange<Scalar> ends{inside, beyond, excess(inside), there};
-      if (beyond < inside) ends = {beyond, inside, there, ends.value_at_lower};
-      const auto crossing = bracketing_root<Scalar>(excess, ends, Scalar(1e-9) * value);
+      const auto [lower, upper] = std::minmax(inside, beyond);
+      const auto crossing = bracketing_root<Scalar>(
+          excess, {lower, upper, excess(lower), excess(upper)}, Scalar(1e-9) * value);
       const bool down = beyond < inside;
       const Scalar edge = down ? crossing.upper : crossing.lower;
-      const Scalar outside = down ? crossing.lower : crossing.upper;
-      return boundary_at(response_at(sampling_at(outside)), gains, edge, value,
+      const Scalar unstable = down ? crossing.lower : crossing.upper;
+      return boundary_at(response_at(sampling_at(unstable)), gains, edge, value,
                          sampling_at(edge).period);
     }
     return beyond_search(inside, value);
@@ -153,14 +157,6 @@ struct ModalMargins {
     return {period, sampling.processing_delay / sampling.period * period};
   }
 
-  /// The excess ρ − 1; if roots are missing, ± the least positive number, sign by winding.
-  Scalar excess_of(const Response& other) const {
-    const Scalar excess = loop_excess(other, gains, Scalar(1e-3));
-    if (std::isfinite(excess)) return excess;
-    const bool stable = UnitCircleCrossings<Scalar>(other).roots_outside(gains) == 0;
-    return stable ? -std::numeric_limits<Scalar>::min() : std::numeric_limits<Scalar>::min();
-  }
-
   /// The end at which a root crosses the unit circle.
   /// @param there  response just outside the stable range, where the crossing root is the largest
   static MarginEnd boundary_at(const Response& there, const PdGains<Scalar>& with, Scalar position,
@@ -177,14 +173,15 @@ struct ModalMargins {
 /// The stability margins of D, P, τ and δ, one at a time, for a loop given by its plant's poles.
 ///
 /// The margins of D and P are found by `UnitCircleCrossings`. τ is searched in steps of 5 %, δ in
-/// steps of τ/8; all roots are computed at each step. An unstable window narrower than a step is
-/// missed; `proved_sampling_margins` misses none. If the search finds no boundary, the outcome is
-/// `beyond_search`; for a search of δ that has reached 0 it is `none`.
+/// steps of τ/8; each step counts the roots outside the circle. An unstable window narrower than a
+/// step is missed; `proved_sampling_margins` misses none. If the search finds no boundary, the
+/// outcome is `beyond_search`; for a search of δ that has reached 0 it is `none`.
 /// @param poles     all `plant_poles`; they must outlive the call
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @param gains     P (N/m) and D (N s/m), finite
-/// @param search    limits; τ is searched from τ/r to τ r, r = `longest_period_ratio`
-/// @param has_velocity_sensor  false: D multiplies the backward difference of the readings
+/// @param search    limits; τ from τ/r to τ r, r = `longest_period_ratio`; `most_steps` unused
+/// @param has_velocity_sensor  whether velocity is measured; if not, D multiplies the backward
+///                             difference of the displacement readings
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
 StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
@@ -208,9 +205,9 @@ StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
           search.of_delay ? margins.of_delay() : TwoSidedMargin{}};
 }
 
-/// The stability boundary of τ (if `of_period`, with δ/τ constant) or δ (with τ constant), for a
-/// loop with measured velocity. `proved_margins` has proved the loop stable up to `inside` (s) and
-/// unstable at `outside` (s).
+/// The value of τ (if `of_period`; δ/τ is constant) or δ (else; τ is constant) at which a loop with
+/// measured velocity becomes unstable. It is between `inside` (s), up to which the loop is stable,
+/// and `outside` (s), where it is unstable; both may be results of `proved_margins`.
 template <class Scalar = double>
 MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                            const Sampling<detail::Undeduced<Scalar>>& sampling,
@@ -221,8 +218,8 @@ MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                                                                             of_period);
 }
 
-/// The gain, phase and delay margins of a loop given by the poles of its plant. For the delay
-/// margin δ is searched in steps of τ/8. The arguments are those of `modal_stability_margins`.
+/// The gain, phase and delay margins of a loop given by the poles of its plant. The delay margin is
+/// found by a search over δ in steps of τ/8. The arguments are those of `modal_stability_margins`.
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
 LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,

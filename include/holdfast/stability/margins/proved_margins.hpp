@@ -27,8 +27,8 @@ enum class ProofStop {
 
 /// Proved stability margin of a quantity in one direction from its given value.
 struct ProvedMarginEnd {
-  /// The loop is proved to be stable for all values of the quantity from the given one to this one;
-  /// NaN where the loop is not proved to be stable at the given value.
+  /// Value of the quantity up to which the loop is proved stable, from the given value on; NaN
+  /// where the loop is not proved stable at the given value.
   double stable_to = std::numeric_limits<double>::quiet_NaN();
   /// A value beyond `stable_to` at which the loop is proved to be unstable; NaN if none was found.
   /// The values between `stable_to` and `unstable_at` are undecided.
@@ -69,7 +69,7 @@ inline bool is_off_circle(CircleArcs& arcs, const GainBox& box) {
   return arcs.meeting(box, arcs.all()).empty();
 }
 
-/// The verdict proved for all loops with gains in a box.
+/// Stability proved for all loops with gains in a box; `undecided` without a proof.
 inline ProvedStability stability_of(CircleArcs& arcs, const GainBox& box) {
   if (!is_off_circle(arcs, box)) return ProvedStability::undecided;
   const auto outside = arcs.roots_outside(middle_of(box));
@@ -108,9 +108,9 @@ struct SamplingPath {
   }
 };
 
-/// Proves stability step by step along a path from a value with a proved stable loop, as long as no
-/// root reaches the unit circle: roots move continuously, so none gets outside. If the proof stops
-/// before `limit` with steps left, an unstable loop is sought beyond the value reached.
+/// Proves stability step by step along a path, from a value at which the loop is proved stable. A
+/// step proves that no root reaches the unit circle; as roots move continuously, none gets outside.
+/// If the proof stops before `limit` with steps left, an unstable loop is sought beyond.
 /// @param watch  called for each step; an exception from it ends the work
 template <class Path, class Watch>
 ProvedMarginEnd walked_end(const Path& path, double value, double limit,
@@ -229,11 +229,11 @@ struct MarginProver {
 }  // namespace detail
 
 /// Proves by how much D, P, τ and δ, one at a time, may change before the loop loses its stability.
-/// First the loop with the given decimal numbers is proved stable. Then steps from the given value
-/// prove that no root reaches the unit circle; so no unstable window is missed. The goal of the
-/// steps is slightly beyond the boundary in `found`, else at the end of that search.
+/// First the loop with the given decimal numbers is proved stable. Then each step from the given
+/// value proves that no root reaches the unit circle, so that no unstable window is missed. The
+/// goal of the steps is 10 % beyond the boundary in `found`, or the end of the search in `found`.
 /// @param poles       poles of `enclosed_poles`
-/// @param sampling    τ and δ as for EnclosedResponse
+/// @param sampling    τ (s) > 0 and δ (s), 0 … 1000 τ
 /// @param gains       P (N/m) and D (N s/m), finite
 /// @param found       margins computed in double precision; they only determine the goals
 /// @param options     resolution and largest number of steps

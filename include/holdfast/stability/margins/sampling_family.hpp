@@ -109,13 +109,13 @@ class SamplingFamily {
   double action_rate() const { return fixed_period_ > 0.0 ? -1.0 : held_ - delay_fraction_; }
 
   /// The Taylor series of the closed loop's map in x = (position − centre)/radius, |x| ≤ 1, up to
-  /// x¹². Let h = k τ − δ, and let τ′ and h′ be derivatives by the position. The j-th derivatives
-  /// by the position of the rows that belong to the plant's states are
+  /// x¹². The plant has the state matrix A and the control input b. Let h = k τ − δ, and let ′ be
+  /// the derivative by the position. The map's rows of the plant's states contain A_d, Γ₁ and Γ₀
+  /// (k = 1: Γ₀ K with the feedback row K). The j-th derivative of [A_d, Γ₁, Γ₀] is
   ///
   ///     A^{j−1} ((τ′)ʲ [A A_d, A_d b, 0] + (h′)ʲ e^{Ah} b [0, −1, 1]),   j ≥ 1
   ///
-  /// for the columns A_d, Γ₁ and Γ₀, the last of which is multiplied by K if k = 1. The remainder
-  /// bounds the omitted terms by a geometric series, and is infinite where that does not converge.
+  /// The remainder bounds the omitted terms by a geometric series, or is infinite if this diverges.
   /// @param map     map of `map_at`, at the centre
   /// @param gains   gains P and D
   /// @param radius  half width (s), ≥ 0
@@ -171,7 +171,7 @@ class SamplingFamily {
     return result;
   }
 
-  /// Whether the loop is proved stable at all positions within `radius` (s) of a centre (s).
+  /// Outcome of a proof of stability at all positions within `radius` (s) of a centre (s).
   Stretch stability(const PdGains<double>& gains, double centre, double radius) const {
     const MovingSpectrum roots(moving(map_at(centre), gains, radius));
     return roots.inside()             ? Stretch::holds

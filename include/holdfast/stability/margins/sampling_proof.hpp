@@ -87,7 +87,7 @@ struct EnclosedSamplings {
 template <class Scalar>
 class SamplingProof {
  public:
-  /// @param poles  poles as for EnclosedResponse
+  /// @param poles  poles of `enclosed_poles`, at least one, none of which may be 0
   /// @param gains  P (N/m) and D (N s/m), exactly the given decimal numbers
   /// @param line   line of samplings from which the segments are taken
   SamplingProof(const std::vector<EnclosedPole>& poles, const PdGains<double>& gains,

@@ -20,13 +20,14 @@ namespace holdfast {
 /// Upper bound of |L|, the modulus of the loop's return ratio, for all |λ| ≥ 1. It decreases as τ
 /// grows. The sampled loop is stable at every τ at which the bound is below 1.
 ///
-/// Let K (sI − A)⁻¹ b = n(s)/p(s) with the plant's poles s_i = −a_i + iω_i. With c_i = n(s_i)/(s_i
-/// p′(s_i)), g = K A⁻¹ b = −n(0)/p(0) = Σ c_i, φ = δ/τ and e_i = e^{s_i τ}, the return ratio is
+/// Let n(s)/p(s) = K (sI − A)⁻¹ b for plant matrix A, control input b and feedback row K. The plant
+/// has the poles s_i = −a_i + iω_i. With c_i = n(s_i)/(s_i p′(s_i)), g = K A⁻¹ b = −n(0)/p(0) =
+/// Σ c_i, φ = δ/τ and e_i = e^{s_i τ}, the return ratio is
 ///
 ///     L(λ) = K (λI − A_d)⁻¹ (Γ₀ + Γ₁/λ)
 ///          = −g/λ + Σ c_i e^{s_i(1−φ)τ} (λ − 1)/(λ(λ − e_i))
 ///
-/// det(λI − S) = λ det(λI − A_d) (1 − L), so all roots have |λ| < 1 if |L| < 1 for |λ| ≥ 1. There
+/// The roots of det(λI − S) = λ det(λI − A_d) (1 − L) have |λ| < 1 if |L| < 1 for |λ| ≥ 1, where
 ///
 ///     |L| ≤ |g| + 2 Σ |c_i| e^{−a_i χτ}/(1 − e^{−a_iτ}),   χ = 1 − φ if φ < 1, χ = 1 if φ = 1
 ///
@@ -106,7 +107,7 @@ class SlowSamplingBound {
     static_gain_ = std::abs(feedback.dot(eliminated(a, b)));
   }
 
-  /// The decay rate of a pole, 0 where it is undamped up to round-off.
+  /// The decay rate −Re s of a pole s; 0 where the pole is undamped up to round-off, or unstable.
   static double decay_of(const std::complex<double>& pole) {
     return -pole.real() > 1e-12 * std::abs(pole) ? -pole.real() : 0.0;
   }

@@ -35,21 +35,21 @@ struct QuadraticFactor {
 
 /// Spectral radius of a characteristic polynomial that changes little from call to call, as along a
 /// row of a chart. The quadratic factor μ² + Uμ + V of its two dominant roots (largest |λ|) is
-/// followed from call to call. Each lane of a SIMD pack is a separate polynomial.
+/// stored and updated at each call. Each lane of a SIMD pack is a separate polynomial.
 ///
 /// The factor is extrapolated from previous calls and corrected by Newton's method in (U, V), known
-/// as Bairstow's iteration. `divide` computes b from the polynomial and c from b; one step solves
+/// as Bairstow's iteration. Synthetic division of the polynomial by the factor gives coefficients
+/// b_k, and of these gives c_k. One step solves
 ///
 ///     c₂ δU + c₃ δV = b₁,   (c₁ − b₁) δU + c₂ δV = b₀
 ///
 /// The iteration converges quadratically if factor and quotient have no common root. The conditions
-/// of Liénard and Chipart test that no root of the quotient has a larger |λ| than the factor; a
-/// lane that fails is recomputed from all roots. A real dominant root is paired with the root λ =
-/// 0, which the sampled loop has for δ = 0; multiply other polynomials by λ (`with_root_at_zero`).
-///
-/// Work: 5 Degree multiply-adds and a division per iteration, 45 multiply-adds per call for the
-/// test. Relative error of the radius: round-off times the condition number of the dominant root,
-/// or 2e−13 where the two largest |λ| differ by less than that. Source: L. Bairstow, 1914.
+/// of Liénard and Chipart test that no root of the quotient has a larger |λ| than the factor. If
+/// the test fails in a lane, this lane is recomputed from all roots. A real dominant root is paired
+/// with the root λ = 0, which the sampled loop has for δ = 0; multiply other polynomials by λ
+/// (`with_root_at_zero`). Work: 5 Degree multiply-adds and a division per iteration, 45
+/// multiply-adds per call for the test. Relative error of the radius: round-off times the condition
+/// of the dominant root, or 2e−13 if the two largest |λ| are closer. Source: L. Bairstow, 1914.
 template <class Scalar, int Degree>
 class DominantFactor {
  public:

@@ -66,7 +66,7 @@ struct LoopPolynomial {
   }
 };
 
-/// The polynomial of a loop: centre 0 if the ∞-norm of the balanced A_d is below 1/4, otherwise 1.
+/// Computes the polynomial of a loop; centre 0 if the ∞-norm of the balanced A_d is < 1/4, else 1.
 template <class Scalar>
 LoopPolynomial<Scalar> loop_polynomial(const SampledLoop<Scalar>& loop) {
   const Scalar norm =

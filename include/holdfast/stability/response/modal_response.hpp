@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "holdfast/control/loop_map.hpp"
@@ -72,7 +73,7 @@ class ModalResponse {
 
   /// The response G(rλ) as a function of λ; the roots of its loop are this loop's roots over r.
   /// @param offset  r − 1, above −1
-  /// @return nullopt where eigenvalues (nearly) coincide, so that LoopResponse is used
+  /// @return the response; nullopt where LoopResponse is used, as eigenvalues (nearly) coincide
   std::optional<ModalResponse> at_radius(const Scalar& offset) const {
     if (dense_) return std::nullopt;
     ModalResponse scaled = *this;
@@ -98,20 +99,20 @@ class ModalResponse {
     return scaled;
   }
 
-  /// Filter w(λ) = constant + change (1 − 1/λ) of displacement readings, G_v = w(λ) G_z. D
-  /// multiplies the filter's output. Both members are in 1/s; in N/m if they contain both gains.
+  /// Filter w(λ) = constant + change (1 − 1/λ) of displacement readings; D multiplies its output,
+  /// G_v = w(λ) G_z. Members `constant` and `change` (1/s; N/m if they contain both gains).
   using Weight = typename PoleSum<Scalar>::Weight;
 
-  /// The response of a computer without a velocity sensor, which filters its displacement readings.
-  /// @param weight  filter of the readings
+  /// The response of the loop without a velocity sensor: D multiplies filtered displacements.
+  /// @param weight  filter w of the readings
   ModalResponse with_velocity_from_displacement(const Weight& weight) const {
     ModalResponse other = *this;
     other.weight_ = weight;
     return other;
   }
 
-  /// The response where D multiplies the backward difference of the readings, G_v = (1 − 1/λ)
-  /// G_z/τ; this response unchanged if there is a velocity sensor (`of_velocity`).
+  /// This response if velocity is measured (`of_velocity`). Otherwise the response where D
+  /// multiplies the backward difference of the displacement readings: G_v = (1 − 1/λ) G_z/τ.
   ModalResponse with_sensor(bool of_velocity) const {
     if (of_velocity) return *this;
     return with_velocity_from_displacement({Scalar(0), Scalar(1) / period_});
@@ -127,7 +128,7 @@ class ModalResponse {
   /// The number k of delayed commands.
   int held_commands() const { return commands_; }
 
-  /// The function 1 − P G_z − D G_v as a sum over all poles; no `parts` if computed otherwise.
+  /// The function 1 − P G_z − D G_v as a sum over all poles; no `parts` if LoopResponse is used.
   PoleSum<Scalar> loop_parts(const PdGains<Scalar>& gains) const {
     PoleSum<Scalar> loop;
     loop.power = commands_ - 1;
@@ -149,7 +150,7 @@ class ModalResponse {
   /// Whether δ′ > 0, so that the previous command still acts at the start of a sample (b_j ≠ 0).
   bool is_late_within_sample() const { return late_ > Scalar(0); }
 
-  /// The number of eigenvalues s of the plant without control with Re s > 0 (growing motions).
+  /// The number of the plant's eigenvalues with Re s > 0, |e^{sτ}| > 1 (> r for `at_radius`).
   int unstable_poles() const { return unstable_; }
 
  private:
@@ -207,16 +208,18 @@ class ModalResponse {
   };
 
   CommandResponse<Scalar> finished(const Sums& sums, const Complex& mu) const {
-    const Complex lambda = Complex(1) + mu;
-    CommandResponse<Scalar> g{sums.z + poles_.past_z / lambda, sums.v + poles_.past_v / lambda};
+    using detail::plain_product;
+    const Complex back = detail::inverse(Complex(1) + mu);
+    CommandResponse<Scalar> g{sums.z + plain_product(poles_.past_z, back),
+                              sums.v + plain_product(poles_.past_v, back)};
     for (const Pole& pole : poles_.late) {
-      const Complex factor = Scalar(1) / (mu - pole.increment);
-      g.displacement += (pole.displacement + pole.past_displacement / lambda) * factor;
-      g.velocity += (pole.velocity + pole.past_velocity / lambda) * factor;
+      const Complex factor = detail::inverse(mu - pole.increment);
+      g.displacement += (pole.displacement + pole.past_displacement * back) * factor;
+      g.velocity += (pole.velocity + pole.past_velocity * back) * factor;
     }
     for (int k = 1; k < commands_; ++k) {
-      g.displacement /= lambda;
-      g.velocity /= lambda;
+      g.displacement = plain_product(g.displacement, back);
+      g.velocity = plain_product(g.velocity, back);
     }
     return weighted(g, mu);
   }
@@ -266,13 +269,13 @@ class ModalResponse {
 };
 
 /// Transfer functions at many λ near one point. The terms of the nearest poles (about 3 √N of N)
-/// are computed one by one; the sum of all others comes from its Taylor series, as accurately.
+/// are computed one by one. The sum of the others is a Taylor series of the same accuracy.
 /// Values at 30 angles per pole then cost order N^{3/2} operations in all, not N².
 template <class Scalar>
 class ModalResponse<Scalar>::Nearby {
  public:
   /// @param response  the response, which must outlive this object
-  /// @param centre    offset μ = λ − 1 of that point
+  /// @param centre    offset μ = λ − 1 of the point about which the series is taken
   Nearby(const ModalResponse& response, const Complex& centre)
       : response_(&response), centre_(centre) {
     const Poles& all = response.poles_;
@@ -295,11 +298,16 @@ class ModalResponse<Scalar>::Nearby {
     add_far(far);
   }
 
-  /// Whether μ is near enough: |μ − centre| ≤ 1/8 of the distance to the series' nearest pole.
+  /// Whether the series is accurate at μ: |μ − centre| ≤ 1/8 of the distance to its nearest pole.
   bool holds(const Complex& mu) const { return std::abs(mu - centre_) <= reach_ / Scalar(8); }
 
-  /// Moves the centre to μ unless μ is near enough.
+  /// Moves the centre to μ where the series is not accurate at μ (`holds`). If μ is only little
+  /// beyond its range, the centre moves further in the same direction, for later values of μ.
   void follow(const Complex& mu) {
+    if (holds(mu)) return;
+    const Complex way = mu - centre_;
+    const Scalar ahead = reach_ / (Scalar(9) * std::abs(way));
+    if (ahead > Scalar(0.5)) *this = Nearby(*response_, mu + ahead * way);
     if (!holds(mu)) *this = Nearby(*response_, mu);
   }
 
@@ -316,15 +324,25 @@ class ModalResponse<Scalar>::Nearby {
     return response_->finished({sums.z + near.z, sums.v + near.v}, mu);
   }
 
+  /// The responses at λ = e^{iθ}, and the distance from λ to the nearest pole. Near θ = 0 and π,
+  /// where imaginary parts need full accuracy, all terms are summed.
+  std::pair<CommandResponse<Scalar>, Scalar> read(const Scalar& angle) {
+    const Complex mu = circle_increment(angle);
+    follow(mu);
+    const Scalar to_pole = nearest(mu);
+    const bool at_end = std::min(angle, pi<Scalar> - angle) < Scalar(0.1) * to_pole;
+    return {at_end ? response_->at_angle(angle) : at(mu), to_pole};
+  }
+
   /// The distance from μ to the nearest pole, or a lower bound of that distance if no pole is near.
   Scalar nearest(const Complex& mu) const {
     const Scalar far = std::min(Scalar(2), reach_ - std::abs(mu - centre_));
-    Scalar least = std::numeric_limits<Scalar>::infinity();
+    auto least = decltype(detail::ComplexLanes<Scalar>::re)::Constant(far * far).eval();
     for (const auto& block : near_.blocks()) {
       const auto away = mu - block.front();
-      least = std::min(least, (away.re * away.re + away.im * away.im).minCoeff());
+      least = least.min(away.re * away.re + away.im * away.im);
     }
-    return std::min(far, std::sqrt(least));
+    return std::sqrt(least.minCoeff());
   }
 
  private:
@@ -385,9 +403,8 @@ ModalResponse<Scalar> modal_response(const std::vector<PlantPole>& poles,
   return {residues, sampling};
 }
 
-/// The response of a conductor given by its modes with the absorber and the loop's hardware. If
-/// `with_hardware` gives their poles, these are used, else the eigenvalues of `linear_plant`.
-/// @tparam Scalar    double
+/// The response of a conductor given by its modes with the absorber and the loop's hardware. It is
+/// computed from the poles of `with_hardware`, or without these from `linear_plant`.
 /// @param conductor  conductor with all its poles, or without poles
 /// @param sampling   τ and δ
 /// @throws InvalidParameter where conductor, absorber, hardware or sampling are not admissible
@@ -416,26 +433,22 @@ ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduc
 /// adds a state, the previous reading, and a root; for D = 0 this root is 0 and is left out.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P and D
-/// @param enough    admissible relative error (`pole_sum_roots`); 0: full precision
-/// @return an empty vector where the roots are not found, eigenvalues of the plant nearly coincide,
-/// or more than 20 commands are delayed
+/// @return all roots; empty where they are not found, eigenvalues of the plant nearly coincide, or
+/// more than 20 commands are delayed
 template <class Scalar>
 std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& response,
-                                             const PdGains<Scalar>& gains,
-                                             const Scalar& enough = Scalar(0)) {
-  return pole_sum_roots(response.loop_parts(gains), response.is_late_within_sample(), enough);
+                                             const PdGains<Scalar>& gains) {
+  return pole_sum_roots(response.loop_parts(gains), response.is_late_within_sample());
 }
 
 /// The root λ of largest modulus of a loop.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P and D
-/// @param enough    admissible relative error (`pole_sum_roots`); 0: full precision
-/// @return NaN where `loop_roots` finds none
+/// @return the root; NaN where `loop_roots` finds none
 template <class Scalar>
 std::complex<Scalar> largest_loop_root(const ModalResponse<Scalar>& response,
-                                       const PdGains<Scalar>& gains,
-                                       const Scalar& enough = Scalar(0)) {
-  const auto roots = loop_roots(response, gains, enough);
+                                       const PdGains<Scalar>& gains) {
+  const auto roots = loop_roots(response, gains);
   const auto largest = std::max_element(
       roots.begin(), roots.end(),
       [](const auto& one, const auto& other) { return std::norm(one) < std::norm(other); });
@@ -446,11 +459,9 @@ std::complex<Scalar> largest_loop_root(const ModalResponse<Scalar>& response,
 /// The excess ρ − 1 of a loop, ρ being its largest root modulus; NaN where `loop_roots` finds none.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P and D
-/// @param enough    admissible relative error (`pole_sum_roots`); 0: full precision
 template <class Scalar>
-Scalar loop_excess(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains,
-                   const Scalar& enough = Scalar(0)) {
-  const std::complex<Scalar> mu = largest_loop_root(response, gains, enough) - Scalar(1);
+Scalar loop_excess(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains) {
+  const std::complex<Scalar> mu = largest_loop_root(response, gains) - Scalar(1);
   const Scalar squared = Scalar(2) * mu.real() + std::norm(mu);  // |λ|² − 1
   return squared / (Scalar(1) + std::sqrt(Scalar(1) + squared));
 }

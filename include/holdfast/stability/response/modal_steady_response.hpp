@@ -18,7 +18,7 @@ namespace holdfast {
 /// The amplitude |z| / F_m (m/N) of a conductor given by its modes, at the absorber's place and
 /// without control. The force F_m cos ωt acts there and is not held over samples. The amplitude is
 /// the modulus of `place_receptance` at s = iω; the arguments are not checked.
-/// @param conductor          conductor, with its poles where devices are on the span
+/// @param conductor          conductor; its poles are needed only if devices are on the span
 /// @param angular_frequency  ω (rad/s), > 0
 inline double true_amplitude_per_force(const ConductorWithAbsorber& conductor,
                                        double angular_frequency) {

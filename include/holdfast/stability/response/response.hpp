@@ -37,7 +37,7 @@ struct LoopPhasors {
   std::complex<Scalar> force_conductor;       ///< f_c (m/N): conductor's z per excitation force
 };
 
-/// The responses Y of a sampled loop without feedback to a unit command and a unit excitation at ω:
+/// Responses Y of a sampled loop without feedback to a unit command and to a unit excitation at ω:
 ///
 ///     (λI − S₀) Y = [s, g],   λ = e^{iωτ}
 ///
@@ -180,7 +180,7 @@ class SteadyResponse {
     return SteadyResponse(phasors).relative_to(reference_);
   }
 
-  /// The amplitude over the reference, by default the amplitude without control; < 1: attenuation.
+  /// Ratio of the amplitude to a reference, by default that without control; < 1: attenuation.
   Scalar ratio_to_uncontrolled(const PdGains<Scalar>& gains) const {
     return amplitude_per_force(gains) / reference_;
   }
@@ -196,7 +196,7 @@ class SteadyResponse {
                                      -phasors_.control_velocity)};
   }
 
-  /// The open intervals of D (N s/m) in which `squared_ratio` is below 1; the loop may be unstable.
+  /// The open intervals of D (N s/m) with `squared_ratio` below 1. Stability there is not checked.
   /// @param proportional_gain  P (N/m), finite
   std::vector<Interval<Scalar>> differential_gains_below(const Scalar& proportional_gain) const {
     const RatioOfQuadratics<Scalar> square = squared_ratio(proportional_gain);
@@ -272,7 +272,7 @@ SteadyResponse<double> steady_response(const Plant& plant, const Sampling<double
 }
 
 /// The amplitude |Z| / F_m (m/N) of the plant without control under the force F_m cos ωt, not held
-/// over samples: |h (iωI − A)⁻¹ c|, with the row h of the conductor's displacement.
+/// over samples: |h (iωI − A)⁻¹ c| with state matrix A, excitation input c and displacement row h.
 /// @param plant              plant of any order; the motion is steady only if the plant is stable
 /// @param angular_frequency  ω (rad/s), > 0
 /// @throws InvalidParameter where ω is outside its range

@@ -77,7 +77,7 @@ CableDecay decay_of(const CableElements& cable, const CableDecayOptions& options
       throw NoAnswer("no equilibrium was found under " + force + ": give a smaller force");
     case cvode::LoadRemovalOutcome::integration_failed:
       throw NoAnswer("the integrator CVODE failed at t = " + format_number(removal.last_time) +
-                     " s of the decay; give a smaller force (" + one_line(removal.words) + ")");
+                     " s of the decay (" + one_line(removal.words) + "): give a smaller force");
   }
   return {removal.initial_displacement, removal.record};
 }

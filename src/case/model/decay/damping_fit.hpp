@@ -12,8 +12,8 @@ namespace holdfast::program {
 /// Throws NoAnswer, naming the package to install, in a program built without Ceres Solver.
 void require_ceres();
 
-/// Fits a plant to a record by `fit::fit_decay`. Throws NoAnswer if no start leads to a minimum,
-/// and in a program without Ceres Solver.
+/// Fits a plant to a recorded decay by `fit::fit_decay`. Throws NoAnswer if no initial guess leads
+/// to a minimum, and in a program without Ceres Solver.
 fit::DecayFit fit_record(const DecayRecord& record, const TwoMass<double>& plant,
                          const fit::DecayFitOptions& options);
 

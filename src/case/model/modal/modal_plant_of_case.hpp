@@ -30,14 +30,14 @@ Absorber<double> absorber_of(const Case& the_case);
 /// Measurement filter, drive lag and velocity sensor of a case.
 LoopHardware hardware_of(const Case& the_case);
 
-/// The linear plant of a modal case, with filter and drive.
+/// Linear plant of a modal case, with filter and drive lag. Throws NoAnswer if it has devices.
 LinearPlant<double> modal_plant_of(const Case& the_case);
 
-/// The conductor with absorber, filter and drive, and the poles of conductor and absorber; the last
-/// poles found are cached. Throws NoAnswer if two poles nearly coincide.
+/// Conductor with absorber, filter and drive, and the poles of conductor and absorber, which are
+/// cached. Throws NoAnswer if two poles nearly coincide, WrongInput for a user-defined plant.
 ConductorWithAbsorber conductor_with_absorber_of(const Case& the_case);
 
-/// The poles from command to readings, with filter and drive. Throws NoAnswer if two coincide.
+/// Poles from command to readings, with filter and drive. Throws NoAnswer if two nearly coincide.
 std::vector<PlantPole> loop_poles_of(const Case& the_case);
 
 /// The response of the readings to the command, as a sum over poles, for any case.
@@ -46,11 +46,11 @@ ModalResponse<double> command_response_of(const Case& the_case);
 /// The characteristic root of largest modulus of a modal case's loop; NaN if roots were not found.
 std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>& gains);
 
-/// Whether the gains of a case are stable with another clamp mass (kg), for all modes of the
-/// conductor: 60 single ones and bundles.
+/// Whether the loop of a case is stable with another clamp mass (kg), computed with 60 single modes
+/// of the conductor and bundles of all faster modes.
 bool is_stable_with_clamp(const Case& the_case, double clamp_mass);
 
-/// The loop with other modes of the same conductor, to show how far a result depends on the modes.
+/// Loop with another number of modes, to show how much a result depends on that number.
 struct OtherModes {
   UnitCircleCrossings<double> circle;
   std::string words;  ///< description of the modes: "with all modes"
@@ -58,12 +58,12 @@ struct OtherModes {
   bool is_stable(const PdGains<double>& gains) const { return circle.roots_outside(gains) == 0; }
 };
 
-/// The loop with all modes if the case gives plant.modes; else with more single modes by
-/// `judged_modes_of`, or with fewer by `coarser_modes_of` where there are no more.
+/// Loop with another number of modes than the case: all modes if the case gives plant.modes; else
+/// more single modes by `judged_modes_of`, or, if these are no more, fewer by `coarser_modes_of`.
 OtherModes other_modes_of(const Case& the_case);
 
-/// The loop of a case's absorber and computer for the test of its stability: on the taut string
-/// with all devices and the modes of `judged_modes_of`, whatever plant.model and plant.modes are.
+/// Reference loop for the test of stability: absorber and computer of a case on the taut string
+/// with all devices and the modes of `judged_modes_of`. plant.model and plant.modes are ignored.
 struct JudgedLoop {
   UnitCircleCrossings<double> circle;
   int modes;       ///< number of single modes; faster modes are bundled
@@ -81,24 +81,24 @@ JudgedLoop cut_loop_of(const Case& the_case);
 /// Whether plant.model is "string" and the program chooses the number of modes.
 bool has_chosen_modes(const Case& the_case);
 
-/// A warning if the loop is stable with the modes of the case, but unstable by `judged_loop_of`;
-/// empty if both agree, and if !has_chosen_modes().
+/// Message that a loop, known to be stable with the modes of the case, is unstable with more modes
+/// by `judged_loop_of`. Empty if it is stable with these too, or if !has_chosen_modes().
 std::string judged_otherwise(const Case& the_case);
 
-/// The steady response of the loop of any plant at ω (rad/s), and the amplitude without control per
-/// newton of the true force (m/N).
+/// Steady response of the loop of any plant at ω (rad/s). true_amplitude_of() is the amplitude
+/// without control per newton of the continuous (not held) force (m/N).
 SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<double>& sampling,
                                           ForceHold hold, double angular_frequency);
 double true_amplitude_of(const Case& the_case, double angular_frequency);
 
-/// The loop of a modal case with all its features. The plant includes the controller, whose memory
-/// is the delayed commands. Throws WrongInput for a string without ends and without clamp mass.
+/// Loop of a modal case with all its features. The plant's state includes the controller's memory
+/// (delayed commands). Throws WrongInput for a string without ends and without clamp mass.
 ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
                                                      const MotionChoice& choice);
 
-/// The initial state of `conductor_loop_of` for given `seen` = [z1, v1, z2, v2] (m, m/s). The
-/// conductor is deflected to z1 by a static force at the absorber's place and has the velocities of
-/// an impulse there. Drive and commands are 0; the filter is settled.
+/// Initial state of `conductor_loop_of` for given `seen` = [z1, v1, z2, v2] (m, m/s) at the
+/// absorber's place. The conductor has the shape of a static force there and the velocities of an
+/// impulse there. Drive and commands are 0; the filter is settled.
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case, const Vector<double, 4>& seen);
 
 }  // namespace holdfast::program

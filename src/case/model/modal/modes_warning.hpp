@@ -14,7 +14,7 @@ std::string modes_warning(const Case& the_case);
 /// third power of the number of modes; empty otherwise.
 std::string dense_work_warning(const Case& the_case, Switching switching);
 
-/// A warning that peaks on a string without ends include its rigid drift; else empty.
+/// Warning that peaks include the rigid drift of a string without ends; else empty.
 std::string drift_warning(const Case& the_case);
 
 }  // namespace holdfast::program

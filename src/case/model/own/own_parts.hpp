@@ -15,7 +15,7 @@
 
 namespace holdfast::program {
 
-/// A controller instead of P and D: the force (N) at sample k, t (s), from readings (m, m/s).
+/// User-defined control law: force (N) at sample k and time t (s), from readings (m, m/s).
 using OwnForce =
     std::function<double(std::int64_t k, double t, double displacement, double velocity)>;
 
@@ -29,12 +29,12 @@ struct OwnParts {
 /// Throws WrongInput if a key contradicts the user-defined plant or controller, or has no effect.
 void require_consistent(const Case& the_case);
 
-/// Throws WrongInput for a key of the conductor or absorber that a user-defined plant replaces.
+/// Throws WrongInput for a key that has no effect because a user-defined plant replaces it.
 /// @param place  place where the key is given, with ": " at the end; or empty
 void require_counts(const Case& the_case, std::string_view key, const std::string& place = "");
 
-/// An OwnForce as a controller for control/controlled_plant.hpp. Its memory consists of the number
-/// and the instant of the sample.
+/// Adapter of an OwnForce to the controllers of control/controlled_plant.hpp. Its two memory states
+/// are the index of the next sample and the time (s) of the last one.
 struct OwnLaw {
   static constexpr int states = 2;
   OwnForce force;  ///< control law; empty: no force
@@ -53,9 +53,9 @@ struct OwnLaw {
 /// @param controlled  false: the law gives no force
 OwnLaw own_law_of(const Case& the_case, bool controlled);
 
-/// The poles of a plant from its command to its readings. Throws NoAnswer if two poles nearly
-/// coincide, or if the velocity that D multiplies is not the derivative of the displacement that P
-/// multiplies. Such a plant has charts, responses and motions, but no sum over its poles.
+/// Poles of a plant, with the residues from its command to its displacement reading. Throws
+/// NoAnswer if two poles nearly coincide, or if the velocity reading is not the derivative of the
+/// displacement reading. Charts, responses and motions do not need these poles.
 std::vector<PlantPole> poles_of(const LinearPlant<double>& plant);
 
 }  // namespace holdfast::program

@@ -9,9 +9,9 @@
 
 namespace holdfast::program {
 
-/// The poles from the drive's force to the displacement at the absorber, for a taut string with the
-/// case's devices. The string has the single modes and bundles of `conductor`. The last poles are
-/// cached. Throws WrongInput for a hanging cable or a measured device, NoAnswer if poles coincide.
+/// Poles from the drive's force to the displacement at the absorber, for a taut string with the
+/// case's devices and the modes and bundles of `conductor`. Results are cached. Throws WrongInput
+/// for a hanging cable or a measured device, NoAnswer if two poles nearly coincide.
 std::vector<PlantPole> poles_with_devices(const Case& the_case, const ConductorModes& conductor,
                                           const Absorber<double>& absorber);
 
@@ -19,8 +19,8 @@ std::vector<PlantPole> poles_with_devices(const Case& the_case, const ConductorM
 /// `judged_loop_of`. Throws what judged_loop_of() throws.
 bool is_stable_span(const Case& the_case);
 
-/// Whether the loop of a span is unstable and has no steady vibration; false without control or
-/// absorber, and with a measured device (unknown). Throws what judged_loop_of() throws.
+/// Whether the control loop on a span is unstable, so that no vibration is steady. False without
+/// control or absorber, and with a measured device (unknown). Throws what judged_loop_of() throws.
 bool is_growing_span(const Case& the_case, bool controlled);
 
 }  // namespace holdfast::program

@@ -10,7 +10,7 @@
 
 namespace holdfast::program {
 
-/// Number of a case that a placement varies; a negative number by its absolute value.
+/// Number that a placement varies: a gain, distance from a support, or |strength| of a device.
 struct MovedNumber {
   std::string quantity;                    ///< name of the number: "damping"
   std::string unit;                        ///< unit of the number
@@ -39,7 +39,7 @@ struct PlacedDevice {
   double after;            ///< goal with the best values
   double worst_frequency;  ///< frequency (Hz) of the worst level, with the best values
   bool is_better;          ///< whether `after` is better than `before`
-  /// Whether 1 % more negative stiffness would violate the 10 % reserve of stability at rest.
+  /// Whether 1 % more negative stiffness would violate the 10 % reserve against static instability.
   bool is_at_limit_of_rest;
   std::string range_note;  ///< note if the worst vibration is outside the wind law's range
 };

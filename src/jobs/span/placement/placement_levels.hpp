@@ -13,7 +13,7 @@ namespace holdfast::program {
 
 /// Goal of the placement of a device.
 enum class PlacementGoal {
-  strain,  ///< minimise the largest strain in the wind over a band
+  strain,  ///< minimise the largest strain (or f × amplitude) in the wind over a band
   ratio,   ///< maximise the least inverse standing-wave ratio over a band
   modes    ///< maximise the least damping ratio of some modes
 };
@@ -29,17 +29,17 @@ struct PlacementQuestion {
   bool is_absorber() const { return device == 0; }
 };
 
-/// Objective values (levels) that a placement minimises, one for each frequency or mode.
+/// Objective values (levels), one per frequency or mode; a placement minimises the largest of them.
 class PlacementLevels {
  public:
   /// Prepares the levels. Throws WrongInput where the case lacks what the goal needs.
   PlacementLevels(const Case& the_case, const PlacementQuestion& question);
 
-  /// Levels (> 0) of a variant of the case, one per frequency or mode; smaller is better. Empty
-  /// where less than 10 % reserve against instability at rest is left.
+  /// Levels (> 0) of a variant of the case, one per frequency or mode; smaller is better. Empty if
+  /// the span is not statically stable with 1.1 times its negative stiffnesses.
   std::vector<double> of(const Case& variant) const;
 
-  /// Physical value of a level (strain or ratio), described by name() and unit().
+  /// Physical value of a level: strain, frequency × amplitude, or ratio; see name() and unit().
   double value_of(double level) const;
   std::string name() const;  ///< name of that value: "largest_strain"
   std::string unit() const;  ///< unit of that value

@@ -10,10 +10,10 @@
 
 namespace holdfast::program {
 
-/// Gains with which a case's control loop is stable on the taut string with all devices, with a
-/// modulus margin: min |1 − P G_z − D G_v| over the unit circle, G_z and G_v from force to z₁ and
-/// ż₁. Both the full model (`judged_loop_of`) and the string without modes above twice the sampling
-/// rate must be stable, so that the result does not depend on the number of modes.
+/// Test of the gains P, D of an absorber on the taut string with all devices: the loop must be
+/// stable, with a modulus margin min |1 − P G_z − D G_v| over the unit circle (G_z, G_v: transfer
+/// functions from force to z₁, ż₁). Two models must pass, so that the result does not depend on the
+/// number of modes: `judged_loop_of`, and the string without modes above twice the sampling rate.
 class StableGains {
  public:
   /// Prepares the tests. @param margin  modulus margin, 0 … 1; 0: stability alone
@@ -34,8 +34,8 @@ class StableGains {
   /// keeps the margin, or a margin of 0.01 if that is larger; ascending.
   std::vector<Interval<double>> along(FreeGain free, const PdGains<double>& held) const;
 
-  /// Window around the admissible gains, a tenth wider than these. The search starts at gains of 0
-  /// and seeks in turn D at several P and P at several D.
+  /// Window of P and D with the admissible gains found, widened by a tenth at each end. The search
+  /// starts at gains of 0 and alternates: intervals of D at several P, of P at several D.
   /// @param most  bounds of |P| and |D|
   GainWindow around(const PdGains<double>& most) const;
 
