@@ -176,8 +176,8 @@ CaseForm form_of(const Case& the_case) {
 
 /// Writes the case file; throws WrongInput if the file exists.
 void write_case_file(const Case& the_case, const std::string& name, CaseForm form) {
-  if (name.size() > 1 && name.front() == '-')
-    throw WrongInput("--init " + name + ": give the name of the file to be written first");
+  if (name == "--help" || name == "-h")
+    throw WrongInput("--init " + name + ": give the file's name right after --init");
   if (name != "-" && std::filesystem::exists(name))
     throw WrongInput("--init " + name + ": this file exists already; give another name");
   OutputFile file(name);

@@ -65,9 +65,8 @@ std::string guess_of_value(std::string_view value) {
   if (number_first && blank != std::string_view::npos)
     return "; write the number alone, in the key's unit (`holdfast case --check` shows it), or "
            "with another unit in quotes: \"28.2 kN\"";
-  if (std::isalpha(static_cast<unsigned char>(value.front())) != 0)
-    return "; put a text in quotes: \"" + std::string(value) + "\"";
-  return "";
+  if (std::isalpha(static_cast<unsigned char>(value.front())) == 0) return "";
+  return "; put a text in quotes: \"" + std::string(value) + "\"";
 }
 
 /// Hint of an error message: the admissible word nearest to a given word; else empty.

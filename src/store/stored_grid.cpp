@@ -30,8 +30,8 @@ StoreDescription store_description(const JobContext& context, const GridLayout& 
                                    std::size_t most) {
   if (has_own_plant(context.case_data))
     throw WrongInput(
-        "--output: a store records its case, which cannot include a plant of your own; take the "
-        "result as arrays, or write .nc or .csv");
+        "--output: a store records its case, which cannot include a plant of your own: write .nc "
+        "or .csv");
   StoreDescription store;
   store.origin = context;
   store.axes = layout.axes;

@@ -143,8 +143,10 @@ TEST(SpanPoles, AreToldApartWhereTwoBundlesBeginTogether) {
   for (ModeAtPlaces& mode : modes) mode.damping_ratio = std::hypot(mode.damping_ratio, 5e-4);
   SpanPoles span(modes);
   span.attach(damper(), 1);
-  const auto poles = span.attach({5.0, 500.0, 20.0, 0.3}, 0);
-  ASSERT_EQ(poles.size(), 2 * (modes.size() + 3));
+  EXPECT_EQ(span.attach({5.0, 500.0, 20.0, 0.3}, 0).size(), 2 * (modes.size() + 3));
+  SpanPoles same({{6.0, 0.005, 30.0, {1.0, 0.0}}, {6.0, 0.005, 30.0, {0.0, 1.0}}});
+  for (const std::size_t place : {0u, 1u}) same.attach(damper(), place);
+  EXPECT_EQ(same.attach(absorber, 0).size(), 2u * (2 + 2 * 2 + 1));
 }
 
 // Both ends alike, as lines have them.

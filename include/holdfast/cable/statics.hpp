@@ -216,10 +216,10 @@ double least_squares_slope(const Statics& statics, double middle, double half) {
 }  // namespace detail
 
 /// The conductor's stiffness k₁ = ΔP/Δw (N/m) at the absorber's place (Kollár 2022, Eq. 2).
+/// @param statics  force–displacement relation at that place
 /// @param reading  method; the least-squares line need not pass through the equilibrium
 /// @param range    displacements over which k₁ is determined; StiffnessReading::tangent ignores it
-/// @throws InvalidParameter for a negative or empty range, or one that needs a force not above
-/// Statics::lowest_force()
+/// @throws InvalidParameter for a negative or empty range, or one with a force ≤ lowest_force()
 template <class Statics>
 double conductor_stiffness(const Statics& statics, StiffnessReading reading,
                            const ReadingRange& range) {

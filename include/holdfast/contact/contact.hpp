@@ -196,7 +196,7 @@ class DriveContact {
   bool is_anchored(int mode) const { return kind_ == Kind::play && mode != 0; }
   /// Whether the drive is in the gap of exact play, whose ends depend on the last reversal.
   bool remembers_gap() const { return kind_ == Kind::play && mode_ == gap; }
-  /// Sign σ = ±1 of Δż in exact play; 0 until Δż is nonzero for the first time.
+  /// Sign σ = ±1 of Δż, for the law `play` with Switching::exact; 0 until Δż is first nonzero.
   double sign() const { return sign_; }
   /// The lower end Δz (m) of the gap with Switching::exact; undefined for play while engaged.
   double lower() const { return lower_; }

@@ -150,9 +150,10 @@ class SpanPoles {
   void attach(const Stiffness& stiffness, const std::vector<Complex>& own, std::size_t place) {
     std::vector<Followed> found;
     squares_ = detail::ComplexRows<double, 2>();
-    for (const Pole& pole : poles_)
-      squares_.push_back(
-          {pole.s, pole.shapes[place] * pole.shapes[place] / (pole.is_pair ? 1.0 : 2.0)});
+    for (const auto& [s, is_pair, shapes] : poles_)
+      if (shapes[place] != 0.0)  // where the bundle of another place is, too
+        squares_.push_back(
+            {is_pair ? s : s.real(), shapes[place] * shapes[place] / (is_pair ? 1.0 : 2.0)});
     for (const Pole& pole : poles_) {
       const PoleShift shift = shift_alone(pole, stiffness, place);
       if (shift.is_weak)
@@ -283,6 +284,7 @@ class SpanPoles {
       bool is_pair;
     };
     std::vector<Own> device;
+    device.reserve(own.size());
     for (const Complex& s : own) device.push_back({s, s.imag() != 0.0});
     const auto all = [&](const Complex& s) {
       const DynamicStiffness k = stiffness(s);

@@ -86,7 +86,7 @@ class RepeatingMotion {
     if (motion_.index() == period_) turn_to(0);
   }
 
-  /// The state before the present sample; to be read before `sense()`.
+  /// The state at the present sample before the controller processes it; call before `sense()`.
   StroboscopicState<Contact> point() const {
     double reading = 0.0;
     if constexpr (!own_controller) reading = motion_.controller().memory().previous_displacement;

@@ -18,11 +18,11 @@ inline double contracting_rate(double log_modulus, std::size_t count) {
   return std::exp(std::max(0.5 * log_modulus / static_cast<double>(count), std::log(0.5)));
 }
 
-/// The matrices P_j of quadratic forms along a periodic sequence of linear maps M_j, in doubles,
+/// The matrices P_j of quadratic forms along a periodic sequence of linear maps M_j, not rigorous,
 ///
 ///     P_j = M_jᵀ P_{j+1} M_j / ρ² + Q_j,   j = 0 … N − 1,   P_N = P_0
 ///
-/// P_0 = Σ_k (Fᵀ)ᵏ Q Fᵏ with F = M_{N−1} … M_0/ρᴺ, summed by doubling. Q is the P_0 for P_N = 0.
+/// P_0 = Σ_k (Fᵀ)ᵏ Q Fᵏ, where F = M_{N−1} … M_0/ρᴺ, and Q is P_0 by this recursion from P_N = 0.
 /// @param count    N ≥ 1
 /// @param map_of   j ↦ M_j, Size × Size of doubles
 /// @param rest_of  j ↦ Q_j, positive definite

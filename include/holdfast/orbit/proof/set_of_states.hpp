@@ -45,7 +45,7 @@ struct SetOfStates {
     return at_centre(row) + Number(-most, most);
   }
 
-  /// Sets a coordinate of w to a linear function of w, in `centre`, `spread` and `at_once`.
+  /// Replaces a coordinate of w by row · w; updates `centre`, `spread` and, if apart, `at_once`.
   void assign(Eigen::Index coordinate, const Row& row) {
     assign_where_met(coordinate, row);
     if (is_apart) at_once.row(coordinate) = (row * at_once).eval();

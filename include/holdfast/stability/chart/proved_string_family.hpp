@@ -77,7 +77,7 @@ class StringFamily {
   }
 
   /// Data to evaluate F near a frequency: nearest mode m, squared wave speed at a box's midpoint,
-  /// and the sum over the other modes at Ω = ω/c, c being the ratio of `tuning`.
+  /// and the sum over the other modes at Ω = ω/c, where c is the ratio of wave speeds (`tuning`).
   struct Frame {
     int nearest;              ///< index of the nearest mode m, from 0
     Enclosure squared_speed;  ///< squared wave speed T₀/μ₀ at the midpoint (m²/s²)

@@ -284,10 +284,10 @@ class DelaySearch {
   Intervals gains_at(double period) const {
     return feasible_differential_gains(plant_, options_, period);
   }
-  /// The best D at a period, or the D that served there if round-off hides the interval around it.
-  double gain_at(double period) const {
+  /// The best D at a period, or any that serves there if round-off hides the interval around it.
+  double gain_at(double period) {
     const double best = serving_gain(options_, period, offer_at(period));
-    return is_walked_ && std::isnan(best) ? start_ : best;
+    return std::isnan(best) && is_served_coarsely(period, nullptr) ? start_ : best;
   }
 
   /// The cause of infeasibility at a period. Where the least amplitude ratio jumps, an interval of

@@ -88,8 +88,7 @@ struct ModalMargins {
       const Scalar beyond =
           limit > value ? std::min(limit, next(inside)) : std::max(limit, next(inside));
       const Circle circle(response_at(sampling_at(beyond)), Circle::coarse);
-      const int outside = circle.roots_outside(gains);
-      if (outside == 0 || (outside < 0 && excess(beyond) < Scalar(0))) {
+      if (circle.roots_outside(gains) == 0 || excess(beyond) < Scalar(0)) {
         inside = beyond;
         continue;
       }

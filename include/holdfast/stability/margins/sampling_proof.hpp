@@ -16,8 +16,8 @@
 
 namespace holdfast {
 
-/// One-parameter line of samplings of a loop. Its parameter, called position (s), is τ with δ/τ
-/// constant, or δ with τ constant. The number of delayed commands is constant.
+/// One-parameter family of sampling periods τ and delays δ. The parameter, `position` (s), is τ
+/// with δ/τ constant, or δ with τ constant. The number of delayed commands is constant.
 struct EnclosedSamplings {
   Enclosure fixed_period;  ///< period τ (s) if the delay δ varies; 0 if τ varies
   Enclosure last_share;    ///< δ/τ − (k − 1), 0 … 1, if τ varies; 0 if δ varies

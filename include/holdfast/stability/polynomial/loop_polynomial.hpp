@@ -25,7 +25,7 @@ struct LoopPolynomial {
   /// Monic polynomial in powers of λ − centre, affine in the gains P and D.
   AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial;
 
-  /// The roots' scale: geometric mean of |λ − 1| over A_d's eigenvalues λ, ≤ 1; 0 for centre 0.
+  /// The roots' scale: min(1, geometric mean of |λ − 1| over A_d's eigenvalues λ); 0 for centre 0.
   Scalar scale() const {
     if (centre == Scalar(0)) return Scalar(0);
     return std::min(Scalar(1), std::pow(std::abs(polynomial.base[0]), Scalar(0.25)));
