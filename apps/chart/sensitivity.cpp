@@ -133,11 +133,11 @@ AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerVa
   const double value = case_value(the_case, key);
   double by = step * (value != 0.0 ? std::abs(value) : unit_of(the_case, key));
   const bool above = keeps_kind(the_case, key, value + by);
-  const bool one_sided = !(above && keeps_kind(the_case, key, value - by));
+  const bool below = keeps_kind(the_case, key, value - by), one_sided = !(above && below);
   AnswerValues result;
   result.fill(unknown);
+  if (!above && !below) return result;
   if (!above) by = -by;
-  if (!keeps_kind(the_case, key, value + by)) return result;
   const auto at = [&](double share) {
     return answers_of(moved(the_case, key, value + share * by));
   };

@@ -62,7 +62,7 @@ struct PackKernels {
 };
 
 /// Kernels of one instruction set; each of the three functions is compiled in a unit of its own.
-/// Those of sets that the program lacks are not defined. Call only a set that the processor has.
+/// A set that the program lacks has none defined. Call only a set that the processor has.
 const PackKernels& baseline_kernels();
 const PackKernels& avx2_kernels();
 const PackKernels& avx512_kernels();

@@ -126,7 +126,7 @@ inline SpanRoot span_root(const TautString<double>& string, const std::vector<Sp
 ///
 /// Each eigenvalue is continued from the mode without devices while the devices' effect grows from
 /// 0 to 1 (`root_from_pole`). If two eigenvalues coincide on the way, their modes may be exchanged.
-/// Of the held force of an ActiveAbsorber, only the component e^{st} is included.
+/// The held force of an ActiveAbsorber is included by its component e^{st} only.
 /// @param string   taut string; its bending stiffness is not used
 /// @param devices  in any order
 /// @param count    number of modes
