@@ -45,15 +45,12 @@ std::string item_of(const CLI::Option& option) {
   return item(term, text + ".");
 }
 
-bool is_of_every_job(const CLI::Option& option) {
-  return option.get_group() == question::every_job;
-}
-
 std::string options_of(const CLI::App& job, bool of_every_job) {
   std::string text;
   for (const CLI::Option* option : job.get_options()) {
     const bool shown = option->get_name() != "--help" && !option->get_group().empty();
-    if (shown && is_of_every_job(*option) == of_every_job) text += item_of(*option);
+    const bool is_general = option->get_group() == question::every_job;
+    if (shown && is_general == of_every_job) text += item_of(*option);
   }
   return text;
 }

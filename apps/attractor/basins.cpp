@@ -64,12 +64,6 @@ double number_of(const BasinLabel& label) {
 }
 
 template <class Orbit>
-double period_of(const BasinsOf<Orbit>& map, const BasinLabel& label) {
-  if (label.attractor < 0) return std::numeric_limits<double>::quiet_NaN();
-  return map.attractors[static_cast<std::size_t>(label.attractor)].orbit.period();
-}
-
-template <class Orbit>
 void write_states(const JobContext& context, const KeyGrid& grid, const BasinsOf<Orbit>& map) {
   // In netCDF a number is a double.
   const std::string whole = is_netcdf_name(context.output) ? "double" : "integer";
@@ -78,7 +72,10 @@ void write_states(const JobContext& context, const KeyGrid& grid, const BasinsOf
   std::vector<double> numbers, periods;
   for (const BasinLabel& label : map.labels) {
     numbers.push_back(number_of(label));
-    periods.push_back(period_of(map, label));
+    periods.push_back(
+        label.attractor < 0
+            ? std::numeric_limits<double>::quiet_NaN()
+            : map.attractors[static_cast<std::size_t>(label.attractor)].orbit.period());
   }
   output.append(static_cast<std::int64_t>(numbers.size()), {numbers.data(), periods.data()});
   output.commit();

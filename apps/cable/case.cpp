@@ -168,12 +168,6 @@ void write_case_table(const JobContext& context) {
   table.commit();
 }
 
-/// Table, [conductor] or [plant], that defines the plant of the case.
-CaseForm form_of(const Case& the_case) {
-  return the_case.plant_given && !plant_is_reduced(the_case) ? CaseForm::plant
-                                                             : CaseForm::conductor;
-}
-
 /// Writes the case file; throws WrongInput if the file exists.
 void write_case_file(const Case& the_case, const std::string& name, CaseForm form) {
   if (name == "--help" || name == "-h")
@@ -206,10 +200,9 @@ struct CaseQuestion {
     if (!begun) return write_case_table(context);
     Case the_case = context.case_data;
     if (wind && !the_case.wind) the_case.wind = wind_for(the_case);
-    const CaseForm form = !from              ? form_of(the_case)
-                          : *from == "plant" ? CaseForm::plant
-                                             : CaseForm::conductor;
-    write_case_file(the_case, *begun, form);
+    const bool by_plant =
+        from ? *from == "plant" : the_case.plant_given && !plant_is_reduced(the_case);
+    write_case_file(the_case, *begun, by_plant ? CaseForm::plant : CaseForm::conductor);
   }
 };
 

@@ -107,11 +107,6 @@ void write_minimum(Table& table, const fit::DecayFitOptions& question,
   table.row("residual" + behind, minimum.residual, none, history ? "m" : "");
 }
 
-/// Start values of a fit: the case's plant, or the plant reduced from its conductor with c2 = 0.
-TwoMass<double> start_of(const Case& the_case) {
-  return plant_is_reduced(the_case) ? plant_without_absorber_damping(the_case) : plant_of(the_case);
-}
-
 /// Warning if the rms residual is 30 % or more of the record's first displacement; else empty.
 std::string course_warning(const fit::DecayMinimum& best, const DecayRecord& record) {
   const double share = best.residual / std::abs(record.displacements.front());
@@ -165,10 +160,13 @@ DecayRecord record_of(const std::string& file, const JobContext& context,
   return record;
 }
 
-/// All minima of the fit; with no options given, the minima of the fit in the job reduce.
+/// All minima of the fit, which starts from the case's plant, or from the plant reduced from its
+/// conductor with c2 = 0; with no options given, the minima of the fit in the job reduce.
 std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const FitQuestion& options,
                                          fit::DecayFitOptions& question) {
-  const TwoMass<double> plant = start_of(context.case_data);
+  const Case& the_case = context.case_data;
+  const auto plant =
+      plant_is_reduced(the_case) ? plant_without_absorber_damping(the_case) : plant_of(the_case);
   require_starts(question, plant);
   const bool damping_alone = question.free == std::vector{fit::PlantParameter::absorber_damping};
   if (damping_alone && !options.data && !options.target && !options.plain) {

@@ -102,8 +102,9 @@ void MarginsQuestion::run(const JobContext& context) const {
   if (prove) proved = proved_margins_of(the_case, gains, margins);
   if (!prove && !looked_everywhere) {
     std::string doubt =
-        "sampling_period was searched in steps of 5 % and processing_delay in eighths of a sample: "
-        "an unstable interval narrower than a step may be missed";
+        "sampling_period was searched in steps of 5 % (larger ones below a period that resolves "
+        "every motion) and processing_delay in eighths of a sample: an unstable interval narrower "
+        "than a step may be missed";
     if (may_be_proved(the_case)) doubt += "; --prove checks every value";
     report_warning(doubt, context.quiet);
   }

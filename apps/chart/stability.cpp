@@ -34,17 +34,14 @@ KeyAxis admissible_axis(const std::string& text) {
   return axis;
 }
 
-ProvedChart modal_chart_of(const Case& the_case, const GainGrid& grid, double undecided) {
-  const EnclosedResponse response(proved_poles_of(the_case), sampling_of(the_case));
-  return proved_chart(response, grid, undecided, [] { throw_if_interrupted(); });
-}
-
 /// The proved chart of a case. Throws Interrupted, InvalidParameter for a grid without cells,
 /// WrongInput for a plant whose poles cannot be proved, and NoAnswer where two poles cannot be
 /// separated or a pole may lie on the boundary of stability.
 ProvedChart proved_stability_of(const Case& the_case, const GainGrid& grid, bool continuous,
                                 double undecided) {
-  if (!has_closed_forms(the_case)) return modal_chart_of(the_case, grid, undecided);
+  if (!has_closed_forms(the_case))
+    return proved_chart(EnclosedResponse(proved_poles_of(the_case), sampling_of(the_case)), grid,
+                        undecided, [] { throw_if_interrupted(); });
   const auto chart_by = [&](const auto& proof) {
     const auto decide = [&](const GainBox& box) { return throw_if_interrupted(), proof(box); };
     return proved_chart(decide, grid, undecided);

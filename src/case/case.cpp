@@ -23,14 +23,12 @@ bool speaks_of_absorber(const Case& the_case) {
   });
 }
 
-bool is_of_another_cable(const Case& the_case) {
-  return !the_case.stands_alone && (!the_case.devices.empty() || !the_case.conductor.name.empty());
-}
-
 }  // namespace
 
 bool has_active_absorber(const Case& the_case) {
-  return has_absorber(the_case) && (!is_of_another_cable(the_case) || speaks_of_absorber(the_case));
+  const bool is_of_another_cable =
+      !the_case.stands_alone && (!the_case.devices.empty() || !the_case.conductor.name.empty());
+  return has_absorber(the_case) && (!is_of_another_cable || speaks_of_absorber(the_case));
 }
 
 bool has_own_plant(const Case& the_case) {

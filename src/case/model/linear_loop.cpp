@@ -152,22 +152,19 @@ double LinearLoop::first_frequency() const {
   return std::sqrt(plant.conductor_stiffness / plant.conductor_mass) / (2.0 * pi<double>);
 }
 
-std::vector<Interval<double>> LinearLoop::gains_of_modulus(const AmplitudeOptions& options,
-                                                           double p) const {
-  require_poles();
-  return detail::gains_of_modulus(by_poles_->circle(), p, options);
-}
-
 MinimaxGains LinearLoop::quietest_for_all(const std::vector<LinearLoop>& loops,
                                           const std::vector<AmplitudeOptions>& options,
                                           const FrequencyBand& band, std::optional<double> p) {
   constexpr double unbounded = std::numeric_limits<double>::infinity();
   MinimaxGains best{std::nan(""), {MinimaxOutcome::none}};
   double least = unbounded;
+  for (const LinearLoop& loop : loops) loop.require_poles();
+  std::vector<detail::ModulusLevels<double>::Series> nearby(loops.size());
   const auto admissible = [&](double at) {
     std::vector<Interval<double>> common{{-unbounded, unbounded}};
     for (std::size_t k = 0; k < loops.size() && !common.empty(); ++k)
-      common = intersection(common, loops[k].gains_of_modulus(options[k], at));
+      common = intersection(common, detail::gains_of_modulus(loops[k].by_poles_->circle(), at,
+                                                             options[k], nearby[k]));
     return common;
   };
   const auto search = [&](auto family) {

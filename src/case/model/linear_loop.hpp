@@ -95,8 +95,6 @@ class LinearLoop {
 
   /// Throws NoAnswer if the loop is not a sum over its poles, since two poles nearly coincide.
   void require_poles() const;
-  /// Intervals of D at P that keep the modulus margin and spectral radius of the options.
-  std::vector<Interval<double>> gains_of_modulus(const AmplitudeOptions& options, double p) const;
   /// The initial search range of P (N/m), around the P tuned to f (Hz).
   Interval<double> range_about_tuned(double frequency) const;
 

@@ -43,11 +43,12 @@ bool reaches(const ProvedMargin& proved, const TwoSidedMargin& walked, double va
 }
 
 /// Proves stability for every τ and δ between the case's values and the limits found in steps, for
-/// about a second, and corrects the limits. Does nothing if that time suffices for few steps only.
+/// at most a second, and corrects the limits. Does nothing if that time suffices for few steps
+/// only.
 bool search_by_proof(StabilityMargins& found, const Case& the_case, const PdGains<double>& gains) {
   const Sampling<double> sampling = sampling_of(the_case);
   const auto roots = static_cast<double>(loop_poles_of(the_case).size()) + held_commands(sampling);
-  const int steps = static_cast<int>(1e6 / (roots * roots));  // a second or so
+  const int steps = static_cast<int>(4e5 / (roots * roots));  // in each direction
   if (steps < 10 || found.outcome != MarginOutcome::stable) return false;
   const auto poles = poles_if_proved(the_case);
   if (poles.empty()) return false;

@@ -60,7 +60,9 @@ class UnitCircleCrossings {
     };
     Scalar angle = from(Scalar(0));
     const Scalar last = pi<Scalar> - from(Scalar(-2));
-    Nearby nearby(response_, circle_increment(angle));
+    // Winding needs few digits: the error of a third is 1e-8 of the far poles' sum.
+    Nearby nearby(response_, circle_increment(angle),
+                  close < coarse ? Scalar(1) / 8 : Scalar(1) / 3);
     while (angle < last) {
       const auto [g, to_pole] = nearby.read(angle);
       places_.push_back({angle, g});

@@ -27,10 +27,12 @@ struct MinimumAmplitudeGains {
 namespace detail {
 
 /// The intervals of D that satisfy the options' modulus margin and largest radius, for a given P.
+/// @param nearby  series of the circle for ModulusLevels
 template <class Scalar>
 std::vector<Interval<Scalar>> gains_of_modulus(const UnitCircleCrossings<Scalar>& circle, double p,
-                                               const AmplitudeOptions& options) {
-  const auto admissible = ModulusLevels<Scalar>(circle, p).beyond(Scalar(options.margin));
+                                               const AmplitudeOptions& options,
+                                               typename ModulusLevels<Scalar>::Series& nearby) {
+  const auto admissible = ModulusLevels<Scalar>(circle, p, nearby).beyond(Scalar(options.margin));
   if (!(options.largest_radius < 1.0)) return admissible;
   return intersection(admissible, differential_gains_within_radius(circle.response(), p,
                                                                    Scalar(options.largest_radius)));
@@ -86,10 +88,11 @@ MinimumAmplitudeGains minimum_amplitude_gains(const ModalResponse<Scalar>& loop,
   if (!(2.0 * frequency * options.sampling.period < 1.0))
     return {std::nan(""), {MinimumAmplitudeOutcome::aliased}};
   const UnitCircleCrossings<Scalar> circle(loop);
+  typename detail::ModulusLevels<Scalar>::Series nearby;
   MinimumAmplitudeGains best{std::nan(""), {MinimumAmplitudeOutcome::none}};
   detail::search_proportional_gain(range, [&](double p) {
     const MinimumAmplitude there =
-        detail::least_amplitude(response, p, detail::gains_of_modulus(circle, p, options));
+        detail::least_amplitude(response, p, detail::gains_of_modulus(circle, p, options, nearby));
     if (there.outcome == MinimumAmplitudeOutcome::none)
       return std::numeric_limits<double>::infinity();
     if (best.quietest.outcome == MinimumAmplitudeOutcome::none ||

@@ -99,9 +99,16 @@ namespace detail {
 template <class Scalar>
 class ModulusLevels {
  public:
+  using Nearby = typename ModalResponse<Scalar>::Nearby;
+  /// The series of G about places of `circle` that have been refined; they serve every P.
+  using Series = std::map<std::size_t, Nearby>;
+
   /// @param circle  crossings of the loop; must outlive this object
-  ModulusLevels(const UnitCircleCrossings<Scalar>& circle, const Scalar& proportional_gain)
+  /// @param nearby  series of that circle, extended here; must outlive this object
+  ModulusLevels(const UnitCircleCrossings<Scalar>& circle, const Scalar& proportional_gain,
+                Series& nearby)
       : response_(circle.response()),
+        nearby_(nearby),
         proportional_gain_(proportional_gain),
         stable_(circle.stable_gains(FreeGain::differential, {proportional_gain, Scalar(0)})) {
     for (const auto& place : circle.places()) places_.push_back(at(place.angle, place.g));
@@ -180,8 +187,6 @@ class ModulusLevels {
     bool lower_is_sharp = false, upper_is_sharp = false;
   };
 
-  using Nearby = typename ModalResponse<Scalar>::Nearby;
-
   Place at(const Scalar& angle, const CommandResponse<Scalar>& g) const {
     const std::complex<Scalar> rest = Scalar(1) - proportional_gain_ * g.displacement;
     return {angle, std::norm(g.velocity), (rest * std::conj(g.velocity)).real(), std::norm(rest)};
@@ -233,10 +238,10 @@ class ModulusLevels {
   }
 
   const ModalResponse<Scalar>& response_;
+  Series& nearby_;
   Scalar proportional_gain_;
   std::vector<Interval<Scalar>> stable_;
   std::vector<Place> places_;
-  std::map<std::size_t, Nearby> nearby_;  // of the places that have been refined
 };
 
 }  // namespace detail
@@ -262,7 +267,8 @@ std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<
   if (options.by_decay || !(options.margin > 0.0))
     return detail::gains_that_decay(response, proportional_gain, options);
   const UnitCircleCrossings<Scalar> circle(response);
-  detail::ModulusLevels<Scalar> levels(circle, proportional_gain);
+  typename detail::ModulusLevels<Scalar>::Series nearby;
+  detail::ModulusLevels<Scalar> levels(circle, proportional_gain, nearby);
   const auto [modulus, gain] = levels.largest();
   if (!(modulus > Scalar(0))) return {};
   const Scalar margin(options.margin);

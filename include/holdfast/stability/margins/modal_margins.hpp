@@ -117,10 +117,13 @@ struct ModalMargins {
   }
 
   TwoSidedMargin of_period(Scalar ratio) const {
-    const Scalar period = sampling.period;
+    const Scalar period = sampling.period, resolved(nyquist_period(poles));
     const auto sampling_at = [&](Scalar tau) { return with_period(tau); };
+    const auto shorter = [&](Scalar tau) {
+      return tau - std::clamp(resolved, tau, Scalar(10) * tau) / Scalar(21);
+    };
     return {
-        walk(period, period / ratio, sampling_at, [](Scalar tau) { return tau / Scalar(1.05); }),
+        walk(period, period / ratio, sampling_at, shorter),
         walk(period, period * ratio, sampling_at, [](Scalar tau) { return tau * Scalar(1.05); })};
   }
 
@@ -171,10 +174,11 @@ struct ModalMargins {
 
 /// The stability margins of D, P, τ and δ, one at a time, for a loop given by its plant's poles.
 ///
-/// The margins of D and P are found by `UnitCircleCrossings`. τ is searched in steps of 5 %, δ in
-/// steps of τ/8; each step counts the roots outside the circle. An unstable window narrower than a
-/// step is missed; `proved_sampling_margins` misses none. If the search finds no boundary, the
-/// outcome is `beyond_search`; for a search of δ that has reached 0 it is `none`.
+/// The margins of D and P are found by `UnitCircleCrossings`. τ is searched in steps of 5 %, but
+/// downwards of 5 % of the `nyquist_period` where that is longer (at most τ/2), δ in steps of τ/8.
+/// Each step counts the roots outside the circle. An unstable window narrower than a step is
+/// missed; `proved_sampling_margins` misses none. If the search finds no boundary, the outcome is
+/// `beyond_search`; for a search of δ that has reached 0 it is `none`.
 /// @param poles     all `plant_poles`; they must outlive the call
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @param gains     P (N/m) and D (N s/m), finite

@@ -276,8 +276,10 @@ class ModalResponse<Scalar>::Nearby {
  public:
   /// @param response  the response, which must outlive this object
   /// @param centre    offset μ = λ − 1 of the point about which the series is taken
-  Nearby(const ModalResponse& response, const Complex& centre)
-      : response_(&response), centre_(centre) {
+  /// @param share     radius of the series, as a share of the distance to its nearest pole, < 1;
+  ///                  its error is this share to the power 17
+  Nearby(const ModalResponse& response, const Complex& centre, Scalar share = Scalar(0.125))
+      : response_(&response), centre_(centre), share_(share) {
     const Poles& all = response.poles_;
     std::vector<Scalar> distances;  // squared, of all but the late ones
     for (std::size_t k = 0; k < all.size(); ++k)
@@ -298,17 +300,17 @@ class ModalResponse<Scalar>::Nearby {
     add_far(far);
   }
 
-  /// Whether the series is accurate at μ: |μ − centre| ≤ 1/8 of the distance to its nearest pole.
-  bool holds(const Complex& mu) const { return std::abs(mu - centre_) <= reach_ / Scalar(8); }
+  /// Whether the series is accurate at μ.
+  bool holds(const Complex& mu) const { return std::abs(mu - centre_) <= share_ * reach_; }
 
   /// Moves the centre to μ where the series is not accurate at μ (`holds`). If μ is only little
   /// beyond its range, the centre moves further in the same direction, for later values of μ.
   void follow(const Complex& mu) {
     if (holds(mu)) return;
     const Complex way = mu - centre_;
-    const Scalar ahead = reach_ / (Scalar(9) * std::abs(way));
-    if (ahead > Scalar(0.5)) *this = Nearby(*response_, mu + ahead * way);
-    if (!holds(mu)) *this = Nearby(*response_, mu);
+    const Scalar ahead = Scalar(0.9) * share_ * reach_ / std::abs(way);
+    if (ahead > Scalar(0.5)) *this = Nearby(*response_, mu + ahead * way, share_);
+    if (!holds(mu)) *this = Nearby(*response_, mu, share_);
   }
 
   /// The responses G_z and G_v at λ = 1 + μ.
@@ -366,6 +368,7 @@ class ModalResponse<Scalar>::Nearby {
 
   const ModalResponse* response_;
   Complex centre_;
+  Scalar share_;
   Scalar reach_ = std::numeric_limits<Scalar>::infinity();
   Poles near_;
   static constexpr std::size_t terms = 17;  // 8^−17 is round-off

@@ -86,11 +86,6 @@ std::vector<PlantPole> without_drift(const Case& the_case, std::vector<PlantPole
   return poles;
 }
 
-ModalResponse<double> response_of_own_plant(const Case& the_case) {
-  return ModalResponse<double>(modal_plant_of(the_case), sampling_of(the_case))
-      .with_sensor(hardware_of(the_case).has_velocity_sensor);
-}
-
 ModalResponse<double> response_of(const Case& the_case, const ConductorModes& modes) {
   throw_if_interrupted();
   ConductorWithAbsorber conductor = conductor_by(the_case, modes);
@@ -142,8 +137,9 @@ LinearPlant<double> modal_plant_of(const Case& the_case) {
 }
 
 ModalResponse<double> command_response_of(const Case& the_case) {
-  return has_own_plant(the_case) ? response_of_own_plant(the_case)
-                                 : response_of(the_case, conductor_modes_of(the_case));
+  if (!has_own_plant(the_case)) return response_of(the_case, conductor_modes_of(the_case));
+  return ModalResponse<double>(modal_plant_of(the_case), sampling_of(the_case))
+      .with_sensor(hardware_of(the_case).has_velocity_sensor);
 }
 
 std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>& gains) {

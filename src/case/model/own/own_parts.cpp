@@ -12,12 +12,6 @@
 namespace holdfast::program {
 namespace {
 
-/// Throws WrongInput with the place, the key and the reason if the key was given.
-void refuse_key(const Case& the_case, const std::string& key, const std::string& why) {
-  const auto place = the_case.places.find(key);
-  if (place != the_case.places.end()) throw WrongInput(place->second + ": " + key + ": " + why);
-}
-
 void require_consistent_plant(const Case& the_case) {
   validate(*the_case.own->plant);
   if (the_case.control.proportional_gain_tuned)
@@ -35,7 +29,9 @@ void require_consistent_controller(const Case& the_case) {
         "control.processing_delay, and delay commands by whole samples in your controller");
   for (const char* key : {"control.displacement_quantum", "control.velocity_quantum",
                           "control.velocity", "control.largest_force"})
-    refuse_key(the_case, key, "remove this key, and program its effect in your controller");
+    if (const auto place = the_case.places.find(key); place != the_case.places.end())
+      throw WrongInput(place->second + ": " + key +
+                       ": remove this key, and program its effect in your controller");
 }
 
 }  // namespace

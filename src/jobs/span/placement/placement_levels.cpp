@@ -16,9 +16,6 @@ constexpr double poor = 1e-5;
 double level_of_ratio(double ratio) {
   return ratio >= poor ? 1.0 / ratio : (2.0 * poor - ratio) / (poor * poor);
 }
-double ratio_of_level(double level) {
-  return level <= 1.0 / poor ? 1.0 / level : 2.0 * poor - level * poor * poor;
-}
 
 }  // namespace
 
@@ -79,7 +76,8 @@ std::vector<double> PlacementLevels::damping_levels(const Case& variant) const {
 }
 
 double PlacementLevels::value_of(double level) const {
-  return question_.goal == PlacementGoal::strain ? level : ratio_of_level(level);
+  if (question_.goal == PlacementGoal::strain) return level;
+  return level <= 1.0 / poor ? 1.0 / level : 2.0 * poor - level * poor * poor;
 }
 
 std::string PlacementLevels::name() const {
