@@ -100,9 +100,9 @@ struct PeaksQuestion {
                 std::abs(plant_peak - elements_peak) / std::abs(elements_peak));
     }
     if (!has_peak)
-      throw NoAnswer("no force of --force gives a peak beyond the equilibrium within " +
+      throw NoAnswer("the vibration has no first peak within " +
                      format_number(cable.duration.value_or(duration)) +
-                     " s: give a longer --duration");
+                     " s after any force of --force is removed: give a longer --duration");
     table.commit();
   }
 };

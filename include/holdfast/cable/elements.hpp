@@ -18,10 +18,10 @@ enum class AbsorberReading {
 /// The absorber on the continuous cable.
 struct HangingAbsorber {
   AbsorberReading reading;  ///< model, which decides which members below are used
-  double mass;              ///< mass m₂ (kg), ≥ 0; > 0 for the spring–mass
-  double stiffness = 0.0;   ///< spring stiffness k₂ (N/m), of the spring–mass only
-  double damping = 0.0;     ///< damper coefficient c₂ (N s/m), of the spring–mass only
-  /// Clamp mass M_c (kg), ≥ 0, of the spring–mass only: inertia fixed to the node, without weight
+  double mass;              ///< mass m₂ (kg), ≥ 0; > 0 for `spring_mass`
+  double stiffness = 0.0;   ///< spring stiffness k₂ (N/m), used for `spring_mass` only
+  double damping = 0.0;     ///< damper coefficient c₂ (N s/m), used for `spring_mass` only
+  /// Clamp mass M_c (kg), ≥ 0, used for `spring_mass` only: inertia fixed to the node, no weight
   double clamp_mass = 0.0;
   bool sideways = false;  ///< whether m₂ of a spring–mass moves along the span with the node
 };

@@ -52,8 +52,8 @@ Scalar huber_residual(const Scalar& residual, double scale) {
   return residual < Scalar(0) ? Scalar(-root) : root;
 }
 
-/// Residuals of a plant against a record as a functor of θ: the logarithms of the five parameters
-/// relative to `reference`, and of z₀ relative to the record.
+/// Differences between a plant's free decay and a record, as a function of six unknowns θ: ln of
+/// five parameters over those of `reference`, and ln of z₀ over the record's first displacement.
 struct DecayResiduals {
   const DecayRecord& record;
   DecayMeasures measures;

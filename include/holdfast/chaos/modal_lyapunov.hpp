@@ -83,7 +83,7 @@ class ModalSpectrum {
 /// present state, natural logarithm per sample.
 /// @param motion  a ModalMotion; it is advanced to the end of the run
 /// @param loop    the loop of the motion
-/// @param run     numbers of samples to discard and to average; exponents to be computed
+/// @param run     numbers of samples to discard and to average; `scope`: all five or the first one
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible
 template <class Motion>

@@ -15,8 +15,8 @@ namespace holdfast {
 
 /// The instants at which the drive may enter and leave its backlash.
 enum class Switching : std::uint8_t {
-  sampled,  ///< contact changes at samples only, by the law's rule for sampled values
-  exact,    ///< contact changes at any time; `kollar`, `immediate` and `play` are then identical
+  sampled,  ///< only at samples, by the rule of the ContactLaw for sampled values
+  exact,    ///< at any time; the laws `kollar`, `immediate` and `play` are then identical
 };
 
 /// The contact of a drive with its load: a hybrid automaton with three modes. The plant is affine
@@ -24,19 +24,19 @@ enum class Switching : std::uint8_t {
 ///
 ///     DriveContact<> contact(plant, {ContactLaw::play, 0.0005}, Switching::exact, state);
 ///
-/// **Switching::sampled**: at each sample the law decides whether command u_j is transmitted. If
-/// not, u_j is replaced by 0 from t_j + δ on, and the force of a drive with a lag decays. A stop of
-/// a dead zone that is touched at a sample acts from this sample on. The mode is 0 on the lower
-/// stop of a dead zone, 2 on its upper stop, and 1 otherwise.
+/// **Switching::sampled**: at each sample t_j the law decides whether the command u_j is
+/// transmitted. If not, u_j is replaced by 0 after the processing delay, and the force of a drive
+/// with a lag decays. If Δz touches a stop of a dead zone at a sample, the stop acts from this
+/// sample on. The mode is 0 on the lower stop of a dead zone, 2 on its upper stop, and 1 otherwise.
 ///
-/// **Exact play** (Switching::exact) is the play operator of Δz as a Filippov system. A, b, b_u, c,
-/// f and g are defined in LinearPlant. v = Δż = rᵀx is the relative velocity, a(s) = rᵀ(A x + b s +
-/// b_u u + c F) the relative acceleration under a transmitted force s. The modes, numbered as in
-/// ContactMode, are
+/// **Exact play** (Switching::exact) is the play operator of Δz with the gap width r₀, as a
+/// Filippov system. A, b, b_u, c, f, g are defined in LinearPlant. v = Δż = rᵀx is the relative
+/// velocity, a(s) = rᵀ(A x + b s + b_u u + c F) the relative acceleration under a transmitted force
+/// s. The modes, numbered as in ContactMode, are
 ///
-/// - engaged: the drive's force s_e = f x + g u (u for an ideal drive) is transmitted until v, of
-///   sign σ, reaches zero. Then the gap is [Δz − r₀, Δz] for σ > 0, [Δz, Δz + r₀] for σ < 0. The
-///   next mode is stick if σ a(0) > 0 and σ a(s_e) < 0, else gap;
+/// - engaged: the drive's force s_e = f x + g u (u for an ideal drive) is transmitted until v
+///   reaches zero. σ is the sign of v before. The gap is then [Δz − r₀, Δz] for σ > 0, [Δz, Δz +
+///   r₀] for σ < 0. The next mode is stick if σ a(0) > 0 and σ a(s_e) < 0, else gap;
 /// - gap: no force is transmitted until Δz leaves the gap. The next mode is engaged;
 /// - stick: v stays 0 under the transmitted force s = −rᵀ(A x + b_u u + c F) / (rᵀb), which lies
 ///   between 0 and s_e. Without force the relative motion would continue in the old direction, and
@@ -47,11 +47,11 @@ enum class Switching : std::uint8_t {
 /// equations with discontinuous righthand sides, 1988.
 ///
 /// **An exact dead zone** transmits nothing while |Δz| ≤ r₀/2 (mode 1). Outside (modes 0 and 2) it
-/// transmits the command, and the stop adds k_c (Δz ∓ r₀/2) + c_c Δż between the masses. There is
-/// no stick. The absorber bounces at the gap's edge if the plant pushes outwards and the command
-/// inwards: v reverses with the period 2 |v| (1/|a(0)| + 1/|a(u)|), and damping reduces |v|. All
-/// bounces are computed until SwitchCounts::accumulates is set. Source: S. W. Shaw, P. J. Holmes, A
-/// periodically forced piecewise linear oscillator, J. Sound Vib. 90 (1983).
+/// transmits the command, and a stop of stiffness k_c and damping c_c adds the force k_c (Δz ∓
+/// r₀/2) + c_c Δż between the masses. There is no stick. The absorber bounces at the end of the gap
+/// if the plant pushes it outwards and the command inwards: v reverses with the period 2 |v|
+/// (1/|a(0)| + 1/|a(u)|), and damping reduces |v|. All bounces are computed until
+/// SwitchCounts::accumulates is set. Source: Shaw and Holmes (1983), see DeadZone.
 /// @tparam DrivenPlant  TwoMass<double> or a LinearPlant<double, N>
 template <class DrivenPlant = TwoMass<double>>
 class DriveContact {
@@ -91,8 +91,8 @@ class DriveContact {
     if (here > upper_ || here < lower_) change_to(here > upper_ ? 2 : 0, 0);
   }
 
-  /// The equations of motion in one mode. With Switching::sampled the command enters them in all
-  /// modes; use commanded(u) as the command, which is 0 while the law does not transmit.
+  /// The equations of motion in one mode. With Switching::sampled the command has an effect in all
+  /// modes; insert commanded(u) for the command u, to make it 0 while the law does not transmit.
   DynamicsOf<Plant> dynamics(int mode) const {
     if (has_stop(mode))
       return dynamics_on_stop(plant_, backlash_.contact_stiffness, backlash_.contact_damping,
@@ -113,28 +113,28 @@ class DriveContact {
 
   /// The number of the present mode, 0 … `modes` − 1.
   int mode() const { return mode_; }
-  /// The present contact mode of the drive; with Switching::sampled it is initially `engaged`.
+  /// The present mode as a ContactMode; with Switching::sampled it is initially `engaged`.
   ContactMode word() const { return word_; }
-  /// Whether the command of the present sample has an effect. The result is false only with
-  /// Switching::sampled, and only if the law did not transmit at the last sample.
+  /// Whether the command is passed to the drive. With Switching::exact always true; with
+  /// Switching::sampled true if the law transmitted at the last sample.
   bool transmits_command() const {
     return kind_ != Kind::at_samples || word_ == ContactMode::engaged;
   }
-  /// The command u_j (N) that reaches the drive: `command`, or 0 if the command is not transmitted.
+  /// The command (N) that reaches the drive: `command` if transmits_command() is true, else 0.
   double commanded(double command) const { return transmits_command() ? command : 0.0; }
-  /// Force (N) that the drive transmits, without the force of a stop.
+  /// The force (N) that the drive transmits at the instant `now`, without the force of a stop.
   double transmitted(const Instant& now) const {
     if (kind_ == Kind::at_samples) return now.command;
     if (word_ == ContactMode::engaged) return engaged_force(plant_, now);
     return word_ == ContactMode::gap ? 0.0 : -free_(now) / mobility_;
   }
 
-  /// Whether the contact may change between samples: for Switching::exact, unless r₀ = 0 in play.
+  /// Whether the contact may change between samples: with Switching::exact, except play if r₀ = 0.
   bool changes_between_samples() const { return changes_between_samples_; }
-  /// Functions that are positive in the present mode and end it at zero; none if the contact does
-  /// not change between samples. Engaged play: σ Δż (m/s), σ = ±1 the sign of Δż. Gap: distances of
-  /// Δz from both ends (m). Stop: distance of Δz beyond the gap's end (m). Stick: σ a(0) and
-  /// −σ a(s_e), with a(s) = Δz̈ (m/s²) under a drive force s; s_e is the engaged drive's force.
+  /// The guards of the present mode: positive functions whose zero ends the mode; none if the
+  /// contact does not change between samples. Engaged play: σ Δż (m/s), σ = ±1 the sign of Δż. Gap:
+  /// distances of Δz from the upper and lower end (m). Stop: distance of Δz beyond the end of the
+  /// gap (m). Stick: σ a(0) and −σ a(s_e) (m/s²) with a(s) and s_e of the class comment.
   ModeGuards guards() const {
     if (!changes_between_samples_) return {};
     if (mode_ == gap) return gap_guards();
@@ -150,33 +150,33 @@ class DriveContact {
     word_ = engaged ? ContactMode::engaged : ContactMode::gap;
     mode_ = gap + law_.side();
   }
-  /// Updates the contact after a possible jump of force or command; `now` has the new values.
+  /// Updates the contact after a possible jump of excitation or command; `now`: values after it.
   void jumped(const Instant& now) {
     if (kind_ != Kind::play) return;
     if (word_ == ContactMode::stick) return leave_stick(now, 1);
     // Further zeros at a change of contact are those of the force and the command before the jump.
     zeros_ = std::min(zeros_, mode_ == gap ? 2 : 1);
   }
-  /// Updates the contact after a jump of Δz: stick changes to gap. If Δz has jumped past an end of
-  /// the gap, the motion detects this at once.
+  /// Updates the contact after a jump of Δz: stick changes to gap. If Δz is now beyond an end of
+  /// the gap, a guard is negative, and EventMotion changes the mode at the start of its next step.
   void displaced() {
     if (word_ == ContactMode::stick) change_to(gap, 0);
     zeros_ = 0;
     displaced_ = true;
   }
-  /// Removes round-off in stick: sets Δż of `after` to 0 and Δz of `after` to Δz of `before`.
+  /// In stick, removes round-off: sets Δż of `after` to 0 and Δz of `after` to Δz of `before`.
   void keep(const State& before, State& after) const {
     if (word_ == ContactMode::stick) readings_.hold_relative_position(before, after);
   }
-  /// Records that time has passed since the last change: guards that were 0 may now be nonzero.
+  /// Records that time has passed since the contact changed: guards that were 0 may be nonzero now.
   void flowed() {
     zeros_ = 0;
     displaced_ = false;
   }
   /// Sets the sign σ = ±1 of the relative velocity Δż when it first differs from zero.
   void learn_sign(int /*guard*/, double sign) { sign_ = sign; }
-  /// Changes the contact after guard number `guard` has reached zero. At a reversal of exact play
-  /// Δż of `now` is set to exactly zero.
+  /// Changes the contact after a guard, given by its number in guards(), has reached zero. At a
+  /// reversal in exact play, sets Δż of `now` to exactly zero.
   void reached(int guard, Instant& now) {
     if (kind_ == Kind::stops) {
       sign_ = mode_ - gap;
@@ -191,12 +191,12 @@ class DriveContact {
 
   /// The number of the mode stick, in which Δż = 0; −1 for a law without this mode.
   int sticking_mode() const { return kind_ == Kind::play ? stick : -1; }
-  /// Whether a mode depends on g, the Δz at the last reversal: the gap of exact play with the ends
-  /// g and g − σ r₀, and stick with Δz = g. Engaged play and dead zones do not depend on g.
+  /// Whether a mode depends on g, the Δz at the last reversal. True in exact play for the gap, with
+  /// the ends g and g − σ r₀, and for stick, with Δz = g. False for engaged play and dead zones.
   bool is_anchored(int mode) const { return kind_ == Kind::play && mode != 0; }
   /// Whether the drive is in the gap of exact play, whose ends depend on the last reversal.
   bool remembers_gap() const { return kind_ == Kind::play && mode_ == gap; }
-  /// Sign σ = ±1 of Δż, for the law `play` with Switching::exact; 0 until Δż is first nonzero.
+  /// Sign σ = ±1 of Δż while exact play is (or was last) engaged; 0 until Δż is first nonzero.
   double sign() const { return sign_; }
   /// The lower end Δz (m) of the gap with Switching::exact; undefined for play while engaged.
   double lower() const { return lower_; }
@@ -205,15 +205,15 @@ class DriveContact {
   /// The relative displacement g (m) at which exact play last reversed, one end of its gap;
   /// undefined while engaged and for other laws.
   double reversal() const { return sign_ > 0.0 ? upper_ : lower_; }
-  /// Puts a drive with exact play into the gap after a given reversal.
+  /// Puts a drive with exact play into the gap that follows a given reversal.
   /// @param at    relative displacement g (m) at the reversal
-  /// @param sign  σ = ±1: the gap is below g for +1
+  /// @param sign  sign σ of Δż before the reversal; gap [g − r₀, g] for +1, [g, g + r₀] for −1
   void cross_gap(double at, double sign) {
     sign_ = sign;
     open_gap(at);
     change_to(gap, 0);
   }
-  /// Shifts both ends of the gap of exact play by a displacement (m); no effect on other laws.
+  /// Adds `by` (m) to both ends of the gap of exact play; no effect on other contacts.
   void shift_gap(double by) {
     if (kind_ != Kind::play) return;
     lower_ += by;

@@ -11,11 +11,12 @@
 
 namespace holdfast {
 
-/// Laws of backlash, which decide whether the drive transmits the control force.
+/// Laws of backlash, which decide whether the drive transmits the control force. Δz = z₂ − z₁ is
+/// the displacement of the absorber relative to the conductor; r₀ is the width of the gap.
 ///
-/// In continuous time `kollar`, `immediate` and `play` are the play operator: the drive transmits
-/// until Δż reaches zero, at Δz = d. Then it enters the gap [d − r₀, d] (from Δż > 0) or [d, d +
-/// r₀] (from Δż < 0), and transmits again once Δz leaves the gap. Under sampling the laws differ:
+/// In continuous time `kollar`, `immediate` and `play` are the play operator. The drive transmits
+/// until Δż reaches zero, at some Δz = d. It then enters the gap [d − r₀, d] if Δż was positive, or
+/// [d, d + r₀] if negative. It transmits again once Δz leaves the gap. Under sampling they differ:
 /// - `kollar` detects a reversal at the first sample at which Δż is zero or has changed sign; d is
 ///   Δz of this sample. The first sample outside the gap transmits;
 /// - `immediate` is as `kollar`, but the first sample outside the gap may already enter a new gap;
@@ -26,7 +27,7 @@ namespace holdfast {
 /// `dead_zone` is not a play operator: its gap does not move and is centred at Δz = 0.
 enum class ContactLaw : std::uint8_t {
   kollar,     ///< `Backlash`: Kollár 2022, Eqs. (7)–(8)
-  immediate,  ///< `ImmediateBacklash`: an exit from the gap may enter the next
+  immediate,  ///< `ImmediateBacklash`: a sample that leaves a gap may also enter the next gap
   play,       ///< `PlayBacklash`: the play operator on sampled Δz
   dead_zone,  ///< `DeadZone`: a gap about Δz = 0 between two stops
   none,       ///< `NoBacklash`: always transmits
@@ -36,7 +37,7 @@ enum class ContactLaw : std::uint8_t {
 template <class Scalar>
 class NoBacklash {
  public:
-  /// Processes one sample. @return true
+  /// Processes one sample. @return true: the force is transmitted
   Mask<Scalar> step(const Scalar& /*relative_displacement*/, const Scalar& /*relative_velocity*/) {
     return !inside();
   }
@@ -65,10 +66,10 @@ inline void validate(const BacklashParameters& backlash) {
 ///     SampledContact contact({ContactLaw::play, 0.002});
 ///     const bool engaged = contact.step(relative_displacement, relative_velocity);
 ///
-/// Its decisions are exactly those of the class that `ContactLaw` lists for the law.
+/// The decisions are exactly those of the class named in ContactLaw, for instance PlayBacklash.
 class SampledContact {
  public:
-  /// Constructs the initial contact. @throws InvalidParameter for inadmissible parameters
+  /// Constructs the contact before its first sample. @throws InvalidParameter as validate() does
   explicit SampledContact(const BacklashParameters& backlash) : law_(chosen_law(backlash)) {}
 
   /// Processes one sample, Δz (m) and Δż (m/s).
@@ -83,7 +84,7 @@ class SampledContact {
     return std::visit([](const auto& law) { return law.inside(); }, law_);
   }
 
-  /// Stop that a dead zone touched at the last step: −1, +1 or 0 for none; 0 for all other laws.
+  /// The stop touched at the last step: −1 lower, +1 upper, 0 none. Laws without stops return 0.
   int side() const {
     const auto* zone = std::get_if<DeadZone<double>>(&law_);
     return zone == nullptr ? 0 : static_cast<int>(zone->touched_side());

@@ -6,11 +6,11 @@
 
 namespace holdfast {
 
-/// The contact modes of a drive with backlash; `stick` occurs with Switching::exact only.
+/// The contact modes of a drive with backlash. Only with Switching::exact can `stick` occur.
 enum class ContactMode : std::uint8_t {
-  engaged,  ///< the command u is transmitted
+  engaged,  ///< the force of the drive is transmitted
   gap,      ///< the drive crosses its gap; no force is transmitted
-  stick,    ///< a transmitted force between 0 and the drive's full force keeps Δż = 0
+  stick,    ///< a part of the drive's force is transmitted; it keeps the relative velocity at 0
 };
 
 /// A change of the drive's contact mode at an instant.

@@ -4,8 +4,9 @@
 
 namespace holdfast {
 
-/// The backlash of the drive as a dead zone in Δz = z₂ − z₁: a gap of width r₀ fixed about Δz = 0,
-/// with a stop at each end. Whether a sample transmits depends on this sample only.
+/// The backlash of the drive as a dead zone: a fixed gap of width r₀ about Δz = 0, with a stop at
+/// each end. Δz = z₂ − z₁ is the absorber's displacement relative to the conductor. Whether a
+/// sample transmits depends on this sample only. k_c and c_c: stiffness and damping of a stop.
 ///
 ///     side σ = +1 for Δz > r₀/2, −1 for Δz < −r₀/2, 0 for −r₀/2 ≤ Δz ≤ r₀/2
 ///     the control force is transmitted where σ ≠ 0
@@ -24,7 +25,7 @@ namespace holdfast {
 template <class Scalar>
 class DeadZone {
  public:
-  /// Dead zone before its first sample. @param width  gap width r₀ (m), ≥ 0
+  /// Constructs a dead zone before its first sample. @param width  gap width r₀ (m), ≥ 0
   explicit DeadZone(const Scalar& width)
       : width_(width),
         half_width_(width / Scalar(2)),
@@ -49,7 +50,7 @@ class DeadZone {
     return select(at_upper, one, select(at_lower, Scalar(-one), zero));
   }
 
-  /// Whether no stop was touched at the last step.
+  /// Whether Δz was in the gap at the last step; false before the first step.
   Mask<Scalar> inside() const { return inside_; }
   /// Side σ of the stop touched at the last step: −1, +1 or 0 for none; 0 before the first step.
   const Scalar& touched_side() const { return touched_side_; }

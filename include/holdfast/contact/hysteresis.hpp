@@ -5,7 +5,7 @@
 
 namespace holdfast {
 
-/// The memory of a backlash: the gap of the drive and the last sampled velocity.
+/// The memory of a `Backlash`: the gap in terms of Δz = z₂ − z₁, and the last relative velocity.
 template <class Scalar>
 struct BacklashMemory {
   Mask<Scalar> inside;       ///< whether the drive has been in its gap since the last sample
@@ -14,24 +14,24 @@ struct BacklashMemory {
   Scalar previous_velocity;  ///< Δż of the last sample (m/s); zero before the first one
 };
 
-/// Whether a sample that leaves the gap may also enter the next one.
+/// Whether the drive may leave its gap and enter the next gap at the same sample.
 enum class EntryTest {
-  after_exit,  ///< entry is tested from the next sample on
-  at_exit,     ///< entry is tested at the sample of exit too
+  after_exit,  ///< no: an entry is possible from the sample after the exit on
+  at_exit,     ///< yes: an entry is possible at the sample of the exit too
 };
 
-/// The backlash of the drive as a hysteresis in discrete time, a function of the sampled Δz = z₂ −
-/// z₁ and Δż = ż₂ − ż₁ only.
+/// The backlash of the drive as a discrete-time hysteresis. It depends only on the samples of Δz =
+/// z₂ − z₁ and Δż, displacement and velocity of the absorber relative to the conductor.
 ///
 /// At every sample j, in this order:
 ///  1. the drive was in the gap and lower ≤ Δz ≤ upper: it stays there, no force is transmitted;
 ///  2. the drive was in the gap and Δz is outside [lower, upper]: it leaves the gap; the force acts
 ///     from this sample on, and rule 3 is not applied at this sample;
 ///  3. the drive was outside, Δż_{j−1} ≠ 0, and Δż_j is 0 or has the other sign: the drive reverses
-///     and enters the gap [Δz − r₀, Δz] if Δż_{j−1} > 0, [Δz, Δz + r₀] if Δż_{j−1} < 0.
+///     and enters a gap of width r₀, [Δz − r₀, Δz] if Δż_{j−1} > 0, [Δz, Δz + r₀] if Δż_{j−1} < 0.
 ///
-/// r₀ = 0 means a drive without backlash. It never enters a gap: rule 3, which would interrupt the
-/// force for one sample at each reversal, is not applied.
+/// r₀ = 0 means a drive without backlash. It never enters a gap: rule 3 is not applied, as it would
+/// interrupt the force for one sample at each reversal.
 ///
 /// Source: Kollár 2022, Eqs. (7)–(8), interpreted so that the switching instants of Fig. 8 are
 /// reproduced (docs/reading-the-paper.md). `Scalar` may be a scalar or a SIMD pack; a step takes
@@ -40,15 +40,15 @@ enum class EntryTest {
 template <class Scalar, EntryTest Entry = EntryTest::after_exit>
 class Backlash {
  public:
-  /// Backlash before its first sample, outside the gap. @param width  gap width r₀ (m), ≥ 0
+  /// Constructs an engaged backlash before its first sample. @param width  gap width r₀ (m), ≥ 0
   explicit Backlash(const Scalar& width)
       : Backlash(width, {Scalar(0) > Scalar(0), Scalar(0), Scalar(0), Scalar(0)}) {}
 
-  /// Backlash of width r₀ (m) that continues from the memory of an earlier backlash of this width.
+  /// Constructs a backlash of width r₀ (m), ≥ 0, with the memory of an earlier one of this width.
   Backlash(const Scalar& width, const BacklashMemory<Scalar>& memory)
       : width_(width), memory_(memory) {}
 
-  /// Processes one sample of Δz (m) and Δż (m/s). @return true where force is transmitted after it
+  /// Processes one sample, Δz (m) and Δż (m/s). @return true where the force is then transmitted
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& relative_velocity) {
     const Scalar zero(0);
     const Mask<Scalar> stays = memory_.inside & (relative_displacement >= memory_.lower) &
@@ -76,7 +76,7 @@ class Backlash {
   const Scalar& upper() const { return memory_.upper; }
   /// Gap width r₀ (m).
   const Scalar& width() const { return width_; }
-  /// Memory of the backlash, on which its decisions at later samples depend.
+  /// The memory of the backlash; decisions at later samples depend on it and on these samples only.
   const BacklashMemory<Scalar>& memory() const { return memory_; }
 
  private:
@@ -87,9 +87,9 @@ class Backlash {
 /// The law of `Backlash`, except that a sample that leaves the gap may enter the next one.
 ///
 /// Rule 2 of `Backlash` is changed: rule 3 is applied also to a sample j that leaves the gap. With
-/// Δż_{j−1} ≠ 0 and Δż_{j−1} Δż_j ≤ 0 the drive passes into the next gap without transmitting. From
-/// the same memory the two laws differ at such samples only. The text of Kollár 2022 permits both
-/// laws, but the switching instants of its Fig. 8 exclude `ImmediateBacklash`.
+/// Δż_{j−1} ≠ 0 and Δż_{j−1} Δż_j ≤ 0 the drive enters the next gap without transmitting. For equal
+/// memories the two laws differ only at such samples. The text of Kollár 2022 permits both laws,
+/// but the switching instants of its Fig. 8 exclude `ImmediateBacklash`.
 template <class Scalar>
 using ImmediateBacklash = Backlash<Scalar, EntryTest::at_exit>;
 

@@ -31,11 +31,12 @@ DynamicsOf<Plant> released_dynamics(const Plant& plant) {
           StateOf<Plant>::Zero(linear.order())};
 }
 
-/// The equations of motion in stick, Δż = 0, under the force s that holds both sides together:
+/// The equations of motion in stick. The transmitted force s keeps the relative velocity Δż = rᵀx
+/// at zero; the other symbols are those of LinearPlant:
 ///
 ///     s = −rᵀ(A x + b_u u + c F) / (rᵀb),   ẋ = (I − b rᵀ/(rᵀb)) (A x + b_u u + c F)
 ///
-/// @param plant  plant with rᵀb ≠ 0; r: row of the relative velocity Δż, b: input of the force s
+/// @param plant  plant with rᵀb ≠ 0
 template <int States>
 AffineDynamicsOf<States> locked_dynamics(const LinearPlant<double, States>& plant) {
   const RowVector<double, States>& r = plant.ports().relative_velocity;
@@ -60,8 +61,8 @@ AffineDynamicsOf<4> locked_dynamics(const TwoMass<Scalar>& plant) {
   return moving;
 }
 
-/// The two masses with the absorber on a stop of stiffness k_c (N/m) and damping c_c (N s/m), which
-/// add to k₂ and c₂.
+/// The two masses while the absorber touches a stop. The stop's stiffness (N/m) and damping (N s/m)
+/// are added to k₂ and c₂ between the masses.
 template <class Scalar>
 TwoMass<Scalar> plant_on_stop(TwoMass<Scalar> plant, double stiffness, double damping) {
   plant.absorber_stiffness += stiffness;
@@ -69,8 +70,8 @@ TwoMass<Scalar> plant_on_stop(TwoMass<Scalar> plant, double stiffness, double da
   return plant;
 }
 
-/// The equations of motion on a stop at Δz = `at` (m). The stop's force k_c (Δz − at) + c_c Δż acts
-/// through the same input b as the drive's force; k_c is `stiffness` (N/m), c_c `damping` (N s/m).
+/// The equations of motion in contact with a stop at Δz = `at` (m). Its force k_c (Δz − at) + c_c
+/// Δż has the same input b as the drive's force; k_c: `stiffness` (N/m), c_c: `damping` (N s/m).
 template <int States>
 AffineDynamicsOf<States> dynamics_on_stop(const LinearPlant<double, States>& plant,
                                           double stiffness, double damping, double at) {
@@ -81,7 +82,8 @@ AffineDynamicsOf<States> dynamics_on_stop(const LinearPlant<double, States>& pla
   pressed.drift = plant.force_input * (-stiffness * at);
   return pressed;
 }
-/// Equations of motion of two masses on a stop at Δz = `at` (m) of k_c (N/m) and c_c (N s/m).
+/// Equations of motion of two masses in contact with a stop at Δz = `at` (m), which has the given
+/// stiffness (N/m) and damping (N s/m).
 template <class Scalar>
 AffineDynamicsOf<4> dynamics_on_stop(const TwoMass<Scalar>& plant, double stiffness, double damping,
                                      double at) {
@@ -115,7 +117,8 @@ struct GapAcceleration {
   }
 };
 
-/// The relative acceleration Δz̈ = rᵀ ẋ in a mode without constant force; r is the row of Δż.
+/// The relative acceleration Δz̈ = rᵀẋ by given equations of motion; r: row of the relative
+/// velocity Δż. The drift of `dynamics` is taken as zero.
 template <class Plant>
 GapAcceleration<states_of<Plant>> gap_acceleration(const Plant& plant,
                                                    const DynamicsOf<Plant>& dynamics) {
@@ -123,8 +126,8 @@ GapAcceleration<states_of<Plant>> gap_acceleration(const Plant& plant,
   return {(r * dynamics.state).transpose(), r.dot(dynamics.command), r.dot(dynamics.force)};
 }
 
-/// The relative acceleration rᵀb (1/kg) per newton of the drive's force: the row r of Δż times the
-/// input b of this force; for two masses −1/m₂ − 1/m₁.
+/// The relative acceleration Δz̈ per newton of the drive's force: rᵀb (1/kg), with the row r of the
+/// relative velocity Δż and the input b of this force. For two masses: −1/m₁ − 1/m₂.
 template <class Plant>
 double gap_mobility(const Plant& plant) {
   return ports_of(plant).relative_velocity.dot(linear_plant(plant).force_input);

@@ -4,8 +4,9 @@
 
 namespace holdfast {
 
-/// The backlash of the drive as a play of half-width r₀/2 on the sampled Δz = z₂ − z₁. The near
-/// side of the play is at Δz. Its far side is at y and moves only while the near side pushes it.
+/// The backlash of the drive as the play operator of width r₀ on the sampled Δz = z₂ − z₁, the
+/// absorber's displacement relative to the conductor. Its output y (m) changes only if Δz leaves
+/// the gap of half-width r₀/2 about y:
 ///
 ///     y_j = max(Δz_j − r₀/2, min(Δz_j + r₀/2, y_{j−1}))
 ///     the force is transmitted from sample j on where y_j ≠ y_{j−1}
@@ -15,7 +16,8 @@ namespace holdfast {
 ///
 /// Before the first sample y is unknown. The force is transmitted up to and including the first
 /// sample with Δż ≠ 0, which sets y = Δz − r₀/2 for Δż > 0, y = Δz + r₀/2 for Δż < 0. Motion that
-/// continues in this direction transmits; reversed motion first crosses the gap. Δż is unused then.
+/// continues in this direction transmits; reversed motion first crosses the gap. Later Δż has no
+/// effect.
 ///
 /// The gap after a reversal is [Δz_max − r₀, Δz_max] or [Δz_min, Δz_min + r₀], where Δz_max or
 /// Δz_min is the extreme sample. `Backlash` instead uses Δz of the first sample after the change of
@@ -28,10 +30,10 @@ namespace holdfast {
 template <class Scalar>
 class PlayBacklash {
  public:
-  /// Play before its first sample. @param width  gap width r₀ (m), ≥ 0
+  /// Constructs the play before its first sample. @param width  gap width r₀ (m), ≥ 0
   explicit PlayBacklash(const Scalar& width) : width_(width), half_width_(width / Scalar(2)) {}
 
-  /// Processes one sample of Δz (m) and Δż (m/s). @return true where force is transmitted after it
+  /// Processes one sample, Δz (m) and Δż (m/s). @return true where the force is then transmitted
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& relative_velocity) {
     const Scalar zero(0);
     const Mask<Scalar> undecided = !decided_, moves_up = relative_velocity > zero;

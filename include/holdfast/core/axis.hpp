@@ -16,7 +16,7 @@ struct Axis {
   double max = 0.0;        ///< the last value, ≥ min
   std::int64_t count = 1;  ///< number of values, ≥ 1; if it is 1, the only value is `min`
 
-  /// The value at an index, 0 ≤ index < count: equal steps from `min` to `max`.
+  /// Value min + (max − min) index/(count − 1) at an index, 0 ≤ index < count.
   double at(std::int64_t index) const {
     const std::int64_t last = count - 1;
     if (index <= 0 || last <= 0) return min;
@@ -58,8 +58,8 @@ struct Axis {
 
 /// Validates an axis.
 /// @param axis  the axis
-/// @param name  name of the quantity along the axis
-/// @param unit  unit of its values
+/// @param name  name of the quantity along the axis, for the message of the exception
+/// @param unit  SI unit of this quantity, for the message; empty for a pure number
 /// @throws InvalidParameter unless both ends are finite, min ≤ max and 1 ≤ count ≤ 10¹⁵
 inline void validate(const Axis& axis, std::string_view name, std::string_view unit) {
   require_finite(name, axis.min, unit);

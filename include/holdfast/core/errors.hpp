@@ -15,7 +15,7 @@ namespace holdfast {
 
 /// The exception for a caller's parameter outside its admissible range.
 ///
-/// Numerical outcomes (not converged, unstable, no solution) are fields of the result, not thrown.
+/// Numerical outcomes (not converged, unstable, no solution) are reported in the result instead.
 class InvalidParameter : public std::invalid_argument {
  public:
   /// @param name        the parameter's technical name ("sampling period")
@@ -35,7 +35,7 @@ class InvalidParameter : public std::invalid_argument {
   double value() const noexcept { return value_; }
   /// SI unit of the value; empty for a pure number.
   const std::string& unit() const noexcept { return unit_; }
-  /// Admissible values, a phrase that continues "must be".
+  /// The admissible values, as words that follow "must be", for instance "> 0".
   const std::string& admissible() const noexcept { return admissible_; }
 
  private:
@@ -53,28 +53,28 @@ class InvalidParameter : public std::invalid_argument {
   std::string admissible_;
 };
 
-/// Rejects NaN and infinity.
-/// @throws InvalidParameter when `value` is not finite.
+/// Checks that the value of the parameter `name`, in `unit`, is neither NaN nor infinite.
+/// @throws InvalidParameter otherwise
 inline void require_finite(std::string_view name, double value, std::string_view unit) {
   if (!std::isfinite(value))
     throw InvalidParameter(std::string(name), value, std::string(unit), "finite");
 }
 
-/// Rejects NaN, infinity and values ≤ 0. @throws InvalidParameter unless 0 < value < ∞.
+/// Checks 0 < value < ∞ for the parameter `name` in `unit`. @throws InvalidParameter otherwise
 inline void require_positive(std::string_view name, double value, std::string_view unit) {
   if (!(std::isfinite(value) && value > 0))
     throw InvalidParameter(std::string(name), value, std::string(unit), "finite and > 0");
 }
 
-/// Rejects NaN, infinity and values < 0. @throws InvalidParameter unless 0 ≤ value < ∞.
+/// Checks 0 ≤ value < ∞ for the parameter `name` in `unit`. @throws InvalidParameter otherwise
 inline void require_non_negative(std::string_view name, double value, std::string_view unit) {
   if (!(std::isfinite(value) && value >= 0)) {
     throw InvalidParameter(std::string(name), value, std::string(unit), "finite and >= 0");
   }
 }
 
-/// Rejects values outside a range. @throws InvalidParameter unless lower ≤ value ≤ upper. If
-/// `upper` is the largest double, the message requires the value to be "finite and >= lower".
+/// Checks lower ≤ value ≤ upper for the parameter `name` in `unit`. For "no upper limit", set
+/// `upper` to the largest double. @throws InvalidParameter if the value is outside the range
 inline void require_within(std::string_view name, double value, std::string_view unit, double lower,
                            double upper) {
   if (value >= lower && value <= upper) return;
@@ -89,8 +89,8 @@ inline void require_within(std::string_view name, double value, std::string_view
   throw InvalidParameter(std::string(name), value, std::string(unit), range.str());
 }
 
-/// Rejects a size of a vector, or of one side of a matrix, that differs from the required size.
-/// @throws InvalidParameter unless size = wanted.
+/// Checks the number of entries of a vector, or of rows or columns of a matrix. `name` is the name
+/// of this number in the message. @throws InvalidParameter unless size = wanted
 inline void require_size(std::string_view name, std::ptrdiff_t size, std::ptrdiff_t wanted) {
   const auto entries = static_cast<double>(wanted);
   if (size != wanted) require_within(name, static_cast<double>(size), "", entries, entries);

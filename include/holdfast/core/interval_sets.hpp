@@ -34,8 +34,8 @@ std::vector<Interval<Scalar>> intersection(const std::vector<Interval<Scalar>>& 
 
 /// The open intervals of x in which c₀ + c₁ x + c₂ x² < 0: none, one or two, ascending.
 ///
-/// The roots are q/c₂ and c₀/q with q = −(c₁ ± √(c₁² − 4 c₀ c₂))/2. The sign ± is that of c₁, so
-/// that no digits cancel; c₂ may be 0. For c₂ < 0 a double root is not excluded from the result.
+/// The roots are q/c₂ and c₀/q with q = −(c₁ ± √(c₁² − 4 c₀ c₂))/2; ± is the sign of c₁, to avoid
+/// cancellation. c₂ may be 0. For c₂ < 0 with a double root the result is (−∞, ∞), root included.
 /// @param quadratic  coefficients [c₀, c₁, c₂], finite
 template <class Scalar>
 std::vector<Interval<Scalar>> where_negative(const Vector<Scalar, 3>& quadratic) {

@@ -23,7 +23,7 @@ struct Lanes {
   /// Writes one byte for each lane: 1 where the mask is set, else 0.
   static void store_flags(bool mask, std::uint8_t* flags) { *flags = mask ? 1 : 0; }
 
-  /// Writes the flags of two masks: `count` bytes for `first`, then `count` bytes for `second`.
+  /// Writes one byte, 1 or 0, for each lane of the mask `first`, then for each lane of `second`.
   static void store_flags(bool first, bool second, std::uint8_t* flags) {
     store_flags(first, flags);
     store_flags(second, flags + count);
@@ -32,7 +32,6 @@ struct Lanes {
 
 namespace detail {
 
-/// The number in one lane of a pack.
 template <class Scalar>
 auto lane_of(const Scalar& pack, std::size_t lane) {
   typename Lanes<Scalar>::Value values[Lanes<Scalar>::count];

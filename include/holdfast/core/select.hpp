@@ -21,22 +21,22 @@ struct MaskOf {
 template <class Scalar>
 using Mask = typename MaskOf<Scalar>::type;
 
-/// The mask that is set where `mask` is set and `other` is not.
+/// The mask that is set in each lane where `mask` is set and `other` is not.
 template <class Scalar>
 constexpr Mask<Scalar> without(const Mask<Scalar>& mask, const Mask<Scalar>& other) {
   return mask & MaskOf<Scalar>::complement(other);
 }
 
-/// Selects `mask ? when_true : when_false`, lane by lane.
+/// Returns `mask ? when_true : when_false`; the overloads for packs select lane by lane.
 template <class Value>
 constexpr Value select(bool mask, const Value& when_true, const Value& when_false) {
   return mask ? when_true : when_false;
 }
 
-/// Whether at least one lane of the mask is set.
+/// Whether at least one lane of the mask is set; a `bool` is the mask of one lane.
 constexpr bool any(bool mask) { return mask; }
 
-/// Whether every lane of the mask is set.
+/// Whether every lane of the mask is set; a `bool` is the mask of one lane.
 constexpr bool all(bool mask) { return mask; }
 
 }  // namespace holdfast

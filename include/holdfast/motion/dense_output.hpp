@@ -19,26 +19,26 @@ namespace holdfast {
 ///     motion.advance(trace);
 ///     trace.state(0.5 * tau);
 ///
-/// The motion must outlive this object at an unchanged address. Work: a Taylor series per Part.
+/// The motion must outlive this object at an unchanged address. Work: one Taylor series per Part.
 template <class Contact>
 class DenseOutput {
  public:
   /// The type of the motion's state x, N × 1.
   using State = typename EventMotion<Contact>::State;
 
-  /// A part of a sampling period under one contact mode and command, with one Taylor series.
+  /// A part of a sampling period: one contact mode, one command, one Taylor series of the state.
   struct Part {
     double begin,                                    ///< beginning (s after the sample)
         length;                                      ///< length (s), ≥ 0
     ContactMode mode;                                ///< contact mode
-    typename EventMotion<Contact>::Expansion state;  ///< Taylor series of the state
+    typename EventMotion<Contact>::Expansion state;  ///< Taylor series of the state over the part
   };
 
   /// Constructs the dense output of a motion and keeps a reference to the motion.
   explicit DenseOutput(const EventMotion<Contact>& motion)
       : motion_(&motion), state_(motion.state()) {}
 
-  /// Begins a sampling period; to be called after `sense()` and before `advance(trace)`.
+  /// Begins a sampling period; to be called after the motion's `sense()`, before `advance(trace)`.
   void begin() {
     parts_.clear();
     state_ = motion_->state();
@@ -55,11 +55,11 @@ class DenseOutput {
   /// The contact mode at the time `after` (s) since the sample; at a change, the new mode.
   ContactMode mode(double after) const { return part_at(after).mode; }
 
-  /// The parts of the sampling period, in order and without gaps.
+  /// The parts of the sampling period in order of time; together they cover the whole period.
   const std::vector<Part>& parts() const { return parts_; }
 
-  /// Adds a time interval in one mode, which begins `begin` (s) after the sample and is `length`
-  /// (s) long; called by EventMotion::advance at its end.
+  /// Adds a time interval in one contact mode, given by its number, its beginning (s after the
+  /// sample) and its length (s). Called by EventMotion::advance at the end of the interval.
   void flowed(int mode, double begin, double length) {
     const double rate = motion_->rate(mode);
     double reached = begin;
@@ -77,7 +77,7 @@ class DenseOutput {
       reached = part == end - reached ? end : reached + part;
     } while (reached < end);
   }
-  /// Replaces the command u_{j−1} by u_j; called by EventMotion::advance after the delay δ.
+  /// Replaces u_{j−1} by u_j; called by EventMotion::advance after the processing delay.
   void commanded() { command_ = motion_->command(); }
   /// Does nothing; called by EventMotion::advance at a change of contact.
   template <class Instant>

@@ -29,9 +29,9 @@ double static_deflection(const Plant& plant, double force) {
 
 }  // namespace detail
 
-/// The divergence bound: a motion counts as diverging if an |entry| of its state (m, m/s) exceeds
-/// it: 10¹² (y + ω y + r₀ + largest |entry| of the initial state). y (m): static deflection under
-/// the largest force; ω (rad/s): highest frequency of the force; r₀ (m): backlash width.
+/// The bound on the |entries| of the state (m, m/s) above which a motion counts as diverging: 10¹²
+/// (y + ω y + r₀ + largest |entry| of the initial state). y (m): static deflection under the
+/// largest force; ω (rad/s): highest frequency of the force; r₀ (m): backlash width.
 /// @param loop   an admissible loop
 /// @param state  the initial state, N × 1, finite
 template <class Plant>
@@ -47,8 +47,8 @@ double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plan
   return 1e12 * std::max(scale, 1e-100);
 }
 
-/// The divergence bound of a conductor given by its modes, by the formula for an ImplementedLoop,
-/// with y the static deflection at the absorber under the force amplitude.
+/// The divergence bound for a conductor given by its modes. The formula is that for an
+/// ImplementedLoop, but y (m) is the static deflection at the absorber under the force amplitude.
 /// @param loop   an admissible loop
 /// @param state  the initial state of the plant of `loop`
 inline double divergence_bound(const ModalLoop& loop, const NaturalMotions::Full& state) {

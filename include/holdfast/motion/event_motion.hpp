@@ -28,7 +28,7 @@
 
 namespace holdfast {
 
-/// A sample of an EventMotion: state, transmitted force and contact mode at t_j.
+/// A sample of an EventMotion: state, contact mode and force transmitted under u_j, all at t_j.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct EventSampleOf : MotionSample<double, States> {
@@ -41,9 +41,9 @@ using EventSample = EventSampleOf<4>;
 /// The counts of contact changes in a motion.
 struct SwitchCounts {
   std::array<std::int64_t, 3> entered{};  ///< number of changes into each mode, by ContactMode
-  std::int64_t grazing = 0;  ///< number of changes at which a guard only touches zero (tangential)
-  bool accumulates = false;  ///< whether a sampling period had more than `most_switches` changes;
-                             ///< the later ones were ignored and the motion is then invalid
+  std::int64_t grazing = 0;  ///< number of changes at which a GuardOf touches zero tangentially
+  bool accumulates = false;  ///< whether a sampling period had more changes than most_switches of
+                             ///< EventMotion; later changes were ignored: the motion is invalid
 };
 
 /// An observer for EventMotion::advance that does nothing.
@@ -61,11 +61,11 @@ struct IgnoreFlow {
 
 /// The motion of a sampled loop whose contact may change between the samples.
 ///
-/// `sense()` takes a sample and computes the command u_j. `advance()` moves to the next sample, in
-/// two parts: under u_{j−1} until t_j + δ, then under u_j. The contact changes where a guard
-/// (GuardOf) reaches zero. If a bound proves that no guard reaches zero in a part, the state is
-/// advanced to its end by the exact transition matrix. Otherwise the state is expanded in Taylor
-/// series and the first root of every guard is found (first_root.hpp), so that no change is missed.
+/// `sense()` takes sample j and computes the command u_j. `advance()` moves to the next sample in
+/// two parts: under u_{j−1} until t_j + δ (processing delay δ), then under u_j. The contact changes
+/// when a guard (GuardOf) reaches zero. If a bound proves that no guard reaches zero in a part, one
+/// step with the exact transition matrix covers this part. Otherwise the state is expanded in
+/// Taylor series, and the first root of every guard is found (first_root.hpp). None is missed.
 ///
 /// Work per sample without a change of contact: about 80 multiply-adds and a square root; per
 /// change some 2000 multiply-adds more. No memory is allocated.
@@ -87,7 +87,7 @@ class EventMotion {
   static constexpr int most_switches = 1000;
 
   /// Constructs the motion before its first sample. @throws InvalidParameter for an inadmissible
-  /// loop or state, or if ‖A‖ τ or ω τ exceeds `ModeMotion::most_turns_per_sample`
+  /// loop or state, or too long a sampling period (see ModeMotion::most_turns_per_sample)
   EventMotion(const DigitalLoop& loop, const Contact& contact, const State& initial_state)
       : loop_(loop),
         readings_(contact.readings()),
@@ -126,14 +126,14 @@ class EventMotion {
     return sample;
   }
 
-  /// Advances from t_j to t_{j+1} under u_{j−1} and, from t_j + δ on, under u_j of `sense()`.
+  /// Advances from t_j to t_{j+1}: under u_{j−1} until t_j + δ, then under u_j of `sense()`.
   void advance() { advance(IgnoreFlow()); }
 
-  /// Advances to the next sample and calls these members of an observer, as in IgnoreFlow:
+  /// Advances to the next sample and calls these members of an observer, explained at IgnoreFlow:
   ///
-  ///     flowed(mode, begin, length)             after a time interval in one mode; s after t_j, s
-  ///     commanded()                             at t_j + δ: u_j replaces u_{j−1}
-  ///     switched(from, to, guard, instant)      at a contact change; instant: state before it
+  ///     flowed(mode, begin, length)             after a time interval in one contact mode
+  ///     commanded()                             at t_j + δ, when u_j replaces u_{j−1}
+  ///     switched(from, to, guard, instant)      at a change of contact
   template <class Observer>
   void advance(Observer&& observer) {
     const double period = clock_.period_of(index_), delay = loop_.sampling.processing_delay;
@@ -147,7 +147,7 @@ class EventMotion {
     ++index_;
   }
 
-  /// Displaces the conductor by a length (m) at the present sample; to be called before `sense()`.
+  /// Shifts the conductor suddenly by a displacement (m); to be called before `sense()`.
   void displace_conductor(double displacement) {
     readings_.displace_conductor(state_, displacement);
     contact_.displaced();
@@ -167,7 +167,7 @@ class EventMotion {
   const Contact& contact() const { return contact_; }
   /// The functions that read displacements and velocities from the plant's state.
   const PortReadings<Plant>& readings() const { return readings_; }
-  /// The controller, which stores the reading of the last sample.
+  /// The controller, which stores the displacement measured at the last sample.
   const auto& controller() const { return controller_; }
   /// The digital loop with sampling, controller and excitation, as passed to the constructor.
   const DigitalLoop& loop() const { return loop_; }
@@ -177,7 +177,7 @@ class EventMotion {
   const ForceOverSamples& force() const { return force_; }
   /// The length h_j = t_{j+1} − t_j (s) of the present sampling period.
   double period() const { return clock_.period_of(index_); }
-  /// The rate (1/s) of a mode, given by its number: a Taylor series may cover a time up to 1/rate.
+  /// The rate (1/s) of a mode, given by its number: one Taylor series covers a time ≤ 1/rate.
   double rate(int mode) const { return modes_[at(mode)].rate(); }
   /// The equations of motion in a mode of the contact, given by its number.
   const Dynamics& dynamics(int mode) const { return modes_[at(mode)].dynamics(); }
@@ -185,12 +185,12 @@ class EventMotion {
   /// Resets the counts of contact changes to zero.
   void restart_counts() { counts_ = {}; }
 
-  /// Sets the displacement (m) that the controller stores as its reading at the previous sample.
+  /// Sets the displacement (m) that the controller stores as measured at the previous sample.
   void remember_reading(double displacement) { controller_.restore({displacement, true}); }
 
   /// Sets the motion to sample j = `index`, with the state (N × 1), the command u_{j−1} (N) and the
-  /// contact. The reading that the controller stores is not changed: see remember_reading().
-  /// @throws InvalidParameter where the state has the wrong size
+  /// contact. The displacement stored in the controller is set by remember_reading().
+  /// @throws InvalidParameter where the size of the state is not N
   void restore(std::int64_t index, const State& state, double previous_command,
                const Contact& contact) {
     require_size("size of the state", state.size(), state_.size());
@@ -224,7 +224,6 @@ class EventMotion {
     return loop_.jitter.half_width > 0.0 ? force_.at(instant.after) : force_.at(instant);
   }
 
-  /// The command (N) in force just after the sample: u_{j−1}, or u_j for δ = 0.
   double first_command() const {
     return loop_.sampling.processing_delay > 0.0 ? previous_command_ : command_;
   }
@@ -243,7 +242,6 @@ class EventMotion {
     if (++switches_ > most_switches) counts_.accumulates = true;
   }
 
-  /// A part of the sampling period under one command.
   struct Part {
     double command;      // N
     double begin, end;   // s after the sample

@@ -20,7 +20,7 @@
 
 namespace holdfast {
 
-/// The sampled loop of Kollár 2022, with excitation and backlash, without an initial state.
+/// The sampled loop of Kollár 2022: plant, sampling, gains, excitation and backlash.
 /// @tparam Plant  TwoMass<Scalar> or a LinearPlant<Scalar, N>
 template <class Scalar, class Plant = TwoMass<Scalar>>
 struct IdealLoop {
@@ -65,19 +65,20 @@ DigitalLoop digital_loop(const IdealLoop<double, Plant>& loop) {
   return {loop.sampling, loop.gains, multi_harmonic_force(loop.excitation), loop.hold};
 }
 
-/// The ratio f τ = p/q in lowest terms: q sampling periods last p periods of the excitation; 0/1
-/// without excitation. @return nullopt where q would exceed 10⁶ (f and 1/τ incommensurate)
+/// The excitation frequency f (Hz) times the sampling period τ (s) as a fraction p/q in lowest
+/// terms; 0/1 without excitation. @return nullopt where q > 10⁶ (f and 1/τ incommensurate)
 template <class Plant>
 std::optional<Rational> forcing_ratio(const IdealLoop<double, Plant>& loop) {
   return forcing_ratio(digital_loop(loop));
 }
 
-/// The motion of a sampled loop under a harmonic force that repeats every q samples, f τ = p/q.
+/// The motion of a sampled loop under a harmonic force that repeats every q samples: f τ = p/q with
+/// the frequency f and the sampling period τ.
 template <class Scalar, class Plant = TwoMass<Scalar>>
 using PeriodicallyForcedMotion =
     SampledMotion<Scalar, Backlash<Scalar>, PeriodicForcing<Scalar, states_of<Plant>>, Plant>;
 
-/// The motion of a sampled loop under a harmonic force, for any value of f τ.
+/// The motion of a sampled loop under a harmonic force of any frequency.
 template <class Scalar, class Plant = TwoMass<Scalar>>
 using HarmonicallyForcedMotion =
     SampledMotion<Scalar, Backlash<Scalar>, HarmonicForcing<Scalar, states_of<Plant>>, Plant>;
@@ -106,7 +107,7 @@ SampledMotion<Scalar, Backlash<Scalar>, Forcing, Plant> forced_motion(
 
 /// The motion from an initial state under a harmonic force that repeats exactly every q samples.
 /// @param loop           the loop with its excitation and backlash
-/// @param ratio          f τ = p/q from forcing_ratio(), used for the phases of the force
+/// @param ratio          p/q from forcing_ratio(), from which the phases of the force are computed
 /// @param initial_state  x₀, N × 1; for two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 /// @throws InvalidParameter where the loop or the state is not admissible
 template <class Scalar, class Plant>
@@ -116,7 +117,7 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
   return detail::forced_motion<PeriodicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation.amplitude, ratio);
 }
-/// The periodically forced motion from any Eigen column vector as initial state; `ratio` is f τ.
+/// The periodically forced motion from any Eigen column vector; `ratio` is from forcing_ratio().
 template <class Scalar, class Plant, class Column>
 PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Rational& ratio,
@@ -124,7 +125,7 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
   return periodically_forced_motion(loop, ratio, detail::state_of(loop.plant, initial_state));
 }
 
-/// The motion from an initial state under a harmonic force, for any value of f τ.
+/// The motion from an initial state under a harmonic force of any frequency.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  state x₀, N × 1
 /// @throws InvalidParameter where the loop or the state is not admissible

@@ -16,8 +16,8 @@
 
 namespace holdfast {
 
-/// A sampled loop with the limits of its real sensors, computer, drive and clock. Backlash law and
-/// excitation are arbitrary; the contact changes at samples only, or at exact instants.
+/// A sampled loop with the limits of real sensors, computers, drives and clocks, for any backlash
+/// law and any excitation. The contact changes either at samples only or at any instant.
 /// @tparam Plant  TwoMass<double>, a LinearPlant<double, N> or a ControlledPlant
 template <class Plant>
 struct ImplementedLoopOf {
@@ -26,9 +26,9 @@ struct ImplementedLoopOf {
                 "TwoMass, a LinearPlant or with_controller()");
 
   Plant plant;                       ///< conductor, absorber and any further states
-  DigitalLoop digital;               ///< sampling, gains, limits, clock and excitation
+  DigitalLoop digital;               ///< sampling, gains, controller limits, clock and excitation
   BacklashParameters backlash = {};  ///< law and width; default: ContactLaw::kollar, r₀ = 0
-  Switching switching = Switching::sampled;  ///< contact changes at samples, or at exact instants
+  Switching switching = Switching::sampled;  ///< contact changes at samples only or at any instant
 };
 
 /// The implemented loop of the two masses.

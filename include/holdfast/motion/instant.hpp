@@ -6,8 +6,8 @@
 
 namespace holdfast {
 
-/// The relative tolerance within which the instant j τ of a sample counts as equal to another
-/// instant. Rounding may make j τ too small: in doubles 5 · 0.011 < 0.055.
+/// The relative tolerance within which the computed instant j τ of sample j counts as equal to a
+/// given instant. Rounding may make j τ too small: in doubles 5 · 0.011 < 0.055.
 inline constexpr double instant_round_off = 1e-12;
 
 /// Whether a sample at `time` (s) is at or after `instant` (s), within `instant_round_off`.

@@ -23,7 +23,6 @@ namespace detail {
 
 /// The norm of a plant's states without the states of its controller. The controller's states come
 /// last, are constant between the samples and enter no guard.
-/// @tparam any  Eigen::Dynamic
 template <int any>
 class NormBesideController {
  public:
@@ -56,16 +55,17 @@ template <class Plant>
 class ModeMotion {
  public:
   static constexpr int states = states_of<Plant>;  ///< N, the order of the plant
-  /// The norm that bounds the motion: EnergyNorm for the two masses, else based on DecayingNorm.
+  /// A norm that bounds the state: EnergyNorm for the two masses, else based on DecayingNorm.
   using Norm = detail::NormOf<Plant>;
   using Bound = NoEventBoundOf<Norm, states>;  ///< bound that may prove that a guard has no zero
 
-  /// The largest admissible value of ‖A‖ τ and of ω τ. A is the state matrix, ω the highest forcing
-  /// frequency (rad/s). A period τ with contact changes takes about max(‖A‖, ω) τ Taylor series.
+  /// The largest admissible ‖A‖ τ and ω τ, with the state matrix A, the highest forcing frequency ω
+  /// (rad/s) and the sampling period τ. A period with a contact change takes about max(‖A‖, ω) τ
+  /// Taylor series: this limits the work.
   static constexpr double most_turns_per_sample = 1e6;
 
-  /// Constructs the motion in one mode. @throws InvalidParameter where ‖A‖ τ of the mode or ω τ of
-  /// the excitation exceeds `most_turns_per_sample`
+  /// Constructs the motion from the mode's equations of motion, the loop and its excitation.
+  /// @throws InvalidParameter where ‖A‖ τ or ω τ exceeds `most_turns_per_sample`
   ModeMotion(const AffineDynamicsOf<states>& dynamics, const DigitalLoop& loop,
              const ForceOverSamples& force)
       : dynamics_(dynamics),
@@ -78,7 +78,7 @@ class ModeMotion {
 
   /// The matrices A, b, c and the drift of the mode.
   const AffineDynamicsOf<states>& dynamics() const { return dynamics_; }
-  /// The mode's rate (1/s), max(‖A‖, ω): a Taylor series over a time 1/rate is exact to rounding.
+  /// The mode's rate max(‖A‖, ω) (1/s): a Taylor series over a time ≤ 1/rate is exact to rounding.
   double rate() const { return rate_; }
   /// The exact step over part 0 (t_j to t_j + δ) or part 1 (t_j + δ to t_{j+1}) of the period.
   const SubintervalStep<states>& step(std::size_t part) const { return steps_[part]; }

@@ -22,7 +22,7 @@ template <int States>
 struct ModeStretch {
   Vector<double, States> state;  ///< state x at the beginning, N × 1
   double command;                ///< command u in force (N)
-  Series force;   ///< coefficients F_k (N) of the force Σ F_k y^k at y h (s) after the beginning
+  Series force;   ///< coefficients F_k (N); force Σ F_k y^k at the time y h (s), 0 ≤ y ≤ 1
   double length;  ///< length h (s), ≥ 0
 };
 
@@ -31,7 +31,7 @@ struct ModeStretch {
 template <int States>
 struct NextEvent {
   int guard = -1;                             ///< number of the guard; −1: no guard reaches zero
-  FirstRoot root{RootOutcome::none, 1.0, 0};  ///< first zero; `at`: 0 … 1 along the stretch
+  FirstRoot root{RootOutcome::none, 1.0, 0};  ///< first zero; `at` = 0: beginning, 1: end
   std::array<double, 2> signs{};  ///< sign (±1) found for a guard of unknown sign; 0 for others
   Vector<double, States> state =
       {};  ///< state x at the zero, N × 1; without a zero, at the end of the stretch
@@ -53,7 +53,6 @@ void clear_rounding(const GuardOf<States>& guard, const ModeStretch<States>& str
   }
 }
 
-/// The power series of a guard g over a ModeStretch.
 template <int States>
 Series guard_series(const GuardOf<States>& guard, const ModeStretch<States>& stretch,
                     const TaylorStep<States>& motion) {
@@ -81,10 +80,10 @@ inline double first_sign(Series& series) {
 
 }  // namespace detail
 
-/// Finds the earliest root of a contact mode's guards within a stretch of motion, by Taylor series.
-/// No root is missed (math/roots/first_root.hpp). Without a root, `guard` of the result is −1 and
+/// Finds the earliest zero of a contact mode's guards within a ModeStretch, by Taylor series. No
+/// zero is missed (math/roots/first_root.hpp). Without a zero, `guard` of the result is −1 and
 /// `state` is at the end of the stretch. Work for a plant of order N: N² + 2 N multiply-adds for
-/// each term of the series, 2 N for each guard and term, and the search for the root.
+/// each term of the series, 2 N for each guard and term, and the search for the zero.
 /// @param dynamics  equations of motion in the mode
 /// @param guards    guards of the mode, functions that are positive while the contact persists
 /// @param stretch   time interval with its initial state, at most 1/‖A‖ (s) long; A: state matrix

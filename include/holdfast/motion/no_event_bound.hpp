@@ -10,16 +10,17 @@
 
 namespace holdfast {
 
-/// A bound that may prove that a guard g has no zero in a time interval of length h.
+/// A bound that may prove that a guard g (GuardOf) has no zero in a time interval of length h.
 ///
-/// The chord is the straight line between the values of g at both ends. With |g̈| ≤ G, g lies at
-/// most G h²/8 below the chord. For g = ℓᵀz + m F + const, ż = A z + w, w = drift + b u + c F,
+/// The chord is the straight line between the values of g at the ends of the interval. If |g̈| ≤ G,
+/// g lies at most G h²/8 below the chord. For g = ℓᵀz + m F + const (F: excitation) and the
+/// equations of motion ż = A z + w, w = drift + b u + c F,
 ///
 ///     g̈ = ℓᵀA² z + ℓᵀA w + ℓᵀ ẇ + m F̈ .
 ///
-/// The norm ‖z‖ must not increase in any free motion ż = A z. In the time h it then grows by at
-/// most h max ‖w‖. The bound is valid for every guard of the mode with the same ℓ and m up to sign.
-/// If the norm is infinite, the bound is infinite or NaN and proves nothing.
+/// The norm ‖z‖ must not increase in any free motion ż = A z. In the time h the input w then adds
+/// at most h max ‖w‖ to ‖z‖. The bound is valid for all guards of the mode with the same ℓ and m up
+/// to sign. If ‖z‖ is infinite, the bound is infinite or NaN and proves nothing.
 /// @tparam Norm    EnergyNorm (plant/energy.hpp) for two masses, else DecayingNorm
 /// @tparam States  N, the order of the plant
 template <class Norm, int States>
@@ -57,8 +58,8 @@ class NoEventBoundOf {
             by_size * length * other_growth_ + share * by_force_};
   }
 
-  /// An upper bound of the depth of g below its chord over a time `length` (s), from the state
-  /// `begin` (N × 1) under a constant command (N). If g exceeds it at both ends, g has no zero.
+  /// The bound of the depth of g below its chord over a time `length` (s), from a state `begin`,
+  /// N × 1, under a constant command (N). If g exceeds this bound at both ends, g has no zero.
   double drop_below_chord(const Vector<double, States>& begin, double command,
                           double length) const {
     const Drop drop = drop_over(length);

@@ -31,13 +31,13 @@ class Recorder {
   std::vector<MotionSample<double>> samples_;
 };
 
-/// An observer of the largest |z₁| (m) and |ż₁| (m/s) of the conductor since a given instant.
+/// An observer that finds the conductor's largest |z₁| (m) and |ż₁| (m/s) since a given instant.
 class PhaseExtent {
  public:
   /// @param from  instant (s); earlier samples are ignored
   explicit PhaseExtent(double from) : from_(from) {}
 
-  /// Updates both maxima with a sample.
+  /// Processes a sample: updates the largest |z₁| and |ż₁|.
   void operator()(const MotionSample<double>& sample) {
     if (!not_before(sample.time, from_)) return;
     displacement_ = std::fmax(displacement_, std::abs(sample.state[0]));
@@ -67,7 +67,7 @@ class SwitchLog {
   /// @param from  instant (s); earlier changes are ignored
   explicit SwitchLog(double from = 0.0) : from_(from) {}
 
-  /// Adds the next sample. The drive counts as engaged before the first sample.
+  /// Processes the next sample. The drive counts as engaged before the first sample.
   void operator()(const MotionSample<double>& sample) {
     const bool inside = !sample.engaged;
     if (inside != inside_ && not_before(sample.time, from_))

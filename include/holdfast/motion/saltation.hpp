@@ -12,7 +12,7 @@ struct SurfaceCrossing {
   Vector<double, Size> before;       ///< rate f⁻ = ẋ just before the crossing
   Vector<double, Size> after;        ///< rate f⁺ = ẋ just after the crossing
   RowVector<double, Size> gradient;  ///< gradient ∂h/∂x of the surface, 1 × Size
-  double gradient_rate = 0.0;        ///< time derivative ∂h/∂t of the surface
+  double gradient_rate = 0.0;        ///< partial time derivative ∂h/∂t; 0 for a fixed surface
   /// The Jacobian ∂R/∂x, Size × Size; by default the identity, but empty for a dynamic Size.
   Matrix<double, Size> reset =
       Matrix<double, Size>::Identity(Size < 0 ? 0 : Size, Size < 0 ? 0 : Size);
@@ -26,9 +26,9 @@ struct SurfaceCrossing {
 ///     S = ∂R/∂x + (f⁺ − ∂R/∂x f⁻ − ∂R/∂t) ∂h/∂x / ḣ ,   ḣ = ∂h/∂x f⁻ + ∂h/∂t
 ///
 /// The motion with deviation δx crosses the surface later by δt = −∂h/∂x δx / ḣ (earlier if δt <
-/// 0). During δt it moves with f⁻ while the motion without deviation moves with f⁺. If f⁺ = ∂R/∂x
-/// f⁻ + ∂R/∂t, S = ∂R/∂x: the field does not jump. If R = x, ∂h/∂t = 0 and f⁺ is tangential to the
-/// surface (∂h/∂x f⁺ = 0), S is singular: ∂h/∂x S = 0.
+/// 0). During δt its rate is f⁻, while that of the motion without deviation is already f⁺. If f⁺ =
+/// ∂R/∂x f⁻ + ∂R/∂t (no jump of the field), S = ∂R/∂x. If R = x, ∂h/∂t = 0 and f⁺ is tangential to
+/// the surface (∂h/∂x f⁺ = 0), S is singular: ∂h/∂x S = 0.
 ///
 /// If f⁻ is tangential to the surface (ḣ = 0), no derivative exists and the entries are not finite.
 /// Work: 2 Size² multiply-adds and one division.

@@ -25,8 +25,8 @@ struct MotionSample {
   std::int64_t index;            ///< number j of the sample
   Scalar time;                   ///< instant t_j = j τ (s)
   Vector<Scalar, States> state;  ///< state x_j, N × 1; of two masses z_j = [z₁, ż₁, z₂, ż₂]
-  Scalar control_force;  ///< u_j (N), applied from t_j + δ to t_{j+1} + δ, δ being the processing
-                         ///< delay; 0 in the backlash
+  Scalar control_force;  ///< control force u_j (N), applied from t_j + δ to t_{j+1} + δ with the
+                         ///< processing delay δ; 0 in the backlash
   Mask<Scalar> engaged;  ///< true where the drive transmits, false in the backlash
 };
 
@@ -36,19 +36,19 @@ struct MotionSample {
 template <class Scalar, class LawMemory, int States = 4>
 struct MotionMemory {
   Vector<Scalar, States> state;  ///< state x_j, N × 1; for two masses z_j = [z₁, ż₁, z₂, ż₂]
-  Scalar previous_force;         ///< u_{j−1} (N), which acts until t_j + processing delay δ
-  LawMemory backlash;            ///< memory of the backlash before sample j
+  Scalar previous_force;  ///< control force u_{j−1} (N), acting until t_j + processing delay
+  LawMemory backlash;     ///< memory of the backlash before sample j
 };
 
 /// The motion of the sampled loop with backlash, one sample at a time.
 ///
-/// `sense()` decides the drive's contact and the force u_j from the present state; `advance()`
-/// moves the state over one sampling period, with the matrices of SampledLoop and HarmonicInput:
+/// `sense()` decides the drive's contact and the force u_j from the present state. `advance()`
+/// moves the state over one sampling period; u_{j−1} acts until t_j + δ (δ: processing delay):
 ///
 ///     z_{j+1} = A_d z_j + Γ₁ u_{j−1} + Γ₀ u_j + F_m (g_c cos ω t_j + g_s sin ω t_j)
 ///
-/// Work per sample for N states: N² + 2 N multiply-adds, 2 N more for a harmonic forcing, and the
-/// contact decision. No memory is allocated. Source: Kollár 2022, Eqs. (11)–(14).
+/// The matrices are those of SampledLoop and HarmonicInput. Work per sample for N states: N² + 2 N
+/// multiply-adds, 2 N more if harmonic; no allocation. Source: Kollár 2022, Eqs. (11)–(14).
 /// @tparam Scalar   number type: double, or a pack with one motion in each of its lanes
 /// @tparam Law      backlash; `step(Δz, Δż)` returns a mask, true where the force is transmitted
 /// @tparam Forcing  the excitation; `next()` returns its contribution to the next state, a vector
@@ -97,14 +97,14 @@ class SampledMotion {
     return {index_, time(), state_, present_force_, engaged};
   }
 
-  /// Advances from t_j to t_{j+1} under u_{j−1} until t_j + δ, then under u_j of `sense()`.
+  /// Advances to t_{j+1}: under u_{j−1} until t_j + δ, then under u_j of `sense()`.
   void advance() {
     move(forcing_.next());
     previous_force_ = present_force_;
     ++index_;
   }
 
-  /// Displaces the conductor by a length (m) at the present sample; to be called before `sense()`.
+  /// Shifts the conductor suddenly by a displacement (m); to be called before `sense()`.
   void displace_conductor(const Scalar& displacement) {
     readings_.displace_conductor(state_, displacement);
   }
@@ -115,7 +115,7 @@ class SampledMotion {
   Scalar time() const { return Scalar(static_cast<double>(index_)) * loop_.sampling.period; }
   /// The state x_j, N × 1; for two masses z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
   const State& state() const { return state_; }
-  /// The matrices of one sampling period.
+  /// The matrices that advance the state over one sampling period.
   const Loop& loop() const { return loop_; }
   /// The functions that read displacements and velocities from the plant's state.
   const Readings& readings() const { return readings_; }
@@ -130,7 +130,7 @@ class SampledMotion {
     return MotionMemory<Scalar, std::decay_t<decltype(law_.memory())>, states>{
         state_, previous_force_, law_.memory()};
   }
-  /// Restores state, u_{j−1} and backlash from a memory; keeps sample number and forcing phase.
+  /// Sets state, u_{j−1} and backlash from a memory; keeps the sample number and the forcing phase.
   /// @throws InvalidParameter where the size of the state is not N
   template <class LawMemory>
   void restore(const MotionMemory<Scalar, LawMemory, states>& memory) {
@@ -181,7 +181,7 @@ class SampledMotion {
 };
 
 /// Constructs a pack of motions of two masses, one per lane, each from sample 0 with u_{−1} = 0.
-/// All have the same forcing, which continues from its present phase.
+/// The forcing is the same in all lanes and continues from the present phase of `motion`.
 /// @param motion          motion that provides loop, gains, forcing and backlash width of all lanes
 /// @param initial_states  z₀ of every lane, [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 template <class Pack, class Forcing>

@@ -13,8 +13,8 @@
 namespace holdfast {
 
 /// The exact map of the state z over a part of a sampling period, from t_j + begin to t_j + begin +
-/// length, in one contact mode. The first line is for an excitation held at F_j, the second line
-/// for harmonics with amplitudes F_l and frequencies ω_l in continuous time:
+/// length, in one contact mode. The first equation is for an excitation held at its value F_j, the
+/// second for a sum of harmonics, not held, with amplitudes F_l and frequencies ω_l (rad/s):
 ///
 ///     z ← transition z + command u + drift + held F_j
 ///     z ← transition z + command u + drift + Σ_l F_l (g_c cos ω_l t_j + g_s sin ω_l t_j)
@@ -26,7 +26,7 @@ struct SubintervalStep {
   Vector<double, States> command;     ///< response per newton of u, N × 1
   Vector<double, States> drift;       ///< contribution of the mode's constant drift, N × 1
   Vector<double, States> held;        ///< response per newton of a held excitation, N × 1
-  std::vector<HarmonicInput<double, States>> lines;  ///< responses g_c and g_s to each harmonic
+  std::vector<HarmonicInput<double, States>> lines;  ///< g_c and g_s of each harmonic, per newton
 
   /// @param dynamics   equations of motion in the mode
   /// @param harmonics  harmonics of the excitation, in the order of the phases passed to `state`

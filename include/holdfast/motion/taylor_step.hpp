@@ -8,8 +8,8 @@
 
 namespace holdfast {
 
-/// The smallest number of terms for which the first omitted term of the series of e^x, 0 ≤ x ≤ 1,
-/// is below 2⁻⁶⁰. The remainder of the series is then below 2⁻⁵⁹.
+/// The number of Taylor terms of e^x needed in double precision, 0 ≤ x ≤ 1: the smallest number for
+/// which the first omitted term is below 2⁻⁶⁰. The sum of all omitted terms is then below 2⁻⁵⁹.
 inline int terms_for(double x) {
   constexpr double negligible = 8.7e-19;
   double term = 1.0;
@@ -28,7 +28,7 @@ inline int terms_for(double x) {
 template <int States>
 class TaylorStep {
  public:
-  /// The type of the coefficients z_k: N × at most `most_terms`, without heap memory for a fixed N.
+  /// A matrix of coefficients, z_k in column k, at most `most_terms` columns; no heap for fixed N.
   using Coefficients =
       Eigen::Matrix<double, States, Eigen::Dynamic, Eigen::ColMajor, States, most_terms>;
 
@@ -58,7 +58,7 @@ class TaylorStep {
     return value;
   }
 
-  /// The coefficients z_k, N × terms.
+  /// The coefficients z_k, one per column.
   const Coefficients& coefficients() const { return coefficients_; }
 
  private:

@@ -30,10 +30,10 @@ struct IsMotion<Motion, std::void_t<decltype(std::declval<Motion&>().sense().sta
 
 }  // namespace detail
 
-/// Whether a type is a motion of a sampled loop, which advances from one sample to the next. The
-/// contact of a SampledMotion or ModalMotion changes at samples; an EventMotion also computes
-/// contact changes between samples. Where ideal_loop() converts a loop, SampledMotion and
-/// EventMotion have equal samples up to rounding. The interface of a motion:
+/// Whether a type has the interface of a motion, listed below, which advances a sampled loop from
+/// one sample to the next. In a SampledMotion or ModalMotion the contact changes at samples only.
+/// An EventMotion also computes changes between samples. For a loop that ideal_loop() can convert,
+/// SampledMotion and EventMotion have equal samples up to rounding.
 ///
 ///     sense()                  takes sample j: a MotionSample with t_j, x_j (N × 1), the force u_j
 ///                              (N) and whether the drive transmits; once before each `advance()`
@@ -72,9 +72,8 @@ inline std::int64_t samples_within(double duration, double sampling_period) {
 /// Runs a motion over `samples` (≥ 0) samples, with a kick unless it is nullopt, and passes each
 /// sample to every observer, `observer(const MotionSample&)`.
 ///
-/// Only the observers store data; this function allocates no memory. A further call continues at
-/// the sample after the last one. A kick whose instant has already passed acts at the first sample
-/// of the call.
+/// Only the observers store data; this function allocates no memory. A further call continues with
+/// the next sample. A kick with an instant before the first sample acts at the first sample.
 /// @tparam Motion  type for which is_motion_v is true, or any type with `sense`, `advance`,
 ///                 `displace_conductor` and `time` as described at is_motion_v
 template <class Motion, class... Observers>

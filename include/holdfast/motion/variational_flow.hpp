@@ -22,7 +22,7 @@ namespace holdfast {
 ///
 /// X_j has N + 3 entries. x is the state of the plant, for two masses [z₁, ż₁, z₂, ż₂]. y_{j−1} is
 /// the displacement that the computer measured at sample j − 1. g is the relative displacement Δz =
-/// z₂ − z₁ at the last reversal of the drive; the ends of the drive's gap are g and g ∓ r₀.
+/// z₂ − z₁ at the last reversal of the drive; its gap has the ends g and g ∓ r₀ (r₀: gap width).
 ///
 /// Within a contact mode δx advances by e^{A t}, with the held command's deviation as input. At a
 /// contact change on a surface h = 0 the deviation of [x; g] is multiplied by the saltation matrix
@@ -33,11 +33,12 @@ namespace holdfast {
 ///     gap → engaged:          h = Δz − g (or ± r₀),    g ← 0,    f⁺ − f⁻ = b s_e
 ///     stop reached or left:   h = Δz ∓ r₀/2,   f⁺ − f⁻ due to s_e and the damper of the stop
 ///
-/// Here b is the input column of u, s the force transmitted in stick, s_e that of an engaged drive
-/// (u for an ideal drive). A jump of u occurs at a fixed time and needs no saltation matrix. Nor
-/// does the end of stick: there u jumps or ẋ is continuous. If the drive sticks at sample j, the
-/// map is valid only for δX_j with δΔż = 0, δg = δΔz. The row of g is zero while engaged. The row
-/// of y is zero unless the velocity is formed from differences of unrounded displacements.
+/// Here b is the input column of u, s the force transmitted in stick, s_e the force of an engaged
+/// drive (u for an ideal drive). No saltation matrix is needed for a jump of u, which occurs at a
+/// fixed time, or for the end of stick, at which u jumps or ẋ is continuous. If the drive sticks at
+/// sample j, the map is valid only for δX_j with δΔż = 0, δg = δΔz. The row of g is zero while
+/// engaged. The row of y is zero unless velocity is measured by differences of unrounded
+/// displacements.
 ///
 ///     VariationalFlow<DriveContact<>> tangent(motion);
 ///     motion.sense();
@@ -76,7 +77,7 @@ class VariationalFlow {
     }
   }
 
-  /// Starts a sampling period; to be called after `sense()` and before `advance(tangent)`.
+  /// Resets the map for a new sampling period; call it after `sense()`, before `advance(tangent)`.
   void begin_sample(const EventMotion<Contact>& motion) {
     period_ = motion.period();
     open_length_ = 0.0;
@@ -93,8 +94,8 @@ class VariationalFlow {
 
   // The observer of EventMotion::advance.
 
-  /// Records that the motion stayed in one mode for `length` (s), beginning `begin` (s) after the
-  /// sample. The map is updated at the next change, or at the end of the period.
+  /// Records that the motion stayed in one mode for `length` (s) from `begin` (s) after the sample.
+  /// The map is updated at the next change of contact or command, or at the end of the period.
   void flowed(int mode, double begin, double length) {
     if (!(length > 0.0)) return;
     if (open_length_ == 0.0) open_begin_ = begin;
@@ -103,7 +104,7 @@ class VariationalFlow {
     if (begin + length >= period_ * (1.0 - same_length)) close_flow();
   }
 
-  /// Replaces the deviation δu_{j−1} of the command in force by δu_j, at the end of the delay.
+  /// At the end of the processing delay, replaces the command deviation δu_{j−1} by δu_j.
   void commanded() {
     close_flow();
     map_.row(command_row()) = pending_;
@@ -111,8 +112,8 @@ class VariationalFlow {
     rank_.become(Carried::pending, Carried::in_force);
   }
 
-  /// Multiplies the map by the saltation matrix if a guard reached zero in a mode other than stick.
-  /// A contact change after a jump of force or command (guard −1) has no saltation matrix.
+  /// At a change of contact, multiplies the map by the saltation matrix. No multiplication at the
+  /// end of stick, or after a jump of excitation or command (guard −1).
   void switched(int from, int to, int guard,
                 const typename EventMotion<Contact>::Instant& instant) {
     close_flow();
@@ -122,10 +123,11 @@ class VariationalFlow {
     rank_.pass(directions(to));
   }
 
-  /// The tangent map of the sampling period just passed, (N + 3) × (N + 3).
+  /// The tangent map of the last sampling period, (N + 3) × (N + 3); complete after `advance`.
   const Map& map() const { return map_; }
 
-  /// Structural rank of the product of all maps so far: the rank for generic nonzero entries.
+  /// Structural rank of the product of all maps since construction: the rank that the product has
+  /// for almost all values of the entries that are not identically zero.
   int rank_of_product() const { return rank_.rank(); }
 
  private:
@@ -140,7 +142,6 @@ class VariationalFlow {
   Eigen::Index command_row() const { return order(); }
   Eigen::Index anchor_row() const { return order() + 1; }
   Eigen::Index read_row() const { return order() + 2; }
-  /// The rows of the map that belong to δx.
   auto states_of_map() { return map_.template topRows<states>(order()); }
   /// The tolerance, relative to the period, within which two lengths of time count as equal. It
   /// allows for round-off in lengths that are sums of several steps.
@@ -211,7 +212,6 @@ class VariationalFlow {
 
   Step exponential(int mode, double length) const;
 
-  /// Propagates δx over the time since the last change.
   void close_flow() {
     if (open_length_ == 0.0) return;
     for (std::size_t part = 0; part < 2; ++part) {
@@ -263,7 +263,6 @@ class VariationalFlow {
     map_.row(anchor_row()) = rows.row(n);
   }
 
-  /// The vector [x; 0].
   static Vector<double, larger_size(states, 1)> with_zero(const State& x) {
     Vector<double, larger_size(states, 1)> longer(x.size() + 1);
     longer << x, 0.0;
@@ -276,7 +275,6 @@ class VariationalFlow {
     rank_.end(Carried::anchor);
   }
 
-  /// The rate ẋ in a mode.
   State rate(int mode, const Instant& instant) const {
     const Dynamics& dynamics = dynamics_[at(mode)];
     return dynamics.state * instant.state + dynamics.drift + dynamics.command * instant.command +

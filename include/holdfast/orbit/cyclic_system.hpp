@@ -10,8 +10,8 @@
 
 namespace holdfast {
 
-/// Products of the matrices of successive samples, in blocks short enough to keep all digits.
-/// @tparam Map  type of a map, N × N
+/// Groups the matrices of successive samples in blocks and computes the product of each block. The
+/// blocks are short enough for the products to keep their digits. @tparam Map  N × N matrix
 template <class Map>
 class BlockProducts {
  public:
@@ -19,7 +19,7 @@ class BlockProducts {
   ///              product reaches 1000.
   explicit BlockProducts(std::size_t most) : most_(most), length_(most) {}
 
-  /// Multiplies the last block by the map of the next sample, or starts a new block.
+  /// Appends the matrix of the next sample to the last block, or to a new one if that is complete.
   void append(const Map& map) {
     if (length_ == most_ || !(blocks_.back().cwiseAbs().maxCoeff() < 1e3)) {
       blocks_.push_back(map);
@@ -38,22 +38,22 @@ class BlockProducts {
   std::vector<Map> blocks_;
 };
 
-/// The linear solver for a Newton step towards a periodic motion: it applies (I − M)⁻¹. M = M_{K−1}
-/// … M₀ is the product of the maps M_k of deviations x over the K blocks of one period. For an
-/// affine motion the first Newton step is exact up to rounding.
+/// The linear solver for a Newton step towards a periodic motion: it applies (I − M)⁻¹. The matrix
+/// M = M_{K−1} … M₀ propagates a deviation x over one period. M_k propagates it over block k of K
+/// (BlockProducts). If the motion is affine in x, one Newton step is exact up to rounding.
 ///
 /// The equations x_{k+1} = M_k x_k form a block-bidiagonal system. The inner unknowns x₁ … x_{K−1}
-/// are eliminated in turn. If B is the present coefficient of x_k, an orthogonal factorisation
+/// are eliminated in turn. If B is the current coefficient of x_k, an orthogonal factorisation
 ///
 ///     Qᵀ [B; −M_k] = [R; 0]
 ///
-/// gives lower rows without x_k. At the end one equation between x₀ and x_K remains. M itself,
-/// whose entries may span hundreds of decades, is never formed. Source: S. J. Wright, Stable
+/// yields an equation without x_k. At the end one equation between x₀ and x_K remains. The product
+/// M, with entries that may span hundreds of decades, is never formed. Source: S. J. Wright, Stable
 /// parallel algorithms for two-point boundary value problems, SIAM J. Sci. Stat. Comput. 13 (1992).
 ///
 ///     const CyclicSystem<double> system(maps);
 ///     if (!system.is_singular()) x += system.correction(open);
-/// @tparam Size  size N of x; 5 for z̃ = [z; u_{j−1}]
+/// @tparam Size  number N of entries of x; 5 for two masses (ItineraryMaps)
 template <class Scalar, int Size = 5>
 class CyclicSystem {
  public:
@@ -68,7 +68,7 @@ class CyclicSystem {
     return !(smallest_pivot > rounding * closed_.maxPivot());
   }
 
-  /// The correction (I − M)⁻¹ · `open`. Added to the first state, it closes the linearised motion.
+  /// The Newton step (I − M)⁻¹ · `open`, to be added to the first state of the period.
   /// @param open  closure error: last state minus first state of the period
   Vector<Scalar, Size> correction(const Vector<Scalar, Size>& open) const {
     return closed_.solve(last_ * open);

@@ -16,14 +16,15 @@
 
 namespace holdfast {
 
-/// The contacts of successive samples: 1 where the drive transmits, 0 in its backlash.
+/// The drive's contact at successive samples: 1 if it transmits its force, 0 in the backlash.
 using Itinerary = std::vector<std::uint8_t>;
 
-/// The affine maps of the state z̃ = [z; u_{j−1}] of two masses over one sampling period,
+/// The affine maps of a two-mass loop over one sampling period. Its state is z̃_j = [z_j; u_{j−1}]
+/// with the plant state z = [z₁, ż₁, z₂, ż₂] and the previous control force u_{j−1}:
 ///
-///     z̃_{j+1} = S z̃_j + [a_j; 0] while the drive transmits, S* z̃_j + [a_j; 0] in the backlash,
+///     z̃_{j+1} = S z̃_j + [a_j; 0] while the drive transmits, S* z̃_j + [a_j; 0] in the backlash.
 ///
-/// where the inputs a_j of the excitation repeat every q samples. Source: Kollár 2022, Eq. (14).
+/// The contribution a_j of the excitation repeats every q samples. Source: Kollár 2022, Eq. (14).
 template <class Scalar>
 class ItineraryMaps {
  public:
@@ -39,7 +40,7 @@ class ItineraryMaps {
   /// The map of z̃ = [z; u_{j−1}] over a sample, 5 × 5: S if `engaged`, S* in the backlash.
   const Matrix<Scalar, 5>& map(bool engaged) const { return maps_[engaged ? 1 : 0]; }
 
-  /// The units in which the state z̃ is scaled (plant_scaling()).
+  /// The units by which the entries of z̃ are divided for scaling, 5 × 1, from plant_scaling().
   const Vector<Scalar, 5>& units() const { return units_; }
 
   /// The map S (engaged) or S* (in the backlash) for the scaled state z̃_i / units()_i.
@@ -48,26 +49,26 @@ class ItineraryMaps {
   }
 
   /// The largest number of samples (1 … 8) whose maps may be multiplied without losing the digits
-  /// of strongly contracted directions. It is estimated from the ratio of the largest pivot to the
-  /// smallest nonzero one of the plant's 4 × 4 part of S and of S*.
+  /// of strongly contracted directions. It is estimated from the 4 × 4 plant parts of S and S*: the
+  /// ratio of the largest pivot to the smallest nonzero pivot.
   std::size_t samples_of_block() const;
 
-  /// The number of samples q after which the forcing repeats.
+  /// The number of samples q after which the excitation repeats (f τ = p/q).
   std::size_t samples_of_forcing() const { return forcing_.samples(); }
 
-  /// The excitation's contribution to the plant state z in each of the q samples, 4 × 1.
+  /// The contributions a_0 … a_{q−1} of the excitation to the plant state z, each 4 × 1.
   const std::vector<Vector<Scalar, 4>>& additions() const { return forcing_.additions(); }
 
-  /// The next state z̃_{j+1} from z̃_j, with `phase` = j modulo q.
+  /// The next state z̃_{j+1} from z̃_j = `state`; `phase` is j modulo q.
   Vector<Scalar, 5> step(const Vector<Scalar, 5>& state, bool engaged, std::size_t phase) const {
     Vector<Scalar, 5> next = map(engaged) * state;
     next.template head<4>() += forcing_.additions()[phase];
     return next;
   }
 
-  /// Computes all states of an itinerary from the first one; returns the state after the last.
+  /// Computes the states z̃_j for an itinerary. @return the state one sample after the last
   /// @param first      first state z̃₀
-  /// @param itinerary  contacts, the first sample at phase 0 of the forcing
+  /// @param itinerary  contact at each sample, the first sample at phase 0 of the excitation
   /// @param states     filled with the states z̃_j; must have one entry for each sample
   State follow(const State& first, const Itinerary& itinerary, std::vector<State>& states) const {
     states.front() = first;
@@ -116,9 +117,9 @@ std::size_t ItineraryMaps<Scalar>::samples_of_block() const {
       std::clamp(std::log(largest_spread) / std::log(spread), 1.0, most));
 }
 
-/// Products of an itinerary's maps, one per block of samples (BlockProducts), in maps.units().
-/// @param maps       maps of the loop
-/// @param itinerary  contacts of all samples
+/// The products of an itinerary's maps of the scaled state, one per block of samples
+/// (BlockProducts). @param maps  maps of the loop
+/// @param itinerary  contact at each sample of a period
 template <class Scalar>
 std::vector<Matrix<Scalar, 5>> maps_of_blocks(const ItineraryMaps<Scalar>& maps,
                                               const Itinerary& itinerary) {

@@ -13,44 +13,46 @@
 
 namespace holdfast {
 
-/// The causes that end a periodic motion at the border of its parameter region.
+/// The causes that end a periodic motion at the border of its parameter region. Exact switching:
+/// the contact may change between samples. Δz, Δż: the drive's relative displacement and velocity.
 enum class BorderKind {
   fold,              ///< a multiplier reaches 1
   flip,              ///< a multiplier reaches −1 (period doubling)
   neimark_sacker,    ///< a complex pair of multipliers reaches the unit circle
   border_collision,  ///< switching at samples: Δz or Δż of a sample reaches a switching surface
   grazing,  ///< exact switching: Δz or Δż touches a switching surface without crossing it
-  sliding,  ///< exact switching: after a reversal, stick replaces the gap or vice versa
-  switch_at_sample,  ///< exact switching: a contact change reaches a sample, where F or u may jump
+  sliding,  ///< exact switching: the mode after a reversal changes from stick to gap or vice versa
+  switch_at_sample,  ///< exact switching: a contact change coincides with a sample
   jump,              ///< the motion ceases to exist without any of the causes above
-  window,            ///< edge of the searched window; the motion may continue beyond
+  window,            ///< edge of the searched window; beyond it the motion may still exist
 };
 
-/// A piece of the border of a motion's parameter region, with the multiplier at one of its points.
+/// The cause by which a motion ends at a border point of its parameter region. Adjacent points with
+/// equal data, apart from the multiplier, form one piece of the border curve.
 struct MotionBorder {
-  BorderKind kind = BorderKind::window;  ///< cause that ends the motion at this piece
+  BorderKind kind = BorderKind::window;  ///< cause that ends the motion
   /// Surface of a border collision, a grazing or a sliding border; no meaning for other kinds. With
   /// exact switching `gap_upper` means either end of the gap.
   SwitchingSurface surface = SwitchingSurface::reversal;
-  /// Index of the sample at which a border collision occurs, for a symmetric motion reduced to the
-  /// first half period. −1 for other kinds of border and for a motion that stays in its gap.
+  /// Index of the sample at which a border collision occurs; for a symmetric motion, modulo half
+  /// the period. −1 for other kinds of border and for a motion that stays in its gap.
   std::int64_t sample = -1;
-  /// Subdivision of the kind. `neimark_sacker`: 0 for multiplier angles |θ| below π/2, 1 up to
-  /// 2π/3, else 2. `window`: side 0 least x, 1 largest x, 2 least y, 3 largest y. Other kinds: 0.
+  /// Subdivision of two kinds, else 0. `neimark_sacker`: 0 for multiplier angles |θ| < π/2, 1 up to
+  /// 2π/3, else 2. `window`: 0 at the least x, 1 at the largest x, 2 least y, 3 largest y.
   int part = 0;
-  Multiplier multiplier{};  ///< largest multiplier at the point; ignored by ==
+  Multiplier multiplier{};  ///< multiplier of largest modulus at the point; ignored by ==
 };
 
-/// Whether two borders are the same piece: equal kind, surface, sample and part.
+/// Whether two points belong to the same piece of the border: equal kind, surface, sample and part.
 inline bool operator==(const MotionBorder& a, const MotionBorder& b) {
   return a.kind == b.kind && a.surface == b.surface && a.sample == b.sample && a.part == b.part;
 }
 
-/// A point of the border of a motion's region.
+/// A point of the border curve of a motion's region in the plane of two parameters.
 struct MotionBorderPoint {
   double x;             ///< the first parameter
   double y;             ///< the second parameter
-  MotionBorder border;  ///< piece of the border, with the cause that ends the motion
+  MotionBorder border;  ///< cause that ends the motion at this point
 };
 
 /// The region in a plane of two parameters where a motion exists and attracts: its border curve.
@@ -59,29 +61,29 @@ struct MotionRegion {
   /// close together, at a codimension-two point.
   std::vector<MotionBorderPoint> border;
   bool closed = false;  ///< whether the border is a closed curve; false if its tracing failed
-  int solutions = 0;    ///< number of times that the motion was solved for
+  int solutions = 0;    ///< number of parameter points at which the motion was computed
 };
 
-/// The rectangle in the plane of two parameters that is searched.
+/// The rectangle in the plane of two parameters x and y in which a border is searched.
 struct ParameterWindow {
   double x_from;  ///< least x
   double x_to;    ///< largest x, above x_from
   double y_from;  ///< least y
   double y_to;    ///< largest y, above y_from
 
-  /// The point (x, y) at a position given by shares, 0 … 1, of the window's sides.
+  /// The point (x, y) for coordinates relative to the window: 0 at the least x or y, 1 at the most.
   PlanePoint at(const PlanePoint& shares) const {
     return {x_from + shares.x * (x_to - x_from), y_from + shares.y * (y_to - y_from)};
   }
-  /// The position of a point (x, y) as shares of the window's sides, 0 … 1 inside.
+  /// The coordinates of a point (x, y) relative to the window, 0 … 1 inside; the inverse of at().
   PlanePoint shares_of(const PlanePoint& point) const {
     return {(point.x - x_from) / (x_to - x_from), (point.y - y_from) / (y_to - y_from)};
   }
 };
 
-/// The number k of the strong resonance 1:k at the common point of two border pieces. There, two
-/// multipliers are at 1 (k = 1), −1 (k = 2), e^{±2πi/3} (k = 3) or ±i (k = 4).
-/// @return nullopt where the common point is of another kind
+/// The number k of the strong resonance 1:k at the point where two border pieces meet. At this
+/// point two multipliers are at 1 (k = 1), −1 (k = 2), e^{±2πi/3} (k = 3) or ±i (k = 4).
+/// @return nullopt where the point is not a strong resonance
 inline std::optional<int> strong_resonance(const MotionBorder& a, const MotionBorder& b) {
   const auto pair = BorderKind::neimark_sacker;
   if (a.kind != pair && b.kind != pair) return std::nullopt;

@@ -51,19 +51,20 @@ inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t h
 /// sample reaches a switching surface, and all multipliers lie inside the unit circle.
 ///
 /// For given contacts the map over a period is affine. As a multiplier tends to 1, the periodic
-/// solution grows without bound; before that, it reaches a switching surface. A `fold` therefore
+/// solution grows without bound and thus reaches a switching surface earlier. A `fold` therefore
 /// occurs only where a symmetric motion loses its symmetry.
 ///
 ///     const auto family = [&](double width, double gain) { … return other; };
 ///     const MotionRegion region = motion_region(family, orbit, window, {0.002, -13.0});
 ///
-/// @param family  (x, y) ↦ IdealLoop<double>, with the same f τ everywhere
-/// @param orbit   certified orbit of family(at)
-/// @param window  range of the parameters that is searched, around `at`
+/// @param family  function (x, y) ↦ IdealLoop<double>; forcing frequency × sampling period f τ must
+///                not depend on x and y
+/// @param orbit   certified orbit of family(at.x, at.y)
+/// @param window  range of the parameters that is searched; contains `at`
 /// @param at      parameters (x, y) of the orbit
-/// @param steps   steps along the border, as shares of the window
+/// @param steps   step lengths and accuracies along the border, as shares of the window's sides
 /// @throws InvalidParameter where f τ changes, the backlash width becomes zero or nonzero, or the
-/// window is not finite, is empty or does not contain the point
+/// window is not finite, is empty or does not contain `at`
 template <class Family>
 MotionRegion motion_region(const Family& family, const PeriodicOrbit& orbit,
                            const ParameterWindow& window, const PlanePoint& at,

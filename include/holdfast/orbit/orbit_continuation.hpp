@@ -17,7 +17,7 @@ namespace holdfast {
 
 /// The cause that ends the continuation of an orbit along a parameter.
 enum class BranchEndOutcome {
-  border_collision,  ///< Δz or Δż at a sample reaches a switching surface: the contact changes
+  border_collision,  ///< Δz or Δż at a sample reaches a switching surface (SwitchingSurface)
   unit_circle,       ///< a multiplier reaches modulus 1
   range_end,         ///< no end: the orbit exists and attracts up to the end of the range
 };
@@ -27,10 +27,10 @@ struct BranchEnd {
   BranchEndOutcome outcome = BranchEndOutcome::range_end;  ///< cause of the end
   double parameter = 0.0;                                  ///< value of the parameter at the end
   Border border;  ///< surface and sample of a border collision; unused for other outcomes
-  /// Largest multiplier at the end; for `unit_circle` with angle 0 at a fold, π at a flip (period
-  /// doubling) and another angle for a complex pair.
+  /// Multiplier of largest modulus at the end. For `unit_circle` its angle is 0 at a fold, π at a
+  /// flip (period doubling), and another angle for a complex pair.
   Multiplier multiplier{};
-  int solutions = 0;  ///< number of times that the orbit was solved for
+  int solutions = 0;  ///< number of parameter values at which the orbit was computed
 };
 
 namespace detail {
@@ -125,20 +125,20 @@ class OrbitContinuation {
 
 /// Continues an orbit with a fixed itinerary along one parameter until the orbit ends.
 ///
-/// The orbit is solved for at each value. It ends where a sample reaches a switching surface or a
-/// multiplier reaches the unit circle. Bracketing locates the first end to rounding. An end is
-/// missed if the orbit reappears within the same step.
+/// The orbit is recomputed at equidistant values. It ends where a sample reaches a switching
+/// surface or a multiplier reaches the unit circle. Bracketing locates the first end to rounding.
+/// An end is missed if the orbit reappears within the same step.
 ///
 ///     const auto family = [&](double gain) { auto other = loop; other.gains.differential = gain;
 ///                                          return other; };
 ///     const BranchEnd end = continue_orbit(family, orbit, loop.gains.differential, -30.0);
 ///
-/// @param family  parameter ↦ IdealLoop<double> of constant f τ; family(from) is the orbit's loop
-/// @param orbit   certified orbit
+/// @param family  function: parameter ↦ IdealLoop<double>; f τ, the orbit's `ratio`, is constant
+/// @param orbit   certified orbit of the loop family(from)
 /// @param from,to  first and last value of the parameter, finite; `to` may be below `from`
 /// @param steps   number of steps, 1 … 10⁶
-/// @throws InvalidParameter where the range is not finite, f τ changes, or the backlash width
-/// becomes zero or nonzero along the path
+/// @throws InvalidParameter where an argument is out of its range, f τ changes, or the backlash
+/// width becomes zero or nonzero along the path
 template <class Family>
 BranchEnd continue_orbit(const Family& family, const PeriodicOrbit& orbit, double from, double to,
                          int steps = 64) {

@@ -150,7 +150,6 @@ class SampledAttraction {
   std::vector<AttractionBall> balls_;  // of the proposed orbit
 };
 
-/// Finds the periodic orbit of a motion that begins at a stroboscopic instant.
 template <class Loop, class Motion, class Attraction>
 OrbitResult orbit_by_returns(const Loop& loop, const Rational& ratio, const OrbitLimits& limits,
                              const Motion& motion, const Attraction& attraction) {
@@ -171,12 +170,12 @@ OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio
 
 }  // namespace detail
 
-/// Finds the periodic orbit on which a motion settles, with its certificate.
+/// Finds the periodic orbit on which a motion settles, and certifies that the motion tends to it.
 ///
 ///     const OrbitResult found = find_periodic_orbit(loop, Vector<double, 4>::Zero());
 ///     if (found.outcome == OrbitOutcome::certified) use(found.orbit->period());
 ///
-/// `certified` means that the motion is in the orbit's region of attraction and tends to the orbit.
+/// `certified` means that the motion has entered the orbit's region of attraction.
 ///
 /// Work: at most `limits.most_samples` simulated samples, plus one period if the orbit touches a
 /// switching surface. Solving for orbits costs at most about as much as the simulation.
@@ -199,7 +198,7 @@ OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
   return detail::orbit_of_motion(loop, *ratio, limits,
                                  periodically_forced_motion(loop, *ratio, initial_state));
 }
-/// Finds the periodic orbit on which a motion settles; the state is any Eigen column vector.
+/// Finds the periodic orbit as above, for an initial state given as any Eigen column vector.
 template <class Scalar, class Column>
 OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
                                 const Eigen::MatrixBase<Column>& initial_state,

@@ -24,18 +24,18 @@ namespace holdfast {
 /// itinerary, the sequence of contacts at the samples. The outcome of the search states whether the
 /// backlash rule, applied along this solution, gives the same itinerary.
 struct PeriodicOrbit : LoopOrbit<5> {
-  Itinerary itinerary;            ///< contact at each sample of a period: 1 engaged, 0 not
-  BacklashMemory<double> memory;  ///< memory of the drive before the first sample
-  Borders borders;                ///< the nearest switching surface of each kind
+  Itinerary itinerary;            ///< contact at each sample of a period: 1 engaged, 0 backlash
+  BacklashMemory<double> memory;  ///< memory of the backlash law before the first sample
+  Borders borders;                ///< nearest gap end and nearest reversal, with their distances
 
-  /// The share of the samples at which the drive transmits.
+  /// The share, 0 … 1, of the samples at which the drive transmits its force.
   double engaged_fraction() const {
     const auto engaged = std::count(itinerary.begin(), itinerary.end(), std::uint8_t{1});
     return static_cast<double>(engaged) / static_cast<double>(itinerary.size());
   }
 
-  /// The relative distance from the nearest switching surface: the smaller of two ratios, distance
-  /// of Δz to largest displacement and distance of Δż to largest velocity. +∞ without a surface.
+  /// The least distance from a switching surface, relative to the orbit's size. The distance of Δz
+  /// is divided by the largest displacement, that of Δż by the largest velocity. +∞: no surface.
   double border_share() const {
     const StateScale extent(states);
     return std::min(extent.share_of_displacement(borders.displacement.distance),
@@ -46,18 +46,18 @@ struct PeriodicOrbit : LoopOrbit<5> {
 /// The result of a search for a periodic orbit of a loop that switches at its samples.
 using OrbitResult = OrbitResultOf<PeriodicOrbit>;
 
-/// The periodic solution of a loop whose contacts follow a given itinerary in every period.
+/// The periodic solution of a loop whose contacts are those of a given itinerary in every period.
 /// @tparam Maps  ItineraryMaps or ModalItineraryMaps
 template <class Maps>
 struct PeriodicSolution {
-  /// The observed part z̃ = [z; u_{j−1}] of a state.
+  /// The observed part of a state, z̃ = [z; u_{j−1}]: z = [z₁, ż₁, z₂, ż₂] and the last command.
   using Seen = std::decay_t<decltype(std::declval<Maps>().seen(std::declval<Maps>().rest()))>;
 
   typename Maps::State first;  ///< state at the first sample
   std::vector<Seen> states;    ///< observed states z̃_j = [z_j; u_{j−1}], one for each sample
   /// Closure error ‖z_N − z₀‖ after one period from z₀ (z in m and m/s).
   typename Seen::Scalar closure_error;
-  /// Estimated error of z̃₀ due to the closure error, as a share of the extent of the states.
+  /// Estimated error of z̃₀ due to the closure error, relative to the largest values (StateScale).
   double state_error;
 };
 
@@ -84,14 +84,15 @@ PeriodicSolution<Maps> refined_solution(const Maps& maps, const Itinerary& itine
 
 }  // namespace detail
 
-/// Solves for a periodic motion if maps_of_blocks() gives no blocks; this default returns nullopt.
+/// The fallback of periodic_solution() where maps_of_blocks() is empty. This default has no
+/// solution (nullopt); an overload for ModalItineraryMaps solves for a drive that never transmits.
 template <class Maps>
 std::optional<PeriodicSolution<Maps>> solution_without_blocks(const Maps&, const Itinerary&) {
   return std::nullopt;
 }
 
-/// Solves z̃_N = z̃₀ for an itinerary: (I − M) z̃₀ = g. Here M is the product of the period's maps and
-/// g the state after one period from z̃₀ = 0. Two steps of iterative refinement follow.
+/// Computes the periodic solution, z̃_N = z̃₀, of an itinerary by (I − M) z̃₀ = g. M is the product
+/// of the period's maps, g the state after one period from z̃₀ = 0. Two refinement steps follow.
 /// @param maps       maps of the loop
 /// @param itinerary  contacts of N samples, N a multiple of q (f τ = p/q), the first at phase 0
 /// @param blocks     maps_of_blocks() of the itinerary
@@ -109,21 +110,21 @@ std::optional<PeriodicSolution<Maps>> periodic_solution(
   });
 }
 
-/// The five multipliers of one period of a two-mass loop.
+/// The five Floquet multipliers of a two-mass loop over one period, from its maps_of_blocks().
 template <class Scalar>
 std::vector<Multiplier> multipliers_of(const ItineraryMaps<Scalar>&, const Itinerary&,
                                        const std::vector<Matrix<Scalar, 5>>& blocks) {
   return multipliers_of_product(blocks);
 }
 
-/// Solves for the orbit of an itinerary. Then applies the backlash law along the solution and
-/// compares the resulting contacts with the itinerary.
+/// Computes the periodic solution of an itinerary. Then applies the backlash law along the solution
+/// and compares the resulting contacts with the itinerary.
 /// @param loop       the loop with its excitation
 /// @param ratio      value of forcing_ratio(loop)
 /// @param maps       maps of the same loop and ratio
 /// @param itinerary  contacts of N ≥ 1 samples, N a multiple of q, the first one at phase 0
 /// @param law        backlash law with its memory before the first sample
-/// @return `certified` where the contacts agree, whether the orbit attracts or not; otherwise
+/// @return outcome `certified` if the contacts agree, even for a repelling orbit; otherwise
 ///         `on_surface`, `not_reproduced`, or `none_found` without an orbit
 /// Work for two masses: about 500 multiply-adds per sample. Memory: about 70 bytes per sample.
 /// @tparam Loop  IdealLoop, with ItineraryMaps, or ModalLoop, with ModalItineraryMaps
@@ -146,7 +147,7 @@ OrbitResult orbit_of_itinerary(const Loop& loop, const Rational& ratio, const Ma
   return {detail::outcome_of(touches, has_itinerary(pattern, itinerary)), std::move(orbit)};
 }
 
-/// The comparison of a periodic orbit with its solution in another number type.
+/// The comparison of an orbit with its recomputation by verify_orbit() in a number type `Precise`.
 struct OrbitVerification {
   bool same_itinerary = false;  ///< whether the solution in `Precise` has the orbit's itinerary
   double displacement_difference =
@@ -162,7 +163,7 @@ struct OrbitVerification {
 ///
 /// @param loop   the loop that the orbit was found for
 /// @param orbit  certified orbit of that loop
-/// @return the comparison; its differences are infinite where 1 is a multiplier in that type
+/// @return the comparison; the differences are infinite where no unique solution is found
 template <class Precise>
 OrbitVerification verify_orbit(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
   const ItineraryMaps<Precise> maps(converted<Precise>(loop), orbit.ratio);

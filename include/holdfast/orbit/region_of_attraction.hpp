@@ -16,21 +16,22 @@
 
 namespace holdfast {
 
-/// A neighbourhood of one state of an orbit. Every motion inside, at the same phase of the forcing,
-/// follows the orbit's itinerary for ever and tends to the orbit.
+/// A ball around one state of an orbit. Every motion that starts in the ball, at the same phase of
+/// the forcing, has the orbit's itinerary for ever and tends to the orbit.
 ///
-/// The norm of deviations is
+/// The norm of a motion's deviation e from the orbit is
 ///
 ///     ‖e‖² = e_z₁² + (e_ż₁/ω)² + e_z₂² + (e_ż₂/ω)² + (e_u/k₁)² + e_gap²   (m²),
 ///
-/// where ω is the excitation's angular frequency (without excitation √(k₁/m₁)). In a gap, e_gap is
-/// the deviation of the gap's position. The motion must have the orbit's contact and, if engaged,
-/// the orbit's sign of Δż at the last sample. An orbit that never leaves its gap exists in every
-/// gap that contains its Δz. Its ball's radius is `radius` × the clearance from the gap's ends.
+/// with the excitation's angular frequency ω (without excitation √(k₁/m₁)) and the conductor's
+/// stiffness k₁ and mass m₁. In a gap, e_gap is the deviation of the gap's position. The motion
+/// must have the orbit's contact and, if engaged, the orbit's sign of Δż at the last sample. An
+/// orbit that never leaves its gap exists in every gap that contains its range of Δz. The radius of
+/// the ball is then `radius` × clearance from the gap's ends.
 struct AttractionBall {
   std::int64_t sample;            ///< index of the orbit's sample: a multiple of q, f τ = p/q
   Vector<double, 5> state;        ///< state z̃ = [z; u_{j−1}] at sample j = `sample`
-  BacklashMemory<double> memory;  ///< memory of the drive before sample j = `sample`
+  BacklashMemory<double> memory;  ///< memory of the backlash law before sample j = `sample`
   bool stays_inside;              ///< whether the drive never leaves its gap
   double lowest,                  ///< least Δz of the orbit (m)
       highest;                    ///< largest Δz of the orbit (m)
@@ -38,7 +39,8 @@ struct AttractionBall {
 };
 
 /// The weights [1, 1/ω, 1, 1/ω, 1/k₁, 1] that convert a deviation of [z₁, ż₁, z₂, ż₂, u, gap] to
-/// metres; ω is √(k₁/m₁) where the excitation has no amplitude.
+/// metres; ω is the excitation's angular frequency, or √(k₁/m₁) without excitation. The conductor
+/// has the stiffness k₁ and the mass m₁.
 template <class Scalar>
 Vector<Scalar, 6> deviation_weights(const IdealLoop<Scalar>& loop) {
   const Scalar stiffness = loop.plant.conductor_stiffness;
@@ -48,18 +50,18 @@ Vector<Scalar, 6> deviation_weights(const IdealLoop<Scalar>& loop) {
   return {1.0, 1.0 / angular_frequency, 1.0, 1.0 / angular_frequency, 1.0 / stiffness, 1.0};
 }
 
-/// The radius (m) of a neighbourhood of an orbit for a given memory of the drive. The radius is ≤ 0
-/// where an orbit that stays in its gap does not fit into the gap of `drive`.
+/// The radius (m) of an AttractionBall or a ModalAttraction for a motion with the backlash memory
+/// `drive`. It is ≤ 0 where an orbit that stays in its gap does not fit into the motion's gap.
 template <class Neighbourhood>
 double attraction_radius(const Neighbourhood& point, const BacklashMemory<double>& drive) {
   if (!point.stays_inside) return point.radius;
   return point.radius * std::min(point.lowest - drive.lower, drive.upper - point.highest);
 }
 
-/// Whether a motion, with sampling and forcing in phase, lies in a neighbourhood of attraction.
-/// @param point    the neighbourhood, at the same phase of the forcing
+/// Whether a motion at a stroboscopic instant (sampling and forcing in phase) lies in a ball of
+/// attraction. @param point  the ball
 /// @param motion   memory() of the motion, before the sample
-/// @param weights  deviation_weights()
+/// @param weights  deviation_weights() of the loop
 template <class Memory>
 bool attracts(const AttractionBall& point, const Memory& motion, const Vector<double, 6>& weights) {
   const BacklashMemory<double>& drive = motion.backlash;
@@ -143,7 +145,6 @@ class DeviationFlow {
                     });
   }
 
-  /// The number of entries of e.
   Eigen::Index order() const { return deviations_.order() + 1; }
 
   /// The bounds for deviations over the next `samples` samples.
@@ -248,7 +249,6 @@ inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>&
 
 /// The segments of one period, each of `length` times q samples (the last may be shorter). If this
 /// length exceeds the period, there is one segment of several whole periods.
-/// @param flow  flow of deviations from the first sample on
 template <class Deviations>
 std::vector<DeviationSegment> deviation_segments(DeviationFlow<Deviations> flow,
                                                  const PeriodicOrbit& orbit, std::int64_t length) {
@@ -294,17 +294,17 @@ std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
 
 }  // namespace detail
 
-/// The neighbourhoods of an orbit at its stroboscopic instants (sampling and forcing in phase,
-/// every q samples) from which every motion tends to the orbit.
+/// Computes balls of attraction of an orbit, at its stroboscopic instants (sampling and forcing in
+/// phase, every q samples). Every motion that starts in a ball tends to the orbit.
 ///
 /// The period is cut into segments of q samples, then of 2 q, 4 q, … samples, until the segments
-/// together contract. Φ is the flow of deviations from a segment's start. A deviation e there
-/// changes no contact while |h Φ e| is below the orbit's distance from the surface with normal h.
-/// Over the segment, e grows at most ‖Φ‖-fold. By induction both bounds hold for all time.
+/// together contract. Φ propagates a deviation e from the start of a segment. No contact changes
+/// while |h Φ e| is below the orbit's distance from the switching surface with normal h. Over the
+/// segment, e grows by at most the factor ‖Φ‖. By induction both bounds are valid for all time.
 /// @param loop   the loop that has the orbit
-/// @param orbit  attracting and certified
-/// @return neighbourhoods in the order of the samples; empty where no segments contract, up to a
-///         length of 64 periods or 10⁶ samples, whichever is longer
+/// @param orbit  attracting and certified orbit
+/// @return balls in the order of the samples; empty where no segments contract, up to a length of
+///         64 periods or 10⁶ samples, whichever is longer
 /// Work: about 300 multiply-adds per sample for each segment length up to one period. At most one
 /// longer length is computed in full.
 template <class Scalar>

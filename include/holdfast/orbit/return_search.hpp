@@ -18,7 +18,7 @@ struct OrbitLimits {
   std::int64_t largest_period = 1'000'000;  ///< longest period sought (samples), 1 … 10⁸
   /// Largest number of samples simulated, 0 … 10⁹; 0 means eight times the largest period.
   std::int64_t most_samples = 0;
-  /// Function called every q samples (f τ = p/q), if set; may throw to end the search.
+  /// Function called every q samples (f τ = p/q) of the search, if set; it may throw to end it.
   std::function<void()> watch = {};
 };
 
@@ -31,14 +31,12 @@ inline void validate(const OrbitLimits& limits) {
 namespace detail {
 
 /// The record of the samples that a search has simulated: itinerary and extent of the states.
-/// @tparam Symbol  symbol of the itinerary, one for each sample
 template <class Symbol, class Plant>
 struct SeenMotion {
   std::vector<Symbol> itinerary;
   StateScaleOf<Plant> extent;
   std::int64_t reference = 0;  ///< sample whose state later states are compared with
 
-  /// The number of samples simulated so far.
   std::int64_t taken() const { return static_cast<std::int64_t>(itinerary.size()); }
 
   /// Whether a motion starts within 10⁻⁶ of a state and, up to rounding, ends no farther from it.
@@ -85,7 +83,6 @@ class ReturnSearch {
     set_reference();
   }
 
-  /// Runs the search until the orbit is found or the limits are reached.
   Result run() {
     while (seen_.taken() + ratio_.denominator <= limits_.most_samples) {
       take_stroboscopic_instant();

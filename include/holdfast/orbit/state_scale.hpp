@@ -12,7 +12,8 @@
 
 namespace holdfast {
 
-/// A motion's extent: largest displacement and velocity, by which state differences are divided.
+/// A motion's extent: its largest displacement and velocity. Differences of states are divided by
+/// the extent to obtain relative sizes.
 struct StateScale {
   double displacement = 0.0;  ///< largest |z₁|, |z₂| (m)
   double velocity = 0.0;      ///< largest |ż₁|, |ż₂| (m/s)
@@ -52,14 +53,14 @@ struct StateScale {
   static double share(double part, double whole) { return part == 0.0 ? 0.0 : part / whole; }
 };
 
-/// The extent of a motion of a plant of order N: the largest |x_i| of each coordinate i. For two
-/// masses both displacements share one maximum, and both velocities another.
+/// The extent of a motion of a plant of order N: the largest |x_i| of each state variable i. For
+/// two masses both displacements have one common maximum, and both velocities another.
 template <class Plant>
 class StateScaleOf {
  public:
   using State = StateOf<Plant>;  ///< plant state x, N × 1
 
-  /// Constructs the extent of given states; the list of states may be empty.
+  /// Constructs the extent of a list of states, possibly empty; `readings` are those of the plant.
   explicit StateScaleOf(const PortReadings<Plant>& readings, const std::vector<State>& states = {})
       : readings_(readings) {
     for (const State& state : states) include(state);
@@ -76,10 +77,11 @@ class StateScaleOf {
     }
   }
 
-  /// The extent at both sides of the gap: largest |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s).
+  /// The extent of the drive's two sides: largest |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s), with
+  /// the conductor's displacement z and the relative displacement Δz.
   const StateScale& sides() const { return sides_; }
 
-  /// The size max_i |x_i| / largest()_i of a state, or of a difference of two states. The size is
+  /// The relative size max_i |x_i| / largest()_i of a state x or of a difference x of two states;
   /// infinite where largest()_i is 0 and x_i is not. At least one state must have been included.
   double share_of(const State& state) const {
     double share = 0.0;
@@ -88,11 +90,11 @@ class StateScaleOf {
     return share;
   }
 
-  /// The largest |x_i| of each coordinate, N × 1.
+  /// The largest |x_i| of each state variable i, N × 1.
   const State& largest() const { return largest_; }
 
-  /// Raises the extent of each coordinate to at least `share` times its extent in `other`. Rounding
-  /// errors of a decayed coordinate then count as small. For two masses nothing changes.
+  /// Raises each largest |x_i| to at least `share` times that of `other`. Rounding errors of a
+  /// state variable that has decayed then count as small. For two masses nothing changes.
   void widen(double share, const StateScaleOf& other) {
     if constexpr (!of_two_masses) largest_ = largest_.cwiseMax(share * other.largest_);
   }
@@ -119,8 +121,8 @@ Scalar power_of_two_below(const Scalar& size) {
 }  // namespace detail
 
 /// Units for scaling the state z̃ = [z₁, ż₁, z₂, ż₂; u_{j−1}]: 1 m for displacements, ω · 1 m for
-/// velocities, k · 1 m for the force. Here ω² and k are the restoring acceleration and force per
-/// displacement z₁. The units are rounded down to powers of two: scaling causes no rounding errors.
+/// velocities, k · 1 m for the force. A displacement z₁ causes the restoring acceleration ω² z₁ and
+/// force k z₁. Units are rounded down to powers of two, hence scaling causes no rounding errors.
 /// @param state_matrix      A of ż = A z + b u + c F, 4 × 4
 /// @param excitation_input  c, 4 × 1
 /// @return units of [z₁, ż₁, z₂, ż₂, u]; 1 where ω or k is zero or not finite

@@ -15,7 +15,7 @@ namespace holdfast {
 
 /// The surfaces on which the drive changes its contact; Δz = z₂ − z₁ is the relative displacement.
 enum class SwitchingSurface {
-  reversal,   ///< Δż = 0 while the drive transmits: the drive enters its backlash
+  reversal,   ///< Δż = 0 while the drive transmits: the drive enters the gap of its backlash
   gap_lower,  ///< Δz at the lower end of the gap: the drive leaves the gap
   gap_upper,  ///< Δz at the upper end of the gap: the drive leaves the gap
 };
@@ -24,13 +24,13 @@ enum class SwitchingSurface {
 struct Border {
   double distance = std::numeric_limits<double>::infinity();  ///< least distance (m; reversal: m/s)
   SwitchingSurface surface = SwitchingSurface::reversal;      ///< no meaning if `sample` is −1
-  std::int64_t sample = -1;  ///< index of the nearest sample, first sample 0; −1: no surface
+  std::int64_t sample = -1;  ///< index of the nearest sample, from 0; −1: no surface is relevant
 };
 
-/// The contact decision at one sample, with the quantities that it depends on.
+/// The backlash law's decision at one sample: whether the drive transmits, and why.
 struct ContactDecision {
   bool was_inside;  ///< whether the drive is in its gap before the sample
-  bool engaged;     ///< whether the drive is engaged after the sample
+  bool engaged;     ///< whether the drive transmits (is engaged) after the sample
   /// The sign of Δż (1 for Δż = 0) if the contact at this or the next sample depends on that sign;
   /// 0 if the drive stays inside its gap, and without backlash.
   std::int8_t velocity_sign;
@@ -38,11 +38,11 @@ struct ContactDecision {
   std::int8_t exit_side;
 };
 
-/// The contact decisions of one period and the memory of the drive before the first sample.
+/// The contact decisions of one period and the memory of the backlash law before the first sample.
 struct SwitchingPattern {
   std::vector<ContactDecision> decisions;               ///< decisions, one for each sample
   BacklashMemory<double> memory{false, 0.0, 0.0, 0.0};  ///< memory before the first sample
-  bool repeats = false;  ///< whether contact and gap are the same after the period as before
+  bool repeats = false;  ///< whether contact and gap position after the period equal those before
 
   /// Whether the drive never leaves its gap.
   bool stays_inside() const {
@@ -99,9 +99,9 @@ void for_each_border(const SwitchingPattern& pattern, const std::vector<Vector<S
 
 }  // namespace detail
 
-/// Applies the backlash law along an orbit, for two to four periods, until contact and gap are the
-/// same after a period as before. Records the decisions of the last period.
-/// @param states  states z̃_j of one period
+/// Applies the backlash law along an orbit for two to four periods, until contact and gap position
+/// repeat after a period. @return the contact decisions of the last period
+/// @param states  states [z₁, ż₁, z₂, ż₂; u_{j−1}] at the samples of one period
 /// @param law     backlash law with its memory before the first sample
 template <class Scalar>
 SwitchingPattern switching_pattern(const std::vector<Vector<Scalar, 5>>& states,
@@ -122,7 +122,7 @@ SwitchingPattern switching_pattern(const std::vector<Vector<Scalar, 5>>& states,
   return pattern;
 }
 
-/// Whether a pattern repeats and has exactly the contacts of an itinerary.
+/// Whether a pattern repeats (SwitchingPattern::repeats) and has the contacts of an itinerary.
 inline bool has_itinerary(const SwitchingPattern& pattern, const Itinerary& itinerary) {
   return pattern.repeats &&
          std::equal(pattern.decisions.begin(), pattern.decisions.end(), itinerary.begin(),
@@ -131,7 +131,7 @@ inline bool has_itinerary(const SwitchingPattern& pattern, const Itinerary& itin
                     });
 }
 
-/// The nearest switching surface of each kind.
+/// The switching surfaces nearest to a motion: one for Δz, one for Δż.
 struct Borders {
   Border displacement;  ///< nearest end of a gap (m)
   Border velocity;      ///< nearest reversal, Δż = 0 (m/s)
@@ -140,10 +140,10 @@ struct Borders {
 /// The least distances of a motion's states from the switching surfaces on which a contact decision
 /// of a pattern would change; negative where a state already contradicts the pattern.
 ///
-/// Inside the gap, the distance is that of Δz from the nearer end. At a sample where the drive
-/// leaves the gap, there are two: |Δż| and the excess of Δz beyond the end. Elsewhere it is |Δż|.
+/// At a sample inside the gap, the distance of Δz from the nearer end counts. At a sample where the
+/// drive leaves the gap, |Δż| and the excess of Δz beyond the end count. Elsewhere |Δż| counts.
 /// @param pattern  pattern of this motion, or of another motion with which it is compared
-/// @param states   z̃_j of one period of the motion, one for each decision
+/// @param states   z̃_j = [z_j; u_{j−1}] of one period of the motion, one for each decision
 /// @param width    width r₀ of the backlash (m)
 template <class Scalar>
 Borders borders_of(const SwitchingPattern& pattern, const std::vector<Vector<Scalar, 5>>& states,

@@ -10,14 +10,14 @@
 
 namespace holdfast::simd {
 
-/// Finds each initial state's attractor with `holdfast::find_basins` on SIMD packs and threads.
+/// Finds the attractor of each initial state by `holdfast::find_basins`, with SIMD and threads.
 ///
 ///     const BasinMap map = simd::find_basins(loop, states);
 ///     for (const auto& attractor : map.attractors) use(attractor.orbit.period());
 ///
-/// @param loop            the loop with its excitation and backlash
+/// @param loop            sampled loop with its excitation and backlash
 /// @param initial_states  list of finite states [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s); may be empty
-/// @param limits          limits of the search for a periodic orbit, for each motion
+/// @param limits          longest period and number of samples of each search for a periodic orbit
 /// @param threads         number of threads ≥ 1, or 0 for all cores; no effect on the result
 /// @throws InvalidParameter where loop, states or limits are not admissible
 inline BasinMap find_basins(const IdealLoop<double>& loop,

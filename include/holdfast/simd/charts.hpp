@@ -15,8 +15,7 @@ namespace detail {
 /// Number of chart rows that a thread computes at a time.
 inline constexpr std::int64_t rows_of_tile = 32;
 
-/// Fills the cells of a chart.
-/// @tparam Rows  StabilityChartRows or RadiusChartRows
+/// Fills the cells of a chart. @tparam Rows  StabilityChartRows or RadiusChartRows
 template <class Rows, class Cell>
 void fill_chart(const LoopChart& chart, Cell* cells, int threads) {
   const std::int64_t columns = chart.fast.values.count;
@@ -40,7 +39,7 @@ inline std::size_t cells_of(const LoopChart& chart) {
 ///     const std::vector<std::uint8_t> stable = simd::stability_chart(chart);
 ///
 /// @param chart    the loop and the two parameters that vary
-/// @param stable   array of one entry for each cell, row by row; `chart.fast` varies along a row.
+/// @param stable   output: one entry for each cell, row by row; `chart.fast` varies along a row.
 ///                 Freshly allocated, unwritten memory is fastest: the operating system places each
 ///                 page near the processor of the thread that first writes to the page
 /// @param threads  number of threads ≥ 1, or 0 for all cores; no effect on the result
@@ -49,16 +48,17 @@ inline void stability_chart(const LoopChart& chart, std::uint8_t* stable, int th
   detail::fill_chart<StabilityChartRows<Pack<double>>>(chart, stable, threads);
 }
 
-/// The stability chart as a vector, row by row: 1 stable, 0 not. `threads` = 0 uses all cores.
+/// The stability chart as a vector of cells, row by row; `chart.fast` varies along a row. A cell is
+/// 1 if the loop is stable, else 0. `threads` = 0 uses all cores.
 inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int threads = 0) {
   std::vector<std::uint8_t> stable(detail::cells_of(chart));
   stability_chart(chart, stable.data(), threads);
   return stable;
 }
 
-/// Computes the spectral radius ρ = max |λ| of every cell of a chart, absolute accuracy 1e−10.
+/// Computes the loop's spectral radius ρ in every cell of a chart, with absolute accuracy 1e−10.
 /// @param chart    the loop and the two parameters that vary
-/// @param radius   array of one entry for each cell, row by row; `chart.fast` varies along a row
+/// @param radius   output: one entry for each cell, row by row; `chart.fast` varies along a row
 /// @param threads  number of threads ≥ 1, or 0 for all cores; no effect on the result
 /// @throws InvalidParameter where the chart is not admissible
 inline void radius_chart(const LoopChart& chart, double* radius, int threads = 0) {
@@ -69,7 +69,7 @@ inline void radius_chart(const LoopChart& chart, double* radius, int threads = 0
   }
 }
 
-/// The spectral radius ρ of all cells of a chart, row by row. `threads` = 0 uses all cores.
+/// The loop's spectral radius ρ in all cells of a chart, row by row. `threads` = 0 uses all cores.
 inline std::vector<double> radius_chart(const LoopChart& chart, int threads = 0) {
   std::vector<double> radius(detail::cells_of(chart));
   radius_chart(chart, radius.data(), threads);

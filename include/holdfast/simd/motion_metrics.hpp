@@ -7,12 +7,12 @@
 
 namespace holdfast::simd {
 
-/// Computes the metrics of `count` motions of a sweep on SIMD packs in the calling thread.
-/// `results` has `count` entries; `duration` is the simulated time of each motion in s, ≥ 0.
+/// Simulates `count` motions in SIMD lanes and computes the peaks, rms values etc. of each motion.
 ///
 ///     simd::motion_metrics(motions.data(), motions.size(), 20.0, metrics.data());
 ///
-/// Several threads may each compute a part of the motions; the results are the same.
+/// `results` must have room for `count` entries; `duration` is the simulated time (s) of a motion,
+/// ≥ 0. Only the calling thread computes; several threads may call it for different motions.
 /// @throws InvalidParameter where a motion or the duration is not admissible
 inline void motion_metrics(const SweepMotion* motions, std::size_t count, double duration,
                            MotionMetrics* results) {

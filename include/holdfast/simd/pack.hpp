@@ -9,15 +9,15 @@
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/select.hpp"
 
-/// SIMD packs as number type of the library's kernels. This header adapts `xsimd::batch`. A kernel
-/// template then computes as many cells at a time as a register has lanes. The compiler options of
-/// the translation unit choose the instruction set: SSE2, AVX2, AVX-512, NEON, …. The instruction
-/// set is part of the pack's type and thus of each kernel's symbol name. Units compiled for several
-/// instruction sets can therefore be linked into one program (bench/README.md).
+/// SIMD packs (`xsimd::batch`) as the number type of the library's templates. A template computes
+/// with a pack as many independent cases at a time as a SIMD register has lanes. The compiler
+/// options choose the instruction set: SSE2, AVX2, AVX-512, NEON, …. The instruction set is part of
+/// the pack's type and thus of the symbol name of each template's instance. Files compiled for
+/// different instruction sets can therefore be linked into one program (bench/README.md).
 
 namespace holdfast {
 
-/// The mask of a pack: one truth value for each lane.
+/// The mask type of a pack: one truth value for each lane.
 template <class Number, class Architecture>
 struct MaskOf<xsimd::batch<Number, Architecture>> {
   /// The type of the result of a comparison of two packs.
@@ -73,18 +73,18 @@ struct Lanes<xsimd::batch<Number, Architecture>> {
   static constexpr std::size_t count = Pack::size;  ///< number of lanes
   static_assert(count <= 8, "a pack has at most 8 lanes, a byte each of a 64-bit mask");
 
-  /// Reads `count` consecutive numbers; the address needs only the alignment of a `Value`.
+  /// Reads `count` consecutive numbers into the lanes; `values` need not be aligned for SIMD.
   static Pack load(const Value* values) { return Pack::load_unaligned(values); }
-  /// Writes `count` consecutive numbers; the address needs only the alignment of a `Value`.
+  /// Writes the lanes to `count` consecutive numbers; `values` need not be aligned for SIMD.
   static void store(const Pack& pack, Value* values) { pack.store_unaligned(values); }
 
-  /// Writes one byte for each lane: 1 where the mask is set, else 0.
+  /// Writes `count` bytes to `flags`, one for each lane: 1 where the mask is true, else 0.
   static void store_flags(const typename Pack::batch_bool_type& mask, std::uint8_t* flags) {
     const std::uint64_t bytes = simd::detail::spread_to_bytes(simd::detail::lane_bits(mask));
     std::memcpy(flags, &bytes, count);
   }
 
-  /// Writes the flags of two masks: `count` bytes for `first`, then `count` bytes for `second`.
+  /// Writes the bytes 1 or 0 of two masks: `count` bytes for `first`, then `count` for `second`.
   static void store_flags(const typename Pack::batch_bool_type& first,
                           const typename Pack::batch_bool_type& second, std::uint8_t* flags) {
     if constexpr (2 * count <= 8) {
@@ -103,7 +103,7 @@ struct Lanes<xsimd::batch<Number, Architecture>> {
 
 namespace Eigen {
 
-/// Eigen's description of a pack as the number type of vectors and matrices.
+/// The properties of a pack that Eigen needs for vectors and matrices of packs.
 template <class Number, class Architecture>
 struct NumTraits<xsimd::batch<Number, Architecture>>
     : GenericNumTraits<xsimd::batch<Number, Architecture>> {

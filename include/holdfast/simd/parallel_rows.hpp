@@ -15,14 +15,14 @@
 namespace holdfast::simd {
 
 /// Computes the rows of a chart on several threads. A tile is a group of successive rows that one
-/// thread computes. In a browser there is one thread, which computes the tiles in turn.
+/// thread computes. In a browser a single thread computes all tiles in turn.
 ///
 /// Tiles begin at multiples of `tile`, and each has its own copy of `kernel`. The results therefore
 /// do not depend on the number of threads. An exception thrown in a tile is rethrown to the caller.
 /// @param rows     number of rows, ≥ 0
 /// @param tile     number of rows of a tile, ≥ 1; the last tile may have fewer
 /// @param threads  number of threads ≥ 1, or 0 for one per core of the machine
-/// @param kernel   object that `compute` uses and may change
+/// @param kernel   working object of `compute`, for instance its buffers; copied for each tile
 /// @param compute  called for each tile as compute(copy of kernel, first row, number of rows)
 template <class Kernel, class Compute>
 void parallel_rows(std::int64_t rows, std::int64_t tile, int threads, const Kernel& kernel,

@@ -202,9 +202,9 @@ void group_event_metrics(const PreparedEventMotion* motions, std::size_t count,
 /// Computes the metrics of many motions whose contact may change between samples. The type `Scalar`
 /// is a SIMD pack with one motion in each lane, or `double`. Motions may differ in every parameter.
 ///
-/// The metrics equal those of event_metrics() for one motion except for rounding, and do not depend
-/// on the other motions of the batch. Work: that of EventPack, and a few matrix exponentials for
-/// each different plant, sampling and force.
+/// Except for rounding, a motion's metrics equal those of event_metrics() for one motion. They do
+/// not depend on the other motions. Work: that of EventPack, and a few matrix exponentials for each
+/// different plant, sampling and force.
 /// @param motions   motions; has_event_pack() is true for each loop, and each state is finite
 /// @param count     number of motions, ≥ 0
 /// @param duration  length of each motion (s), ≥ 0

@@ -75,8 +75,8 @@ MotionMetrics metrics_of_motion(Motion& motion, const SampleSpan& span,
 /// The metrics (MotionMetrics) of one motion of an implemented loop.
 ///
 /// The metrics are evaluated only at the samples t_j of the loop's clock, although the contact may
-/// change in between. The drive counts as transmitting if its contact mode is `engaged`, but not in
-/// `stick`; u_j is the force transmitted at the sample. For a loop converted from an IdealLoop the
+/// change in between. The drive counts as transmitting only in the contact mode `engaged`, not in
+/// `stick`. u_j is the force transmitted at the sample. For a loop converted from an IdealLoop the
 /// metrics equal those of `motion_metrics` except for rounding.
 ///
 ///     event_metrics(implemented_loop(loop), Vector<double, 4>::Zero(), 20.0).steady_peak;

@@ -309,7 +309,6 @@ class MetricGroup {
 
   const MetricTrack<Scalar>& track_of(std::size_t k) const { return tracks_[k / Lane::count]; }
 
-  /// The masks of all tracks, one byte per lane.
   template <class MaskOfTrack>
   std::array<std::uint8_t, lanes> flags(const MaskOfTrack& mask) const {
     std::array<std::uint8_t, lanes> result;

@@ -15,16 +15,16 @@
 
 namespace holdfast {
 
-/// Whether a velocity has changed its sign or become zero, from a nonzero `before` to `now`. At
-/// such a reversal the drive enters its gap (contact/hysteresis.hpp).
+/// Whether a velocity that was nonzero `before` is zero or of opposite sign `now`. At a reversal of
+/// Δż the drive enters its gap (contact/hysteresis.hpp). For packs: one result per lane.
 template <class Scalar>
 Mask<Scalar> is_reversal(const Scalar& before, const Scalar& now) {
   const Scalar zero(0);
   return ((before > zero) & (now <= zero)) | ((before < zero) & (now >= zero));
 }
 
-/// The sums and peaks from which MotionMetrics are computed. A SIMD pack has one motion per lane.
-/// The caller decides which samples are steady: those at or after half the duration.
+/// Sums and peaks over samples, from which MotionMetrics are computed. A SIMD pack has one motion
+/// per lane. The caller decides which samples are steady (at or after half the duration).
 template <class Scalar>
 struct MetricObserver {
   static constexpr double infinity = std::numeric_limits<double>::infinity();  ///< plus infinity
@@ -41,8 +41,8 @@ struct MetricObserver {
   Scalar engaged = Scalar(0);    ///< number of steady samples at which the drive transmits
   Scalar reversals = Scalar(0);  ///< number of reversals of Δż between successive steady samples
 
-  /// Updates `first_peak` with the displacement z₁ (m) of a sample; an extremum is found one sample
-  /// later. Work: about 4 comparisons and 3 selects.
+  /// Updates `first_peak` with the displacement z₁ (m) of a sample. An extremum is recognised one
+  /// sample later. Work: about 4 comparisons and 3 selects.
   void observe_extremum(const Scalar& displacement) {
     using std::abs;
     // At the first two samples the comparisons are with NaN and therefore false.
@@ -56,7 +56,7 @@ struct MetricObserver {
   /// The lanes whose first extremum has been found.
   Mask<Scalar> extremum_found() const { return first_peak == first_peak; }
 
-  /// Updates the extreme values with a sample's control force u (N) and displacement Δz (m).
+  /// Updates the extreme values with a sample's force u (N) and relative displacement Δz (m).
   void observe_load(const Scalar& force, const Scalar& relative_displacement) {
     using std::abs;
     using std::max;

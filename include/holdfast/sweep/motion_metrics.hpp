@@ -16,11 +16,11 @@ enum class MotionEnd {
 
 /// The metrics of one motion of the sampled loop with backlash in a sweep. The displacement of the
 /// conductor is z₁, that of the absorber z₂. Samples are taken at t_j = j τ, j = 0, 1, …, up to the
-/// duration. Samples at or after half the duration, up to round-off, are steady; metrics of steady
-/// samples are NaN if there are none. For a motion that diverged, `first_peak` keeps its value,
-/// `engaged_fraction` and `reversals_per_s` are NaN, and all other metrics are infinite. For
-/// MotionEnd::accumulates all metrics are NaN, and `samples` counts the samples up to the start of
-/// the period with too many contact changes.
+/// duration. Samples at or after half the duration, up to round-off, are called steady; metrics of
+/// steady samples are NaN if there are none. For a motion that diverged, `first_peak` is valid,
+/// `engaged_fraction` and `reversals_per_s` are NaN, and all other metrics are infinite.
+/// For MotionEnd::accumulates all metrics are NaN, and `samples` counts the samples up to the start
+/// of the period with too many contact changes.
 struct MotionMetrics {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no value
 
@@ -29,7 +29,7 @@ struct MotionMetrics {
   double first_peak = unknown;   ///< |z₁| (m) at its first strict local extremum at j ≥ 1
   double steady_peak = unknown;  ///< max |z₁| (m) of the steady samples
   double steady_rms = unknown;   ///< √(mean z₁²) (m) of the steady samples
-  double engaged_fraction = unknown;  ///< share of the steady samples at which the drive transmits
+  double engaged_fraction = unknown;  ///< fraction of steady samples at which the drive transmits
   double force_peak = unknown;        ///< largest control force |u_j| (N) of all samples
   double force_rms = unknown;         ///< √(mean u_j²) (N) of the control force, steady samples
   /// Reversals of the drive per second (1/s): the number of times that Δż changed sign or became 0

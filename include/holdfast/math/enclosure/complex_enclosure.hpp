@@ -26,8 +26,8 @@ inline double rounded_modulus(const std::complex<double>& z) {
 
 }  // namespace detail
 
-/// A complex number proved to lie in a disc, given by centre and radius. Multiplication by e^{iθ}
-/// does not widen a disc, whereas it would widen a rectangle.
+/// A complex number proved to lie in a disc (complex interval arithmetic). The disc is given by its
+/// centre and radius. Unlike a rectangle, a disc does not widen when it is multiplied by e^{iθ}.
 ///
 /// Every operation gives a disc that contains the exact result for all numbers in the discs of its
 /// arguments. The radius is infinite after an overflow or a division by a number that may be 0.
@@ -45,7 +45,7 @@ class ComplexEnclosure {
     centre_ = 0.0;
     radius_ = std::numeric_limits<double>::infinity();
   }
-  /// Encloses x + iy for all x and y in two intervals; implicit where y is left out (y = 0).
+  /// Encloses all x + iy with x and y in two intervals; without y: y = 0, an implicit conversion.
   ComplexEnclosure(const Enclosure& x, const Enclosure& y = {})  // NOLINT(google-explicit-*)
       : ComplexEnclosure({x.middle(), y.middle()}, (Enclosure(x.radius()) + y.radius()).upper()) {}
 
@@ -64,14 +64,14 @@ class ComplexEnclosure {
     // Valid only where squares neither underflow nor overflow.
     return modulus > 2e-140 && modulus < 1e150 && below > 0.0 ? below : 0.0;
   }
-  /// The enclosure of the number's real part.
+  /// An interval that encloses the real part of the number.
   Enclosure real() const { return centre_.real() + Enclosure(-radius_, radius_); }
-  /// The enclosure of the number's imaginary part.
+  /// An interval that encloses the imaginary part of the number.
   Enclosure imaginary() const { return centre_.imag() + Enclosure(-radius_, radius_); }
 
-  /// The negative of this number, exact.
+  /// The negative of this number; the disc does not widen.
   ComplexEnclosure operator-() const { return {-centre_, radius_}; }
-  /// This number times the imaginary unit i, exact.
+  /// This number times the imaginary unit i; the disc does not widen.
   ComplexEnclosure times_i() const { return {{-centre_.imag(), centre_.real()}, radius_}; }
   /// Adds the complex number b.
   ComplexEnclosure& operator+=(const ComplexEnclosure& b) { return *this = *this + b; }
@@ -96,17 +96,17 @@ class ComplexEnclosure {
     return {{x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()},
             detail::above_roundings(radius) + least};
   }
-  /// The quotient a / b; the radius is infinite where b may be 0.
+  /// The quotient a / b; the radius is infinite if b may be 0.
   friend ComplexEnclosure operator/(const ComplexEnclosure& a, const ComplexEnclosure& b) {
     return a * inverse(b);
   }
 
-  /// The complex conjugate of a, exact.
+  /// The complex conjugate of a; the disc does not widen.
   friend ComplexEnclosure conj(const ComplexEnclosure& a) {
     return {std::conj(a.centre_), a.radius_};
   }
-  /// The reciprocal 1/a; radius ∞ where a may be 0. The disc's centre is y ≈ 1/c for a's centre c.
-  /// Its radius bounds |1/x − y| = |1 − x y|/|x| for all x in a.
+  /// The reciprocal 1/a; radius ∞ if a may be 0. With a's centre c the result has the centre
+  /// y ≈ 1/c and, as radius, a bound of |1/x − y| = |1 − x y|/|x| for all numbers x in a.
   friend ComplexEnclosure inverse(const ComplexEnclosure& a) {
     const double squared = std::norm(a.centre_);
     const ComplexEnclosure near(std::conj(a.centre_) / squared, 0.0);
@@ -127,9 +127,9 @@ class ComplexEnclosure {
   double radius_ = 0.0;
 };
 
-/// An enclosure of the exponentials e^z of all numbers z in a disc.
-/// @param z  disc; the result has radius ∞ if the radius of z is 1 or more, or if its centre x + iy
-///           has |x| + |y| ≥ 10⁶
+/// A disc that encloses e^z for all numbers z in a disc.
+/// @param z  disc with centre x + iy. The result has the radius ∞ if the radius of z is ≥ 1 or
+///           |x| + |y| ≥ 10⁶
 inline ComplexEnclosure exponential(const ComplexEnclosure& z) {
   const double x = z.middle().real(), y = z.middle().imag();
   Matrix<Enclosure, 2> turning;
@@ -141,7 +141,7 @@ inline ComplexEnclosure exponential(const ComplexEnclosure& z) {
   return ComplexEnclosure(power(0, 0), power(1, 0)) * ComplexEnclosure({1.0, 0.0}, around.upper());
 }
 
-/// An enclosure of the powers zⁿ of all numbers z in a disc.
+/// A disc that encloses the powers zⁿ of all numbers z in a disc.
 /// @param z      disc
 /// @param count  exponent n ≥ 0
 inline ComplexEnclosure power(ComplexEnclosure z, int count) {

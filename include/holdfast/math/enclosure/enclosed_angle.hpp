@@ -55,9 +55,9 @@ inline EnclosedPhasor phasor_of(const Enclosure& angle) {
 
 }  // namespace detail
 
-/// An enclosure of cos x for all angles x (rad) in an interval.
+/// An interval that encloses cos x for all angles x (rad) in an interval.
 inline Enclosure cos(const Enclosure& angle) { return detail::phasor_of(angle).cosine; }
-/// An enclosure of sin x for all angles x (rad) in an interval.
+/// An interval that encloses sin x for all angles x (rad) in an interval.
 inline Enclosure sin(const Enclosure& angle) { return detail::phasor_of(angle).sine; }
 
 }  // namespace holdfast

@@ -10,8 +10,8 @@
 
 namespace holdfast {
 
-/// A curve z(t) in the complex plane, −1 ≤ t ≤ 1, enclosed by z(0), z′(0) and a bound of |z″|.
-/// Every operation gives an enclosure of its result for all curves that its arguments enclose.
+/// A curve z(t) in the complex plane, −1 ≤ t ≤ 1, enclosed by discs of z(0) and z′(0) and a bound
+/// of |z″|. Every operation encloses the exact result for all curves enclosed by the arguments.
 class EnclosedCurve {
  public:
   /// The constant curve z(t) = number; implicit, so that numbers may be used in formulas.
@@ -19,7 +19,7 @@ class EnclosedCurve {
       : EnclosedCurve(number, {}, 0.0) {}
   /// @param value  value z(0)
   /// @param slope  derivative z′(0)
-  /// @param bend   bound of |z″| for all t, ≥ 0; NaN or negative: no bound is known (∞)
+  /// @param bend   upper bound of |z″| for all t, ≥ 0; NaN or a negative number means ∞ (unknown)
   EnclosedCurve(const ComplexEnclosure& value, const ComplexEnclosure& slope, double bend)
       : value_(value),
         slope_(slope),
@@ -27,13 +27,13 @@ class EnclosedCurve {
         slope_size_(slope.magnitude()),
         size_(value.magnitude()) {}
 
-  /// The value z(0), at the middle of the parameter range.
+  /// A disc that encloses the value z(0), at the middle of the parameter range.
   const ComplexEnclosure& value() const { return value_; }
-  /// The derivative z′(0), at the middle of the parameter range.
+  /// A disc that encloses the derivative z′(0), at the middle of the parameter range.
   const ComplexEnclosure& slope() const { return slope_; }
   /// An upper bound of |z| for all t.
   double most() const { return detail::above_roundings(size_ + slope_size_ + 0.5 * bend_); }
-  /// A lower bound of |z| for all t; 0 where z may be 0.
+  /// A lower bound of |z| for all t; 0 if z may be 0 for some t.
   double least() const {
     const double left = value_.least_modulus() - detail::above_roundings(slope_size_ + 0.5 * bend_);
     return left > 0.0 ? left * (1.0 - 0x1.0p-50) : 0.0;
@@ -73,27 +73,27 @@ class EnclosedCurve {
   double bend_, slope_size_, size_;
 };
 
-/// A spiral z(t) = c e^{σt} in the complex plane, −1 ≤ t ≤ 1, with enclosures of c and σ.
+/// A logarithmic spiral z(t) = c e^{σt} in the complex plane, −1 ≤ t ≤ 1, with c and σ in discs.
 class EnclosedSpiral {
  public:
-  /// @param start  value c at t = 0
-  /// @param rate   rate σ
+  /// @param start  value c = z(0), a disc
+  /// @param rate   complex rate σ, a disc
   EnclosedSpiral(const ComplexEnclosure& start, const ComplexEnclosure& rate)
       : start_(start), rate_(rate), turn_(rate.magnitude()) {
     const Matrix<Enclosure, 1> growth(Enclosure(rate.real().magnitude()));
     most_ = (Enclosure(start.magnitude()) * exponential(growth)(0, 0)).upper();
   }
 
-  /// The value c at t = 0.
+  /// A disc that encloses the value c = z(0).
   const ComplexEnclosure& start() const { return start_; }
-  /// The rate σ of the spiral.
+  /// A disc that encloses the complex rate σ.
   const ComplexEnclosure& rate() const { return rate_; }
   /// An upper bound of the modulus |z| for all t.
   double most() const { return most_; }
-  /// An upper bound of the distance |z − c| from the start value c for all t.
+  /// An upper bound of the distance |z(t) − z(0)| for all t.
   double way() const { return detail::above_roundings(turn_ * most_); }
 
-  /// The spiral as an EnclosedCurve, with a bound of its second derivative.
+  /// The spiral as an EnclosedCurve.
   EnclosedCurve curve() const { return {start_, start_ * rate_, bend()}; }
   /// The n-th power of the spiral, cⁿ e^{nσt}.
   EnclosedSpiral to_the(int n) const {
@@ -102,8 +102,8 @@ class EnclosedSpiral {
   /// The complex conjugate of a spiral.
   friend EnclosedSpiral conj(const EnclosedSpiral& z) { return {conj(z.start_), conj(z.rate_)}; }
 
-  /// The difference z = a − b as a curve. Its bounds remain tight for similar rates, since they are
-  /// derived from ν = σ_a − σ_b (if |σ_b| < 1; otherwise |z″| ≤ |a″| + |b″|):
+  /// The difference z = a − b of two spirals as a curve. If |σ_b| < 1, |z″| is bounded by means of
+  /// ν = σ_a − σ_b, a bound that is tight for similar rates; |a″| + |b″| is used where smaller:
   ///
   ///     z′ = ν a + σ_b z,   |z| ≤ (|z(0)| + |ν||a|)/(1 − |σ_b|),   z″ = ν (σ_a + σ_b) a + σ_b² z
   friend EnclosedCurve difference(const EnclosedSpiral& a, const EnclosedSpiral& b) {

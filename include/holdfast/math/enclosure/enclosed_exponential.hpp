@@ -61,9 +61,9 @@ Matrix<Enclosure, Size> exponential_by_squarings(Matrix<Enclosure, Size> matrix,
 
 }  // namespace detail
 
-/// An enclosure of e^M for all n × n matrices M in an enclosure. Taylor's series of the balanced
-/// M/2ˢ is squared s times; each squaring widens the result. Work: 20 + s matrix products.
-/// @param matrix  square, of fixed or dynamic size; entries (−∞, ∞) are returned if ‖M‖∞ ≥ 10⁶
+/// An interval matrix that encloses e^M for all matrices M in an interval matrix. Taylor's series
+/// of the balanced M/2ˢ is squared s times; each squaring widens it. Work: 20 + s matrix products.
+/// @param matrix  square interval matrix; if ‖M‖∞ may be ≥ 10⁶, all entries returned are (−∞, ∞)
 template <int Size>
 Matrix<Enclosure, Size> exponential(const Matrix<Enclosure, Size>& matrix) {
   if (!(detail::norm_bound(matrix) < 1e6))

@@ -28,10 +28,10 @@ double largest_eigenvalue_near(const Matrix<double, Size>& form) {
 
 }  // namespace detail
 
-/// An upper bound of the spectral norms ‖M‖₂ of all matrices M in an enclosure with midpoint M₀. It
-/// is a bound σ of ‖M₀‖₂ plus the Frobenius norm of the radii. Elimination proves σ > ‖M₀‖₂, that
-/// is, σ² I − M₀ᵀM₀ positive definite.
-/// @param matrix  enclosed matrix, N × N
+/// An upper bound of the spectral norms ‖M‖₂ of all matrices M in an interval matrix. It is the sum
+/// of a bound σ of ‖M₀‖₂ (M₀: midpoints) and the Frobenius norm of the radii. σ > ‖M₀‖₂ is proved
+/// by Gaussian elimination, which shows that σ² I − M₀ᵀM₀ is positive definite.
+/// @param matrix  interval matrix, N × N
 /// @return the bound; ∞ if the proof fails
 template <int Size>
 double spectral_norm_bound(const Matrix<Enclosure, Size>& matrix) {

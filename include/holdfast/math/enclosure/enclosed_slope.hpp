@@ -5,7 +5,7 @@
 
 namespace holdfast {
 
-/// A function f of one variable on an interval, as enclosures of its values and of its derivative.
+/// Intervals that enclose a function f and its derivative f′ for all arguments in an interval.
 /// Operations apply the rules of differentiation. Eigen's matrices can have entries of this type.
 struct EnclosedSlope {
   Enclosure value;  ///< enclosure of f on the whole interval
@@ -15,8 +15,8 @@ struct EnclosedSlope {
   EnclosedSlope() = default;
   /// Constructs a constant function; implicit, so that numbers may be used in formulas.
   EnclosedSlope(double constant) : value(constant) {}  // NOLINT(google-explicit-constructor)
-  /// @param values  enclosure of the values f
-  /// @param slopes  enclosure of the derivative f′
+  /// @param values  interval that encloses all values of f
+  /// @param slopes  interval that encloses all values of f′
   EnclosedSlope(const Enclosure& values, const Enclosure& slopes) : value(values), slope(slopes) {}
 
   /// The middle of the enclosure of f, for messages and plausibility checks.
@@ -43,14 +43,14 @@ struct EnclosedSlope {
   friend EnclosedSlope operator*(const EnclosedSlope& f, const EnclosedSlope& g) {
     return {f.value * g.value, f.slope * g.value + f.value * g.slope};
   }
-  /// The quotient f/g, with (f/g)′ = (f′ − (f/g) g′)/g; (−∞, ∞) where g may be 0.
+  /// The quotient f/g, with (f/g)′ = (f′ − (f/g) g′)/g; both are (−∞, ∞) if g may be 0.
   friend EnclosedSlope operator/(const EnclosedSlope& f, const EnclosedSlope& g) {
     const Enclosure quotient = f.value / g.value;
     return {quotient, (f.slope - quotient * g.slope) / g.value};
   }
 };
 
-/// The square root √f of a function f; the derivative is (−∞, ∞) where f may be 0.
+/// The square root √f of a function f ≥ 0; the derivative is (−∞, ∞) if f may be 0.
 inline EnclosedSlope sqrt(const EnclosedSlope& f) {
   const Enclosure root = sqrt(f.value);
   return {root, f.slope / (Enclosure(2.0) * root)};
@@ -62,8 +62,8 @@ inline EnclosedSlope cos(const EnclosedSlope& f) {
 /// The sine of a function f.
 inline EnclosedSlope sin(const EnclosedSlope& f) { return {sin(f.value), cos(f.value) * f.slope}; }
 
-/// The function sin(f)/f, 1 at f = 0; value and slope are (−∞, ∞) unless |f| < 2.4 is proved. The
-/// derivative with respect to f is −f/3 times a number between 1 − f²/10 and 1.
+/// The function sin(f)/f, equal to 1 at f = 0; value and slope are (−∞, ∞) unless |f| < 2.4 is
+/// proved. Its derivative with respect to f is −f/3 times a number between 1 − f²/10 and 1.
 inline EnclosedSlope sinc(const EnclosedSlope& f) {
   if (!(f.value.magnitude() < 2.4)) return {Enclosure::unknown(), Enclosure::unknown()};
   const Enclosure squared = square(f.value);

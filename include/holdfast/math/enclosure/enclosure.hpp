@@ -32,7 +32,7 @@ inline double rounded_up(double x) {
 
 }  // namespace detail
 
-/// A real number x proved to satisfy lower ≤ x ≤ upper: interval arithmetic with doubles as bounds.
+/// A real number that is proved to lie in an interval, for interval arithmetic in `double`.
 ///
 /// Every operation gives an interval that contains the exact result for all numbers in the argument
 /// intervals. Bounds are rounded outward. They are valid if the processor rounds to nearest, its
@@ -72,12 +72,12 @@ class Enclosure {
   double lower() const { return lower_; }
   /// An upper bound of the number.
   double upper() const { return upper_; }
-  /// A double near the midpoint; the infinite bound if there is only one, 0 if both are infinite.
+  /// A double in the interval, near the midpoint; ±∞ if one bound is ±∞, 0 if both are infinite.
   double middle() const {
     const double half = 0.5 * lower_ + 0.5 * upper_;
     return half == half ? std::clamp(half, lower_, upper_) : 0.0;
   }
-  /// An upper bound of the distance of any number in the interval from the middle.
+  /// An upper bound of the distance of any number in the interval from middle().
   double radius() const {
     const double centre = middle();
     return detail::rounded_up(std::max(upper_ - centre, centre - lower_));
@@ -86,7 +86,7 @@ class Enclosure {
   double magnitude() const { return std::max(std::abs(lower_), std::abs(upper_)); }
   /// Whether x is in the interval.
   bool contains(double x) const { return lower_ <= x && x <= upper_; }
-  /// Returns middle(), for messages and plausibility checks.
+  /// The double middle(), for messages and plausibility checks only.
   explicit operator double() const { return middle(); }
 
   /// Whether the number is proved to be > 0.
@@ -94,7 +94,7 @@ class Enclosure {
   /// Whether the number is proved to be < 0.
   bool is_negative() const { return upper_ < 0.0; }
 
-  /// The negative of this number, exact.
+  /// The negative of this number; the interval does not widen.
   Enclosure operator-() const { return {-upper_, -lower_}; }
   /// Adds the number b.
   Enclosure& operator+=(const Enclosure& b) { return *this = *this + b; }
@@ -102,7 +102,7 @@ class Enclosure {
   Enclosure& operator-=(const Enclosure& b) { return *this = *this - b; }
   /// Multiplies by the number b.
   Enclosure& operator*=(const Enclosure& b) { return *this = *this * b; }
-  /// Divides by the number b; the result is (−∞, ∞) where b may be 0.
+  /// Divides by the number b; the result is (−∞, ∞) if b may be 0.
   Enclosure& operator/=(const Enclosure& b) { return *this = *this / b; }
 
   /// The sum a + b.
@@ -116,7 +116,7 @@ class Enclosure {
     return hull_of(a.lower_ * b.lower_, a.lower_ * b.upper_, a.upper_ * b.lower_,
                    a.upper_ * b.upper_);
   }
-  /// The quotient a / b; (−∞, ∞) where b may be 0.
+  /// The quotient a / b; (−∞, ∞) if b may be 0.
   friend Enclosure operator/(const Enclosure& a, const Enclosure& b) {
     if (b.contains(0.0)) return unknown();
     return hull_of(a.lower_ / b.lower_, a.lower_ / b.upper_, a.upper_ / b.lower_,
@@ -146,8 +146,8 @@ class Enclosure {
     if (a.contains(0.0)) return {0.0, a.magnitude()};
     return a.lower_ > 0.0 ? a : -a;
   }
-  /// The intersection of two enclosures of the same number. If it is empty, one of the enclosures
-  /// is wrong, and the result is (−∞, ∞).
+  /// The intersection of two intervals that enclose the same number. If it is empty, one of them
+  /// must be wrong, and the result is (−∞, ∞).
   friend Enclosure intersection(const Enclosure& a, const Enclosure& b) {
     return {std::max(a.lower_, b.lower_), std::min(a.upper_, b.upper_)};
   }

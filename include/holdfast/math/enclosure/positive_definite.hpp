@@ -5,10 +5,10 @@
 
 namespace holdfast {
 
-/// Whether every symmetric matrix in an enclosure is proved to be positive definite: all pivots of
-/// Gaussian elimination without exchanges are > 0. The result `false` means that the proof failed.
-/// @param matrix  N × N; only its lower triangle is used
-/// Work: N³/3 operations.
+/// Whether every symmetric matrix in an interval matrix is proved to be positive definite: all
+/// pivots of Gaussian elimination without exchanges are > 0. `false` means only that the proof
+/// failed. Work: N³/3 operations.
+/// @param matrix  interval matrix, N × N; only its lower triangle is used
 template <int Size>
 bool is_positive_definite(Matrix<Enclosure, Size> matrix) {
   const Eigen::Index n = matrix.rows();

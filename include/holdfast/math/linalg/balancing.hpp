@@ -63,16 +63,16 @@ Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
 /// A matrix balanced by similarity: original = diag(factors) · balanced · diag(factors)⁻¹.
 template <class Scalar, int Size>
 struct BalancedMatrix {
-  Vector<Scalar, Size> factors;   ///< balancing factors t_i, powers of two, n × 1
-  Matrix<Scalar, Size> balanced;  ///< balanced matrix: row i and column i of about the same size
+  Vector<Scalar, Size> factors;   ///< balancing factors, powers of two, one for each row
+  Matrix<Scalar, Size> balanced;  ///< balanced matrix: row i and column i have similar norms
 
   /// Balances the matrix `original`, whose entries must be finite.
   explicit BalancedMatrix(const Matrix<Scalar, Size>& original)
       : factors(balancing(original)),
         balanced(factors.cwiseInverse().asDiagonal() * original * factors.asDiagonal()) {}
 
-  /// Transforms a matrix function f of the balanced matrix, such as its exponential, to f of the
-  /// original matrix: f(original) = diag(factors) · f(balanced) · diag(factors)⁻¹.
+  /// The matrix function f(original), such as the exponential, computed from f(balanced):
+  /// f(original) = diag(factors) · f(balanced) · diag(factors)⁻¹. @param function  f(balanced)
   Matrix<Scalar, Size> restored(const Matrix<Scalar, Size>& function) const {
     return factors.asDiagonal() * function * factors.cwiseInverse().asDiagonal();
   }

@@ -26,8 +26,8 @@ std::complex<Scalar> circle_increment(const Scalar& angle) {
   return complex_expm1(std::complex<Scalar>(0, angle));
 }
 
-/// The integral ∫₀^t e^{s r} dr = (e^{st} − 1)/s, accurate near s = 0 as well.
-/// @param s  rate (1/s)
+/// The integral ∫₀^t e^{su} du = (e^{st} − 1)/s; accurate near s = 0 too, where it tends to t.
+/// @param s  complex rate (1/s)
 /// @param t  time (s)
 template <class Scalar>
 std::complex<Scalar> exponential_integral(const std::complex<Scalar>& s, const Scalar& t) {
@@ -46,21 +46,16 @@ struct ComplexLanes {
 
   Reals re = Reals::Zero(), im = Reals::Zero();
 
-  /// Sets the complex number in one lane.
   void set(Eigen::Index lane, const std::complex<Scalar>& value) {
     re[lane] = value.real();
     im[lane] = value.imag();
   }
-  /// The complex number in one lane.
   std::complex<Scalar> operator[](Eigen::Index lane) const { return {re[lane], im[lane]}; }
-  /// The sum of the complex numbers of all lanes.
   std::complex<Scalar> sum() const { return {re.sum(), im.sum()}; }
-  /// The reciprocal 1/z in every lane.
   EIGEN_ALWAYS_INLINE ComplexLanes inverse() const {
     const Reals scale = (re * re + im * im).inverse();
     return {re * scale, -im * scale};
   }
-  /// The conjugate in every lane.
   EIGEN_ALWAYS_INLINE ComplexLanes conjugate() const { return {re, -im}; }
   EIGEN_ALWAYS_INLINE ComplexLanes& operator+=(const ComplexLanes& other) {
     re += other.re;
@@ -97,7 +92,6 @@ class ComplexRows {
   /// Constructs an empty table. @param first  real part of column 0 in the last block's unused rows
   explicit ComplexRows(const Scalar& first = Scalar(0)) : first_(first) {}
 
-  /// Adds a row at the end.
   void push_back(const Row& row) {
     if (size_ % lanes == 0) {
       blocks_.emplace_back();
@@ -115,9 +109,7 @@ class ComplexRows {
     for (std::size_t c = 0; c < Columns; ++c) row[c] = blocks_[k / lanes][c][lane_of(k)];
     return row;
   }
-  /// The number of rows.
   std::size_t size() const { return size_; }
-  /// All rows, in blocks.
   std::vector<Block>& blocks() { return blocks_; }
   const std::vector<Block>& blocks() const { return blocks_; }  ///< all rows, in blocks
 

@@ -9,15 +9,15 @@
 namespace holdfast {
 
 /// The solution V = Σ_{l ≥ 0} (Mˡ)ᵀ Mˡ of the discrete Lyapunov equation V − MᵀV M = I. The
-/// quadratic form eᵀVe decreases by ‖e‖² when the matrix M maps a vector e to M e.
+/// Lyapunov function eᵀVe decreases by ‖e‖² in each step e ← M e.
 ///
 /// Each step doubles the number of terms, V ← V + PᵀV P, P ← P², starting from V = I, P = M (R. A.
 /// Smith, Matrix equation XA + BX = C, SIAM J. Appl. Math. 16 (1968)). V is returned only if the
 /// Frobenius norm of the residual V − MᵀV M − I, plus a bound of its round-off, is less than ½.
 /// @param map     matrix M, n × n
-/// @param enough  admissible residual norm: the sum ends after l terms if ‖Mˡ‖²_F < enough
-/// @return V, n × n; nullopt if the sum diverges, since an eigenvalue of M has |λ| ≥ 1, or if it
-///         converges so slowly that round-off spoils it
+/// @param enough  admissible residual norm, 0 … ½: the sum ends after l terms if ‖Mˡ‖²_F < enough
+/// @return V, n × n; nullopt if the sum diverges (an eigenvalue of M has a modulus ≥ 1), or if it
+///         converges so slowly that the residual condition is violated
 /// @throws InvalidParameter where M is not square
 /// Work: 3 n³ multiply-adds per doubling, up to 48 doublings.
 template <class Scalar>

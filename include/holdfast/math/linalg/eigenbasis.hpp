@@ -75,8 +75,8 @@ struct TriangularForm {
 ///     η̇_k = s_k η_k + β_k u,   y = Σ γ_k η_k,   β = V⁻¹ b,   γ = h V
 ///
 /// The eigenvectors are computed from the Schur form of the balanced matrix by back substitution.
-/// They are triangular in the Schur basis, so that no dense matrix is inverted. Work: about 30 N³.
-/// For (nearly) equal eigenvalues V may be (nearly) singular: see `is_sound()`.
+/// In the Schur basis V is triangular, hence no dense matrix is inverted. Work: about 30 N³
+/// operations. For (nearly) equal eigenvalues V may be (nearly) singular: see `is_sound()`.
 template <class Scalar>
 class EigenBasis {
  public:
@@ -88,19 +88,19 @@ class EigenBasis {
   /// @throws InvalidParameter where A is empty or not square
   explicit EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix);
 
-  /// The eigenvalues s, N × 1; the two of a conjugate pair are stored side by side.
+  /// The eigenvalues s_1 … s_N; the two of a conjugate pair are stored side by side.
   ComplexVector values() const { return triangle_.diagonal(); }
 
   /// The coordinates β = V⁻¹ b (N × 1) of an input vector b (N × 1) in the eigenvector basis.
   /// @throws InvalidParameter unless b has N entries
   ComplexVector coordinates(const Vector<Scalar, Eigen::Dynamic>& b) const;
 
-  /// The coefficients γ = h V (as N × 1) of an output row h (1 × N) in the eigenvector basis.
+  /// The coefficients γ = h V of an output y = h x (row h, 1 × N), as a column of N entries.
   /// @throws InvalidParameter unless h has N entries
   ComplexVector readings(const RowVector<Scalar, Eigen::Dynamic>& h) const;
 
-  /// Whether coordinates and readings are accurate to nine digits or more: no two eigenvectors
-  /// nearly coincide, and the QR algorithm has converged.
+  /// Whether coordinates() and readings() are accurate to about nine digits or more. This is so if
+  /// no two eigenvectors nearly coincide and the QR algorithm has converged.
   bool is_sound() const;
 
  private:

@@ -43,11 +43,11 @@ Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1> eigenvalues_of_schur_fo
 /// The eigenvalues of a real square matrix of fixed, bounded or dynamic size, by the QR algorithm.
 ///
 /// The function compiles in half the time of Eigen's EigenSolver. In `double` the error is about
-/// 10⁻¹⁶ of the largest entry: a matrix whose rows have different units should first be balanced,
-/// as in `spectral_radius`. Work: about 10 n³.
+/// 10⁻¹⁶ times the largest entry. A matrix whose rows have different units should therefore first
+/// be balanced, see `BalancedMatrix`. Work: about 10 n³ operations.
 /// @param matrix  n × n, n ≥ 1, finite
-/// @return eigenvalues with their multiplicity, complex pairs side by side, otherwise unordered;
-///         NaN where the QR algorithm does not converge within 40 n steps
+/// @return n eigenvalues, multiple ones repeated, complex pairs side by side, otherwise unordered;
+///         all NaN if the QR algorithm does not converge within 40 n steps
 /// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size, int Most>
 Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1> eigenvalues(

@@ -26,12 +26,12 @@ Scalar pivot_size(const std::complex<Scalar>& z) {
 
 }  // namespace detail
 
-/// The solution X of M X = B by Gaussian elimination with row exchanges, for real and complex
-/// numbers and any other type with the four operations and a comparison, such as dual numbers.
+/// The solution X of M X = B by Gaussian elimination with row exchanges. The entries may be real or
+/// complex, or of any type with the four operations and a comparison, such as dual numbers.
 ///
 /// The function is for small systems and compiles faster than Eigen's decompositions. Work: n³/3 +
-/// n² c multiply-adds for c columns.
-/// @param matrix  matrix M, n × n; where it is singular the result is not finite
+/// n² c multiply-adds.
+/// @param matrix  matrix M, n × n; if it is singular, the result is not finite
 /// @param right   right side B, n × c
 /// @throws InvalidParameter where the sizes disagree
 template <class Square, class Columns>
@@ -67,15 +67,14 @@ Columns eliminated(Square matrix, Columns right) {
 }
 
 /// The derivative λ′ = tr(R M′)/tr R of an eigenvalue λ of a matrix M with respect to a parameter.
-/// R = (νI − M)⁻¹ with ν = λ (1 + √ε), ε the number type's relative precision, is almost a multiple
-/// of the projector on the eigenvectors of λ. For a multiple eigenvalue the result is the mean of
-/// its derivatives. Relative accuracy: about 10⁻⁸ in `double`.
+/// R = (νI − M)⁻¹ is the resolvent at ν = λ (1 + √ε); ε is the number type's relative precision. R
+/// is almost a multiple of the projector on the eigenvectors of λ. For a multiple eigenvalue the
+/// result is the mean of the derivatives. Relative accuracy: 10⁻⁸ in `double`. Work: one inverse.
 /// @param matrix  matrix M, n × n
 /// @param rate    derivative M′ of M with respect to the parameter, n × n
-/// @param value   eigenvalue λ
-/// @return        derivative λ′; NaN, infinite or meaningless for λ = 0, since then ν = λ
-/// @throws InvalidParameter where the matrix is not square, or the rate has another size
-/// Work: the inverse of one complex matrix.
+/// @param value   eigenvalue λ ≠ 0
+/// @return        derivative λ′; NaN, infinite or meaningless for λ = 0
+/// @throws InvalidParameter where M is not square, or M′ has another size
 template <class Scalar>
 std::complex<Scalar> eigenvalue_derivative(const Matrix<Scalar, Eigen::Dynamic>& matrix,
                                            const Matrix<Scalar, Eigen::Dynamic>& rate,

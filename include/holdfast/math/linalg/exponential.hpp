@@ -89,11 +89,11 @@ Square approximated(const PadeApproximant& approximant, const Square& matrix) {
 ///
 /// The method is scaling and squaring of the balanced matrix, e^M = (e^{M/2^s})^{2^s}. The diagonal
 /// Padé approximant of e^{M/2^s} has the smallest degree of 3, 5, 7 and 13 whose error is below
-/// round-off; s > 0 only for degree 13. Balancing reduces the norm and thus s, since every squaring
-/// loses accuracy. Work: up to 6 + s matrix products and one elimination.
+/// round-off; s > 0 only for degree 13. Every squaring loses accuracy; balancing reduces the norm
+/// and thus s. Work: up to 6 + s matrix products and one elimination.
 /// Source: N. J. Higham, The scaling and squaring method for the matrix exponential revisited,
 /// SIAM J. Matrix Anal. Appl. 26 (2005).
-/// @param matrix  square, of fixed or dynamic size; if Σ |M_ij| is not finite the result is NaN
+/// @param matrix  square matrix M; if Σ |M_ij| is not finite, all entries of the result are NaN
 /// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size>
 Matrix<Scalar, Size> exponential(const Matrix<Scalar, Size>& matrix) {

@@ -10,19 +10,19 @@
 
 namespace holdfast {
 
-/// A set of tangent vectors, small deviations from a state of 5 numbers, as columns of a matrix.
+/// Tangent vectors, the columns of a matrix: infinitesimal deviations from a state of 5 numbers.
 template <class Number, int Columns>
 using TangentBasis =
     Eigen::Matrix<Number, 5, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
 
-/// Flags of the tangent vectors: true until a map annihilates the vector, false afterwards.
+/// Flags of tangent vectors: true until a map makes the vector zero or dependent on earlier ones.
 using Alive = std::array<bool, 5>;
 
-/// The factor R of the factorisation B = Q R: its squared diagonal and the squared norm of R⁻¹.
+/// Two properties of R in a factorisation B = Q R: its squared diagonal and the norm of R⁻¹.
 template <class Number, int Columns>
 struct Stretches {
-  Vector<Number, Columns> squares;  ///< R_ii²; 0 for a zero column i, 1 if its flag was false
-  Number inverse;  ///< ‖R⁻¹‖_F², Frobenius norm over the columns that remain alive
+  Vector<Number, Columns> squares;  ///< R_ii², 0 for a dependent column; 1 if the flag was false
+  Number inverse;  ///< ‖R⁻¹‖_F² (Frobenius norm) of the columns whose flags remain true
 };
 
 namespace detail {
@@ -49,12 +49,12 @@ Number inverse_square_norm(const Number (&unit_upper)[Columns][Columns],
 
 /// Orthonormalises the columns of B in place, B = Q R, by the modified Gram–Schmidt process.
 ///
-/// R = D N with D diagonal and N unit upper triangular, which needs square roots for D only. The
-/// relative error of R and the deviation of Q from orthogonality are about round-off times
+/// R is computed as D N, with D diagonal and N unit upper triangular; only D needs square roots.
+/// The relative error of R and the deviation of Q from orthogonality are about round-off times
 /// ‖B‖ ‖R⁻¹‖. Source: Å. Björck, BIT 7 (1967).
-/// @param basis  matrix B, replaced by Q; a column whose flag is false in the end becomes zero
-/// @param alive  flags of the columns. The first column that has a false flag or is a linear
-///               combination of earlier ones gets a false flag, and so do all later columns
+/// @param basis  matrix B, replaced by Q; columns whose flags are false at the end are set to 0
+/// @param alive  flags of the columns; set to false for the first column that has a false flag or
+///               is a linear combination of earlier columns, and for all later columns
 /// @return R_ii² and ‖R⁻¹‖_F²
 template <class Number, int Columns>
 Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, Alive& alive) {
@@ -77,8 +77,9 @@ Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis, 
   return result;
 }
 
-/// Orthonormalises columns of any length by classical Gram–Schmidt with reorthogonalisation.
-/// @param basis  matrix B, replaced by Q; a column that depends linearly on earlier ones becomes 0
+/// Orthonormalises the columns of B in place, B = Q R, by the classical Gram–Schmidt process with
+/// reorthogonalisation.
+/// @param basis  matrix B, replaced by Q; a linear combination of earlier columns becomes 0
 /// @return the upper triangular matrix R of B = Q R
 inline Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& basis) {
   Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(basis.cols(), basis.cols());

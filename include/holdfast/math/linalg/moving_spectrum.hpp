@@ -16,15 +16,15 @@
 
 namespace holdfast {
 
-/// A real n × n matrix S as a function of x, −1 ≤ x ≤ 1: Taylor polynomial plus remainder R(x),
+/// A real n × n matrix S(x) for −1 ≤ x ≤ 1 as a Taylor polynomial plus a bounded remainder R(x):
 ///
 ///     S(x) = I + Σ_k terms[k] xᵏ + R(x),   |R_ij(x)| ≤ remainder_ij
 struct TaylorMatrix {
-  std::vector<Eigen::MatrixXd> terms;  ///< n × n coefficients of x⁰, x¹, … in S − I; two or more
+  std::vector<Eigen::MatrixXd> terms;  ///< n × n coefficients of x⁰, x¹, … of S − I; two or more
   Eigen::MatrixXd remainder;           ///< bounds of |R_ij(x)|, n × n, ≥ 0
 };
 
-/// A complex vector of n entries as a function of x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ plus a remainder.
+/// A complex vector of n entries, for −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ plus a bounded remainder.
 struct MovingVector {
   std::vector<Eigen::VectorXcd> terms;  ///< coefficients of x⁰, x¹, …, each n × 1
   Eigen::VectorXd remainder;            ///< bounds of the remainder's moduli, n × 1, ≥ 0
@@ -37,37 +37,38 @@ struct MovingVector {
 ///
 ///     T W = W D + E,   where the series of E begins with the first omitted power.
 ///
-/// Hence D + W⁻¹E has the eigenvalues of S(x), approximated by D_ii. Moduli and inequalities of
+/// Hence S(x) has the eigenvalues of D + W⁻¹E, which are close to D_ii. Moduli and inequalities of
 /// matrices are meant entry by entry: |W⁻¹| ≤ (I − Σ|W_k|)⁻¹, since W − I is nilpotent. |D_ii| is
-/// bounded by the Taylor polynomial of |D_ii|². With a bound B ≥ |D| + |W⁻¹E| for all x,
+/// bounded by the Taylor polynomial of |D_ii|². Let B be a bound of |D| + |W⁻¹E| for all x. Then
+/// the spectral radius of S(x) satisfies
 ///
 ///     ρ(S(x)) ≤ ρ(B) < 1   if v = (I − B)⁻¹ [1, …, 1]ᵀ > 0                (Perron, Frobenius)
 ///
-/// The entry of W for two eigenvalues is set to 0 if they are so close that its series may diverge;
-/// D then keeps an entry below the diagonal. A bound of the round-off is added to R. Work:
-/// about 3 m² products of n × n matrices for m terms.
+/// If eigenvalues i and j are so close that the series of W_ij may diverge, W_ij is set to 0, and D
+/// keeps its entry below the diagonal. A bound of the round-off is added to the remainder of S.
+/// Work: about 3 m² products of n × n matrices for m terms.
 /// Source: R. A. Horn, C. R. Johnson, Matrix Analysis, 2nd ed., 8.1 and 8.3.
 template <class Scalar = double>
 class MovingSpectrum {
  public:
   using Complex = std::complex<Scalar>;  ///< complex type of the triangular form
 
-  /// Attempts the proof. @param matrix  matrix S(x); if an entry is not finite, `inside()` is false
+  /// Attempts the proof. @param matrix  matrix S(x); the proof fails if an entry is not finite
   /// @throws InvalidParameter for fewer than two terms, or where the sizes disagree
   explicit MovingSpectrum(const TaylorMatrix& matrix);
 
-  /// Whether all computed eigenvalues of S(0) lie inside the unit circle.
+  /// Whether all eigenvalues of S(0), as computed in floating point, have a modulus < 1.
   bool inside_at_centre() const { return inside_at_centre_; }
 
-  /// Whether all eigenvalues of S(x), −1 ≤ x ≤ 1, are proved to lie inside the unit circle.
+  /// Whether the proof succeeded: |λ| < 1 for all eigenvalues λ of S(x), −1 ≤ x ≤ 1.
   bool inside() const { return inside_; }
 
-  /// The numbers c (λ(x) I − S(x))⁻¹ g(x), one for each row c, as Taylor polynomials with
-  /// remainder, valid if `inside()` and |λ(x)| = 1 for all x. The remainder bounds the truncation,
-  /// not this function's round-off, by |(λI − T)⁻¹| ≤ (I + Σ|W_k|) (I − B)⁻¹ (I − Σ|W_k|)⁻¹.
+  /// The frequency responses c (λ(x) I − S(x))⁻¹ g(x), one for each row c, as Taylor polynomials
+  /// with remainder, valid if `inside()` and |λ(x)| = 1 for all x. The remainder bounds truncation,
+  /// but not round-off, by |(λI − T)⁻¹| ≤ (I + Σ|W_k|) (I − B)⁻¹ (I − Σ|W_k|)⁻¹.
   /// @param from_one  number λ(x) − 1, with as many terms as S
-  /// @param source    vector g(x), with as many terms as S
-  /// @param rows      matrix with n columns, whose rows are the vectors c
+  /// @param source    input vector g(x), with as many terms as S
+  /// @param rows      matrix of n columns; its rows are the output vectors c
   /// @throws InvalidParameter where the number of terms or the width of a row differs from S
   std::vector<TaylorNumber> responses(const TaylorNumber& from_one, const MovingVector& source,
                                       const Eigen::MatrixXd& rows) const;

@@ -14,12 +14,13 @@
 
 namespace holdfast {
 
-/// An eigenvalue λ of a product of many matrices; ln |λ| is stored, since |λ| may underflow.
+/// An eigenvalue λ of a product of many matrices, for instance a Floquet multiplier. Its logarithm
+/// ln |λ| is stored, since |λ| may underflow.
 struct Multiplier {
   double log_modulus;  ///< logarithm ln |λ|; −∞ for λ = 0
   double angle;        ///< argument arg λ (rad), in (−π, π]
 
-  /// The eigenvalue λ, computed from its logarithm; 0 where it underflows.
+  /// The eigenvalue λ = e^{ln |λ| + i arg λ}; 0 where it underflows.
   std::complex<double> value() const { return std::polar(std::exp(log_modulus), angle); }
   /// Whether the multiplier a has a larger modulus than b.
   static bool is_larger(const Multiplier& a, const Multiplier& b) {
@@ -149,12 +150,12 @@ std::vector<Multiplier> multipliers_of_turn(const Matrix<Scalar, Size>& turn,
 
 /// The eigenvalues of a matrix product M = M_K … M₁ by descending modulus; M itself is not formed.
 ///
-/// QR factorisations M_k Q_{k−1} = Q_k R_k give M = Q_K (R_K … R₁) Q₀ᵀ, so that M is similar to
+/// QR factorisations M_k Q_{k−1} = Q_k R_k give M = Q_K (R_K … R₁) Q₀ᵀ. M is therefore similar to
 /// (Q₀ᵀQ_K) R_K … R₁. The factorisations are repeated with Q₀ = Q_K until Q₀ᵀQ_K is block diagonal,
 /// one block for each group of eigenvalues of similar modulus. Each block is scaled separately.
-/// @param maps  factors M₁ … M_K, K ≥ 1, each N × N, N ≥ 2, finite; they may be singular
+/// @param maps  factors M₁ … M_K, M₁ applied first, K ≥ 1, each N × N, N ≥ 2, finite, any rank
 /// @return N eigenvalues; a zero eigenvalue has log_modulus −∞
-/// @throws InvalidParameter where there is no map, or the sizes disagree
+/// @throws InvalidParameter if the list of factors is empty, or their sizes disagree
 template <class Scalar = double, int Size = 5>
 std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<Scalar, Size>>& maps) {
   constexpr int most_turns = 40;

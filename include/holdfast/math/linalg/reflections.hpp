@@ -72,10 +72,10 @@ class Reflection {
 
 /// Replaces a matrix A by the upper triangular R = QᵀA, and B by QᵀB, with Q orthogonal.
 ///
-/// The method, Householder reflections, is backward stable for matrices of any rank. There is no
-/// column pivoting. Work: 2 n m² for A of n × m and 4 n m c for c columns of B.
-/// @param matrix  matrix A, finite, at least as many rows as columns
-/// @param others  matrix B, as many rows as A
+/// The method, Householder reflections without column pivoting, is backward stable for matrices of
+/// any rank. Work: 2 n m² + 4 n m c operations.
+/// @param matrix  matrix A, n × m with n ≥ m, finite; replaced by R
+/// @param others  matrix B, n × c; replaced by QᵀB
 template <class Tall, class Others>
 void reflect_to_triangle(Tall& matrix, Others& others) {
   for (Eigen::Index k = 0; k < matrix.cols() && k + 1 < matrix.rows(); ++k) {
@@ -85,7 +85,7 @@ void reflect_to_triangle(Tall& matrix, Others& others) {
   }
 }
 
-/// Replaces a matrix A by the upper triangular R of A = Q R. @return the orthogonal factor Q
+/// Replaces a square matrix A by the upper triangular R of A = Q R. @return orthogonal matrix Q
 template <class Square>
 Square orthogonal_factor(Square& matrix) {
   Square transposed = Square::Identity(matrix.rows(), matrix.rows());
@@ -93,15 +93,15 @@ Square orthogonal_factor(Square& matrix) {
   return transposed.transpose();
 }
 
-/// The Hessenberg form M = Q H Qᵀ with H zero below the subdiagonal and Q orthogonal.
-/// @tparam Square  a square matrix of fixed, bounded or dynamic size
+/// The Hessenberg form M = Q H Qᵀ of a matrix M, with H zero below the subdiagonal, Q orthogonal.
+/// @tparam Square  type of M, a square matrix of fixed, bounded or dynamic size
 template <class Square>
 struct HessenbergForm {
   Square form;   ///< Hessenberg matrix H
-  Square basis;  ///< orthogonal matrix Q; I if it is not computed
+  Square basis;  ///< orthogonal matrix Q; the unit matrix if Q was not requested
 
   /// @param matrix      matrix M, finite
-  /// @param with_basis  whether Q is computed too, which takes about a third of the total work
+  /// @param with_basis  whether Q is computed too; without Q the work is about a third less
   explicit HessenbergForm(const Square& matrix, bool with_basis = true)
       : form(matrix), basis(Square::Identity(matrix.rows(), matrix.rows())) {
     for (Eigen::Index k = 0; k + 2 < matrix.rows(); ++k) {

@@ -7,7 +7,7 @@
 
 namespace holdfast {
 
-/// The resolvent (xI − M)⁻¹ = adjugate(x)/determinant(x) of an N × N matrix M, with polynomials:
+/// The resolvent (xI − M)⁻¹ = adjugate(x)/determinant(x) of an N × N matrix M as polynomials in x:
 ///
 ///     determinant(x) = det(xI − M) = d₀ + d₁ x + … + xᴺ
 ///     adjugate(x)    = adj(xI − M) = A₀ + A₁ x + … + A_{N−1} x^{N−1}
@@ -16,7 +16,8 @@ struct Resolvent {
   Polynomial<Scalar, Size> determinant;  ///< coefficients d₀ … d_N, d_N = 1
   std::array<Matrix<Scalar, Size>, static_cast<std::size_t>(Size)> adjugate;  ///< A₀ … A_{N−1}
 
-  /// The coefficients of the polynomial row · adj(xI − M) · column in x, of degree N − 1.
+  /// The coefficients of row · adj(xI − M) · column, a polynomial of degree N − 1 in x. It is the
+  /// numerator of the transfer function row · (xI − M)⁻¹ · column.
   Polynomial<Scalar, Size - 1> between(const RowVector<Scalar, Size>& row,
                                        const Vector<Scalar, Size>& column) const {
     Polynomial<Scalar, Size - 1> result;

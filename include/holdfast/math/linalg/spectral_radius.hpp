@@ -29,8 +29,8 @@ Scalar spectral_radius(const Matrix<Scalar, Size>& map) {
   return detail::balanced_eigenvalues(map).cwiseAbs().maxCoeff();
 }
 
-/// The spectral abscissa α(M) = max Re λ_i over the eigenvalues λ_i; NaN if an entry is not finite.
-/// The continuous system ẋ = M x is asymptotically stable if and only if α < 0.
+/// The spectral abscissa α(M) = max Re λ_i over the eigenvalues λ_i of M; NaN if an entry is not
+/// finite. The continuous system ẋ = M x is asymptotically stable if and only if α < 0.
 /// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size>
 Scalar spectral_abscissa(const Matrix<Scalar, Size>& generator) {

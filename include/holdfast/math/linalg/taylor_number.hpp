@@ -11,10 +11,11 @@
 
 namespace holdfast {
 
-/// A complex function of x, −1 ≤ x ≤ 1: the polynomial Σ_k terms[k] xᵏ plus a bounded remainder.
+/// A Taylor model of a complex function of x, −1 ≤ x ≤ 1: the polynomial Σ_k terms[k] xᵏ plus a
+/// remainder of bounded modulus.
 struct TaylorNumber {
   std::vector<std::complex<double>> terms;  ///< coefficients of x⁰, x¹, …, at least one
-  double remainder;                         ///< bound of the remainder's modulus, ≥ 0
+  double remainder;                         ///< upper bound of the remainder's modulus, ≥ 0
 
   /// The sum Σ |terms[k]|, an upper bound of the polynomial's modulus for −1 ≤ x ≤ 1.
   double size() const {
@@ -24,7 +25,7 @@ struct TaylorNumber {
   }
 };
 
-/// The product of two Taylor numbers.
+/// The product a b of two Taylor models; round-off is not bounded.
 inline TaylorNumber operator*(const TaylorNumber& a, const TaylorNumber& b) {
   TaylorNumber product{std::vector<std::complex<double>>(a.terms.size() + b.terms.size() - 1),
                        a.remainder * (b.size() + b.remainder) + a.size() * b.remainder};
@@ -34,7 +35,7 @@ inline TaylorNumber operator*(const TaylorNumber& a, const TaylorNumber& b) {
   return product;
 }
 
-/// The sum a + factor · b of two Taylor numbers.
+/// The sum a + factor · b of two Taylor models; round-off is not bounded.
 inline TaylorNumber sum_of(TaylorNumber a, const TaylorNumber& b, double factor) {
   a.terms.resize(std::max(a.terms.size(), b.terms.size()));
   for (std::size_t k = 0; k < b.terms.size(); ++k) a.terms[k] += factor * b.terms[k];
@@ -42,13 +43,14 @@ inline TaylorNumber sum_of(TaylorNumber a, const TaylorNumber& b, double factor)
   return a;
 }
 
-/// The difference |a|² − |b|² of two Taylor numbers: its value at x = 0 and a lower bound.
+/// The difference |a(x)|² − |b(x)|² of two Taylor models: its value at x = 0 and a lower bound.
 struct SquaresDifference {
-  double at_centre,  ///< value of the polynomials at x = 0, without the remainders
-      least;         ///< lower bound for −1 ≤ x ≤ 1, with the remainders
+  double at_centre,  ///< the difference of the polynomials' squared moduli at x = 0
+      least;         ///< lower bound of the difference for −1 ≤ x ≤ 1, with the remainders
 };
 
-/// The difference |a|² − |b|² at x = 0 and its lower bound; a and b must have equally many terms.
+/// The difference |a(x)|² − |b(x)|² at x = 0 and a lower bound of it for −1 ≤ x ≤ 1. a and b must
+/// have equally many terms.
 inline SquaresDifference squares_difference(const TaylorNumber& a, const TaylorNumber& b) {
   const std::size_t last = a.terms.size() - 1;
   double first = 0.0, fall = 0.0;

@@ -15,8 +15,8 @@ namespace holdfast {
 template <class Scalar, int Degree>
 using Polynomial = Vector<Scalar, Degree + 1>;
 
-/// The value p(x) of a polynomial by Horner's rule. The point x may be complex while the
-/// coefficients are real. Work: one multiply-add per degree.
+/// The value p(x) of a polynomial by Horner's rule. x may be complex even if the coefficients are
+/// real. Work: one multiply-add per degree.
 template <class Coefficients, class Point>
 Point evaluate(const Eigen::MatrixBase<Coefficients>& polynomial, const Point& x) {
   Point value = Point(polynomial[polynomial.size() - 1]);
@@ -25,7 +25,7 @@ Point evaluate(const Eigen::MatrixBase<Coefficients>& polynomial, const Point& x
   return value;
 }
 
-/// The product of two polynomials; its degree is the sum of their degrees.
+/// The coefficients of the product of two polynomials; the degree is the sum of their degrees.
 template <class Scalar, int DegreePlusOneA, int DegreePlusOneB>
 Vector<Scalar, DegreePlusOneA + DegreePlusOneB - 1> multiply(
     const Vector<Scalar, DegreePlusOneA>& a, const Vector<Scalar, DegreePlusOneB>& b) {
@@ -37,7 +37,7 @@ Vector<Scalar, DegreePlusOneA + DegreePlusOneB - 1> multiply(
   return product;
 }
 
-/// The derivative p′(x) of a polynomial of degree 1 or more.
+/// The coefficients of the derivative p′(x) of a polynomial of degree 1 or more.
 template <class Scalar, int Size>
 Vector<Scalar, Size - 1> derivative(const Vector<Scalar, Size>& polynomial) {
   Vector<Scalar, Size - 1> result;
@@ -45,7 +45,7 @@ Vector<Scalar, Size - 1> derivative(const Vector<Scalar, Size>& polynomial) {
   return result;
 }
 
-/// The coefficients of p(x + by) in powers of x (Taylor shift); by = −1 gives p(x − 1).
+/// The coefficients of p(x + h) in powers of x (Taylor shift), with h = `by`.
 template <class Coefficients>
 Coefficients shifted(Coefficients p, const typename Coefficients::Scalar& by) {
   for (Eigen::Index start = 0; start + 1 < p.size(); ++start)
@@ -53,7 +53,7 @@ Coefficients shifted(Coefficients p, const typename Coefficients::Scalar& by) {
   return p;
 }
 
-/// The coefficients of p(unit · x) in powers of x.
+/// The coefficients of p(u x) in powers of x, with the scale factor u = `unit`.
 template <class Coefficients>
 Coefficients rescaled(Coefficients p, const typename Coefficients::Scalar& unit) {
   typename Coefficients::Scalar power(1);
@@ -134,10 +134,10 @@ std::vector<std::complex<Scalar>> spread_circle(std::size_t count) {
 
 /// All roots of a real polynomial of low degree, by the Aberth–Ehrlich iteration.
 ///
-/// Highest and lowest coefficients are treated as zero if their modulus is at most `negligible`
-/// times the largest modulus. Each zero highest coefficient means a root at ∞, which is left out.
-/// Each zero lowest coefficient means a root 0, which is returned. The iteration ends when p is
-/// zero within rounding at every root, or after 200 sweeps. The result is empty for a constant.
+/// Highest and lowest coefficients are treated as zero if their modulus is at most `negligible` ≥ 0
+/// times the largest modulus. Each zero highest coefficient means a root at ∞, which is left out;
+/// each zero lowest one means a root 0, which is returned. The iteration ends when the polynomial
+/// is zero within rounding at every root, or after 200 sweeps. The result is empty for a constant.
 /// Source: O. Aberth, Iteration methods for finding all zeros of a polynomial simultaneously, 1973.
 template <class Coefficients>
 std::vector<std::complex<typename Coefficients::Scalar>> roots(
@@ -168,7 +168,7 @@ std::vector<std::complex<typename Coefficients::Scalar>> roots(
 /// The positive real roots of a real polynomial of low degree, ascending, each as often as its
 /// multiplicity. Round-off may split a double root into a complex pair near the real axis.
 /// @param polynomial  coefficients, constant term first
-/// @param split       largest |Im x/Re x| at which a complex pair x counts as a double root Re x
+/// @param split       largest ratio |Im x/Re x| of a pair x, x̄ that counts as a double root Re x
 template <class Coefficients>
 std::vector<typename Coefficients::Scalar> positive_roots(
     const Eigen::MatrixBase<Coefficients>& polynomial, double split = 1e-5) {
@@ -182,8 +182,9 @@ std::vector<typename Coefficients::Scalar> positive_roots(
   return result;
 }
 
-/// The number of roots with positive real part. All roots are computed.
-/// @param polynomial  coefficients, constant term first; for a sampled loop from in_half_plane()
+/// The number of roots with positive real part, found by computing all roots. For a polynomial from
+/// in_half_plane() it is the number of roots |λ| > 1 of the original polynomial.
+/// @param polynomial  coefficients, constant term first
 template <class Coefficients>
 int unstable_roots(const Eigen::MatrixBase<Coefficients>& polynomial) {
   using Scalar = typename Coefficients::Scalar;
@@ -192,7 +193,7 @@ int unstable_roots(const Eigen::MatrixBase<Coefficients>& polynomial) {
   return count;
 }
 
-/// The quotient p(x)/(x − root) of the same size, last entry 0; the remainder is dropped.
+/// The coefficients of the quotient p(x)/(x − root), without remainder; the last entry is 0.
 template <class Scalar, int Size>
 Vector<Scalar, Size> without_root(const Vector<Scalar, Size>& polynomial, const Scalar& root) {
   Vector<Scalar, Size> quotient = Vector<Scalar, Size>::Zero();
@@ -236,14 +237,15 @@ Vector<Scalar, Size> without_round_off(Vector<Scalar, Size> a, const Scalar& uni
 
 }  // namespace detail
 
-/// A polynomial a of degree 4 or 5 on the imaginary axis: a(iy) = even(Y) + iy odd(Y) with Y = y².
+/// Even and odd part of a polynomial a(x) of degree 4 or 5 on the imaginary axis x = iy, y real:
+/// a(iy) = even(Y) + iy odd(Y) with Y = y². Both parts are real if the coefficients of a are.
 template <class Scalar>
 struct ParityParts {
-  Vector<Scalar, 3> even;  ///< even part: coefficients of Y⁰, Y¹, Y²
-  Vector<Scalar, 3> odd;   ///< odd part: coefficients of Y⁰, Y¹, Y² (Y²: 0 if a has degree 4)
+  Vector<Scalar, 3> even;  ///< coefficients of Y⁰, Y¹, Y² in even(Y)
+  Vector<Scalar, 3> odd;  ///< coefficients of Y⁰, Y¹, Y² in odd(Y); of Y²: 0 if a has degree 4
 
   /// @param a     polynomial of degree 4 or 5, constant coefficient first
-  /// @param unit  scale factor of y, > 0: the polynomial a(i · unit · y) is split
+  /// @param unit  scale factor u > 0 of y: the polynomial a(i u y) is split instead of a(i y)
   template <int Size>
   ParityParts(const Vector<Scalar, Size>& a, const Scalar& unit)
       : even(detail::parity_part<Scalar, Size>(rescaled(a, unit), 0)),
@@ -254,9 +256,9 @@ struct ParityParts {
 ///
 ///     λ = (1 + w) / (1 − w),   μ = 2w / (1 − w),   q(w) = (1 − w)ⁿ p(2w / (1 − w))
 ///
-/// The disc |λ| < 1 becomes the half-plane Re w < 0, so that Hurwitz's conditions apply to q. A
-/// root λ = +1 means q₀ = 0; a root λ = −1 (w = ∞) means q_n = 0. A pair on the unit circle means
-/// that the Hurwitz determinant H_{n−1} is 0. Source: Kollár 2022, §4.1, with δ = 0 and degree 4.
+/// The disc |λ| < 1 becomes the half-plane Re w < 0; hence all |λ| < 1 if q is a Hurwitz
+/// polynomial. A root λ = +1 gives q₀ = 0, a root λ = −1 (w = ∞) gives q_n = 0, and a complex pair
+/// |λ| = 1 gives the Hurwitz determinant H_{n−1} = 0. Source: Kollár 2022, §4.1, for n = 4.
 /// @param in_powers_of_mu  coefficients of p, constant term first
 /// @return coefficients of q, constant term first; q has the degree of p
 template <class Scalar, int Size>

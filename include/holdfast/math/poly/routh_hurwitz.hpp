@@ -5,14 +5,14 @@
 
 namespace holdfast {
 
-/// Whether all roots s of a polynomial Σ a_k sᵏ have Re s < 0, in each SIMD lane; degree n = 3,
-/// 4 or 5; a_n may be negative. The conditions of Liénard and Chipart are necessary and sufficient
-/// (Kollár 2022, Eq. (15)). With the Hurwitz determinants H_k they are
+/// Whether all roots s of a polynomial Σ a_k sᵏ of degree n = 3, 4 or 5 have Re s < 0, in each SIMD
+/// lane of the coefficients a₀ … a_n; a_n may be negative. The conditions of Liénard and Chipart
+/// are necessary and sufficient (Kollár 2022, Eq. (15)). With the Hurwitz determinants H_k they are
 ///
 ///     a_n a_j > 0 for j = 0, 2 and n − 1,
 ///     H₂ > 0 (degree 3),   a_n H₃ > 0 (degree 4),   H₂ > 0 and H₄ > 0 (degree 5)
 ///
-/// A NaN coefficient gives false. Work: 4, 9 or 11 multiply-adds for n = 3, 4, 5. Source:
+/// A NaN coefficient gives `false`. Work: 4, 9 or 11 multiply-adds for n = 3, 4, 5. Source:
 /// A. Liénard, M. H. Chipart, Journal de Mathématiques Pures et Appliquées 10 (1914).
 template <class Scalar, int Size>
 Mask<Scalar> lienard_chipart_stable(const Vector<Scalar, Size>& a) {
@@ -39,8 +39,8 @@ Mask<Scalar> lienard_chipart_stable(const Vector<Scalar, Size>& a) {
   }
 }
 
-/// Whether all roots s of a polynomial have Re s < 0, by `lienard_chipart_stable`. The coefficients
-/// are first divided by the largest of their moduli, so that no product overflows.
+/// Whether all roots s of a polynomial Σ a_k sᵏ of degree 3, 4 or 5 have Re s < 0. Coefficients of
+/// any size are admissible, since they are first divided by the largest of their moduli.
 template <class Scalar, int Size>
 bool is_hurwitz(const Vector<Scalar, Size>& a) {
   const Scalar largest = a.cwiseAbs().maxCoeff();

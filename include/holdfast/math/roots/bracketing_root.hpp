@@ -9,13 +9,13 @@
 
 namespace holdfast {
 
-/// A bracket: two arguments between which a function changes sign, with its values there.
+/// A bracket of a root: two arguments between which a function changes sign, with both values.
 template <class Scalar>
 struct SignChange {
   Scalar lower,           ///< smaller argument
-      upper;              ///< larger argument; equal to `lower` where the function is exactly zero
-  Scalar value_at_lower;  ///< function value at `lower`; zero, or of sign opposite to the other
-  Scalar value_at_upper;  ///< function value at `upper`; zero, or of sign opposite to the other
+      upper;              ///< larger argument; equal to `lower` if the function is exactly 0 there
+  Scalar value_at_lower;  ///< function value at `lower`
+  Scalar value_at_upper;  ///< function value at `upper`; its sign is opposite unless a value is 0
   int evaluations = 0;    ///< number of function calls made so far
 };
 
@@ -42,14 +42,14 @@ Scalar chandrupatla_share(const Ordinate<Scalar>& near, const Ordinate<Scalar>& 
 
 }  // namespace detail
 
-/// Narrows a bracket to a width of at most `tolerance`, or to two neighbouring numbers.
+/// Narrows the bracket of a root to a width of at most `tolerance`, or to two neighbouring numbers.
 ///
 /// Chandrupatla's method uses inverse quadratic interpolation where it is monotone, else bisection.
-/// The order of convergence is about 1.8 at a simple zero; at a jump the method bisects. If the
+/// The order of convergence is about 1.8 at a simple root; at a jump the method bisects. If the
 /// function is exactly 0 at an argument that is tried, both ends become this argument.
 /// @param function   function Scalar → Scalar; NaN counts as negative
 /// @param bracket    lower < upper; returned unchanged unless the value is > 0 at exactly one end
-/// @param tolerance  ≥ 0, in the unit of the argument
+/// @param tolerance  largest width of the result, ≥ 0, in the unit of the argument
 /// Source: T. R. Chandrupatla, A new event quadratic/bisection algorithm for finding the zero of
 /// a nonlinear function without using derivatives, Advances in Engineering Software 28 (1997).
 template <class Scalar, class Function>
@@ -85,8 +85,7 @@ SignChange<Scalar> bracketing_root(const Function& function, const SignChange<Sc
 
 namespace detail {
 
-/// Narrows an interval about a function's minimum by golden section, with one value per step.
-/// @return the middle of the last interval
+/// The argument of a function's minimum in an interval, by golden section with one value per step.
 template <class Scalar, class Value>
 Scalar narrow_to_minimum(Scalar lower, Scalar upper, int steps, const Value& value) {
   const Scalar golden(0.3819660112501051);

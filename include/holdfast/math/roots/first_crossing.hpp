@@ -8,47 +8,47 @@
 
 namespace holdfast {
 
-/// The outcome of testing a condition on an interval |x − centre| ≤ radius.
+/// The outcome of an attempt to prove a condition for all x in an interval |x − centre| ≤ radius.
 enum class Stretch {
   holds,  ///< the condition is proved on the whole interval
   fails,  ///< the condition fails at the centre
-  open,   ///< the condition is undecided; a shorter interval may decide it
+  open,   ///< neither; the attempt may succeed on a shorter interval
 };
 
-/// The outcome of first_crossing(), which proves a condition step by step along an interval.
+/// The outcome of first_crossing(), which seeks the first failure of a condition on an interval.
 enum class WalkOutcome {
-  clear,    ///< the condition is proved up to the end
-  exit,     ///< the condition fails at `first_outside`, close to the end of the proved range
+  clear,    ///< no failure: the condition is proved up to the end of the interval
+  exit,     ///< the condition fails at `first_outside` and is proved almost up to this argument
   open,     ///< undecided beyond `last_inside`, because of round-off or the limit of evaluations
-  blocked,  ///< the condition fails at the start
+  blocked,  ///< the condition fails at the start of the interval
 };
 
 /// The result of first_crossing().
 struct FirstCrossing {
   WalkOutcome outcome;   ///< outcome of the search
   double last_inside;    ///< argument up to which the condition is proved
-  double first_outside;  ///< border of the failure, estimated by `edge`; NaN unless `exit`
+  double first_outside;  ///< argument of the first failure, as estimated; NaN unless `exit`
   int evaluations;       ///< number of intervals examined, ≥ 1
 };
 
 /// The resolution of first_crossing() and its limit of evaluations.
 struct WalkLimits {
-  double smallest;  ///< largest unproved range between `last_inside` and `first_outside`, > 0, as a
-                    ///< share of max(|argument|, first step)
-  int most_evaluations;  ///< largest number of intervals to be examined, ≥ 1
+  double smallest;  ///< resolution, > 0: largest distance from `last_inside` to `first_outside`,
+                    ///< relative to the larger of |last_inside| and the first step
+  int most_evaluations;  ///< limit of the number of intervals examined, ≥ 1
 };
 
-/// The first argument from `from` to `to` at which a condition fails. The condition is proved on
-/// successive intervals, each adjoining the one before, so that no failure is missed.
+/// Finds the first argument, on the way from `from` to `to`, at which a condition fails. To miss no
+/// failure, the condition is proved on successive intervals, each adjoining the one before.
 ///
-/// After a proof the next interval is twice as long; after an undecided one, half as long. After a
-/// failure the search goes only up to the border that `edge` estimates. Each interval then covers
-/// at most nine tenths of the distance to this border.
-/// @param examine  function (centre, radius ≥ 0) → Stretch
-/// @param edge     function (argument proved, argument failing) → estimated border between them
+/// After a proof the next interval is twice as long, after an undecided attempt half as long. Once
+/// the condition has failed, the goal is the border of the failure as estimated by `edge`. Each
+/// interval then covers at most nine tenths of the distance to this goal.
+/// @param examine  function (centre, radius ≥ 0) → Stretch that attempts the proof on an interval
+/// @param edge     function (argument proved, argument of a failure) → estimated border in between
 /// @param from     argument at the start
 /// @param to       argument at the end, above or below `from`
-/// @param first    length of the first step, > 0
+/// @param first    length of the first interval, > 0
 /// @param limits   resolution and limit of evaluations
 template <class Examine, class Edge>
 FirstCrossing first_crossing(const Examine& examine, const Edge& edge, double from, double to,

@@ -9,19 +9,19 @@
 
 namespace holdfast {
 
-/// Whether and how a polynomial, positive just after x = 0, reaches zero for 0 ≤ x ≤ 1.
+/// Whether and how a polynomial that is positive just after x = 0 reaches zero up to x = 1.
 enum class RootOutcome {
   none,      ///< the polynomial stays positive up to x = 1
   crossing,  ///< the polynomial falls through zero
   grazing,   ///< the polynomial is zero within rounding, with a small slope: it may cross zero,
-             ///< touch it or stay just above it
+             ///< touch zero or stay just above zero
 };
 
 /// The first zero in [0, 1] of a polynomial that is positive just after x = 0.
 struct FirstRoot {
   RootOutcome outcome;  ///< existence and kind of the zero
-  double at;            ///< position x of the zero, 0 ≤ x ≤ 1; 1 without a zero
-  int evaluations;      ///< number of evaluations of the polynomial with its slope
+  double at;            ///< argument x of the zero, 0 ≤ x ≤ 1; 1 if there is no zero
+  int evaluations;      ///< number of evaluations of the polynomial and its derivative
 };
 
 namespace detail {
@@ -82,14 +82,14 @@ inline FirstRoot first_root_of_positive(const Series& q) {
 
 /// The first root in [0, 1] of a polynomial p(x) = Σ c_k xᵏ. No root is missed.
 ///
-/// On [0, 1], |p″| ≤ M = Σ k (k − 1) |c_k| and hence p(x + s) ≥ p(x) + p′(x) s − M s²/2. The search
-/// moves from x to the root of this parabola in s; p has no root in between. It converges
-/// quadratically to a crossing, linearly where p touches zero. A root at x = 0 does not count if
-/// p > 0 just after it. If p < 0 just after x = 0, the root is 0.
+/// On [0, 1], |p″| ≤ M = Σ k (k − 1) |c_k| and hence p(x + s) ≥ p(x) + p′(x) s − M s²/2. Each step
+/// goes from x to x + s, with s > 0 the root of this parabola; p has no root in between. The steps
+/// converge quadratically to a crossing, linearly to a point where p touches zero. A root at x = 0
+/// does not count if p > 0 just after x = 0. If p < 0 just after x = 0, the root 0 is returned.
 ///
 /// Work: one Horner evaluation of p and p′ per step; about five steps for a crossing. After 2048
-/// steps the point reached is returned as grazing.
-/// @param p  c₀, c₁, …, one or more; if one is not finite, no root is reported
+/// steps the x reached is returned as grazing.
+/// @param p  coefficients c₀, c₁, …, one or more; if one is not finite, no root is reported
 inline FirstRoot first_root(const Series& p) {
   Eigen::Index first = 0;
   while (first < p.size() && p[first] == 0.0) ++first;

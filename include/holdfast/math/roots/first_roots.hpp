@@ -12,15 +12,15 @@
 
 namespace holdfast {
 
-/// The coefficients c₀, c₁, … of one polynomial per lane. Entries beyond the last term are unused.
+/// The coefficients c₀, c₁, … of one polynomial in each SIMD lane; further entries are unused.
 template <class Scalar>
 using LaneSeries = std::array<Scalar, most_terms>;
 
-/// The first zero in [0, 1] of the polynomial in each lane, as in `FirstRoot`.
+/// The first zero in [0, 1] of the polynomial in each SIMD lane, as in `FirstRoot`.
 template <class Scalar>
 struct FirstRoots {
-  Mask<Scalar> found;  ///< whether the lane's polynomial has a zero, crossing or grazing
-  Scalar at;           ///< position x of the zero, 0 ≤ x ≤ 1; 1 without a zero
+  Mask<Scalar> found;  ///< whether there is a zero: RootOutcome::crossing or grazing
+  Scalar at;           ///< argument x of the zero, 0 ≤ x ≤ 1; 1 if there is no zero
 };
 
 namespace detail {
@@ -162,7 +162,6 @@ void step_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
   for (std::size_t g = 0; g < Count; ++g) searches[g].step(value[g], slope[g]);
 }
 
-/// Runs all searches to their ends.
 template <class Scalar, std::size_t Count>
 void search_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
   constexpr int patience = 16;
@@ -187,14 +186,14 @@ void search_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
 
 }  // namespace detail
 
-/// The first roots of `Count` polynomials in every lane, by the method of first_root(). All lanes
-/// step together until each is decided; a lane that needs more than 16 steps continues alone.
+/// The first roots in [0, 1] of one or two polynomials in every SIMD lane, by the method of
+/// first_root(). All lanes step together; a lane that needs more than 16 steps continues alone.
 ///
-/// Work: 2 `terms` multiply-adds for each step and polynomial. If any lane has a root there are
-/// about five steps; otherwise the first two coefficients mostly suffice.
-/// @param polynomials  one or two polynomials in every lane; the function modifies them
-/// @param terms        common number of terms, 1 … `most_terms`
-/// @param lanes        lanes to be searched, for each polynomial; other lanes report no root
+/// Work: 2 `terms` multiply-adds for each step and polynomial. If any lane has a root, there are
+/// about five steps; otherwise the first two coefficients mostly suffice to exclude a root.
+/// @param polynomials  `Count` polynomials in every lane, Count = 1 or 2; they are overwritten
+/// @param terms        number of terms of every polynomial, 1 … `most_terms`
+/// @param lanes        masks of the lanes that take part, for each polynomial; others find no root
 template <class Scalar, std::size_t Count>
 std::array<FirstRoots<Scalar>, Count> first_roots(
     std::array<LaneSeries<Scalar>, Count>& polynomials, int terms,

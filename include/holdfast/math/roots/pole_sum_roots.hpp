@@ -19,7 +19,8 @@ namespace holdfast {
 ///
 ///     p(λ) = 1 − λ^{−n} w(rλ) (g/λ + Σ (a_k + b_k/λ)/(λ − 1 − ε_k)),   w(λ) = c + d (1 − 1/λ)
 ///
-/// The factor λ^{−n} is a delay of n sampling periods. The gains are part of a, b and g, or of w.
+/// λ^{−n} is a delay of n sampling periods; r ≠ 1 scales the roots, see `radius`. The control gains
+/// are factors of a, b and g, or of c and d.
 template <class Scalar>
 struct PoleSum {
   using Complex = std::complex<Scalar>;  ///< type of poles and residues
@@ -27,21 +28,21 @@ struct PoleSum {
   /// The term (a + b/λ)/(λ − 1 − ε) of one pole in the sum.
   struct Part {
     Complex increment;  ///< ε, the pole minus one; accurate also for a pole close to 1
-    Complex present;    ///< coefficient a
-    Complex past;       ///< coefficient b
+    Complex present;    ///< coefficient a of the sum
+    Complex past;       ///< coefficient b of the sum, by which the previous command acts
   };
 
-  /// The filter w(λ) = c + d (1 − 1/λ) that is applied to the readings.
+  /// The filter w(λ) = c + d (1 − 1/λ) of the sensor readings.
   struct Weight {
-    Scalar constant;  ///< factor c of the reading
-    Scalar change;    ///< factor d of the reading's change per sample
+    Scalar constant;  ///< factor c of the present reading
+    Scalar change;    ///< factor d of the difference between present and previous reading
   };
 
   std::vector<Part> parts;              ///< terms of all poles
   Complex past{0};                      ///< coefficient g of the term g/λ
   Weight weight{Scalar(1), Scalar(0)};  ///< filter w, common to all terms
-  Scalar radius{1};                     ///< scale r: for a root λ of p, the loop has the root rλ
-  int power = 0;                        ///< exponent n ≥ 0
+  Scalar radius{1};  ///< scale r > 0: if λ is a root of p, the loop has root rλ
+  int power = 0;     ///< delay n ≥ 0 in sampling periods
 };
 
 namespace detail {
@@ -83,8 +84,7 @@ class RootIteration {
           Scalar(0.3), Scalar(0.7) + Scalar(2) * pi<Scalar> * Scalar(j) / Scalar(extra)));
   }
 
-  /// Iterates until all roots have converged.
-  /// @return whether all roots converged and their sum agrees with the polynomial
+  /// Iterates. @return whether all roots converged and their sum agrees with the polynomial
   bool converge() {
     for (int sweep = 0; sweep < 200; ++sweep) {
       bool all = true;
@@ -102,7 +102,6 @@ class RootIteration {
     return false;
   }
 
-  /// The values λ of all roots.
   std::vector<Complex> roots() const {
     std::vector<Complex> found = extras_;
     for (std::size_t i = 0; i < poles_; ++i)
@@ -139,7 +138,6 @@ class RootIteration {
     }
   };
 
-  /// The value of p with its derivative.
   struct Value {
     Complex value, slope;
   };
@@ -309,9 +307,8 @@ class RootIteration {
     return others;
   }
 
-  /// The factors at λ = 1 + μ.
   Factors factors_at(const Complex& mu) const {
-    const Complex back = inverse(Complex(1) + mu);
+    const Complex back = inverse(Complex(1) + mu);  // 1/λ
     Complex before(1);
     for (int j = 0; j < power_; ++j) before *= back;
     const Complex change = ((radius_ - Scalar(1)) / radius_ + mu) * back;  // 1 − 1/(rλ)
@@ -408,7 +405,7 @@ class RootIteration {
 
 }  // namespace detail
 
-/// All roots λ of a PoleSum of N poles, by about 3 to 30 iterations of N² operations.
+/// All roots λ of a PoleSum of N poles, by about 3 to 30 iterations of order N² operations each.
 /// @param sum     function p with one pole or more; complex poles are in conjugate pairs
 /// @param late    whether any coefficient b or g differs from zero
 /// @return all roots; empty if n > 19, or if the iteration does not converge to roots with the

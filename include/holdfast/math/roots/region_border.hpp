@@ -12,43 +12,44 @@
 
 namespace holdfast {
 
-/// A point of the plane.
+/// A point of the plane in which a region is traced.
 struct PlanePoint {
   double x = 0.0;  ///< coordinate x, to the right
   double y = 0.0;  ///< coordinate y, upward
 };
 
-/// The result of examining a point: its margin and the condition that is nearest to failing.
-/// @tparam Label  type that identifies the conditions defining the region; compared by ==
+/// The result of examining a point of the plane. A region is defined by one or more conditions; the
+/// point is inside if all of them are satisfied.
+/// @tparam Label  type that identifies a condition; compared by ==
 template <class Label>
 struct RegionLook {
-  double margin = -1.0;  ///< margin, > 0 inside the region; tracing is fast if it is continuous
-  Label label{};         ///< condition that is nearest to failing
+  double margin = -1.0;  ///< > 0 inside the region, ≤ 0 outside; tracing is fast if continuous
+  Label label{};         ///< condition that is nearest to failing, or fails, at the point
 };
 
-/// A point of a region's border, on its inner side.
+/// A point on the border of a region, just inside the region.
 template <class Label>
 struct BorderPoint {
   PlanePoint at;  ///< position
-  Label label{};  ///< condition that fails beyond this point
+  Label label{};  ///< condition that fails just outside the region here
 };
 
-/// The border of a region, traced with the region on its left.
+/// The border of a region, traced with the region on the left of the direction of travel.
 template <class Label>
 struct RegionBorder {
-  std::vector<BorderPoint<Label>> points;  ///< if closed, the last point repeats the first one
+  std::vector<BorderPoint<Label>> points;  ///< border points; if closed, the last equals the first
   bool closed = false;  ///< whether the trace returned to its start; if not, the trace lost the
                         ///< border, changed to a touching part of the region or reached the limit
-  int looks = 0;        ///< points examined; `most_looks` if the trace failed (see `closed`)
+  int looks = 0;        ///< number of points examined; ≥ `most_looks` if the trace was given up
 };
 
-/// The step lengths, accuracies and limits for following a border.
+/// The step lengths, accuracies and limits of region_border(); x and y need a common unit.
 struct BorderSteps {
-  double longest = 0.02;     ///< longest step, in the unit of x and y
-  double shortest = 1e-9;    ///< shortest step and accuracy of a corner, in the unit of x and y
-  double tolerance = 1e-13;  ///< accuracy of a border point, in the unit of x and y
-  double jump = 1e-4;        ///< a margin above this just inside the border counts as discontinuous
-  int most_looks = 1'000'000;  ///< limit of the number of points examined
+  double longest = 0.02;       ///< longest step, > 0, in the unit of x and y
+  double shortest = 1e-9;      ///< shortest step and accuracy of a corner, in the unit of x and y
+  double tolerance = 1e-13;    ///< accuracy of a border point, in the unit of x and y
+  double jump = 1e-4;          ///< a border point of larger margin is taken as a jump of the margin
+  int most_looks = 1'000'000;  ///< limit of the number of points examined, ≥ 1
 };
 
 namespace detail {
@@ -239,16 +240,17 @@ class BorderWalk {
 
 }  // namespace detail
 
-/// Traces the border of the region {margin > 0} of a plane around an inner point until it closes.
+/// Traces the border of the region {margin > 0} of a plane, around an inner point, until the border
+/// closes.
 ///
 /// Each border point is a root of the margin on a circle about the previous border point. At a
 /// corner, where the label changes, the circles shrink to the radius `shortest`. Holes of the
-/// region and parts narrower than a step may be missed.
+/// region, and parts of the region narrower than a step, may be missed.
 ///
 ///     const auto border = region_border<int>(look, {0.5, 0.5});
 /// @tparam Label  type that identifies the conditions defining the region
 /// @param look   function PlanePoint → RegionLook<Label>; the region must be bounded
-/// @param start  point inside the region; otherwise the border is empty
+/// @param start  point inside the region; if it is outside, the result has no points
 /// @param steps  step lengths, accuracies and limits
 template <class Label, class Look>
 RegionBorder<Label> region_border(const Look& look, const PlanePoint& start,

@@ -9,18 +9,17 @@
 
 namespace holdfast {
 
-/// The root s of 1 − ε g(s) = 0 at ε = 1, continued from the pole s = p of g at ε = 0. For example,
-/// p is an eigenvalue of a structure alone and s the eigenvalue with a device of loop gain g.
+/// The root s of 1 − ε g(s) = 0 at ε = 1, found by continuation in ε from the pole s = p of g at
+/// ε = 0. For example, p is an eigenvalue of a structure without a device, and s the eigenvalue
+/// after a device with the loop gain g is added.
 ///
-/// Euler's step and the secant method continue the root of 1/g(s) = ε; 1/g is smooth at the pole.
-/// ε moves from 0 to 1 slightly off the real axis, so that conjugate roots do not collide. Steps
-/// are shortened where the root's path bends. If the root is less than 10⁻⁷ |p| from the pole, g is
-/// replaced by r/(s − p) + b with constants r and b.
-///
-/// Where two roots meet, the continuation may follow either of them.
-/// @param loop_gain  function g of a complex number, evaluated some hundred times
-/// @param pole       p ≠ 0, simple, exact to round-off
-/// @return root s at ε = 1, not verified; NaN where 1000 steps do not suffice
+/// Euler's predictor and the secant method solve 1/g(s) = ε; 1/g is smooth at the pole. ε moves
+/// from 0 to 1 slightly off the real axis to keep conjugate roots apart. Steps are shortened where
+/// the root's path bends. If the root is less than 10⁻⁷ |p| from the pole, g is
+/// replaced by r/(s − p) + b with constants r and b. Where two roots meet, either may be followed.
+/// @param loop_gain  complex function g of a complex number, evaluated some hundred times
+/// @param pole       simple pole p ≠ 0 of g, exact to round-off
+/// @return root s at ε = 1, not verified; NaN if 1000 steps do not suffice
 template <class LoopGain>
 std::complex<double> root_from_pole(const LoopGain& loop_gain, const std::complex<double>& pole) {
   using Complex = std::complex<double>;

@@ -9,18 +9,18 @@ namespace holdfast {
 /// The largest number of coefficients of a `Series`.
 inline constexpr int most_terms = 20;
 
-/// The coefficients c₀, c₁, … of a polynomial, at most `most_terms`, without heap allocation.
+/// The coefficients c₀, c₁, … of a polynomial Σ c_k xᵏ, at most `most_terms`, not on the heap.
 using Series = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_terms, 1>;
 
-/// A value p(x) of a polynomial with its slope p′(x).
+/// The value and the derivative of a polynomial p at one x.
 struct ValueAndSlope {
   double value,  ///< value p(x)
-      slope;     ///< slope p′(x)
+      slope;     ///< derivative p′(x)
 };
 
-/// The value p(x) and the slope p′(x) by Horner's rule.
-/// @param polynomial  c₀, c₁, …, one coefficient or more
-/// @param x           any number
+/// The value p(x) and the derivative p′(x) of a polynomial by Horner's rule.
+/// @param polynomial  coefficients c₀, c₁, … of p, one or more
+/// @param x           argument, any number
 template <class Coefficients>
 ValueAndSlope value_and_slope(const Eigen::MatrixBase<Coefficients>& polynomial, double x) {
   ValueAndSlope result{polynomial[polynomial.size() - 1], 0.0};
@@ -31,7 +31,7 @@ ValueAndSlope value_and_slope(const Eigen::MatrixBase<Coefficients>& polynomial,
   return result;
 }
 
-/// The coefficients of p(from + (1 − from) y) in powers of y; 0 ≤ y ≤ 1 maps to from ≤ x ≤ 1.
+/// The coefficients of p(a + (1 − a) y) in powers of y, a = `from`; 0 ≤ y ≤ 1 covers a ≤ x ≤ 1.
 inline Series rest_of(const Series& p, double from) {
   return rescaled(shifted(p, from), 1.0 - from);
 }

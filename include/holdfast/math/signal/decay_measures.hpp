@@ -16,25 +16,26 @@ struct DecayRecord {
   std::vector<double> displacements;  ///< displacements (m) from the equilibrium, downward positive
 };
 
-/// The measures of a free decay after removal of a load; NaN if the record is too short for them.
+/// Peak, period and decrement of a free decay after removal of a load. A measure is NaN if the
+/// record is too short for it.
 struct DecayMeasures {
   double first_peak;             ///< extremum (m) between crossings 1 and 2 of the equilibrium
   double first_peak_time;        ///< time (s) from the start of the record to first_peak
   double period;                 ///< period (s): mean of the two cycles after the first crossing
-  double logarithmic_decrement;  ///< logarithmic decrement per cycle, from the first four extrema
+  double logarithmic_decrement;  ///< decrement per cycle, from the four extrema after crossing 1
 };
 
-/// An extremum between two successive crossings of the equilibrium.
+/// An extremum of the displacement between two successive crossings of the equilibrium.
 struct DecayPeak {
   double time;   ///< instant (s)
-  double value;  ///< displacement (m)
+  double value;  ///< displacement (m), downward positive
 };
 
 /// The crossings of the equilibrium in a record, interpolated linearly between samples, and the
 /// extrema between successive crossings, found by a parabola through three samples.
 ///
-/// A crossing is accepted once the displacement on the new side reaches 5 % of the previous
-/// extremum. If noise causes several crossings before that, the mean of the first and the last time
+/// A crossing is accepted once the displacement on the new side reaches 5 % of the last extremum.
+/// If noise causes several sign changes before, the mean of the first and the last of their times
 /// is used. Noise of standard deviation σ raises the modulus of each extremum by about 2σ.
 struct DecayEvents {
   std::vector<double> crossings;  ///< times of crossing (s), ascending
@@ -101,9 +102,9 @@ inline DecayEvents decay_events(const DecayRecord& record) {
   return events;
 }
 
-/// The logarithmic decrement per cycle, −2 (−3 l₁ − l₂ + l₃ + 3 l₄)/10 with l_k = ln |extremum k|,
-/// of four successive extrema of alternating sign. A cycle has two extrema, so that the decrement
-/// is minus twice the slope of the least-squares line through the points (k, l_k).
+/// The logarithmic decrement per cycle from four successive extrema ≠ 0 of alternating sign. With
+/// l_k = ln |peaks[k − 1]| it is (3 (l₁ − l₄) + l₂ − l₃)/5, minus twice the slope of the
+/// least-squares line through the points (k, l_k), since a cycle has two extrema.
 template <class Scalar>
 Scalar logarithmic_decrement(const std::array<Scalar, 4>& peaks) {
   using std::abs;
@@ -112,7 +113,7 @@ Scalar logarithmic_decrement(const std::array<Scalar, 4>& peaks) {
   return (Scalar(3) * outer + inner) / Scalar(5);
 }
 
-/// The measures of a free decay; the record begins when the load is removed, away from equilibrium.
+/// The measures of a free decay. The record must begin at the instant when the load is removed.
 /// @throws InvalidParameter under the conditions of decay_events()
 inline DecayMeasures decay_measures(const DecayRecord& record) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();

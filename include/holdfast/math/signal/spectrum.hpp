@@ -15,14 +15,14 @@ namespace holdfast {
 
 /// The window function of a Fourier transform: weights w_n of the samples n = 0 … N − 1.
 enum class SpectralWindow {
-  rectangular,  ///< w_n = 1: exact amplitudes for a record of whole periods
-  hann,         ///< w_n = ½ (1 − cos 2πn/N): less leakage for a record of any other length
+  rectangular,  ///< w_n = 1: exact amplitudes if the record is a whole number of periods
+  hann,         ///< w_n = ½ (1 − cos 2πn/N): less leakage if the record is not whole periods
 };
 
 /// One line of a one-sided amplitude spectrum.
 struct SpectralLine {
   double frequency;  ///< frequency (Hz)
-  double amplitude;  ///< amplitude in the signal's unit: a for a sin 2πft, f being this frequency
+  double amplitude;  ///< amplitude a, in the signal's unit, of the component a sin(2π f t + φ)
 };
 
 /// The one-sided amplitude spectrum of a real signal:
@@ -31,8 +31,8 @@ struct SpectralLine {
 ///     (factor 1 in place of 2 at frequency 0 and at the Nyquist frequency)
 ///
 /// @param signal           samples x_n, N ≥ 2, finite
-/// @param sampling_period  τ (s), > 0
-/// @param window           weights w_n; `rectangular` for a record of whole periods
+/// @param sampling_period  sampling period τ (s), > 0
+/// @param window           window function, which defines the weights w_n
 /// Work: N log N if N has only small prime factors, else N times its largest prime factor.
 /// @return lines at the frequencies k/(N τ), k = 0 … N/2 (rounded down)
 /// @throws InvalidParameter for fewer than 2 samples or more than 10⁹, or unless τ > 0
@@ -63,7 +63,7 @@ std::vector<SpectralLine> amplitude_spectrum(std::vector<Scalar> signal, double 
 }
 
 /// The number q of samples after which a signal of frequency f (Hz), sampled with period τ (s),
-/// repeats: f τ = p/q in lowest terms. @return q; 0 if f τ has no denominator q ≤ `largest`
+/// repeats: f τ = p/q in lowest terms. @return q; 0 if there is no such q ≤ `largest`
 /// @throws InvalidParameter unless f is finite and ≥ 0, τ finite and > 0
 inline std::int64_t samples_per_common_period(double frequency, double sampling_period,
                                               std::int64_t largest = 1'000'000) {
@@ -74,9 +74,9 @@ inline std::int64_t samples_per_common_period(double frequency, double sampling_
   return ratio ? ratio->denominator : 0;
 }
 
-/// The number of samples in the longest record that lasts a whole number of periods of a force of
-/// given frequency (Hz). With a rectangular window such a record has no leakage from this frequency
-/// and its harmonics. @return at most `available`; `available` if every such record is longer
+/// The length in samples, at most `available`, of the longest record of whole periods of a force.
+/// `frequency` is that of the force (Hz), `sampling_period` in s. With a rectangular window such a
+/// record has no leakage from the force and its harmonics. @return length, or else `available`
 /// @throws InvalidParameter under the conditions of samples_per_common_period()
 inline std::int64_t whole_period_samples(std::int64_t available, double frequency,
                                          double sampling_period) {

@@ -11,8 +11,8 @@
 
 namespace holdfast {
 
-/// The power of each spectral line: ½ a² for the amplitude a, but a² at frequency 0 and at the
-/// Nyquist frequency. With a rectangular window the sum is the mean square of the signal.
+/// The power of each spectral line of amplitude a: ½ a², but a² at frequency 0 and at the Nyquist
+/// frequency. With a rectangular window the sum of all powers is the mean square of the signal.
 /// @param lines    spectrum of amplitude_spectrum()
 /// @param samples  number N of samples of the record; the spectrum has N/2 + 1 lines
 /// @throws InvalidParameter where the numbers of samples and of lines disagree
@@ -30,9 +30,9 @@ inline std::vector<double> line_powers(const std::vector<SpectralLine>& lines,
   return powers;
 }
 
-/// The shares of a signal's power at the multiples of f/m, m = 1, 2, …, with the base frequency f.
+/// The shares 0 … 1 of a signal's power at the multiples of f/m, m = 1, 2, …; f: base frequency.
 struct SubharmonicShares {
-  std::vector<double> shares;  ///< shares[m − 1]: share for f/m; 1 for a signal of zero power
+  std::vector<double> shares;  ///< shares[m − 1]: share at multiples of f/m; 1 if the power is 0
   int division = 0;            ///< smallest m with at least the required share; 0: none
 };
 
@@ -43,13 +43,13 @@ struct SubharmonicOptions {
   double share = 0.999;       ///< required share of the power, 10⁻⁹ ≤ share ≤ 1
 };
 
-/// The shares of a signal's power, without its mean, at the multiples of f/m (f: base frequency). A
-/// line counts if it lies within half a line spacing of a multiple. To avoid leakage, use a
-/// rectangular window and a record of whole periods m/f. If the multiples are less than three line
-/// spacings apart, the share is set to 0, since almost every line would count.
+/// The shares of a signal's power at the multiples of f/m, m = 1, 2, …, with the base frequency f;
+/// the signal's mean is left out. A line counts if it is within half a line spacing of a multiple.
+/// To avoid leakage, use a rectangular window and a record of whole periods m/f. If f/m is less
+/// than three line spacings, the share is set to 0, since almost every line would count.
 ///
-/// Multiples of a frequency f above the Nyquist frequency are aliased. If f τ = p/q, they appear at
-/// multiples of f/p = 1/(q τ): use f/p as the base frequency. Work: one comparison per line and m.
+/// Multiples of f above the Nyquist frequency are aliased: if f τ = p/q (τ: sampling period), to
+/// multiples of f/p = 1/(q τ). Then use f/p as base frequency. Work: one comparison per line and m.
 /// @throws InvalidParameter where an option is out of range, or the lines do not match `samples`
 inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lines,
                                             std::size_t samples,
@@ -77,7 +77,7 @@ inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lin
 }
 
 /// The least number of spectral lines whose powers add up to at least a given share of the total
-/// power. The mean is left out; 0 for zero power.
+/// power. The line at frequency 0 is left out. The result is 0 if the total power is 0.
 /// @param lines    spectrum of amplitude_spectrum()
 /// @param samples  number N of samples of the record
 /// @param share    required share of the power, 10⁻⁹ ≤ share ≤ 1
@@ -99,11 +99,10 @@ inline std::size_t lines_holding(const std::vector<SpectralLine>& lines, std::si
 ///
 ///     Σ over bands of [median power of a line · number of lines] / (total power · ln 2)
 ///
-/// with bands of 32 lines. The mean and the first line are left out, since a Hann window spreads
-/// the mean into the first line. The line powers of noise are distributed exponentially: their
-/// median is ln 2 times their mean. Single peaks hardly change a median, but peaks less than eight
-/// lines apart count as floor. Use a Hann window, since the leakage of a rectangular window looks
-/// like a floor.
+/// with bands of 32 lines. Lines 0 and 1 are left out, since a Hann window spreads the mean into
+/// line 1. The line powers of noise are distributed exponentially: their median is ln 2 times their
+/// mean. Single peaks hardly change a median, but peaks less than eight lines apart count as noise.
+/// Use a Hann window, since the leakage of a rectangular window is taken for noise.
 /// @return share, 0 … 1; 0 for a signal of zero power
 /// @throws InvalidParameter where the numbers of samples and of lines disagree
 inline double continuous_share(const std::vector<SpectralLine>& lines, std::size_t samples) {

@@ -12,10 +12,11 @@ namespace holdfast {
 
 /// The means and standard errors of several long correlated time series, found in constant memory.
 ///
-/// The steps are divided into batches of equal length. When `Batches` are complete, successive ones
-/// are merged in pairs. The errors are reliable once a batch exceeds the correlation time. Source:
-/// P. W. Glynn, D. L. Iglehart, Simulation output analysis using standardized time series, 1990.
-/// @tparam Number   type of a sum
+/// The time steps are divided into batches of equal length; the last batch is open until complete.
+/// When `Batches` are complete, they are merged in pairs. The errors are reliable once a batch is
+/// longer than the correlation time. Source: P. W. Glynn, D. L. Iglehart, Simulation output
+/// analysis using standardized time series, 1990.
+/// @tparam Number   number type of the series and their sums
 /// @tparam Series   number of series, or Eigen::Dynamic
 /// @tparam Batches  number of complete batches at which pairs are merged, even, ≥ 4
 template <class Number, int Series, std::size_t Batches = 64>
@@ -25,43 +26,43 @@ class BatchSums {
  public:
   using Sums = Vector<Number, Series>;  ///< one sum for each series
 
-  /// Constructs empty sums from the number of steps in a batch before the first merge, ≥ 1, and the
-  /// number of series, which is needed only if `Series` is Eigen::Dynamic.
+  /// Constructs empty sums. `first_length` is the number of steps in a batch before any merge, ≥ 1.
+  /// The number of series is needed only if the template parameter `Series` is Eigen::Dynamic.
   explicit BatchSums(std::int64_t first_length = 1, Eigen::Index series = Series < 0 ? 0 : Series)
       : open_(Sums::Constant(series, Number(0))), length_(first_length) {
     sums_.fill(open_);
   }
 
-  /// Adds the sums of all series over the next `steps` steps, 0 ≤ steps ≤ steps_left().
+  /// Adds the sum of each series over the next `steps` steps, 0 ≤ steps ≤ steps_left().
   void add(const Sums& sums, std::int64_t steps) {
     open_ += sums;
     open_steps_ += steps;
     if (open_steps_ == length_) close();
   }
 
-  /// The number of steps added so far, including the open batch.
+  /// The number of steps added so far, including those of the open batch.
   std::int64_t steps() const {
     return static_cast<std::int64_t>(complete_) * length_ + open_steps_;
   }
-  /// The number of steps that the open batch still lacks, ≥ 1.
+  /// The number of steps until the open batch is complete, ≥ 1.
   std::int64_t steps_left() const { return length_ - open_steps_; }
-  /// The number of complete batches, less than `Batches`: merging halves it.
+  /// The number of complete batches, 0 … Batches − 1; a merge of pairs halves the number.
   std::size_t complete_batches() const { return complete_; }
 
-  /// The number of steps in a complete batch.
+  /// The present number of steps in a batch; a merge of pairs doubles it.
   std::int64_t batch_length() const { return length_; }
-  /// The sums over the steps of complete batch k, 0 ≤ k < complete_batches().
+  /// The sum of each series over the steps of complete batch k, 0 ≤ k < complete_batches().
   const Sums& batch(std::size_t k) const { return sums_[k]; }
 
-  /// The sums over all steps after the first `first` complete batches.
+  /// The sum of each series over all steps except those of the first `first` complete batches.
   Sums totals(std::size_t first = 0) const {
     Sums total = open_;
     for (std::size_t k = first; k < complete_; ++k) total += sums_[k];
     return total;
   }
 
-  /// The standard errors of the means per step, estimated from the scatter of group means. A group
-  /// is `merged` ≥ 1 successive complete batches; the first `first` batches are left out.
+  /// The standard errors of the mean values of the series, estimated from the scatter of group
+  /// means. A group is `merged` ≥ 1 successive complete batches; the first `first` are left out.
   /// @return one error for each series; NaN with fewer than four groups
   Sums standard_errors(std::size_t merged = 1, std::size_t first = 0) const {
     using std::sqrt;

@@ -10,7 +10,7 @@
 
 namespace holdfast {
 
-/// The means per step of several series, without their initial transient.
+/// The mean values of several time series after their initial transient, with standard errors.
 template <int Series>
 struct SettledMeans {
   Vector<double, Series> means;            ///< means over the averaged steps
@@ -21,7 +21,6 @@ struct SettledMeans {
 
 namespace detail {
 
-/// Implementation of settled_means() for given batch sums.
 template <int Series, std::size_t Batches>
 class SettledBatches {
   using Means = Vector<double, Series>;
@@ -101,21 +100,22 @@ class SettledBatches {
 
 }  // namespace detail
 
-/// The means of several series without their transient, with standard errors.
+/// The mean values of several series without their transient, with standard errors.
 ///
 /// The first b batches are left out as transient, b = 0, 1, 2, 4, … up to half of all. b is
 /// increased until two means of the first series agree within six standard errors: the mean over
-/// the next b batches (one if b = 0) and the mean over all later batches. The standard error
-/// returned is the largest of three estimates for the remaining N steps:
+/// the next b batches (one if b = 0) and the mean over all later batches. With fewer than eight
+/// batches b = 0. The standard error is the largest of three estimates for the remaining N steps:
 ///
-/// - the standard error from batch means, or from means of pairs of batches if this is larger;
-/// - 0.43 R/N, where R is the range over n of (sum over the first n steps) − n · mean. This
-///   estimate is the largest if the batch means hardly scatter, as for a periodic series;
-/// - 0.43 times the difference of the means over the second quarter and the second half of the
-///   steps: an estimate of a bias that decays like 1/N.
+/// - the standard error from batch means, or from means of pairs of batches if the latter is larger
+/// - 0.43 R/N with the range R = max − min over n of (sum over the first n steps) − n · mean. It is
+///   the largest of the three if the batch means hardly scatter, as for a periodic series
+/// - 0.43 times the difference of two means, an estimate of a bias that decays like 1/N: over the
+///   second quarter and the second half of the N steps; or, if b exceeds a quarter of all batches,
+///   over the later half of the b batches and over all N steps
 ///
 /// The factor 0.43 = 1.1/2.576 contains the two-sided 99 % quantile of the normal distribution.
-/// @param sums  sums of the series over one step or more
+/// @param sums  batch sums of the series, of one step or more
 template <int Series, std::size_t Batches>
 SettledMeans<Series> settled_means(const BatchSums<double, Series, Batches>& sums) {
   return detail::SettledBatches<Series, Batches>(sums).means();

@@ -14,8 +14,8 @@ namespace holdfast {
 /// It is the posterior standard deviation for Jeffreys's prior. For large n it tends to the usual
 /// √(s (1 − s)/n); for count = 0 or count = n it remains positive. Source: L. D. Brown, T. T. Cai,
 /// A. DasGupta, Interval estimation for a binomial proportion, Statistical Science 16 (2001).
-/// @param count  number of hits, ≤ all
-/// @param all    number n of draws
+/// @param count  number of draws with the property in question, 0 … n
+/// @param all    number n of all draws
 inline double share_error(std::size_t count, std::size_t all) {
   const auto n = static_cast<double>(all);
   const double share = (static_cast<double>(count) + 0.5) / (n + 1.0);

@@ -8,11 +8,11 @@
 
 namespace holdfast {
 
-/// The largest result of trusted_digits(): 17 decimal digits identify every `double`.
+/// The upper limit of trusted_digits(): 17 decimal digits, which identify every `double`.
 inline constexpr double most_trusted_digits = 17.0;
 
 /// Whether `long double` has more digits than `double` on this platform. If not (Microsoft's
-/// compiler, macOS on ARM), trusted_digits() compares equal computations and tests nothing.
+/// compiler, macOS on ARM), a reference in `long double` has the same errors and tests nothing.
 inline constexpr bool long_double_is_wider =
     std::numeric_limits<long double>::digits > std::numeric_limits<double>::digits;
 
@@ -31,8 +31,8 @@ inline double digits_of(long double difference, long double scale) {
 ///
 ///     d = −log₁₀(|value − reference|/scale),   0 ≤ d ≤ 17
 ///
-/// d = 17 if value and reference are equal, finite or infinite, or both NaN. Otherwise d = 0 if
-/// either is not finite, or if they differ by the scale or more.
+/// d = 17 if value and reference are equal (two equal infinities included) or both NaN. Otherwise
+/// d = 0 if either is not finite, or if they differ by the scale or more.
 ///
 ///     trusted_digits(3.14, 3.14159265L, 1.0L)   // 2.8
 ///
@@ -47,14 +47,14 @@ inline double trusted_digits(double value, long double reference, long double sc
   return detail::digits_of(std::abs(wide - reference), scale);
 }
 
-/// The trusted digits with the scale |reference|; for reference = 0: 17 if value = 0, else 0.
+/// The agreeing decimal digits relative to |reference|; for reference = 0: 17 if value = 0, else 0.
 inline double trusted_digits(double value, long double reference) {
   return trusted_digits(value, reference, std::abs(reference));
 }
 
-/// The trusted digits of a vector or matrix as a whole: −log₁₀(‖value − reference‖/‖reference‖) in
-/// the Euclidean norm of all entries, limited to 0 … 17. The result is 0 if an entry is not finite.
-/// Entries with different units must first be scaled to a common unit.
+/// The number of decimal digits in which a vector or matrix agrees with a reference as a whole:
+/// −log₁₀(‖value − reference‖/‖reference‖), Euclidean norm of all entries, limited to 0 … 17; 0 if
+/// an entry is not finite. Entries with different units must first be scaled to a common unit.
 /// @param value      vector or matrix of any shape
 /// @param reference  vector or matrix of the same shape, in the wider number type
 template <class Value, class Reference>

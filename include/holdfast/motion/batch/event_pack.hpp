@@ -23,12 +23,12 @@
 
 namespace holdfast {
 
-/// A pack of motions, one in each SIMD lane, whose contacts may change between samples. Each motion
-/// has its own loop; all motions are at the same sample.
+/// A pack of motions of two masses, one in each SIMD lane, whose contacts may change between
+/// samples. Each motion has its own loop; all motions are at the same sample.
 ///
 /// Each lane uses the method of EventMotion. Lanes where a guard (GuardOf) may reach zero advance
-/// together, each to its next contact change, while the other lanes wait. DriveContact computes the
-/// new mode, lane by lane. The results of a lane do not depend on the other lanes.
+/// together, each to its next contact change; the other lanes wait. DriveContact computes the new
+/// mode, lane by lane. The results of a lane do not depend on the other lanes.
 ///
 /// Work per sample without a change of contact: some 90 operations on packs. A change of contact in
 /// a lane takes one or two Taylor series, some 1500 operations each. No memory is allocated.
@@ -44,7 +44,7 @@ class EventPack {
   /// The sample returned by `sense`. It contains no states; see state().
   struct Sample {
     Scalar control_force;  ///< transmitted force (N) of each lane
-    LaneMask engaged;      ///< lanes whose drive transmits the command
+    LaneMask engaged;      ///< lanes in ContactMode::engaged
   };
 
   /// @param starts  one motion per lane; for an unused lane, repeat a motion and then call `sleep`
@@ -81,13 +81,13 @@ class EventPack {
   /// An observer for `advance` that does nothing.
   struct IgnoreFlowOfLanes {
     /// Called at a change of contact, with the lane, the mode before, the mode after, the number of
-    /// the guard that reached zero (−1: a jump of command or force) and the time (s) after t_j.
+    /// the guard that reached zero (−1: jump of command or excitation) and the time (s) since t_j.
     void switched(std::size_t, int, int, int, double) const {}
   };
 
-  /// Advances all lanes from t_j to t_{j+1} under u_{j−1} until t_j + δ, then u_j of `sense()`.
+  /// Advances all lanes to t_{j+1}: under u_{j−1} until t_j + δ (processing delay), then under u_j.
   void advance() { advance(IgnoreFlowOfLanes()); }
-  /// Advances by one sample and calls observer.switched(…) with parameters as in IgnoreFlowOfLanes.
+  /// Advances by one sample and calls observer.switched(…), explained at IgnoreFlowOfLanes.
   template <class Observer>
   void advance(Observer&& observer) {
     const Scalar delay = delay_.all(), period = period_.all(), zero(0);
@@ -104,8 +104,8 @@ class EventPack {
 
   /// The number j of the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
-  /// Renumbers the present sample to j = `index`, a multiple ≥ 0 of RotatingPhasor::block.
-  /// The phase of the excitation changes accordingly.
+  /// Changes the number of the present sample to j = `index`, a multiple ≥ 0 of
+  /// RotatingPhasor::block. The excitation then has the phase of sample j.
   void restart_index(std::int64_t index) { index_ = index; }
   /// The states z_j = [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s) of all lanes.
   std::array<Scalar, 4> state() const {
@@ -115,7 +115,7 @@ class EventPack {
   Vector<double, 4> state(std::size_t lane) const {
     return {state_[0][lane], state_[1][lane], state_[2][lane], state_[3][lane]};
   }
-  /// The contact between conductor and absorber in a lane, in its present mode.
+  /// The contact of the drive in a lane, in its present mode.
   const DriveContact<>& contact(std::size_t lane) const { return modes_.contact(lane); }
   /// Whether a lane had more than EventMotion::most_switches changes of contact in one period.
   bool accumulates(std::size_t lane) const { return accumulates_[lane]; }
@@ -136,7 +136,6 @@ class EventPack {
  private:
   using Numbers = LaneNumbers<Scalar>;
 
-  /// A part of the sampling period in every lane.
   struct Part {
     std::size_t number;
     Scalar command, begin, end;
@@ -197,7 +196,6 @@ class EventPack {
     return numbers.all();
   }
 
-  /// Enters the new mode of a lane after a change of contact.
   void enter(std::size_t lane) {
     modes_.enter(lane);
     if (++switches_[lane] <= EventMotion<>::most_switches) return;
@@ -294,7 +292,6 @@ class EventPack {
       change(event, part.command, series.value(series.force, event.at), reached, observer);
   }
 
-  /// Marks, in the lanes of a mask, that time has passed since the last change of contact.
   void tell_flowed(const LaneMask& passed) {
     const auto lane_passed = detail::lane_flags<Scalar>(passed);
     for (std::size_t lane = 0; lane < lanes; ++lane)

@@ -31,8 +31,8 @@ inline bool has_event_pack(const ImplementedLoop& loop) {
 }
 
 /// The growth rate of the powers of A (1/s): the largest ‖Aᵏ‖^{1/k}, k = 10 … most_terms, in the
-/// row-sum norm of the balanced matrix. It is usually smaller than balanced_norm(). With
-/// terms_for(rate h) terms the Taylor series of e^{A h} has the error bound stated at terms_for().
+/// row-sum norm of the balanced matrix. This rate is usually smaller than balanced_norm(), and
+/// terms_for(rate h) Taylor terms of e^{A h} have the error bound stated at terms_for().
 /// @tparam States  N, the order of the plant
 template <int States>
 double rate_of_powers(const Matrix<double, States>& a) {
@@ -52,13 +52,13 @@ double rate_of_powers(const Matrix<double, States>& a) {
 }
 
 /// The dynamics of the two masses in each contact mode, shared by several motions. The loops of the
-/// motions may differ in their gains. The backlash may also differ unless it is a dead zone.
+/// motions may differ in their gains, and in their backlash unless it is a dead zone (serves()).
 class EventTable {
  public:
   using Motion = ModeMotion<TwoMass<double>>;  ///< motion of the two masses in one mode
   using Drop = Motion::Bound::Drop;            ///< coefficients of drop_below_chord()
 
-  /// Constructs the table of a loop. @throws InvalidParameter where EventMotion would throw
+  /// Constructs the table of a loop. @throws InvalidParameter as the constructor of EventMotion
   explicit EventTable(const ImplementedLoop& loop)
       : loop_(loop), force_(loop.digital.force, loop.digital.hold, loop.digital.sampling.period) {
     const DriveContact<> contact(loop.plant, loop.backlash, loop.switching,
@@ -85,18 +85,18 @@ class EventTable {
 
   /// The motion of the two masses in a mode of the contact, given by its number.
   const Motion& motion(int mode) const { return motions_[at(mode)]; }
-  /// Whether the equations of motion of two modes are equal except for the effect of the command.
-  /// A mode −1 means no mode; it equals only −1.
+  /// Whether two modes, given by their numbers, have the same equations of motion apart from the
+  /// effect of the command. −1 means no mode; it is the same as −1 only.
   bool move_alike(int mode, int other) const {
     return mode == other || (mode >= 0 && other >= 0 && alike_[at(mode)][at(other)]);
   }
-  /// The rate (1/s) of a mode: a Taylor series may cover a time of up to 1/rate.
+  /// The rate (1/s) of a mode: one Taylor series covers a time ≤ 1/rate.
   double rate(int mode) const { return rates_[at(mode)]; }
-  /// The excitation force, before the selection of a sample (begin_sample() not yet called).
+  /// The excitation; no sample is selected yet: call begin_sample() of a copy first.
   const ForceOverSamples& force() const { return force_; }
 
   /// The coefficients of NoEventBoundOf::drop_below_chord() for the guards of the contact's present
-  /// mode, over part 0 (before t_j + δ) or 1 (after it). The mode must have a guard.
+  /// mode. Part 0 of the period is before t_j + δ, part 1 after it. The mode must have a guard.
   Drop drop(const DriveContact<>& contact, std::size_t part) {
     const int mode = contact.mode();
     std::optional<std::array<Drop, 2>>& known = drops_[at(mode)];

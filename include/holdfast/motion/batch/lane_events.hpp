@@ -39,9 +39,9 @@ Mask<Scalar> stays_above_zero(const Scalar& begin, const Scalar& end, const Scal
 /// The first change of contact in each lane within a time interval of the motion.
 template <class Scalar>
 struct LaneEvent {
-  Mask<Scalar> found;  ///< whether a guard reaches zero in the interval
-  Scalar at;           ///< position of the change, as a share 0 … 1 of the interval; 1: no change
-  Mask<Scalar> second;  ///< whether the second guard reaches zero (else the first)
+  Mask<Scalar> found;   ///< whether a guard reaches zero in the interval
+  Scalar at;            ///< time of the change: 0 beginning, 1 end of the interval; 1 if no change
+  Mask<Scalar> second;  ///< true: the second guard reaches zero first; false: the first guard
 };
 
 namespace detail {
@@ -54,7 +54,6 @@ std::array<std::uint8_t, Lanes<Scalar>::count> lane_flags(const Mask<Scalar>& ma
   return flags;
 }
 
-/// A guard as a function of time over an interval of the motion.
 template <class Scalar>
 struct GuardOnStretch {
   const LaneGuard<Scalar>& guard;
@@ -125,9 +124,9 @@ void learn_signs(LaneModes<Scalar>& modes, const Mask<Scalar>& which, int terms,
 
 }  // namespace detail
 
-/// The search for the first root of any guard within a time interval, in all lanes at once.
+/// The search for the first zero of any guard (GuardOf) in a time interval, in all lanes at once.
 ///
-/// As in next_event(), no root is missed. Work: 5 multiply-adds for each guard and Taylor term, and
+/// As in next_event(), no zero is missed. Work: 5 multiply-adds for each guard and Taylor term, and
 /// first_roots(). No memory is allocated.
 template <class Scalar>
 class LaneEventSearch {

@@ -37,7 +37,7 @@ class LaneExcitation {
     phases_.resize(lines);
   }
 
-  /// Selects sample j = `index`, the next sample or a multiple of RotatingPhasor::block.
+  /// Selects sample j = `index`: the one after the last, or a multiple of RotatingPhasor::block.
   void begin_sample(std::int64_t index) {
     const auto k = static_cast<std::size_t>(index) % RotatingPhasor<Scalar>::block;
     Scalar held_force(0);
@@ -58,28 +58,28 @@ class LaneExcitation {
   bool is_held(std::size_t lane) const { return held_[lane] > 0.5; }
   /// The largest number of harmonics in any lane, ≥ 1.
   std::size_t lines() const { return lines_.size(); }
-  /// The phasor F_l (cos ω_l t_j, sin ω_l t_j) (N) of harmonic l. In lanes with a held force F_j it
-  /// is (F_j, 0) for l = 0, else (0, 0).
+  /// The phasor F_l (cos ω_l t_j, sin ω_l t_j) of harmonic l = `line` with amplitude F_l (N). In
+  /// lanes with a held force F_j the phasor is (F_j, 0) for l = 0 and (0, 0) for other l.
   const ExcitationSample<Scalar>& phase(std::size_t line) const { return phases_[line]; }
 
-  /// Computes the phasors of all harmonics, with their phases φ_l, at `after` (s) from the sample.
+  /// Computes the phasors of all harmonics, including phase angles, `after` (s) after the sample.
   void turned(const Scalar& after, std::vector<LanePhasor<Scalar>>& phasors) const {
     for (std::size_t l = 0; l < lines_.size(); ++l)
       phasors[l] = {lines_[l].angular_frequency, turned_by(turn_of(lines_[l], after), l)};
   }
 
-  /// Sets the fixed times (s) after the sample for which turned_to() and force_at() may be called.
+  /// Sets the times (s) after the sample for which turned_to() and force_at() may be called.
   void fix_instants(const std::vector<Scalar>& after) {
     fixed_.clear();
     for (const Scalar& one : after)
       for (const Line& line : lines_) fixed_.push_back(turn_of(line, one));
   }
-  /// Computes turned() at a fixed time, given by its number (from 0) in fix_instants().
+  /// Computes the phasors as turned(), at a time given by its number (from 0) in fix_instants().
   void turned_to(std::size_t instant, std::vector<LanePhasor<Scalar>>& phasors) const {
     for (std::size_t l = 0; l < lines_.size(); ++l)
       phasors[l] = {lines_[l].angular_frequency, turned_by(fixed_turn(instant, l), l)};
   }
-  /// The force F (N) at a fixed time, given by its number (from 0) in fix_instants().
+  /// The excitation force F (N) at a time given by its number (from 0) in fix_instants().
   Scalar force_at(std::size_t instant) const {
     Scalar sum(0);
     for (std::size_t l = 0; l < lines_.size(); ++l)

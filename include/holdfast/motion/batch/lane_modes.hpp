@@ -32,8 +32,8 @@ struct EventStart {
 template <class Scalar>
 struct LaneGuard {
   std::array<LaneNumbers<Scalar>, 4> state;  ///< coefficients of z₁, ż₁, z₂, ż₂
-  LaneNumbers<Scalar> command;               ///< coefficient of u, per newton
-  LaneNumbers<Scalar> force;                 ///< coefficient of F, per newton
+  LaneNumbers<Scalar> command;               ///< coefficient of the command u, per newton
+  LaneNumbers<Scalar> force;                 ///< coefficient of the excitation F, per newton
   LaneNumbers<Scalar> constant;              ///< constant, in the unit of g
   LaneNumbers<Scalar> zeros;  ///< number of leading zeros of g, ġ, g̈, … after a contact change
 
@@ -44,15 +44,15 @@ struct LaneGuard {
   }
 };
 
-/// The SubintervalStep of every lane: the map of the state over a part of the period, of length h.
-/// It also holds the coefficients of NoEventBoundOf.
+/// The SubintervalStep of every lane: the map of the state over a part, h (s) long, of the sampling
+/// period. Also contains the coefficients NoEventBoundOf::Drop for this part.
 template <class Scalar>
 struct LaneStep {
   using Numbers = LaneNumbers<Scalar>;               ///< one number for each lane
   std::array<std::array<Numbers, 4>, 4> transition;  ///< rows of the matrix e^{A h}
   std::array<Numbers, 4> command;                    ///< response to the command, per newton of u
   std::array<Numbers, 4> drift;                      ///< contribution of the constant part of ż
-  std::vector<std::array<std::array<Numbers, 4>, 2>> lines;  ///< g_c, g_s of each harmonic
+  std::vector<std::array<std::array<Numbers, 4>, 2>> lines;  ///< g_c, g_s of harmonics, per newton
   Numbers drop_by_norm;                                      ///< factor of ‖z‖ (Drop::by_norm)
   Numbers drop_by_command;                                   ///< factor of |u| (Drop::by_command)
   Numbers drop_constant;                                     ///< constant term (Drop::constant)
@@ -110,7 +110,7 @@ class LaneModes {
   /// The contact of a lane, for reading only.
   const DriveContact<>& contact(std::size_t lane) const { return contacts_[lane]; }
 
-  /// Updates a lane after a change of contact mode. Its LaneStep is recomputed by the next step().
+  /// Updates a lane after a change of its contact mode; the next step() recomputes its LaneStep.
   void enter(std::size_t lane) {
     const DriveContact<>& contact = contacts_[lane];
     const int mode = contact.mode();
@@ -128,7 +128,7 @@ class LaneModes {
     refresh_guards(lane);
   }
 
-  /// Copies the guards of a lane's contact, so that `guard()` returns their present coefficients.
+  /// Updates the coefficients that `guard()` returns for a lane from the guards of its contact.
   void refresh_guards(std::size_t lane) {
     constexpr double far = 1e90;
     const Guards guards = ignored_[lane] ? Guards() : contacts_[lane].guards();
@@ -157,7 +157,8 @@ class LaneModes {
     refresh_guards(lane);
   }
 
-  /// Records that time has passed in a lane since its contact changed: fresh() becomes false.
+  /// Records that time has passed in a lane since its contact changed. The lane is then no longer
+  /// fresh(), unless the sign of a guard is still unknown.
   void flowed(std::size_t lane) {
     contacts_[lane].flowed();
     if (unsigned_[lane]) return refresh_guards(lane);
@@ -165,7 +166,8 @@ class LaneModes {
     set_fresh(lane, false);
   }
 
-  /// The accelerations of conductor (index 0) and absorber (index 1) under the command u (N).
+  /// The accelerations of conductor (index 0) and absorber (index 1) as functions of state and
+  /// excitation, under the command u (N).
   std::array<LaneAcceleration<Scalar>, 2> accelerations(const Scalar& u) const {
     const auto row = [&](std::size_t mass) {
       const auto& of = acceleration_[mass];
@@ -176,7 +178,7 @@ class LaneModes {
     return {row(0), row(1)};
   }
 
-  /// The LaneStep of all lanes in their present modes, over part 0 (before t_j + δ) or 1.
+  /// The LaneStep of all lanes in their present modes, over part 0 (before t_j + δ) or 1 (after).
   const LaneStep<Scalar>& step(std::size_t part) {
     if (stale_.any()) refresh_steps();
     return steps_[part];
@@ -192,9 +194,9 @@ class LaneModes {
 
   /// The first (0) or second (1) guard of all lanes; a missing guard has the constant 10⁹⁰.
   const LaneGuard<Scalar>& guard(std::size_t number) const { return guards_[number]; }
-  /// The rate (1/s) of each lane in its mode: a Taylor series may cover a time of up to 1/rate.
+  /// The rate (1/s) of each lane in its present mode: one Taylor series covers a time ≤ 1/rate.
   Scalar rate() const { return rate_.all(); }
-  /// The lanes whose drive transmits the command.
+  /// The lanes in ContactMode::engaged, whose drive transmits the command.
   Mask<Scalar> engaged() const { return engaged_.all() > Scalar(0.5); }
   /// The lanes in ContactMode::stick, where Δż = 0.
   Mask<Scalar> sticks() const { return sticks_.all() > Scalar(0.5); }
@@ -233,7 +235,6 @@ class LaneModes {
     }
   }
 
-  /// Recomputes the LaneStep of every lane whose mode has changed.
   void refresh_steps() {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       if (!stale_[lane]) continue;

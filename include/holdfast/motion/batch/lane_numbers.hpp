@@ -13,9 +13,9 @@ class LaneNumbers {
  public:
   static constexpr std::size_t lanes = Lanes<Scalar>::count;  ///< number of lanes
 
-  /// The numbers of all lanes.
+  /// The numbers of all lanes as a pack.
   Scalar all() const { return Lanes<Scalar>::load(numbers_.data()); }
-  /// Sets the numbers of all lanes.
+  /// Sets the numbers of all lanes from a pack.
   void set(const Scalar& numbers) { Lanes<Scalar>::store(numbers, numbers_.data()); }
   /// The number of one lane, for writing.
   double& operator[](std::size_t lane) { return numbers_[lane]; }

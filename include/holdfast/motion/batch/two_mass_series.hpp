@@ -17,7 +17,6 @@ namespace holdfast {
 
 namespace detail {
 
-/// The reciprocals 1/k!, k < most_terms.
 constexpr std::array<double, most_terms> inverse_factorials() {
   std::array<double, most_terms> result{};
   double factorial = 1.0;
@@ -30,8 +29,8 @@ constexpr std::array<double, most_terms> inverse_factorials() {
 
 }  // namespace detail
 
-/// The number of Taylor terms in each lane. It depends only on the rate and the length in this
-/// lane, so that its results are bitwise independent of other lanes.
+/// The number of Taylor terms in each lane. It depends only on the rate and length of this lane;
+/// the results of a lane are therefore bitwise independent of the other lanes.
 template <class Scalar>
 struct TermsOfLanes {
   int most;        ///< largest number of terms in any lane, 1 … most_terms
@@ -107,15 +106,15 @@ struct LaneAcceleration {
 template <class Scalar>
 struct LanePhasor {
   Scalar angular_frequency;        ///< ω (rad/s); 0 for a held force
-  ExcitationSample<Scalar> phase;  ///< F_l cos α_l and F_l sin α_l (N), with the phase angle α_l
+  ExcitationSample<Scalar> phase;  ///< F_l cos α_l, F_l sin α_l (N): amplitude F_l, phase angle α_l
 };
 
 /// The Taylor series of the two masses' motion and of the force over a time h (s), in every lane:
 ///
-///     d_{k+1} = h (A d_k + k! w_k),   z(t + x h) = Σ d_k x^k / k!
+///     d_{k+1} = h (A d_k + k! w_k),   z(t + x h) = Σ d_k x^k / k!,   0 ≤ x ≤ 1
 ///
-/// with the state matrix A and the coefficients w_k of the inputs (TaylorStep). Work per term: 8
-/// multiply-adds and 9 products, and 3 more for each harmonic.
+/// with the state z, its matrix A and the coefficients w_k of the inputs (TaylorStep). Work per
+/// term: 8 multiply-adds and 9 products, and 3 more for each harmonic.
 template <class Scalar>
 struct TwoMassSeries {
   std::array<LaneSeries<Scalar>, 4> state;  ///< series of z₁, ż₁, z₂, ż₂

@@ -18,16 +18,16 @@ namespace holdfast {
 ///     δu_j = P δz_j + D δż_j while the drive transmits, δu_j = 0 in the backlash
 ///
 /// The symbols are those of NaturalMotion. The coordinates of a deviation are [Re ξ; Im ξ of the
-/// conjugate pairs; u_{j−1}], all scaled to metres. An amplitude ξ is scaled by the displacement of
-/// the conductor at the absorber, a command by a bound of the displacement it causes in one period.
+/// conjugate pairs; u_{j−1}], all scaled to metres: ξ by the displacement of the conductor at the
+/// absorber for ξ = 1, a command by a bound of the displacement it causes in one period.
 ///
 /// Two matrix products advance the deviations by a block of samples. Work per sample with m
-/// coordinates: up to 2 m multiply-adds for each deviation and m for each reading of it, and 60 m.
+/// coordinates: 60 m multiply-adds, at most 2 m per deviation and m per deviation and reading.
 class ModalDeviations {
  public:
   using Columns = Eigen::MatrixXd;  ///< one deviation per column, order() rows
-  using Readings = Columns;         ///< one row per reading, one column per deviation
-  static constexpr int block = 64;  ///< most samples in a block or between calls of take_readings()
+  using Readings = Columns;         ///< one row per recorded reading, one column per deviation
+  static constexpr int block = 64;  ///< most samples per block, and between take_readings() calls
 
   /// Constructs the deviations, initially the unit vectors of all coordinates.
   /// @param motions  natural motions of the loop
@@ -80,24 +80,24 @@ class ModalDeviations {
   /// The unscaled values of [Re ξ; Im ξ; u_{j−1}] that correspond to scaled coordinates of 1 m.
   const Eigen::VectorXd& units() const { return units_; }
 
-  /// Restarts from given deviations: one per column, order() rows, in metres.
+  /// Restarts from given deviations: one per column, order() scaled coordinates (m) each.
   void begin(const Columns& deviations) {
     start_ = units_.asDiagonal() * deviations;
     taken_ = read_ = 0;
     commanded_.clear();
   }
 
-  /// The deviations at the present sample, in metres.
+  /// The deviations at the present sample, one per column, in scaled coordinates (m).
   Columns columns() {
     end_block();
     return units_.cwiseInverse().asDiagonal() * start_;
   }
 
-  /// Records the deviations of Δz = z₂ − z (m) for take_readings(); at most once per sample.
+  /// Records a reading: the deviations of Δz = z₂ − z (m). At most once per sample.
   void read_displacement() { readings_.row(read_++) = reading(relative_z_); }
-  /// Records the deviations of Δż = ż₂ − ż (m/s) for take_readings(); at most once per sample.
+  /// Records a reading: the deviations of Δż = ż₂ − ż (m/s). At most once per sample.
   void read_velocity() { readings_.row(read_++) = reading(relative_v_); }
-  /// The readings recorded since the last call of this function, one per row, in their order.
+  /// The readings recorded since the last call of this function, one per row, oldest first.
   Readings take_readings() {
     const Readings all = readings_.topRows(read_) * start_;
     read_ = 0;
@@ -106,9 +106,9 @@ class ModalDeviations {
   }
 
   /// Advances over one sampling period.
-  /// @param engaged  whether the drive transmits the new command
-  /// @param most     largest number of samples in a block, 1 … 64; a deviation that shrinks
-  ///                 strongly within a block loses accuracy
+  /// @param engaged  whether the drive transmits the command u_j of the present sample
+  /// @param most     largest number of samples in a block, 1 … 64; deviations that shrink strongly
+  ///                 within a block lose accuracy: then choose a smaller number
   void advance(bool engaged, int most = block) {
     if (engaged) {
       commands_.row(static_cast<Eigen::Index>(commanded_.size())) = reading(command_);

@@ -20,20 +20,20 @@ namespace holdfast {
 
 /// The motion of the sampled loop of a conductor given by its modes, one sample at a time.
 ///
-/// The motion is stored as the amplitudes ξ of the natural motions of conductor and absorber, which
-/// advance independently of each other. Displacements and velocities are weighted sums of these
-/// amplitudes (NaturalMotion). Computer and backlash act as in `SampledMotion`. Work per sample: 20
+/// The motion is stored as the amplitudes ξ of the natural motions of conductor and absorber (see
+/// NaturalMotion), each of which advances independently. Displacements and velocities are weighted
+/// sums of the amplitudes. Computer and backlash act as in `SampledMotion`. Work per sample: 20
 /// multiply-adds per natural motion, in SIMD vectors. After construction no memory is allocated.
 class ModalMotion {
  public:
   static constexpr int states = 4;  ///< number of entries of the observed state
-  using State = Vector<double, 4>;  ///< observed state [z, ż, z₂, ż₂] (m, m/s, m, m/s)
+  using State = Vector<double, 4>;  ///< observed [z, ż, z₂, ż₂] (m, m/s): z conductor, z₂ absorber
   using Readings = PortReadings<TwoMass<double>>;  ///< functions that read the observed state
   using Full = NaturalMotions::Full;  ///< state [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂] of `modal_plant`
 
   using Memory = MotionMemory<double, BacklashMemory<double>>;  ///< memory of the motion
 
-  /// @param loop   loop; it is not validated
+  /// @param loop   an admissible loop (unchecked)
   /// @param poles  all `plant_poles` of the loop's modes and absorber
   /// @param state  the initial state of `modal_plant`
   ModalMotion(const ModalLoop& loop, const std::vector<PlantPole>& poles, const Full& state)
@@ -63,7 +63,7 @@ class ModalMotion {
     return {index_, time(), seen_, present_force_, engaged};
   }
 
-  /// Advances from t_j to t_{j+1} under u_{j−1} until t_j + δ, then under u_j of `sense()`.
+  /// Advances to t_{j+1}: under u_{j−1} until t_j + δ (δ: processing delay), then under u_j.
   void advance() {
     const double u = present_force_, before = previous_force_;
     const Vector<double, 2> force = phases_.next();
@@ -101,9 +101,9 @@ class ModalMotion {
   const State& state() const { return seen_; }
   /// The functions that read displacements and velocities from the observed state.
   const Readings& readings() const { return readings_; }
-  /// Observed state at t_j, u_{j−1} and memory of the backlash; to be called before `sense()`.
+  /// The observed state at t_j, u_{j−1} and the backlash's memory; to be called before `sense()`.
   Memory memory() const { return {seen_, previous_force_, law_.memory()}; }
-  /// The amplitudes ξ of all natural motions, in the order of NaturalMotions.
+  /// The amplitudes ξ of all natural motions at t_j, in the order of NaturalMotions.
   Eigen::VectorXcd amplitudes() const {
     Eigen::VectorXcd all(static_cast<Eigen::Index>(motions_.size()));
     for (std::size_t k = 0; k < motions_.size(); ++k)
@@ -153,8 +153,8 @@ class ModalMotion {
 /// @param loop   the loop with its excitation and backlash
 /// @param poles  `plant_poles` of the loop's modes and absorber
 /// @param state  the initial state
-/// @return nullopt where `poles` is empty, because plant_poles() did not find all poles. Then use
-///         `harmonically_forced_motion` of the plant, with N² operations per sample for N states
+/// @return nullopt where `poles` is empty, because plant_poles() did not find all poles. Use then
+///         harmonically_forced_motion() of `modal_plant`: N² operations per sample for N states
 /// @throws InvalidParameter where the loop is not admissible, or the state is not finite or of
 ///         another size
 inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,

@@ -21,13 +21,13 @@ namespace holdfast {
 
 /// The sampled loop of a conductor given by its modes, with its excitation and backlash.
 struct ModalLoop {
-  std::vector<PlaceMode<double>> modes;   ///< conductor's modes, with shapes at the absorber
+  std::vector<PlaceMode<double>> modes;   ///< conductor's modes, with mode shapes at the absorber
   Absorber<double> absorber;              ///< absorber with its clamp
   Sampling<double> sampling;              ///< sampling period τ and processing delay δ ≤ τ (s)
   PdGains<double> gains;                  ///< gains P (N/m) and D (N s/m)
-  HarmonicExcitation<double> excitation;  ///< F_m (N) and f (Hz) of the force at the absorber
+  HarmonicExcitation<double> excitation;  ///< amplitude F_m (N), frequency f (Hz), at the absorber
   double backlash_width = 0.0;            ///< width r₀ of the backlash (m), ≥ 0
-  ForceHold hold = ForceHold::sampled;    ///< whether the excitation is held constant over a period
+  ForceHold hold = ForceHold::sampled;    ///< force held over each sampling period, or exact
 };
 
 /// Validates a loop. @throws InvalidParameter where it is not admissible
@@ -39,13 +39,14 @@ inline void validate(const ModalLoop& loop) {
   validate_backlash_width(loop.backlash_width);
 }
 
-/// A natural motion e^{st} of conductor and absorber, s being a pole of the plant. In one sampling
-/// period τ its amplitude ξ changes under the commands u and the excitation (F_m, ω) to
+/// A natural motion e^{st} of conductor and absorber for a pole s of the plant. In one sampling
+/// period τ, under the commands u and the excitation (amplitude F_m, angular frequency ω), its
+/// complex amplitude ξ becomes
 ///
 ///     ξ_{j+1} = e^{sτ} ξ_j + γ₁ u_{j−1} + γ₀ u_j + g_c F_m cos ωt_j + g_s F_m sin ωt_j .
 ///
-/// The conductor's displacement is z = Re Σ w_z ξ over all natural motions. ż, z₂ and ż₂ are such
-/// sums with other weights. One object represents both members of a conjugate pair.
+/// The conductor's displacement at the absorber is z = Re Σ w_z ξ over all natural motions; ż, z₂
+/// and ż₂ are sums with other weights. One object represents both members of a conjugate pair.
 struct NaturalMotion {
   std::complex<double> decay;    ///< factor e^{sτ} of one sampling period
   std::complex<double> present;  ///< γ₀, response per newton of the present command u_j
@@ -64,7 +65,7 @@ class NaturalMotions {
   /// The state of `modal_plant`: modal coordinates and absorber, [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂].
   using Full = Vector<double, Eigen::Dynamic>;
 
-  /// @param loop   loop; it is not validated
+  /// @param loop   an admissible loop (unchecked)
   /// @param poles  all `plant_poles` of the loop's modes and absorber
   NaturalMotions(const ModalLoop& loop, const std::vector<PlantPole>& poles) : loop_(loop) {
     const detail::PoleFinder finder(loop.modes, loop.absorber);
@@ -83,12 +84,12 @@ class NaturalMotions {
 
   /// The number of natural motions; a conjugate pair counts as one.
   std::size_t size() const { return motions_.size(); }
-  /// The number of conjugate pairs, which come first; all other natural motions are real.
+  /// The number of natural motions that represent a conjugate pair; all others are real.
   std::size_t pairs() const { return pairs_; }
-  /// The k-th natural motion.
+  /// The k-th natural motion, 0 ≤ k < size(); the conjugate pairs come first.
   const NaturalMotion& operator[](std::size_t k) const { return motions_[k]; }
 
-  /// The k-th natural motion with factors for the first `length` (s) of a sampling period only.
+  /// The k-th natural motion with factors for a step of `length` (s) from a sample, 0 ≤ length ≤ τ.
   NaturalMotion over(std::size_t k, double length) const {
     return numbers_of(shapes_[k], k >= pairs_,
                       {length, std::min(loop_.sampling.processing_delay, length)});
@@ -120,8 +121,8 @@ class NaturalMotions {
     return state;
   }
 
-  /// The amplitude ξ = ψᵀ((sM + C) q + M q̇) of the k-th natural motion in a given state, with its
-  /// pole s and shape ψ. The coordinates q have the mass matrix M and the damping matrix C.
+  /// The amplitude ξ = ψᵀ((sM + C) q + M q̇) of the k-th natural motion in a given state. s is the
+  /// pole, ψ the shape of this motion; q are the coordinates with mass and damping matrices M, C.
   std::complex<double> amplitude(std::size_t k, const Full& state) const {
     const Shape& natural = shapes_[k];
     const Absorber<double>& absorber = loop_.absorber;

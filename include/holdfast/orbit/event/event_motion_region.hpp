@@ -16,11 +16,11 @@
 
 namespace holdfast {
 
-/// Solves for the periodic motion of a loop, starting from the orbit of a loop with similar
-/// parameters. Period and order of contact modes are the same; the switching instants may differ.
-/// @param loop   the loop to be solved, with the same f τ
-/// @param orbit  known orbit, with a sample outside stick; its drive leaves every gap
-/// @return an outcome other than `certified` where no such motion exists or its modes differ
+/// Continues an orbit to a loop with similar parameters: computes the loop's periodic motion with
+/// the period and sequence of contact modes of the orbit. The switching instants may differ.
+/// @param loop   the loop with similar parameters and the same f τ (frequency × sampling period)
+/// @param orbit  known orbit of the original loop, not in stick at every sample; its drive leaves
+///               every gap. @return `certified` only if such a motion with these modes is found
 template <class Plant>
 OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
     const ImplementedLoopOf<Plant>& loop, const EventOrbitOf<states_of<Plant>>& orbit) {
@@ -178,17 +178,17 @@ class EventContinuation {
 }  // namespace detail
 
 /// Computes the border of the region of two parameters in which a periodic motion with exact
-/// switching exists and attracts. Inside, the motion keeps its period and the order of its modes,
-/// and all multipliers, saltation included, lie inside the unit circle.
+/// switching (contact changes at any time) exists and attracts. Inside, the period and the sequence
+/// of contact modes do not change, and all multipliers lie inside the unit circle.
 ///
 /// The kind of a border is the cause that ends the motion: a multiplier at the unit circle or a
 /// margin of EventOrbit at zero. If a contact change crosses a sample, the multipliers jump but the
-/// motion may last. The region of a symmetric motion ends where the motion loses its symmetry.
-/// @param family  (x, y) ↦ ImplementedLoop, with the same f τ everywhere
-/// @param orbit   certified orbit of family(at); its drive leaves every gap that it enters
-/// @param window  range of the parameters that is searched, around `at`
+/// motion may persist. The region of a symmetric motion ends where the motion loses its symmetry.
+/// @param family  function (x, y) ↦ ImplementedLoop; f τ, the orbit's `ratio`, must be constant
+/// @param orbit   certified orbit of family(at.x, at.y); its drive leaves every gap that it enters
+/// @param window  range of the parameters that is searched; contains `at`
 /// @param at      parameters (x, y) of the orbit
-/// @param steps   step lengths and accuracies along the border, as shares of the window
+/// @param steps   step lengths and accuracies along the border, as shares of the window's sides
 /// @throws InvalidParameter where the window is not finite or does not contain `at`
 template <class Family, int States>
 MotionRegion motion_region(const Family& family, const EventOrbitOf<States>& orbit,

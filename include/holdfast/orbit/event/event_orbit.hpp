@@ -22,13 +22,14 @@
 
 namespace holdfast {
 
-/// The least margins of an orbit from changes of its switching sequence; +∞ for absent events.
+/// The least margins by which an orbit avoids a change of its switching sequence; +∞ where no such
+/// event occurs. Δz and Δż are the relative displacement and velocity of the drive's two sides.
 ///
 /// At a margin of zero the motion touches a switching surface without crossing it. Neighbouring
 /// motions then have different switching sequences, and the linearised return map (multipliers)
 /// does not describe them. All margins are +∞ for a contact that changes only at the samples.
 struct SwitchingMargins {
-  /// The margin of an event that never occurs.
+  /// The value of a margin whose event never occurs, +∞.
   static constexpr double none = std::numeric_limits<double>::infinity();
 
   /// Least distance (m) of a turning point of Δz from an end of the gap that Δz does not reach.
@@ -37,51 +38,52 @@ struct SwitchingMargins {
   double shortest_travel = none;
   /// Least |Δż| with which Δz passes an end of the gap (m/s).
   double exit_velocity = none;
-  /// Least local minimum of |Δż| (m/s) at which the engaged drive does not reverse.
+  /// Least local minimum of |Δż| (m/s) in engaged motion at which Δż does not change its sign.
   double reversal_velocity = none;
   /// Least |a(u)| at a reversal (m/s²); a(u) is the acceleration Δz̈ under the command u.
   double reversal_acceleration = none;
-  /// Least |a(0)| at a reversal (m/s²); a(0), which is Δz̈ without force, selects stick or gap.
+  /// Least |a(0)| at a reversal (m/s²); a(0) is Δz̈ without drive force. Its sign decides between
+  /// stick and gap.
   double stick_acceleration = none;
 };
 
-/// A periodic motion of the sampled loop that switches between samples, with a certificate.
+/// A periodic motion of the sampled loop whose contact may change between samples.
 ///
-/// The certificate is numerical, in doubles. The EventMotion closes after one period up to
-/// `closure_error` and has the same switches in three successive periods. All multipliers,
-/// saltation included, lie inside the unit circle. At a zero margin the switching sequence changes.
-/// Only prove_event_orbit() proves a true orbit within a bound of the computed one.
+/// The certificate of find_event_orbit() is numerical, in doubles. The simulated motion closes
+/// after one period up to `closure_error` and has the same switches in three successive periods.
+/// All multipliers, saltation included, lie inside the unit circle. No switching surface is touched
+/// within rounding. Only prove_event_orbit() proves that an orbit exists near the computed one.
 ///
 /// There is one multiplier for each entry of [x; u_{j−1}; gap position; last measured displacement]
-/// that affects later samples. If there are fewer than five, multipliers 0 are added.
+/// that affects later samples, x being the plant state. Zeros are added up to a total of five.
 /// @tparam States  N, the order of the plant
 template <int States>
 struct EventOrbitOf : LoopOrbit<States> {
   std::vector<ContactMode> modes;  ///< contact mode after each sample
-  /// Force of the drive at each sample (N): while engaged the command u_j, which acts from t_j + δ;
-  /// in the gap 0; in stick the force that keeps both sides together at t_j.
+  /// Force of the drive at each sample (N). Engaged: the command u_j, which acts from t_j + δ on,
+  /// after the processing delay δ. Gap: 0. Stick: the force that keeps Δż = 0 at the instant t_j.
   std::vector<double> forces;
-  std::vector<ContactSwitch> switches;  ///< switches of one period; times (s) from sample 0
-  /// Δz (m) at the reversal where the present gap began, for each sample in a gap. The value has no
+  std::vector<ContactSwitch> switches;  ///< contact changes of one period; times (s) from sample 0
+  /// For each sample in a gap: Δz (m) at the reversal by which the drive entered this gap. No
   /// meaning at other samples and for laws other than exact play (contact/contact.hpp).
   std::vector<double> reversals;
   SwitchingMargins margins;          ///< least margins over all switches and turning points
   std::array<double, 3> time_share;  ///< share of the time in each ContactMode; sum 1
   double largest_displacement;       ///< max |z₁(t)| (m), between the samples too
   double largest_sample;             ///< max |z₁| (m), at the samples
-  StateScale extent;                 ///< largest |z| and |ż| of the drive's two sides, at samples
+  StateScale extent;  ///< largest displacement and velocity of the drive's two sides, at samples
 
   /// The largest |z₁| (m) of the conductor at the samples.
   double amplitude() const { return largest_sample; }
 
-  /// The share of the samples after which the drive is engaged.
+  /// The share, 0 … 1, of the samples after which the drive is engaged.
   double engaged_fraction() const {
     const auto engaged = std::count(modes.begin(), modes.end(), ContactMode::engaged);
     return static_cast<double>(engaged) / static_cast<double>(modes.size());
   }
 
-  /// The least of the `margins`, each as a share of the largest displacement x, the largest
-  /// velocity v or the acceleration v²/x of the orbit. +∞ where no margin is finite.
+  /// The least of the `margins`, each divided by the orbit's largest displacement x, its largest
+  /// velocity v, or v²/x for an acceleration. +∞ where no margin is finite.
   double border_share() const {
     const double acceleration = extent.velocity * extent.velocity / extent.displacement;
     return std::min({extent.share_of_displacement(margins.border_distance),
@@ -91,7 +93,7 @@ struct EventOrbitOf : LoopOrbit<States> {
                      margins.reversal_acceleration / acceleration,
                      margins.stick_acceleration / acceleration});
   }
-  /// The number of times that a contact mode begins in one period.
+  /// The number of times that the given contact mode begins in one period.
   std::int64_t entries(ContactMode mode) const {
     return std::count_if(switches.begin(), switches.end(),
                          [mode](const ContactSwitch& change) { return change.mode == mode; });
@@ -139,15 +141,15 @@ bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
 
 }  // namespace detail
 
-/// An observer that measures a motion between its samples: the margins of its switches, the time
-/// that it spends in each contact mode, and its largest displacement.
+/// An observer of EventMotion::advance that measures a motion between its samples: the margins of
+/// its switches, the time in each contact mode, and the largest displacement of the conductor.
 ///
 ///     EventOrbitMeasures<Contact> measures(motion);
 ///     motion.sense();
 ///     measures.begin();
 ///     motion.advance(measures);
 ///
-/// The motion must outlive the measures and keep its address; its samples must be consecutive.
+/// The motion must outlive this object and keep its address. No sample may be left out.
 /// Turning points are found as roots of the motion's differentiated Taylor series; none is missed.
 /// @tparam Contact  contact of the motion
 template <class Contact>
@@ -159,7 +161,7 @@ class EventOrbitMeasures {
   using Instant = typename Motion::Instant;
 
  public:
-  /// Starts the measurement at the motion's present sample.
+  /// Constructs the observer for a motion; the measurement starts at its present sample.
   explicit EventOrbitMeasures(const EventMotion<Contact>& motion)
       : motion_(&motion),
         readings_(motion.readings()),
@@ -175,7 +177,7 @@ class EventOrbitMeasures {
 
   /// The least margin of each kind so far.
   const SwitchingMargins& margins() const { return margins_; }
-  /// The time spent in each ContactMode, as a share of the whole time.
+  /// The share of the measured time that the motion has spent in each ContactMode; sum 1.
   std::array<double, 3> time_share() const {
     const double all = time_[0] + time_[1] + time_[2];
     return {time_[0] / all, time_[1] / all, time_[2] / all};
@@ -183,9 +185,9 @@ class EventOrbitMeasures {
   /// The largest |z₁(t)| (m) of the conductor so far.
   double largest_displacement() const { return largest_displacement_; }
 
-  // The observer of EventMotion::advance.
-
-  /// Measures the motion in one mode, from `begin` (s after the sample) over `length` (s).
+  // The calls by EventMotion::advance.
+  /// Called after a time interval in one contact mode: measures the motion from `begin` (s after
+  /// the sample) over `length` (s).
   void flowed(int mode, double begin, double length) {
     guards_ = motion_->contact().guards();
     time_[static_cast<std::size_t>(motion_->contact().word())] += length;
@@ -198,10 +200,10 @@ class EventOrbitMeasures {
       for (ModeGuard& guard : guards.guard) guard.zeros = 0;
     }
   }
-  /// Records that the command u_j takes effect, at t_j + δ.
+  /// Called when the command u_j takes effect, at t_j + δ (processing delay δ).
   void commanded() { trace_.commanded(); }
-  /// Records the margins of a switch at which a guard reaches zero: the speed at an end of the gap,
-  /// the accelerations at a reversal. A switch by a jump (guard −1) has no margin.
+  /// Called at a contact change: records the SwitchingMargins, from |Δż| at an end of the gap and
+  /// the accelerations at a reversal. A change by a jump of command or force (`guard` −1) has none.
   void switched(int from, int, int guard, const Instant& instant) {
     last_slope_ = {};
     if (guard < 0) return;

@@ -26,7 +26,8 @@ namespace holdfast {
 /// The result of a search for the periodic orbit of an EventMotion.
 template <class Contact>
 struct EventOrbitResult : OrbitResultOf<EventOrbitOf<EventMotion<Contact>::states>> {
-  std::optional<StroboscopicState<Contact>> point;  ///< the orbit's first state; nullopt: no orbit
+  /// Complete state of the motion before the orbit's first sample; nullopt without an orbit.
+  std::optional<StroboscopicState<Contact>> point;
 };
 
 namespace detail {
@@ -181,7 +182,6 @@ class EventOrbitSolver {
     return motion_.point();
   }
 
-  /// The orbit recorded over the next N samples of the motion.
   Orbit next_period(std::int64_t samples, EventOrbitMeasures<Contact>& measures) {
     Orbit way{};
     way.ratio = ratio_;
@@ -245,7 +245,6 @@ class EventSearchModel {
   /// Cost of solving for an orbit, in simulated samples per orbit sample (measured 16 … 60).
   static std::int64_t samples_per_solved() { return 32; }
 
-  /// @param start  motion at a stroboscopic instant
   EventSearchModel(const Motion& start, const Rational& ratio)
       : motion_(start, ratio.denominator), solver_(motion_, ratio) {}
 
@@ -310,21 +309,21 @@ class EventSearchModel {
 
 }  // namespace detail
 
-/// Finds the periodic orbit that a motion settles on, with its numerical certificate (EventOrbit).
+/// Finds the periodic orbit on which a motion settles, with a numerical certificate (EventOrbitOf).
 ///
 ///     const auto motion = event_motion(loop, state);
 ///     const auto found = find_event_orbit(motion);
 ///     if (found.outcome == OrbitOutcome::certified) use(found.orbit->period());
 ///
-/// The outcome `certified` also means that the motion came within 10⁻⁶ of its extent of the orbit
-/// and did not move away over two further periods. For `neutral`, `neutral_state` is the index of a
-/// state variable without restoring term. The outcome is also `none_found` if a sampling period has
-/// more than EventMotion::most_switches contact changes. It is also `incommensurate` for a recorded
-/// force and for sampling jitter.
+/// `certified` also means that the motion came close to the orbit and did not move away over two
+/// further periods. Close: the relative distance (StateScaleOf) is below 10⁻⁶. For `neutral`,
+/// `neutral_state` is the index of a state variable without restoring term. `none_found` occurs
+/// also if a sampling period has more than EventMotion::most_switches contact changes, and
+/// `incommensurate` also for a recorded force and for sampling jitter.
 ///
-/// Work: at most `limits.most_samples` simulated samples, and about as much for solving.
-/// Memory: one byte per sample of the motion, some 150 bytes per sample of the orbit.
-/// @param start   the motion before a sample; it is not changed
+/// Work: at most `limits.most_samples` simulated samples, and about as much for computing orbits.
+/// Memory: one byte per sample of the motion, about 150 bytes per sample of the orbit.
+/// @param start   the motion, before a sample; the search simulates a copy of it
 /// @param limits  limits of the search: longest period and number of samples
 /// @throws InvalidParameter where a limit is out of its range
 template <class Contact>

@@ -20,15 +20,15 @@
 
 namespace holdfast {
 
-/// The complete state of an EventMotion before sample j, which determines all later samples. At
-/// stroboscopic instants, every q samples (f τ = p/q), sampling and forcing are in phase.
+/// The complete state of an EventMotion before a sample j; it determines the motion from then on.
+/// At stroboscopic instants, every q samples (f τ = p/q), sampling and forcing are in phase.
 template <class Contact>
 struct StroboscopicState {
   std::int64_t phase;  ///< samples since the last stroboscopic instant, 0 … q − 1
   typename EventMotion<Contact>::State state;  ///< plant state x_j, N × 1 (two masses: m, m/s)
   double previous_command;                     ///< command of the last sample, u_{j−1} (N)
   double previous_reading;                     ///< displacement measured at t_{j−1} (m)
-  Contact contact;                             ///< contact with its memory before sample j
+  Contact contact;  ///< contact before sample j, with its memory, such as the gap's position
 };
 
 namespace detail {
@@ -62,24 +62,24 @@ StroboscopicState<Contact> shifted(StroboscopicState<Contact> point,
 
 }  // namespace detail
 
-/// An EventMotion whose forcing repeats exactly every q samples. Its sample index restarts at each
-/// repetition, so that rounding of large times cannot shift sampling against forcing.
+/// An EventMotion whose forcing repeats exactly every q samples. Its sample index restarts at 0 at
+/// each repetition: rounding of large times then cannot shift the sampling relative to the forcing.
 template <class Contact>
 class RepeatingMotion {
  public:
-  /// @param motion  motion at any sample; it is at a stroboscopic instant (sampling and forcing in
-  ///                phase) whenever its index is a multiple of q
+  /// @param motion  motion at any sample; sampling and forcing are in phase (stroboscopic instant)
+  ///                whenever the sample's index is a multiple of q
   /// @param period  denominator q ≥ 1 of f τ = p/q, from forcing_ratio()
   RepeatingMotion(const EventMotion<Contact>& motion, std::int64_t period)
       : motion_(motion), period_(period) {
     turn_to(motion.index() % period);
   }
 
-  /// Measures the present sample and decides the command; to be called before each `advance()`.
+  /// Takes the present sample and computes the command; to be called before each `advance()`.
   typename EventMotion<Contact>::Sample sense() { return motion_.sense(); }
   /// Advances the motion to the next sample.
   void advance() { advance(IgnoreFlow()); }
-  /// Advances to the next sample and calls an observer at each event, as EventMotion::advance does.
+  /// Advances to the next sample and calls an observer at each event; see EventMotion::advance.
   template <class Observer>
   void advance(Observer&& observer) {
     motion_.advance(observer);
@@ -94,7 +94,7 @@ class RepeatingMotion {
             motion_.contact()};
   }
 
-  /// Sets the motion to a given state and restarts the counts of contact changes.
+  /// Sets the motion to a given state and sets its counts of contact changes to zero.
   void go_to(const StroboscopicState<Contact>& point) {
     if constexpr (!own_controller) {
       if (motion_.loop().limits.velocity == VelocitySensing::difference)
@@ -150,32 +150,32 @@ PointDeviation<Contact> return_units(
 
 }  // namespace detail
 
-/// The return map X_0 → X_N of a motion over N samples, N a multiple of q (f τ = p/q), with its
-/// derivative. X is [x; u_{j−1}; gap position; last measured displacement], as in VariationalFlow.
-/// The derivative includes saltation at every switch and is stored as factors (BlockProducts).
+/// The return map X_0 ↦ X_N of a motion over N samples, N a multiple of q (f τ = p/q), with its
+/// derivative. The state is X = [x; u_{j−1}; gap position; last measured displacement], with the
+/// plant state x and the last command u_{j−1}. The derivative includes saltation at every switch.
 /// @tparam Contact  contact of the motion
 template <class Contact>
 class ReturnMap {
  public:
   /// The type of the motion whose states are mapped.
   using Motion = EventMotion<Contact>;
-  /// A deviation of X, with three entries more than the plant's state x.
+  /// A deviation of X; it has three entries more than the plant state x.
   using Deviation = detail::PointDeviation<Contact>;
   /// The state X together with the contact of the drive and the phase of the forcing.
   using Point = StroboscopicState<Contact>;
 
   /// @param motion     any motion of the loop
   /// @param samples    number N of samples, a multiple of q
-  /// @param units      units of X, powers of two
-  /// @param gap_opens  whether the drive leaves its gap during the N samples; if not, the gap's
-  ///                   position counts as constant
+  /// @param units      units by which the entries of X are divided for scaling, powers of two
+  /// @param gap_opens  whether the drive changes its contact during the N samples; if not, the
+  ///                   gap's position counts as constant
   ReturnMap(const RepeatingMotion<Contact>& motion, std::int64_t samples, const Deviation& units,
             bool gap_opens)
       : motion_(motion), samples_(samples), units_(units), gap_opens_(gap_opens) {}
 
-  /// Solves for the fixed point X_N = X_0 near a given state, by Newton's method with the linear
-  /// steps of CyclicSystem. The iteration ends when further steps bring no improvement.
-  /// @param near  a state that is not in stick
+  /// Computes the fixed point X_N = X_0 near a given state by Newton's method; CyclicSystem solves
+  /// for each step. The iteration ends when further steps bring no improvement.
+  /// @param near  initial guess, a state that is not in stick
   /// @return nullopt where 1 is a multiplier, the motion touches a switching surface or ends in
   ///         another contact mode, or X_N − X_0 does not decrease to rounding
   std::optional<Point> fixed_point(Point near) {
@@ -205,9 +205,9 @@ class ReturnMap {
     return least <= 1e-10 ? best : std::nullopt;
   }
 
-  /// The index of the largest entry, in the units of X, of a neutral deviation: one that is
-  /// unchanged after N samples. Only the entries of the plant's state x are compared. If variables
-  /// of a user-defined controller deviate, only these are compared.
+  /// The index, in the plant state x, of the largest entry of a neutral deviation. A deviation is
+  /// neutral if it is unchanged after N samples. Entries are compared in the units of X. If state
+  /// variables of a user-defined controller deviate, only they are compared.
   /// @return nullopt without a neutral deviation or where other deviations grow
   std::optional<Eigen::Index> neutral_coordinate(const Point& point) {
     Extent unused(motion_.motion().readings());
@@ -232,8 +232,8 @@ class ReturnMap {
     return which;
   }
 
-  /// The multipliers of a fixed point, largest first: one for each state variable, including the
-  /// loop's memory, and at least five. Missing ones are filled with 0 (log_modulus −∞).
+  /// The Floquet multipliers of a fixed point, largest modulus first: one for each entry of X that
+  /// affects later samples. If fewer than five, zeros (log_modulus −∞) are added.
   std::vector<Multiplier> multipliers(const Point& point) {
     Extent unused(motion_.motion().readings());
     const Linearised flow = linearised(point, samples_that_keep_digits(), unused);
@@ -252,7 +252,6 @@ class ReturnMap {
   using Map = typename VariationalFlow<Contact>::Map;
   using Blocks = std::vector<Eigen::MatrixXd>;
 
-  /// A motion over N samples with the maps of its deviations.
   struct Linearised {
     Point end;      // X_N
     Blocks blocks;  // of deviations, in the units
@@ -263,7 +262,6 @@ class ReturnMap {
   Eigen::Index gap_row() const { return order() + 1; }
 
   /// Follows the motion over N samples; multiplies its maps in blocks of up to `most` samples.
-  /// @param extent  largest values of the states, which this function updates
   Linearised linearised(const Point& point, std::size_t most, Extent& extent) {
     motion_.go_to(point);
     VariationalFlow<Contact> tangent(motion_.motion());

@@ -27,13 +27,13 @@
 
 namespace holdfast {
 
-/// The maps of the sampled loop of a conductor given by its modes over one sampling period, engaged
-/// or in the backlash, as ItineraryMaps for two masses. The state is [Re ξ; Im ξ of the conjugate
-/// pairs; u_{j−1}], with the complex amplitudes ξ of the natural motions (NaturalMotion).
+/// The maps over one sampling period, engaged or in the backlash, of a loop with a conductor given
+/// by its modes. The state is [Re ξ; Im ξ of the conjugate pairs; u_{j−1}] with the complex
+/// amplitudes ξ of the natural motions e^{st} (NaturalMotion) and the last command u_{j−1}.
 class ModalItineraryMaps {
  public:
   using State = Eigen::VectorXd;  ///< state [Re ξ; Im ξ of the pairs; u_{j−1}]
-  using Map = Eigen::MatrixXd;    ///< map of deviations over some samples
+  using Map = Eigen::MatrixXd;    ///< product of the maps of several successive samples
   using System = CyclicSystem<double, Eigen::Dynamic>;  ///< linear solver for a periodic motion
 
   /// @param loop   the loop; its backlash width is not used
@@ -52,9 +52,9 @@ class ModalItineraryMaps {
     if (watch_) watch_();
   }
 
-  /// The propagator of deviations, scaled by units(). Copy it, and call begin() of the copy.
+  /// The propagator of scaled deviations. To use it, copy it and call begin() of the copy.
   const ModalDeviations& deviations() const { return deviations_; }
-  /// The units by which deviations are scaled, one for each coordinate of the state.
+  /// The units by which deviations are divided for scaling, one for each entry of the state.
   const Eigen::VectorXd& units() const { return deviations_.units(); }
   /// The state of rest, all zero.
   State rest() const { return State::Zero(units().size()); }
@@ -66,7 +66,8 @@ class ModalItineraryMaps {
     return all;
   }
 
-  /// The observed part of a state, [z, ż, z₂, ż₂; u_{j−1}]: both sides of the drive and its force.
+  /// The observed part [z, ż, z₂, ż₂; u_{j−1}] of a state: motion of the conductor at the absorber
+  /// (m, m/s), motion of the absorber (m, m/s), last command (N).
   Vector<double, 5> seen(const State& state) const {
     const Eigen::Index count = decay_.size();
     Vector<double, 5> read;
@@ -76,8 +77,8 @@ class ModalItineraryMaps {
     return read;
   }
 
-  /// The state of the steady motion at phase 0 of the forcing, with the drive always engaged: ξ_j =
-  /// A e^{iωτj} + B e^{−iωτj}, A and B complex. Not finite where e^{iωτ} is a root of the loop.
+  /// The state, at phase 0 of the forcing, of the steady harmonic motion with the drive always
+  /// engaged. Not finite where e^{iωτ} is one of the roots(); ω is the forcing's angular frequency.
   State steady() const {
     using Phasors = Eigen::ArrayXcd;
     const std::complex<double> i(0.0, 1.0), back = std::conj(turn_);
@@ -102,11 +103,11 @@ class ModalItineraryMaps {
 
   /// The factors e^{sτ} of all natural motions: one for each conjugate pair, then the real ones.
   const Eigen::VectorXcd& decay() const { return decay_; }
-  /// The number of conjugate pairs; each pair is represented by one natural motion.
+  /// The number of conjugate pairs of natural motions; a pair counts as one natural motion.
   Eigen::Index pairs() const { return pairs_; }
 
-  /// The correction of the first state that removes the closure error `gap` after `samples` samples
-  /// in the backlash, where each sample multiplies a natural motion ξ by e^{sτ}.
+  /// The correction of the first state of a period of `samples` samples in the backlash. It removes
+  /// the closure error `gap`, last state minus first state.
   State correction_in_backlash(const State& gap, std::size_t samples) const {
     const Eigen::Index count = decay_.size();
     const Eigen::ArrayXcd natural =
@@ -116,8 +117,8 @@ class ModalItineraryMaps {
     return correction;
   }
 
-  /// The characteristic roots of the sampled loop with the drive always engaged. Empty where the
-  /// roots cannot be separated numerically.
+  /// The characteristic roots (eigenvalues of the map over one sampling period) of the loop with
+  /// the drive always engaged. Empty where the roots cannot be separated numerically.
   std::vector<std::complex<double>> roots() const {
     PoleSum<double> loop;
     for (Eigen::Index k = 0; k < decay_.size(); ++k) {
@@ -134,11 +135,11 @@ class ModalItineraryMaps {
     return pole_sum_roots(loop, past_.cwiseAbs().maxCoeff() > 0.0);
   }
 
-  /// Computes the motion of an itinerary from a first state; stores the observed part per sample.
-  /// @param first      the state before the first sample
-  /// @param itinerary  contacts, the first sample at phase 0 of the forcing
+  /// Computes the motion with the contacts of an itinerary, and the observed part of each state.
+  /// @param first      the state at the first sample
+  /// @param itinerary  contact at each sample, the first sample at phase 0 of the forcing
   /// @param states     filled with [z, ż, z₂, ż₂; u_{j−1}]; must have one entry for each sample
-  /// @return the state after the last sample
+  /// @return the state one sampling period after the last sample
   State follow(const State& first, const Itinerary& itinerary,
                std::vector<Vector<double, 5>>& states) const {
     State state = first;
@@ -201,12 +202,13 @@ class ModalItineraryMaps {
   std::function<void()> watch_;
 };
 
-/// Whether the drive transmits at no sample: natural motions are then independent.
+/// Whether the drive transmits at no sample of an itinerary; natural motions then are uncoupled.
 inline bool is_idle(const Itinerary& itinerary) {
   return std::all_of(itinerary.begin(), itinerary.end(), [](auto contact) { return contact == 0; });
 }
 
-/// The periodic solution if the drive never transmits; nullopt otherwise or if it is not finite.
+/// The periodic solution for an itinerary in which the drive never transmits (is_idle()). nullopt
+/// for any other itinerary, or if the solution is not finite.
 inline std::optional<PeriodicSolution<ModalItineraryMaps>> solution_without_blocks(
     const ModalItineraryMaps& maps, const Itinerary& itinerary) {
   if (!is_idle(itinerary)) return std::nullopt;
@@ -217,11 +219,11 @@ inline std::optional<PeriodicSolution<ModalItineraryMaps>> solution_without_bloc
   return solution.first.allFinite() ? std::optional(solution) : std::nullopt;
 }
 
-/// The products of the maps of an itinerary, one for each block of samples, in the units of `maps`.
+/// The products of the maps of an itinerary, one for each block of samples, scaled by maps.units().
 /// A block ends at most sixteen samples after an entry of its product has reached 1000. Work per
-/// sample: 2 n² multiply-adds, n being the number of coordinates of a deviation.
-/// @return the products; empty for an idle drive, whose orbit is solved for without blocks. Empty
-///         also if more than 64 blocks are needed: no orbit can then be solved for
+/// sample: 2 n² multiply-adds, n being the number of entries of a state.
+/// @return the products; empty for a drive that never transmits (solution_without_blocks()). Empty
+///         also if more than 64 blocks are needed: no orbit can then be computed
 inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& maps,
                                                    const Itinerary& itinerary) {
   constexpr std::size_t between_looks = 16, most = 64;
@@ -242,14 +244,15 @@ inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& map
   return blocks;
 }
 
-/// The largest `most` multipliers of a list, in descending order of their moduli.
+/// The `most` multipliers of largest modulus in a list, in descending order of their moduli.
 inline std::vector<Multiplier> largest_of(std::vector<Multiplier> all, Eigen::Index most) {
   std::stable_sort(all.begin(), all.end(), Multiplier::is_larger);
   all.resize(std::min(all.size(), static_cast<std::size_t>(most)));
   return all;
 }
 
-/// The `most` largest multipliers of N = `samples` samples in the backlash: e^{sτN}, s a pole.
+/// The `most` largest Floquet multipliers e^{sτN} of a period of N = `samples` samples in the
+/// backlash, s being the plant's poles; one more multiplier, of the last command, is 0.
 inline std::vector<Multiplier> idle_multipliers(const ModalItineraryMaps& maps, std::size_t samples,
                                                 Eigen::Index most) {
   std::vector<Multiplier> found;
@@ -264,11 +267,11 @@ inline std::vector<Multiplier> idle_multipliers(const ModalItineraryMaps& maps, 
   return largest_of(std::move(found), most);
 }
 
-/// The ten largest multipliers of one period, or all where there are fewer.
+/// The ten largest Floquet multipliers of one period, or all where there are fewer.
 ///
-/// If the period is one block, they are computed as eigenvalues of its map, provided that all ten
-/// exceed rounding. Otherwise they come from an orthogonal iteration of sixteen deviations over the
-/// period, which also resolves strong contraction.
+/// If the period is one block, they are the eigenvalues of its map, provided that all ten exceed
+/// rounding. Otherwise they come from an orthogonal iteration of sixteen deviations over the
+/// period. This method also resolves strong contraction.
 /// @param maps       maps of the loop
 /// @param itinerary  contacts of one period
 /// @param blocks     maps_of_blocks() of the itinerary

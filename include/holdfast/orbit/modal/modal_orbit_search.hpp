@@ -26,17 +26,18 @@
 
 namespace holdfast {
 
-/// A neighbourhood of an orbit's first state, for a conductor given by its modes. Motions inside,
-/// at the same phase of the forcing, follow the orbit's itinerary for ever and tend to the orbit.
+/// A neighbourhood of an orbit's first state, for a conductor given by its modes. Every motion that
+/// starts in it, at the same forcing phase, has the orbit's itinerary for ever and tends to the
+/// orbit. The neighbourhood is ‖R e‖ < `radius`, with the deviation e of a motion from the orbit.
 ///
-/// The neighbourhood is ‖R e‖ < `radius`, with the deviation e of a motion from the orbit. The
-/// entries of e are those of ModalDeviations and the gap's deviation, all in m. ‖R e‖² is eᵀV e,
-/// where V − MᵀV M is positive definite and M maps e over one or more periods. The motion must also
-/// have the orbit's contact and, while engaged, the orbit's last sign of Δż. For an orbit that
-/// stays in a gap, `radius` is per metre of clearance between the orbit and the gap's ends.
+/// The entries of e are those of ModalDeviations and the deviation of the gap's position, all in m.
+/// ‖R e‖² = eᵀV e is a Lyapunov function: V − MᵀV M is positive definite, where M maps e over one
+/// or more periods. The motion must also have the orbit's contact and, while engaged, the orbit's
+/// last sign of Δż. For an orbit that stays in its gap, `radius` is per metre of clearance between
+/// the orbit and the gap's ends.
 struct ModalAttraction {
   Eigen::VectorXd first;          ///< first state of the orbit, a ModalItineraryMaps::State
-  BacklashMemory<double> memory;  ///< memory of the drive before the first sample
+  BacklashMemory<double> memory;  ///< memory of the backlash law before the first sample
   bool stays_inside;              ///< whether the drive never leaves its gap
   double lowest,                  ///< least Δz of the orbit (m)
       highest;                    ///< largest Δz of the orbit (m)
@@ -88,12 +89,12 @@ std::optional<ModalAttraction> idle_attraction(const Loop& loop, const ModalItin
 ///
 /// Φ maps the initial deviation e to the deviation at a sample; h is a switching surface's normal.
 /// A contact is unchanged if |h Φ e| is below the orbit's distance from the surface. `radius` is
-/// the least value of distance / ‖h Φ R⁻¹‖ over the periods of M, after which ‖R e‖ has decreased.
+/// the least value of distance / ‖h Φ R⁻¹‖ over the periods of M. After them ‖R e‖ has decreased.
 /// M covers the least number of periods (1, 2, 4, … 64) whose contraction exceeds rounding.
 /// @param loop   the loop that has the orbit
 /// @param maps   maps of that loop
 /// @param orbit  orbit of that loop, attracting and certified
-/// @return nullopt where no such V is found, the orbit cannot be solved for or the radius is 0
+/// @return nullopt where no matrix V (ModalAttraction) or no orbit is found, or the radius is 0
 template <class Loop>
 std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalItineraryMaps& maps,
                                                 const PeriodicOrbit& orbit) {
@@ -130,15 +131,16 @@ std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalIti
   return std::nullopt;
 }
 
-/// The ratio f τ = p/q of a modal loop (control/digital_loop.hpp); nullopt if q exceeds 10⁶.
+/// The ratio f τ = p/q, forcing frequency × sampling period, of a modal loop as a fraction in
+/// lowest terms; nullopt if q exceeds 10⁶ (control/digital_loop.hpp).
 inline std::optional<Rational> forcing_ratio(const ModalLoop& loop) {
   return forcing_ratio(
       DigitalLoop{loop.sampling, loop.gains, multi_harmonic_force(loop.excitation), loop.hold});
 }
 
-/// Whether a motion, with sampling and forcing in phase, lies in a neighbourhood of attraction.
-/// @param region  the neighbourhood, at the same phase of the forcing
-/// @param motion  the motion before a sample
+/// Whether a motion at a stroboscopic instant (sampling and forcing in phase) lies in a
+/// neighbourhood of attraction. @param region  the neighbourhood
+/// @param motion  the motion before the sample at this instant
 /// @param units   units of the deviations, ModalItineraryMaps::units()
 template <class Motion>
 bool attracts(const ModalAttraction& region, const Motion& motion, const Eigen::VectorXd& units) {
@@ -159,7 +161,6 @@ bool attracts(const ModalAttraction& region, const Motion& motion, const Eigen::
 namespace detail {
 
 /// The region of attraction of an orbit of a conductor given by its modes.
-/// @tparam Loop  ModalLoop
 template <class Loop>
 class ModalRegion {
  public:
@@ -211,14 +212,14 @@ std::optional<PeriodicOrbit> orbit_without_backlash(const ModalLoop& loop, const
 
 }  // namespace detail
 
-/// Finds the periodic orbit on which the motion of a conductor given by its modes settles, with its
-/// certificate, as find_periodic_orbit() does for two masses. The orbit's states are the observed
-/// states z̃_j = [z, ż, z₂, ż₂; u_{j−1}]. Only the ten largest multipliers are given.
+/// Finds the periodic orbit on which the motion of a conductor given by its modes settles, and
+/// certifies that the motion tends to it; see the overload for two masses. The orbit's states are
+/// the observed states [z, ż, z₂, ż₂; u_{j−1}]. Only the ten largest multipliers are given.
 ///
 /// The outcome is `none_found` also where not all `plant_poles` could be computed.
 ///
 /// Work for a state of N entries: without backlash O(N) per sample of the orbit. With backlash O(N)
-/// per sample of the motion, and O(N²) per sample of a period plus O(N³) for each solution.
+/// per simulated sample; for each orbit computed, O(N²) per sample of its period plus O(N³).
 /// @param loop           the loop with its excitation and backlash
 /// @param poles          `plant_poles` of the loop's modes and absorber
 /// @param initial_state  state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂]
@@ -241,7 +242,8 @@ OrbitResult find_periodic_orbit(const Loop& loop, const std::vector<PlantPole>& 
   return detail::orbit_by_returns(loop, *ratio, limits, *motion,
                                   detail::ModalRegion<Loop>(loop, maps));
 }
-/// Finds the periodic orbit; the poles are computed. @throws InvalidParameter as the first overload
+/// Finds the periodic orbit as above, with poles that this overload computes.
+/// @throws InvalidParameter where the loop, the initial state or a limit is out of its range
 template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 OrbitResult find_periodic_orbit(const Loop& loop, const ModalMotion::Full& initial_state,
                                 const OrbitLimits& limits = {}) {

@@ -16,26 +16,26 @@
 
 namespace holdfast {
 
-/// The norms V_j of deviations e along a periodic sequence of linear maps M_j, one norm for each
-/// sample j. The sequence is proved to contract in these norms, which are a Lyapunov function,
+/// Norms V_j of deviations e along a periodic sequence of linear maps M_0 … M_{N−1}, one norm per
+/// sample j. The sequence is proved to contract in these norms, which form a Lyapunov function,
 ///
 ///     V_j(e)² = eᵀ P_j e,   V_{j+1}(M_j e) ≤ s_j V_j(e),   s_{N−1} … s_0 < 1
 ///
-/// The P_j are computed in doubles and then treated as exact. Interval elimination proves the
-/// inequalities. Hence all multipliers (eigenvalues of M_{N−1} … M_0) have moduli ≤ s_{N−1} … s_0.
-/// @tparam Size  size of e
+/// The matrices P_j are computed in doubles and then treated as exact. Interval elimination proves
+/// the inequalities. Hence all multipliers (eigenvalues of M_{N−1} … M_0) have moduli ≤ s_{N−1} …
+/// s_0. @tparam Size  number of entries of e
 template <int Size>
 class ContractingNorms {
  public:
-  /// The two maps from which the sequence is composed, as interval matrices (Enclosure).
+  /// The two maps of a loop, in the backlash and engaged, as interval matrices (Enclosure).
   using Maps = std::array<Matrix<Enclosure, Size>, 2>;
 
-  /// Computes the norms and proves that the maps of each given loop (corner) contract. The proof is
-  /// then valid for all loops between the corners, since eᵀMᵀPM e is convex in M.
-  /// @param corners      maps at the corners of a segment or box of loops, for all of which the
-  ///                     norms are valid; one corner for a single loop
-  /// @param sequence     index (0 or 1) of the map that moves sample j, for each j; not empty
-  /// @param log_modulus  estimate of ln |λ| for the largest multiplier λ
+  /// Computes the norms and proves that the maps of each given loop contract. If loops at the ends
+  /// (corners) of parameter ranges are given, the proof is valid for all loops between them, since
+  /// eᵀMᵀPM e is convex in M.
+  /// @param corners      maps of the loops at the corners; one entry for a single loop
+  /// @param sequence     for each sample j the index of M_j in Maps, 0 or 1; not empty
+  /// @param log_modulus  estimate of ln |λ| for the multiplier λ of largest modulus
   /// @return nullopt if log_modulus ≥ 0 or no norms are found in which the sequence contracts
   static std::optional<ContractingNorms> of(const std::vector<Maps>& corners,
                                             const std::vector<std::uint8_t>& sequence,

@@ -21,14 +21,15 @@
 
 namespace holdfast {
 
-/// The surfaces and instants that decide when the contact changes between the samples.
+/// The surfaces and instants that decide when the contact changes between the samples, with the
+/// unit of the distance from them.
 enum class ContactSurface {
   reversal,             ///< reversal of an engaged drive, Δż = 0 (m/s)
   gap_lower,            ///< Δz at the lower end of the gap (m)
   gap_upper,            ///< Δz at the upper end of the gap (m)
-  free_acceleration,    ///< stick ends in the gap: Δz̈ = 0 without a force (m/s²)
-  driven_acceleration,  ///< stick ends engaged: Δz̈ = 0 under the command (m/s²)
-  sampling_instant,     ///< sampling instant, or the change of the force at delay δ (s)
+  free_acceleration,    ///< change from stick to gap: Δz̈ = 0 without drive force (m/s²)
+  driven_acceleration,  ///< change from stick to engaged: Δz̈ = 0 under the command (m/s²)
+  sampling_instant,     ///< next sample, or instant at which a delayed command takes effect (s)
 };
 
 namespace detail {
@@ -46,7 +47,6 @@ struct FlowPlace {
 };
 
 /// A linear function of w (FlowPlace), as a row vector of coefficients.
-/// @tparam Number  Enclosure
 template <class Number>
 using FlowRow = RowVector<Number, FlowPlace::size>;
 
@@ -180,7 +180,6 @@ class EnclosedModes {
   }
 
  private:
-  /// A matrix with the positions of its nonzero entries.
   struct Sparse {
     Rate matrix = Rate::Zero();
     std::vector<std::pair<Eigen::Index, Eigen::Index>> entries = {};

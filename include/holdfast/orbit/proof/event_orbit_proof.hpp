@@ -27,23 +27,23 @@
 
 namespace holdfast {
 
-/// The proof of a periodic motion of the sampled loop whose drive switches between the samples. It
-/// is about all motions that begin in a ball around the first given state, in the same contact. If
-/// the outcome is `proved`, exactly one motion from the ball has the given period. It differs from
-/// the given states by at most the error bounds; its multipliers have moduli ≤ `multiplier_bound`.
-/// All other motions from the ball tend to it, with the same contact changes in the same sampling
-/// periods for ever. If the orbit stays in its gap, the proof is for the given gap position only.
+/// The proof of a periodic motion of the sampled loop whose contact changes between the samples.
+/// The states of the computed orbit are given. Let B be a ball around the first of them, with the
+/// same contact. If the outcome is `proved`, exactly one motion from B has the given period. This
+/// motion differs from the given states by at most the error bounds; its multipliers have moduli ≤
+/// `multiplier_bound`. All other motions from B tend to it, with the same contact changes in the
+/// same sampling periods. If the orbit stays in its gap, the gap has the given position.
 struct EventOrbitProof : ProvedBounds {
-  /// Largest distance between a given state's image one sample later and the next given state, as
-  /// a share of the states' extent.
+  /// Largest distance, over all samples, between the exact motion one sample after a given state
+  /// and the next given state, relative to the largest values of the states (StateScale).
   double miss = 0.0;
   double instant_error = 0.0;  ///< error bound of the recorded instants of contact changes (s)
-  /// Inequality with the least ratio decided_by(); if outcome is `near_surface`, the unproved one.
+  /// The least certain inequality (least decided_by()); for `near_surface` the unproved inequality.
   ContactTest nearest;
-  /// Radius (m) of the ball about the first given state, in the norm and weights of AttractionBall;
-  /// ∞ without backlash. Deviations that the contact of this state excludes are not in the ball: in
-  /// stick Δż is 0 and Δz is at the gap's end. The gap's position is fixed while engaged or for an
-  /// orbit that stays in its gap, and u_{j−1} is fixed if δ = 0.
+  /// Radius (m) of the ball B, in the norm and weights of AttractionBall; ∞ without backlash. The
+  /// ball contains only states that the contact of the first given state allows. In stick, Δż is 0
+  /// and Δz is at the gap's end. The gap's position is fixed while engaged and for an orbit that
+  /// stays in its gap. u_{j−1} is fixed without processing delay.
   double radius = 0.0;
 };
 
@@ -116,7 +116,6 @@ class EventOrbitProver {
   using Six = Vector<Number, 6>;
   using Map = Matrix<Number, 6>;
 
-  /// The ellipsoid at one sample.
   struct Node {
     Matrix<double, 6> axes = Matrix<double, 6>::Identity();     // X
     Matrix<double, 6> inverse = Matrix<double, 6>::Identity();  // approximately X⁻¹
@@ -300,8 +299,8 @@ class EventOrbitProver {
 
 }  // namespace detail
 
-/// Proves a certified orbit whose drive switches between the samples, by interval arithmetic. The
-/// proof is valid for all loops whose numbers round to the given doubles, with f τ exactly p/q.
+/// Proves by interval arithmetic that an orbit with contact changes between samples exists.
+/// The proof covers all loops whose numbers round to the given doubles, with f τ exactly p/q.
 ///
 ///     const auto found = find_event_orbit(event_motion(implemented, state));
 ///     const EventOrbitProof proof = prove_event_orbit(loop, *found.orbit, *found.point);
@@ -313,11 +312,11 @@ class EventOrbitProver {
 /// Taylor series with enclosed coefficients, that all other guards are positive until that instant.
 /// @param loop          the loop, its numbers in doubles
 /// @param orbit         the orbit to be proved: its states, period and multipliers are used
-/// @param first         state at which the orbit begins, at phase 0 of the forcing
+/// @param first         complete state before the orbit's first sample, at phase 0 of the forcing
 /// @param largest_miss  largest allowed EventOrbitProof::miss, else the outcome is `not_closed`
 /// @throws InvalidParameter where the loop is not admissible, its f τ is not the orbit's p/q, or
 ///         the orbit's number of samples is no multiple of q
-/// Work: about 20 passes through the period, each 0.1 ms per sample and 1 ms per change of contact.
+/// Work: about 20 passes through the period, each 0.1 ms per sample and 1 ms per contact change.
 template <class Scalar>
 EventOrbitProof prove_event_orbit(const IdealLoop<Scalar>& loop, const EventOrbit& orbit,
                                   const StroboscopicState<DriveContact<>>& first,

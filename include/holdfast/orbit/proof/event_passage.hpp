@@ -17,15 +17,16 @@
 
 namespace holdfast {
 
-/// A strict inequality, value > 0, that the proof of the contacts needs. The value is a guard, one
-/// of its time derivatives with the sign that the contact requires, or the time left to a sample.
+/// A strict inequality, value > 0, by which the proof of an orbit decides a contact. The value is a
+/// guard (a function whose zero ends a contact mode), a time derivative of a guard with the sign
+/// that the contact requires, or the time left until the next sample.
 struct ContactTest {
-  ContactSurface surface = ContactSurface::reversal;  ///< surface of the guard
+  ContactSurface surface = ContactSurface::reversal;  ///< surface on which the guard is zero
   int order = 0;             ///< order of the guard's time derivative; 0: the guard itself
   std::int64_t sample = -1;  ///< sample j, counted from the orbit's first; −1: no test
   double instant = 0.0;      ///< time since sample j (s)
   double distance = std::numeric_limits<double>::infinity();  ///< tested value (SI), > 0 if proved
-  double error = 0.0;                                         ///< bound of the value's error
+  double error = 0.0;                                         ///< error bound of `distance`
 
   /// The ratio of the tested value to its error; above 1 if the inequality is proved.
   double decided_by() const { return distance / error; }
@@ -423,12 +424,10 @@ class EventPassage {
   }
 
   std::int64_t number_of_sample() const { return static_cast<std::int64_t>(sample_); }
-  /// The time since the sample (s).
   static double now(const Set& set) { return set.centre[FlowPlace::time].middle(); }
   ContactTest about(ContactSurface surface, int order, double instant) const {
     return {surface, order, number_of_sample(), instant};
   }
-  /// Keeps an inequality if its ratio of value to error is the least so far.
   void note(ContactTest about, const Number& value) {
     about.distance = value.middle();
     about.error = value.radius();

@@ -22,9 +22,9 @@ namespace holdfast {
 /// The outcome of the proof of an orbit.
 enum class OrbitProofOutcome {
   proved,           ///< the orbit and all bounds of the proof are proved
-  not_contracting,  ///< no norms found in which the maps contract: some multiplier |λ| may be ≥ 1
+  not_contracting,  ///< no norms found in which the maps contract: a multiplier may have |λ| ≥ 1
   other_contacts,   ///< the backlash law gives other contacts along the given states
-  not_closed,       ///< the image of a given state is too far from the next given state
+  not_closed,       ///< one sample after a given state the motion is too far from the next one
   near_surface,     ///< a contact could not be decided: too near a switching surface
   no_ball,          ///< the periodic motion is proved, but no ball of attraction
 };
@@ -35,24 +35,25 @@ struct OpenRange {
   double to = std::numeric_limits<double>::infinity();  ///< upper end
 };
 
-/// Bounds that the proof of an orbit gives.
+/// The outcome of an orbit's proof, with the bounds that are proved.
 struct ProvedBounds {
   OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;  ///< result of the proof
-  /// Upper bound of the moduli of all multipliers; < 1 where proved.
+  /// Upper bound of the moduli of all Floquet multipliers of one period; < 1 where proved.
   double multiplier_bound = std::numeric_limits<double>::infinity();
   double displacement_error =
       std::numeric_limits<double>::infinity();  ///< error bound of z₁, z₂ (m)
   double velocity_error = std::numeric_limits<double>::infinity();  ///< error bound of ż₁, ż₂ (m/s)
 };
 
-/// The proof of a periodic motion of the sampled loop. The following holds if the outcome is
-/// `proved`. The loop has exactly one periodic motion with the orbit's contacts. It differs from
-/// the given states by at most the error bounds. Its multipliers have moduli ≤ `multiplier_bound`.
-/// Every motion from the ball of attraction keeps these contacts for ever and tends to it.
+/// The proof of a periodic motion of the sampled loop near the states of a computed orbit. If the
+/// outcome is `proved`, the loop has exactly one periodic motion with the orbit's contacts. This
+/// motion differs from the given states by at most the error bounds. Its multipliers have moduli ≤
+/// `multiplier_bound`. All motions from the ball of attraction tend to it with the same contacts.
 struct OrbitProof : ProvedBounds {
-  /// The contact decision with the least ratio `decided_by`; if `near_surface`, the unproved one.
+  /// Surface, sample and distance of the least certain contact decision (least `decided_by`).
   Border nearest;
-  double decided_by = std::numeric_limits<double>::infinity();  ///< distance/error, > 1 if proved
+  /// Ratio of the distance `nearest` to its error bound; > 1 if proved.
+  double decided_by = std::numeric_limits<double>::infinity();
   /// Range of backlash widths r₀ (m) for which the otherwise unchanged loop has the same motion.
   /// For an orbit that stays in its gap: widths of a gap that can contain the orbit.
   OpenRange widths;
@@ -222,7 +223,6 @@ class OrbitProver {
            around_zero(errors_[entry].displacement);
   }
 
-  /// Stores a contact decision if its ratio of distance to error is the least so far.
   void note(const Number& value, SwitchingSurface surface, std::int64_t sample) {
     const double unit = surface == SwitchingSurface::reversal ? loops_.units()[1] : 1.0;
     const double decided_by = value.middle() / value.radius();
@@ -354,18 +354,18 @@ class OrbitProver {
 
 }  // namespace detail
 
-/// Proves a periodic motion of the sampled loop. If no proof is found, the outcome states why. The
-/// proof is valid for all loops whose numbers round to the given doubles, with f τ exactly p/q.
+/// Proves that the sampled loop has a computed orbit; if no proof is found, the outcome states why.
+/// The proof covers all loops whose numbers round to the given doubles, with f τ exactly p/q.
 ///
 /// The maps of the sampling periods and the contributions of the force are enclosed in intervals.
-/// The maps for the orbit's contacts are proved to contract (ContractingNorms); hence exactly one
-/// periodic motion follows them. A bound of its distance from the given states is computed from
-/// the states' closure errors. Strict inequalities (SwitchingTest) then prove each contact. For the
-/// ball of attraction, deviations are propagated until they are shorter than at the beginning.
+/// The maps for the orbit's contacts are proved to contract (ContractingNorms); hence these maps
+/// have exactly one periodic motion. Its distance from the given states is bounded by means of
+/// their closure errors. Strict inequalities (SwitchingTest) then prove each contact. For the ball
+/// of attraction, deviations are propagated until they are shorter than at the beginning.
 /// @param loop           the loop, its numbers in doubles
 /// @param orbit          the orbit to be proved: its states and contacts are used
-/// @param largest_miss   largest allowed distance of a given state's image from the next given
-///                       state, as a share of the extent; `not_closed` if it is exceeded
+/// @param largest_miss   largest allowed difference of the image of a given state one sample later
+///                       from the next given state, relative to StateScale; else `not_closed`
 /// @throws InvalidParameter where the loop is not admissible, its f τ is not the orbit's p/q, or
 ///         the orbit's number of samples is no multiple of q
 /// Work: about 30 µs per sample of the orbit, and 20 µs per sample of propagated deviations.

@@ -14,11 +14,11 @@
 
 namespace holdfast {
 
-/// A closed range of a parameter, with one proof for all loops of the range.
+/// A closed range of a parameter, with one proof attempt for all loops of the range.
 struct ProvedOrbitRange {
   double from;       ///< least value of the parameter
   double to;         ///< largest value of the parameter
-  OrbitProof proof;  ///< proof for every loop of the range; without ball of attraction (radius 0)
+  OrbitProof proof;  ///< outcome and bounds for every loop of the range; no ball (radius 0)
 };
 
 namespace detail {
@@ -63,17 +63,17 @@ OrbitProof proof_between(const Family& family, const PeriodicOrbit& orbit, Scala
 
 }  // namespace detail
 
-/// Proves, range by range, that a loop has an orbit for all values of a parameter. A range that is
-/// not proved is halved, down to the width `narrowest`.
+/// Proves, range by range, that a loop has an orbit for all values of a parameter. Where the proof
+/// fails, the range is halved, down to the length `narrowest` · (to − from).
 ///
 /// In a range the maps are linear in the parameter, and the states are interpolated linearly. The
 /// error of the states is therefore quadratic in the length of the range, and ranges can be wide.
-/// @param family    parameter ↦ IdealLoop<double>, in which the gains P and D, the force's
-///                  amplitude and the backlash width are linear, and nothing else differs
+/// @param family    function: parameter ↦ IdealLoop<double>. The gains P and D, the force's
+///                  amplitude and the backlash width are linear in the parameter, all else constant
 /// @param orbit     orbit of a loop of the family; the proved orbits have the same itinerary
 /// @param from, to  ends of the parameter's range, finite, from < to
 /// @param narrowest least width of a range as a share of to − from, 10⁻⁹ … 1
-/// @return ranges in ascending order, proved or not; neighbours of equal outcome are joined
+/// @return ranges in ascending order, proved or not; adjacent ranges of equal outcome are joined
 /// @throws InvalidParameter where an argument is out of its range or the loops differ in other data
 template <class Family, class Scalar = double>
 std::vector<ProvedOrbitRange> prove_orbit_along(const Family& family, const PeriodicOrbit& orbit,

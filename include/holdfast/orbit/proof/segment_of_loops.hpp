@@ -15,7 +15,7 @@
 
 namespace holdfast {
 
-/// The loop with each number as the interval of all decimals that round to the given double.
+/// The loop with each number replaced by the interval of all decimals that round to that double.
 /// @throws InvalidParameter where the loop is not admissible
 inline IdealLoop<Enclosure> enclosed(const IdealLoop<double>& loop) {
   validate(loop);
@@ -70,7 +70,6 @@ class SegmentOfLoops {
   }
   /// The width of the backlash r₀ (m), as a linear function along the segment.
   const AlongSegment<Number>& width() const { return widths_; }
-  /// Whether any of the loops has a backlash.
   bool has_backlash() const {
     return widths_.centre.upper() > 0.0 || widths_.slope.magnitude() > 0.0;
   }

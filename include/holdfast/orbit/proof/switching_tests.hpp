@@ -10,12 +10,12 @@ namespace holdfast {
 
 /// A strict inequality that must be true for the contact at sample j to be as assumed,
 ///
-///     sign · Δż_j > 0   or   sign · (Δz_j − Δz_k) + widths · r₀ > 0,
+///     sign · Δż_j > 0   or   sign · (Δz_j − Δz_k) + widths · r₀ > 0.
 ///
-/// where k is the sample at which the drive entered the gap that it is in at sample j.
+/// r₀ is the backlash width. The drive is in a gap before sample j and entered it at sample k.
 struct SwitchingTest {
   std::int64_t sample;       ///< sample j, counted from the first sample of the period
-  std::int64_t entry;        ///< sample k, < 0 in the previous period; unused for a reversal
+  std::int64_t entry;        ///< sample k; < 0: in the previous period; unused for a reversal
   SwitchingSurface surface;  ///< switching surface whose distance is tested
   int sign;                  ///< sign of the inequality: 1 or −1
   int widths;                ///< coefficient of r₀ in the inequality: −1, 0 or 1
@@ -41,8 +41,8 @@ inline void append_gap_tests(const ContactDecision& decision, std::int64_t sampl
 
 }  // namespace detail
 
-/// Whether the pattern obeys the reversal rule: an engaged drive enters a gap at a sample if and
-/// only if Δż has changed its sign since the previous sample.
+/// Whether a pattern obeys the reversal rule: an engaged drive enters a gap at a sample if and only
+/// if Δż has changed its sign since the previous sample.
 inline bool enters_at_reversals(const SwitchingPattern& pattern) {
   const auto& all = pattern.decisions;
   for (std::size_t j = 0; j < all.size(); ++j) {

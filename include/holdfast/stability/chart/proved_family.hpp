@@ -475,7 +475,8 @@ ProvedFamily<Loop::parameters> prove_family(const Loop& loop,
   return family;
 }
 
-/// Family of the sampled loops of two masses, with the parameters of LoopParameter in its order.
+/// Family of all sampled loops of two masses, for proofs over a box of its ten parameters, which
+/// have the order of LoopParameter.
 struct TwoMassFamily {
   static constexpr std::size_t parameters = 10;  ///< m₁, k₁, c₁, m₂, k₂, c₂, τ, δ, P, D
   static constexpr std::size_t place_of_period = 6;  ///< index of τ

@@ -32,41 +32,41 @@
 
 namespace holdfast {
 
-/// The criterion for a feasible sampling period.
+/// Condition for a sampling period τ (s) to be feasible at an excitation frequency f (Hz).
 enum class DelayCriterion {
   stable,      ///< at least one differential gain D stabilises the loop
-  attenuates,  ///< τ < 1/(2f), so that the samples resolve the vibration, and some stabilising D
-               ///< gives a steady amplitude below that without control
+  attenuates,  ///< the samples resolve the vibration, τ < 1/(2f), and some stabilising D gives a
+               ///< smaller steady amplitude than without control
 };
 
 /// The options of the search for the largest feasible sampling period at one frequency.
 struct MaxDelayOptions {
   double frequency;          ///< excitation frequency f (Hz), > 0
   double proportional_gain;  ///< gain P (N/m), finite; see `tuned_proportional_gain`
-  DelayCriterion criterion = DelayCriterion::attenuates;  ///< criterion for a feasible period
+  DelayCriterion criterion = DelayCriterion::attenuates;  ///< condition for a feasible period
   ForceHold hold = ForceHold::sampled;  ///< hold of the excitation; used by `attenuates` only
   double delay_fraction = 0.0;  ///< constant δ/τ: 0 … 1, or 0 … 1000 for a conductor given by modes
-  double shortest_period = 1e-5;  ///< start of the search (s), > 0; at most 1/(1000 f) is used
-  /// The end of the search (s), > `shortest_period`; 0: a default. The default is 1/(2f) for
-  /// `attenuates`. For `stable` it is the period beyond which the loop with D = 0 is proved stable;
-  /// if none is known within 200 periods of the plant's slowest mode, 20 of these periods.
+  double shortest_period = 1e-5;  ///< start of the search (s), > 0; reduced to 1/(1000 f) if larger
+  /// The end of the search (s), > `shortest_period`, or 0 for a default. For `attenuates` the
+  /// default is 1/(2f). For `stable` it is the period beyond which the loop with D = 0 is proved
+  /// stable, if this is at most 200 periods of the plant's slowest mode, else 20 of these periods.
   double longest_period = 0.0;
-  double search_ratio = 1.00001;  ///< > 1; where two feasible periods have at most this ratio,
-                                  ///< the periods between them are assumed to be feasible
+  double search_ratio = 1.00001;  ///< ratio > 1; all periods between two feasible periods with at
+                                  ///< most this ratio are assumed to be feasible
   int most_steps = 20000;  ///< largest number of steps, ≥ 1; for two masses one takes 40 µs or more
   std::function<void()> watch = {};  ///< called at each step; may throw to end the search
-  /// Whether `attenuates` compares with the uncontrolled amplitude under the true force (true) or
-  /// under the held force (false); see `AmplitudeOptions`.
+  /// Whether `attenuates` compares with the amplitude without control under the true force. If
+  /// false, it compares with that under the force according to `hold`; see `AmplitudeOptions`.
   bool relative_to_true_force = false;
 
   /// The angular frequency ω = 2π f (rad/s).
   double angular_frequency() const { return 2.0 * pi<double> * frequency; }
 
-  /// The sampling with period τ and delay δ = `delay_fraction` · τ.
+  /// The sampling with the period τ = `period` (s) and the delay δ = `delay_fraction` · τ (s).
   Sampling<double> sampling(double period) const { return {period, delay_fraction * period}; }
 };
 
-/// Validates the options. @throws InvalidParameter outside the ranges stated at their members
+/// Validates the options. @throws InvalidParameter where a member is outside its stated range
 inline void validate(const MaxDelayOptions& options) {
   require_positive("frequency", options.frequency, "Hz");
   require_finite("proportional gain", options.proportional_gain, "N/m");
@@ -142,9 +142,9 @@ inline double least_ratio(const MaxDelayOptions& options, const DelayOffer& offe
 
 }  // namespace detail
 
-/// The open intervals of D (N s/m), ascending, for which a sampling period is feasible: each D
+/// The open intervals of D (N s/m), ascending, that make a sampling period feasible. Each D in them
 /// stabilises the loop and, for `attenuates`, gives an amplitude below that without control.
-/// @tparam Plant           two masses, in closed form, or a plant of any order with ports
+/// @tparam Plant           two masses (closed form), or a plant of any order with `Ports`
 /// @param plant            plant within its ranges, which are not checked here
 /// @param options          options within their ranges (`validate`), which are not checked here
 /// @param sampling_period  τ (s), > 0
@@ -161,38 +161,37 @@ std::vector<Interval<double>> feasible_differential_gains(const Plant& plant,
 
 /// The outcome of the search for the largest sampling period.
 enum class MaxDelayOutcome {
-  found,      ///< every period up to `sampling_period` is feasible, a slightly longer one is not
-  unlimited,  ///< every period is feasible: beyond the end of the search the loop is proved to be
-              ///< stable for any sampling period (`SlowSamplingBound`); `sampling_period` is
-              ///< infinite
-  beyond_search,  ///< every period up to `sampling_period`, the end of the search, is feasible;
+  found,      ///< every period up to `sampling_period` is feasible; a slightly longer one is not
+  unlimited,  ///< every period is feasible, as the loop is proved to be stable for all periods
+              ///< beyond the end of the search (`SlowSamplingBound`); `sampling_period` is infinite
+  beyond_search,  ///< every period up to `sampling_period`, where the search ended, is feasible;
                   ///< longer periods were not examined
   never,          ///< the shortest period of the search is infeasible; `sampling_period` is 0
 };
 
-/// Cause of infeasibility just beyond the largest sampling period.
+/// Reason why sampling periods just beyond the largest feasible one are infeasible.
 enum class MaxDelayLimit {
-  none,         ///< no known cause: the outcome is `unlimited` or `beyond_search`
-  stability,    ///< no D stabilises, or the stable interval with the best D vanishes
-  attenuation,  ///< no stabilising gain brings the amplitude below that without control
+  none,         ///< no reason is known: the outcome is `unlimited` or `beyond_search`
+  stability,    ///< no D stabilises the loop, or the stable interval of the best D has vanished
+  attenuation,  ///< no stabilising D gives an amplitude below that without control
   nyquist,      ///< τ = 1/(2f): the samples no longer resolve the vibration
 };
 
-/// The largest period τ* such that every τ from the start of the search to τ* is feasible.
+/// The largest sampling period τ* such that every τ from the start of the search to τ* is feasible.
 struct MaxDelay {
   MaxDelayOutcome outcome;  ///< outcome of the search
-  double sampling_period;   ///< largest period τ* (s)
-  /// D (N s/m) at τ*: of minimum amplitude for `attenuates`, inside a stable interval for `stable`;
-  /// NaN for `never`. It has no stability margin and is not a recommended gain.
+  double sampling_period;   ///< largest feasible period τ* (s); 0 for `never`
+  /// A feasible D (N s/m) at τ*; NaN for `never`. For `attenuates` it is the D of least amplitude.
+  /// It is chosen without a stability margin and is not a recommended gain.
   double differential_gain;
-  MaxDelayLimit limit;  ///< cause of infeasibility beyond τ*, or of the shortest period for `never`
+  MaxDelayLimit limit;  ///< reason for the limit τ*; for `never`, that at the shortest period
 };
 
-/// Store of the `UnitCircleCrossings` of one conductor's loop, one for each sampling, for searches
-/// at several frequencies, which examine the same periods. Thread-safe.
+/// Cache of the `UnitCircleCrossings` of one conductor's loop, with one entry per sampling (τ, δ).
+/// It serves searches at several frequencies over the same sampling periods. Thread-safe.
 class SharedCircles {
  public:
-  /// The stored crossings of a sampling (τ, δ); `make()` computes them at the first call with it.
+  /// The crossings for a sampling (τ, δ). `make()` computes them at the first call with a sampling.
   template <class Make>
   const UnitCircleCrossings<double>& at(const Sampling<double>& sampling, const Make& make) {
     const std::lock_guard lock(guard_);
@@ -406,8 +405,7 @@ class DelaySearch {
     const auto edge = [](double, double failing) { return failing; };
     const double first = 0.25 * (next - feasible_);
     const WalkLimits limits{0.1 * (options_.search_ratio - 1.0), most_stretches_};
-    // One that fails on the way is enough: the walk is not to look for where it begins.
-    bool fails = false;
+    bool fails = false;  // once true, the rest of the range is not examined
     const auto until_failure = [&](double period, double radius) {
       if (fails || is_exhausted()) return Stretch::open;
       count_step();
@@ -451,11 +449,12 @@ class DelaySearch {
 
 /// The largest feasible sampling period τ*, found in steps that are proved to be feasible.
 ///
-/// In each step one D is proved to be feasible at all periods of the step (`MovingSpectrum`,
-/// `detail::attenuation`). Before an infeasible period, bisection finds the boundary. A step whose
-/// ends have at most the ratio `search_ratio`, such as the last step to τ*, is tested only at its
-/// ends; the periods between them are assumed to be feasible. Source: Kollár 2022, Fig. 5.
-/// @tparam Plant  two masses, in closed form, or a plant of any order with ports (validated)
+/// For each step one D is proved to be feasible at all periods of the step (`MovingSpectrum`,
+/// `detail::attenuation`). If the end of a step is infeasible, bisection finds the boundary. Steps
+/// whose ends have at most the ratio `search_ratio`, such as the last step to τ*, are tested only
+/// at their ends and assumed to be feasible in between. Source: Kollár 2022, Fig. 5.
+/// @param plant    two masses (closed form), or a plant of any order with `Ports`
+/// @param options  options within their ranges, with a delay fraction δ/τ of 0 … 1
 /// @throws InvalidParameter where the plant or an option is outside its admissible range
 template <class Plant>
 MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options) {
@@ -468,15 +467,15 @@ MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options)
 /// The largest feasible sampling period for a conductor given by its modes, found in steps.
 ///
 /// A step has the length (ratio − 1) T. T is the longest period that resolves all natural motions
-/// and the excitation, clamped to 1 to 10 times the present period. A step's end is tested with the
-/// last feasible D, then with all stable intervals of D. If the end is infeasible, bisection
-/// finds the last feasible period to a relative 10⁻⁹. Infeasible windows shorter than a
-/// step may be missed; nothing is proved between the steps or beyond.
-/// @param plant    conductor with its poles, which exclude the poles of its hardware
+/// and the excitation, but at least 1 and at most 10 times the present period. The end of a step is
+/// tested with the last feasible D, then with all stable intervals of D. If it is infeasible,
+/// bisection finds the last feasible period to a relative 10⁻⁹. Feasibility is not proved within a
+/// step: infeasible ranges of periods shorter than a step may be missed.
+/// @param plant    conductor with its poles, without the poles of measurement filter and drive
 /// @param options  options within their ranges; `search_ratio` and `most_steps` have no effect
-/// @param ratio    determines the step length (ratio − 1) T, > 1
-/// @param shared   circles of this plant, also used by other searches; or null
-/// @throws InvalidParameter outside these ranges
+/// @param ratio    number > 1 that determines the step length (ratio − 1) T
+/// @param shared   cache for several searches with this plant; or null
+/// @throws InvalidParameter where the plant, an option or `ratio` is outside its admissible range
 template <class Scalar = double>
 MaxDelay modal_max_sampling_period(const ConductorWithAbsorber& plant,
                                    const MaxDelayOptions& options, double ratio = 1.03,

@@ -39,32 +39,32 @@ inline void validate(const FrequencyBand& band, double sampling_period) {
 
 /// Squared amplitude ratio (with control to without) at one frequency, as a function of D.
 struct RatioAtFrequency {
-  double frequency;                   ///< frequency (Hz)
-  RatioOfQuadratics<double> squared;  ///< ratio N(D)/M(D), D in N s/m, for one P
+  double frequency;                   ///< excitation frequency (Hz)
+  RatioOfQuadratics<double> squared;  ///< squared ratio as a function of D (N s/m) for a given P
 };
 
-/// A frequency at which the amplitude ratio is largest.
+/// Frequency f at which the amplitude ratio is largest, with this ratio.
 struct WorstFrequency {
-  double frequency;  ///< frequency (Hz)
+  double frequency;  ///< frequency f (Hz)
   double ratio;  ///< amplitude ratio (with control to without); ∞ if e^{2πifτ} is a loop root
 };
 
 /// Model of a plant for AmplitudeBand: its loop, the loop's steady response and roots, and the
 /// zeros of the amplitude without control.
-/// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
+/// @tparam Plant  type with `state_matrix()`, `control_input()` and `excitation_input()`; 4 states
 template <class Plant>
 struct PlantOverBand {
   Plant plant;               ///< plant of the loop
   AmplitudeOptions options;  ///< τ, δ, the hold of the force and the reference of the ratios
   SampledLoop<double> loop = sampled_loop(plant, options.sampling);          ///< sampled loop
-  AffinePolynomial<double, 5> polynomial = characteristic_polynomial(loop);  ///< loop's polynomial
+  AffinePolynomial<double, 5> polynomial = characteristic_polynomial(loop);  ///< that of the loop
 
-  /// The steady response at ω (rad/s).
+  /// The steady response of the loop at the angular frequency ω (rad/s).
   SteadyResponse<double> response(double angular_frequency) const {
     return detail::response_of_loop(plant, loop, options.hold, angular_frequency,
                                     options.relative_to_true_force);
   }
-  /// The offsets λ − 1 of the loop's roots.
+  /// The offsets λ − 1 of all roots λ of the loop.
   std::vector<std::complex<double>> loop_roots(const PdGains<double>& gains) const {
     return roots(polynomial.at(gains));
   }
@@ -77,17 +77,17 @@ struct PlantOverBand {
 
 /// Amplitude ratio (with control to without) over a band of frequencies.
 ///
-/// The ratio has peaks at roots of the loop near the unit circle, where the controlled amplitude is
-/// large, and at zeros of the uncontrolled amplitude near the circle. The width of a peak is about
-/// the distance of its root or zero from the circle. So the uniform grid is refined about the zeros
-/// and, for each D, about the roots. Golden-section search then refines the highest grid points.
+/// The ratio has peaks near the frequencies of roots of the loop and of zeros of the uncontrolled
+/// amplitude, if they are close to the unit circle. The width of a peak is about the distance of
+/// the root or zero from the circle. So the uniform grid of frequencies is refined around the zeros
+/// and, for each D, around the roots. Golden-section search then refines the highest peaks.
 /// @tparam Model  PlantOverBand, or ConductorOverBand of modal_design.hpp
 template <class Model>
 class AmplitudeBand {
  public:
-  /// Computes the steady response at 401 equidistant frequencies and at more near the zeros.
-  /// @param model  model of the loop
-  /// @param band   band within its range (`validate`), not checked here; may have lower = upper
+  /// Computes the steady response at 401 equidistant frequencies and at others near the zeros.
+  /// @param model  model of the plant with its loop
+  /// @param band   band (unchecked), 0 < lower ≤ upper ≤ 1/(2τ); one frequency if lower = upper
   AmplitudeBand(Model model, const FrequencyBand& band) : model_(std::move(model)), band_(band) {
     const int uniform = band.lower < band.upper ? 400 : 0;
     std::vector<double> frequencies(static_cast<std::size_t>(uniform) + 1, band.upper);
@@ -105,7 +105,7 @@ class AmplitudeBand {
     return {frequency, response.squared_ratio(proportional_gain)};
   }
 
-  /// The frequency of the band with the largest amplitude ratio.
+  /// The frequency of the band with the largest amplitude ratio for the given P and D.
   WorstFrequency worst(const PdGains<double>& gains) const {
     const std::vector<RatioAtFrequency> points = points_for(gains);
     std::vector<double> values;
@@ -190,21 +190,21 @@ class AmplitudeBand {
 /// The outcome of the search for one D for a whole band of frequencies.
 enum class MinimaxOutcome {
   found,          ///< `worst_ratio` and `lower_bound` agree to a relative 1e−8
-  not_converged,  ///< bounds differ by more than 1e−8; `differential_gain` has `worst_ratio`
+  not_converged,  ///< they differ by more; `differential_gain` is the best D that was found
   none,           ///< no D is admissible: the numbers are NaN
 };
 
 /// Minimax design over a band: the D that, for a given P, minimises the largest amplitude ratio.
 struct MinimaxAmplitude {
   MinimaxOutcome outcome;  ///< whether a D is admissible and the bounds agree
-  /// The differential gain D (N s/m). It may be an end of an open admissible interval.
+  /// The differential gain D (N s/m). It may be an end of an open interval of admissible D.
   double differential_gain = std::nan("");
   /// The largest amplitude ratio (with control to without) over the band with this D.
   double worst_ratio = std::nan("");
   double worst_frequency = std::nan("");  ///< frequency of `worst_ratio` (Hz)
   double lower_bound = std::nan("");      ///< lower bound of `worst_ratio` over all admissible D
   double attenuation = std::nan("");      ///< −20 log₁₀ of `worst_ratio` (dB)
-  std::size_t worst_member = 0;           ///< index of the loop with `worst_ratio` (FamilyOverBand)
+  std::size_t worst_member = 0;  ///< index of the loop with `worst_ratio`, see FamilyOverBand
 };
 
 namespace detail {
@@ -270,15 +270,15 @@ class WorstOfFrequencies {
 
 /// Family of loops over one band of frequencies, with gains common to all loops.
 ///
-/// An exchange algorithm extends a list of pairs (loop, frequency). The D that minimises the worst
-/// ratio on the list gives a lower bound. Its largest ratio over all loops and the band is an upper
-/// bound, and adds a pair to the list. A search at another P starts with the latest pairs.
+/// An exchange algorithm extends a list of pairs (loop, frequency). The D with the least largest
+/// ratio on the list gives a lower bound. The largest ratio of this D over all loops and the band
+/// is an upper bound; its pair is added. A search at another P starts with the latest pairs.
 /// @tparam Model  model of each loop, see AmplitudeBand
 template <class Model>
 class FamilyOverBand {
  public:
   /// @param models  models of the loops, at least one
-  /// @param band    band within its range; may have lower = upper
+  /// @param band    band (unchecked), 0 < lower ≤ upper ≤ 1/(2τ); one frequency if lower = upper
   FamilyOverBand(const std::vector<Model>& models, const FrequencyBand& band) {
     for (const Model& model : models) loops_.emplace_back(model, band);
     worst_.push_back({0, band.lower});
@@ -287,8 +287,8 @@ class FamilyOverBand {
 
   /// The D that minimises the largest amplitude ratio over all loops and the band, at a given P.
   /// @param proportional_gain  P (N/m), finite
-  /// @param admissible         intervals of D (N s/m), ascending
-  /// @param enough             `lower_bound` at which the search stops with `not_converged`
+  /// @param admissible         open intervals of admissible D (N s/m), ascending; may be none
+  /// @param enough             ratio; if `lower_bound` reaches it, the search stops unconverged
   MinimaxAmplitude least(double proportional_gain, const std::vector<Interval<double>>& admissible,
                          double enough = std::numeric_limits<double>::infinity()) {
     if (admissible.empty()) return {MinimaxOutcome::none};
@@ -344,8 +344,7 @@ class FamilyOverBand {
 
 namespace detail {
 
-/// The result of `minimax_amplitude` for any model.
-/// @tparam Model  model of the plant, see AmplitudeBand
+/// The result of `minimax_amplitude` for a model of AmplitudeBand.
 template <class Model, class Plant>
 MinimaxAmplitude minimax_over_band(const Plant& plant, const AmplitudeOptions& options,
                                    double proportional_gain, const FrequencyBand& band) {
@@ -362,10 +361,9 @@ MinimaxAmplitude minimax_over_band(const Plant& plant, const AmplitudeOptions& o
 
 /// The D that minimises the largest amplitude ratio (with control to without) over a band, given P.
 ///
-/// The error is at most the gap between `worst_ratio` and `lower_bound`, unless a maximum over the
+/// The error is at most the gap between `worst_ratio` and `lower_bound`, unless a peak over the
 /// frequencies is missed (`AmplitudeBand`). Peaks are located to 1e−9 of the upper frequency.
-/// @tparam Plant             anything with `state_matrix()`, `control_input()` and
-///                           `excitation_input()` that `validate` checks
+/// @tparam Plant             two masses, or a type with the same members and a `validate` function
 /// @param plant              plant within its ranges
 /// @param options            τ, δ, the hold of the force and the limits of admissible D
 /// @param proportional_gain  P (N/m), finite

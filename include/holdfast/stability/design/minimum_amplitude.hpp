@@ -19,35 +19,36 @@
 
 namespace holdfast {
 
-/// The attenuation −20 log₁₀ of an amplitude ratio (dB): 6 for 1/2, negative for a ratio above 1.
+/// The attenuation −20 log₁₀(ratio) (dB) of an amplitude ratio > 0: 6 dB for 1/2, < 0 above 1.
 inline double attenuation(double ratio) { return -20.0 * std::log10(ratio); }
 
-/// Location of the differential gain D of minimum amplitude.
+/// Outcome of the search for the differential gain D of least steady amplitude.
 enum class MinimumAmplitudeOutcome {
-  stationary,  ///< at a D inside the admissible intervals
-  edge,        ///< at the edge of the admissible intervals: a limit of admissible D
+  stationary,  ///< the minimum is inside an interval of admissible D
+  edge,        ///< the minimum is at an end of an open interval of admissible D
   none,        ///< no D is admissible; D and the ratio are NaN
-  aliased,     ///< frequency ≥ 1/(2τ): the samples do not resolve it; D and the ratio are NaN
+  aliased,     ///< the frequency is ≥ 1/(2τ), the Nyquist limit; D and the ratio are NaN
 };
 
-/// The options of the search for the D of least steady amplitude.
+/// The options of the search for the differential gain D of least steady amplitude.
 struct AmplitudeOptions {
   Sampling<double> sampling;  ///< period τ (s) > 0, delay δ (s) 0 … 1000 τ; for two masses δ ≤ τ
-  ForceHold hold = ForceHold::sampled;  ///< hold of the excitation over a sample
-  /// Upper limit of the spectral radius with an admissible D, > 0 and ≤ 1. With 1 the loop must be
-  /// stable; with less, its transients must decay at least like largest_radiusʲ in j samples.
+  ForceHold hold = ForceHold::sampled;  ///< whether the excitation force is held over each sample
+  /// Upper limit, > 0 and ≤ 1, of the loop's spectral radius ρ with an admissible D. With the limit
+  /// 1 the loop must be stable. With a smaller limit r, transients must decay at least as fast as
+  /// rʲ, j being the number of samples.
   double largest_radius = 1.0;
-  /// The margin m, 0 … 0.999, relative to D*, the D of minimum spectral radius ρ. For an admissible
-  /// D, the distance from either stability boundary and the decay rate −ln ρ exceed m times those
-  /// of D*. m = 0 admits the boundary as a limit; the default of the program is 1/2. For a
-  /// ModalResponse, unless `by_decay`, D* is the D of largest modulus margin (see
-  /// modal_design.hpp), and the modulus margin replaces the decay rate.
+  /// The margin m of an admissible D, 0 … 0.999. Let D* be the D of minimum spectral radius ρ. The
+  /// distance of an admissible D from each stability boundary, and its decay rate −ln ρ, exceed m
+  /// times those of D*. With m = 0 no margin is required; the program's default is 1/2. For a
+  /// ModalResponse without `by_decay`, D* is the D of largest modulus margin (modal_design.hpp),
+  /// and this margin replaces the decay rate.
   double margin = 0.0;
-  /// Whether ratios refer to the plant without control under the true force
-  /// (`true_amplitude_per_force`). If not, the reference is the plant without control under the
-  /// force held as with control (Kollár 2022, Fig. 5).
+  /// Whether amplitude ratios refer to the amplitude without control under the true force, which is
+  /// not held over samples (`true_amplitude_per_force`). If false, they refer to the amplitude
+  /// without control under the force according to `hold` (Kollár 2022, Fig. 5).
   bool relative_to_true_force = false;
-  /// Whether D* of `margin` is the D of minimum spectral radius for a ModalResponse too.
+  /// Whether, for a ModalResponse too, `margin` takes D* as the D of minimum spectral radius.
   bool by_decay = false;
 };
 
@@ -55,13 +56,13 @@ struct AmplitudeOptions {
 struct MinimumAmplitude {
   MinimumAmplitudeOutcome outcome;          ///< location of the minimum, or why there is none
   double differential_gain = std::nan("");  ///< differential gain D (N s/m)
-  /// The conductor's amplitude with this D over the amplitude without control.
+  /// Ratio of the conductor's steady amplitude with this D to that without control.
   double ratio_to_uncontrolled = std::nan("");
   double attenuation =
-      std::nan("");  ///< −20 log₁₀ `ratio_to_uncontrolled` (dB), > 0 where control helps
+      std::nan("");  ///< −20 log₁₀ `ratio_to_uncontrolled` (dB); > 0 for a ratio below 1
 };
 
-/// Validates the options. @throws InvalidParameter outside the ranges stated at their members
+/// Validates the options. @throws InvalidParameter where a member is outside its stated range
 inline void validate(const AmplitudeOptions& options) {
   const Sampling<double>& sampling = options.sampling;
   require_positive("sampling period tau", sampling.period, "s");
@@ -100,14 +101,14 @@ std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proporti
 
 }  // namespace detail
 
-/// The open intervals of D (N s/m) that the options admit for one P. In them the spectral radius ρ
-/// is below `largest_radius` and, for a margin m > 0,
+/// The open intervals of the differential gain D (N s/m) that the options admit for a given P. Each
+/// D in them has a spectral radius ρ(D) < `largest_radius` and, for a margin m > 0, satisfies
 ///
 ///     ρ(D) < ρ_min^m  and  D = D* + (1 − m)(D_s − D*)
 ///
-/// where D* has the minimum radius ρ_min and D_s is any D in the stable interval around D*. A
-/// stable D* is admitted if ρ_min < `largest_radius`. For a ModalResponse see modal_design.hpp.
-/// @param loop               loop of `sampled_loop` or `loop_map`
+/// D* is the D of minimum radius ρ_min, and D_s is some D in the stable interval around D*. For
+/// m > 0 and ρ_min ≥ 1 no D is admissible. For a ModalResponse see modal_design.hpp.
+/// @param loop               loop from `sampled_loop` or `loop_map`
 /// @param proportional_gain  P (N/m), finite
 /// @param options            options within their ranges, which are not checked here
 template <class Loop>
@@ -119,8 +120,7 @@ std::vector<Interval<double>> admissible_differential_gains(const Loop& loop,
 
 namespace detail {
 
-/// The D of least steady amplitude in given intervals; outcome `none` without a finite D.
-/// @param admissible  intervals of D (N s/m); may be empty
+/// The D of least steady amplitude in given intervals (N s/m); outcome `none` without a finite D.
 template <class Scalar>
 MinimumAmplitude least_amplitude(const SteadyResponse<Scalar>& response, double proportional_gain,
                                  const std::vector<Interval<double>>& admissible) {
@@ -148,14 +148,13 @@ MinimumAmplitude minimum_amplitude_of(const Loop& loop, const AmplitudeOptions& 
 
 /// The differential gain D of least steady amplitude at one frequency, among the admissible D.
 ///
-/// No grid of D is needed: the admissible D are computed as intervals, and over them the squared
-/// amplitude is a quotient of two quadratics (`SteadyResponse::best_differential_gain`).
-/// @tparam Plant             two masses, in closed form, or a plant of any order with ports;
-///                           `validate` checks it
+/// No grid of D is needed: the admissible D are computed as intervals, and the squared amplitude is
+/// a quotient of two quadratics in D (`SteadyResponse::best_differential_gain`).
+/// @tparam Plant             two masses (closed form), or a plant of any order with `Ports`
 /// @param plant              plant within its ranges
 /// @param options            τ, δ, the hold of the force and the limits of admissible D
-/// @param frequency          f (Hz), > 0
-/// @param proportional_gain  P (N/m), finite; `tuned_proportional_gain` tunes it to f
+/// @param frequency          excitation frequency f (Hz), > 0
+/// @param proportional_gain  P (N/m), finite; `tuned_proportional_gain` gives the P tuned to f
 /// @throws InvalidParameter where an argument is outside its admissible range
 template <class Plant>
 MinimumAmplitude minimum_amplitude(const Plant& plant, const AmplitudeOptions& options,

@@ -18,10 +18,10 @@
 
 namespace holdfast {
 
-/// The pair of gains of least steady amplitude at one frequency.
+/// The pair of gains (P, D) of least steady amplitude at one frequency.
 struct MinimumAmplitudeGains {
   double proportional_gain;   ///< proportional gain P (N/m); NaN without an admissible pair
-  MinimumAmplitude quietest;  ///< D and the amplitude, or the reason why no pair is admissible
+  MinimumAmplitude quietest;  ///< D and its amplitude ratio, or the reason why there is no pair
 };
 
 namespace detail {
@@ -66,17 +66,19 @@ void search_proportional_gain(Interval<double> range, const Value& value_at) {
 ///
 ///     min |1 − P G_z − D G_v| ≥ m   over the unit circle, m = `options.margin`
 ///
-/// for the transfer functions G_z, G_v from command to readings. The sensitivity is at most 1/m: m
-/// = 1/2 gives a gain margin of at least 6 dB upwards and a phase margin of at least 29°.
+/// and with ρ < `largest_radius` (ρ: spectral radius). G_z and G_v are the transfer functions from
+/// the command to the readings. The sensitivity is at most 1/m: m = 1/2 gives a gain margin of at
+/// least 6 dB upwards and a phase margin of at least 29°. Source of this modulus margin: K. J.
+/// Åström and R. M. Murray, Feedback Systems (2008), 9.3.
 ///
-/// For each P the best D is found exactly. P is found by a search that may miss a better P.
+/// For each P the best D is computed exactly. P is varied over a grid, then by golden section; a
+/// better P between grid points may be missed.
 /// @param loop       loop of the plant given by its poles, with the sampling of the options
-/// @param options    options within their ranges
-/// @param frequency  f (Hz), > 0
-/// @param range      initial range of P (N/m), lower < upper, finite
-/// @param response   steady response at f, as for `minimum_amplitude` of a ModalResponse
+/// @param options    options within their ranges; only those named here are used
+/// @param frequency  excitation frequency f (Hz), > 0
+/// @param range      initial range of P (N/m), lower < upper, finite; extended where needed
+/// @param response   `steady_response` of the loop at f, with the reference amplitude of the ratio
 /// @throws InvalidParameter where an argument is outside its admissible range
-/// Source of the margin: K. J. Åström and R. M. Murray, Feedback Systems (2008), 9.3.
 template <class Scalar>
 MinimumAmplitudeGains minimum_amplitude_gains(const ModalResponse<Scalar>& loop,
                                               const AmplitudeOptions& options, double frequency,

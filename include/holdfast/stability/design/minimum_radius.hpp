@@ -14,13 +14,13 @@
 
 namespace holdfast {
 
-/// Outcome of the search for the D of minimum spectral radius.
+/// Outcome of the search for the differential gain D of minimum spectral radius.
 enum class MinimumRadiusOutcome {
   point,       ///< one D has the minimum radius
-  plateau,     ///< a root independent of D determines the radius over the whole `interval`
-  idle,        ///< no D changes the radius; `interval` contains every D, and D is 0
-  unresolved,  ///< P is so large that round-off hides the minimum: the result has the initial D
-               ///< with its radius, and `lower_bound` is 0
+  plateau,     ///< all D of `interval` have the minimum radius, that of a root independent of D
+  idle,        ///< the radius does not depend on D; `interval` contains every D, the result is 0
+  unresolved,  ///< P is so large that round-off hides the minimum: the result is the initial D and
+               ///< its radius, and `lower_bound` is 0
 };
 
 /// The differential gain D with which the sampled loop decays fastest, for a given gain P.
@@ -28,9 +28,9 @@ struct MinimumRadius {
   MinimumRadiusOutcome outcome;  ///< kind of minimum: one D, an interval, every D, or unresolved
   double differential_gain;      ///< gain D (N s/m) of minimum radius, inside `interval`
   double radius;                 ///< least spectral radius ρ = max |λ|; stable if ρ < 1
-  double margin;                 ///< 1 − radius, without loss of digits by cancellation
-  double lower_bound;            ///< lower bound of the radius over all D; ≤ radius
-  Interval<double> interval;     ///< D (N s/m) whose radius exceeds `radius` by at most 1e−12
+  double margin;                 ///< margin 1 − `radius`, computed without cancellation
+  double lower_bound;            ///< lower bound of the spectral radius over all D; ≤ `radius`
+  Interval<double> interval;     ///< interval of D (N s/m) with a radius up to `radius` + 1e−12
 };
 
 namespace detail {
@@ -177,13 +177,13 @@ struct RadiusLevels {
 
 /// The D of minimum spectral radius ρ(P, D) for a given P: a global minimum, found without a grid.
 ///
-/// The set {D : ρ(P, D) < r} is a union of intervals. The intervals are found in closed form for
-/// two masses (`stable_intervals`), and from the roots on the circle |λ| = r for a loop of any
-/// order (`circle_crossings`). The minimum radius is the r at which the set becomes empty; for a
-/// `LoopMap` it is accurate to about 10⁻⁹, since round-off separates coinciding roots. The minimum
-/// exists, since ρ grows without bound with |D| unless no root depends on D.
-/// @tparam Loop              type in `double` with a `loop_polynomial`, or a `LoopMap`
-/// @param loop               loop of `sampled_loop` or `loop_map`
+/// For any radius r the set {D : ρ(P, D) < r} is a union of intervals. They are computed in closed
+/// form for two masses (`stable_intervals`), and from the roots on the circle |λ| = r for a loop of
+/// any order (`circle_crossings`). The minimum radius is the r at which the set becomes empty. For
+/// a `LoopMap` it is accurate to about 10⁻⁹, since round-off separates coinciding roots. A minimum
+/// exists: ρ grows without bound with |D|, or no root depends on D.
+/// @tparam Loop              `SampledLoop<double>` or `LoopMap<double>`
+/// @param loop               loop from `sampled_loop` or `loop_map`
 /// @param proportional_gain  P (N/m), finite
 /// @param start              initial D (N s/m), finite and arbitrary
 /// @throws InvalidParameter where a gain is not finite

@@ -26,12 +26,12 @@
 
 namespace holdfast {
 
-/// The open intervals of D (N s/m) with which all roots λ of a loop have |λ| < radius, from the
-/// `UnitCircleCrossings` of the loop with roots λ/radius.
+/// The open intervals of D (N s/m) in which all roots λ of a loop satisfy |λ| < radius. They are
+/// computed by `UnitCircleCrossings` for a loop with the roots λ/radius.
 /// @param response           response of the plant given by its poles
 /// @param proportional_gain  P (N/m), finite
-/// @param radius             bound of |λ|, > 0
-/// @return the intervals; also empty where two poles nearly coincide (see ModalResponse::at_radius)
+/// @param radius             upper limit of |λ|, > 0
+/// @return the intervals; none if two poles nearly coincide (see ModalResponse::at_radius)
 /// @throws InvalidParameter where P is not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> differential_gains_within_radius(
@@ -65,11 +65,11 @@ std::pair<Scalar, Scalar> least_excess(const ModalResponse<Scalar>& response, co
 
 }  // namespace detail
 
-/// The minimum over D of the spectral radius ρ of a loop given by its poles, found as for a
-/// `LoopMap`; 1 − ρ is accurate to a relative 10⁻⁶. The search may fail on a circle |λ| = r too
-/// near a pole. Therefore ρ is also computed at 25 values of D in each bounded stable interval and
-/// near the best value; the smaller minimum is returned.
-/// @param response           response of the plant given by its poles, which must exist
+/// The D of minimum spectral radius ρ for a given P and a loop given by its poles; 1 − ρ has a
+/// relative accuracy of 10⁻⁶. The search is that for a `LoopMap`, which may fail where a pole is
+/// close to a circle |λ| = r. Therefore ρ is also computed at 25 values of D in each bounded stable
+/// interval, and refined around the best of them. The smaller minimum is returned.
+/// @param response           response of the plant given by its poles; none may nearly coincide
 /// @param proportional_gain  P (N/m), finite
 /// @param start              initial D (N s/m), finite
 /// @throws InvalidParameter where a gain is not finite
@@ -85,7 +85,6 @@ MinimumRadius minimum_radius(const ModalResponse<Scalar>& response, double propo
     if (!std::isfinite(stable.upper - stable.lower)) continue;
     const auto [excess, d] =
         detail::least_excess(response, Scalar(proportional_gain), stable, Scalar(-found.margin));
-    // Its bound from below was of circles that said nothing.
     if (!(-excess <= found.margin))
       found = {MinimumRadiusOutcome::point, d, 1.0 + excess, -excess, 0.0, {d, d}};
   }
@@ -247,14 +246,15 @@ class ModulusLevels {
 }  // namespace detail
 
 /// The open intervals of D (N s/m) that the options admit for a given P and a loop given by its
-/// poles. With a margin m > 0, unless `by_decay`, they consist of the D with
+/// poles. Without margin (m = 0) or with `by_decay` they are those of minimum_amplitude.hpp.
+/// Otherwise each D in them stabilises the loop, has ρ < `largest_radius`, and satisfies
 ///
 ///     M(D) > m M(D*)   and   D = D* + (1 − m)(D_s − D*)
 ///
-/// where M(D) = min |1 − P G_z − D G_v| over the unit circle is the modulus margin, with G_z and
-/// G_v as in `LoopResponse`. D* maximises M, and D_s is any D in the stable interval around D*. The
-/// D of minimum spectral radius is unsuitable as D* for a conductor, since its slowest mode alone
-/// determines this radius.
+/// M(D) = min |1 − P G_z − D G_v| over the unit circle is the modulus margin, with the transfer
+/// functions G_z and G_v of `LoopResponse`. D* maximises M, and D_s is some D in the stable
+/// interval around D*. The D of minimum spectral radius ρ is unsuitable as D* for a conductor,
+/// since the slowest mode alone determines its ρ.
 /// Source of the modulus margin: K. J. Åström and R. M. Murray, Feedback Systems (2008), 9.3.
 /// @tparam Scalar            double
 /// @param response           response of the plant given by its poles
@@ -279,13 +279,13 @@ std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<
                                                              Scalar(options.largest_radius)));
 }
 
-/// The admissible D of least steady amplitude for a loop given by poles; see `minimum_amplitude`.
+/// The admissible D of least steady amplitude at one frequency, for a loop given by its poles.
 /// @param loop               loop of the plant given by its poles, with the sampling of the options
-/// @param options            options within their ranges
-/// @param frequency          f (Hz), > 0
+/// @param options            options within their ranges; `relative_to_true_force` is not used
+/// @param frequency          excitation frequency f (Hz), > 0
 /// @param proportional_gain  P (N/m), finite
-/// @param response           `steady_response` of the loop at f; it determines the reference of
-///                           the ratio, not `relative_to_true_force` of the options
+/// @param response           `steady_response` of the loop at f, with the reference amplitude of
+///                           the ratio
 /// @throws InvalidParameter where an argument is outside its admissible range
 template <class Scalar>
 MinimumAmplitude minimum_amplitude(const ModalResponse<Scalar>& loop,
@@ -304,24 +304,24 @@ MinimumAmplitude minimum_amplitude(const ModalResponse<Scalar>& loop,
 template <class Scalar>
 struct ConductorOverBand {
   ConductorWithAbsorber conductor;  ///< conductor with all its poles
-  AmplitudeOptions options;         ///< τ, δ and the hold of the force
+  AmplitudeOptions options;         ///< options, of which τ, δ and the force's hold are used
   /// The zero-order-hold transfer functions G_z and G_v from the command to the readings.
   ModalResponse<Scalar> loop = modal_response<Scalar>(conductor, options.sampling);
 
-  /// The steady response at ω (rad/s); ratios refer to the true force without control.
+  /// The steady response at ω (rad/s), relative to that without control under the true force.
   SteadyResponse<Scalar> response(double angular_frequency) const {
     return steady_response<Scalar>(conductor, options.sampling, options.hold, angular_frequency)
         .relative_to(true_amplitude_per_force(conductor, angular_frequency));
   }
-  /// The offsets λ − 1 of the loop's roots.
+  /// The offsets λ − 1 of the loop's roots λ; of those near the unit circle, if not all are found.
   std::vector<std::complex<double>> loop_roots(const PdGains<double>& gains) const {
     auto found = holdfast::loop_roots(loop, gains);
     if (found.empty()) return UnitCircleCrossings<Scalar>(loop).roots_nearby(gains);
     for (std::complex<double>& root : found) root -= 1.0;
     return found;
   }
-  /// The Newton step H/H′, to be subtracted from s, towards a zero of the receptance H. With
-  /// devices H is the sum over the poles, otherwise the receptance of the bare conductor.
+  /// The step H/H′ (1/s) of Newton's method s ← s − H/H′ for zeros s (1/s) of a receptance H. With
+  /// devices on the span H is the sum over the poles, else the receptance of the bare conductor.
   std::complex<double> receptance_step(const std::complex<double>& s) const {
     if (!conductor.has_devices)
       return receptance(conductor.modes, s) / detail::receptance_slope(conductor.modes, s);
@@ -333,8 +333,8 @@ struct ConductorOverBand {
     }
     return sum / slope;
   }
-  /// The offsets e^{sτ} − 1 of the zeros s of the uncontrolled amplitude: zeros of the receptance
-  /// between neighbouring modes (Newton's method), and the absorber's pole on a fixed conductor.
+  /// The offsets e^{sτ} − 1 for the zeros s (1/s) of the amplitude without control: zeros of the
+  /// receptance between neighbouring modes, and a pole of the absorber on a fixed conductor.
   std::vector<std::complex<double>> uncontrolled_zeros() const {
     const auto& modes = conductor.modes;
     const auto& absorber = conductor.absorber;
@@ -354,7 +354,7 @@ struct ConductorOverBand {
 };
 
 /// The D that minimises the largest amplitude ratio (with control to without) over a band, for a
-/// given P and a conductor given by its modes; see `minimax_amplitude` of a plant.
+/// given P and a conductor given by its modes. For the accuracy see `minimax_amplitude`.
 /// @param conductor          conductor with all its poles
 /// @param options            options within their ranges; `relative_to_true_force` is not used
 /// @param proportional_gain  P (N/m), finite

@@ -10,24 +10,24 @@
 
 namespace holdfast {
 
-/// The range of sampling periods and the steps of a proof.
+/// Range of sampling periods and limits of the steps for `proved_max_sampling_period`.
 struct ProvedPeriodWalk {
-  double from = 0.0;         ///< shortest period (s), > 0
-  double to = 0.0;           ///< longest period (s), ≥ `from`
-  double resolution = 1e-6;  ///< shortest step, as a share of the period, > 0
-  int most_steps = 20000;    ///< largest number of steps of the proof
+  double from = 0.0;         ///< shortest sampling period (s), > 0; start of the proof
+  double to = 0.0;           ///< longest sampling period (s), ≥ `from`; goal of the proof
+  double resolution = 1e-6;  ///< ratio > 0 of a step to the period, below which the proof ends
+  int most_steps = 20000;    ///< largest number of steps of the proof, ≥ 0
 };
 
-/// The largest period T (s) such that for every period from `walk.from` to T some D (N s/m) is
-/// proved to stabilise the loop. Within a step (`SamplingProof`) D is the same. Nothing is claimed
-/// for periods below `walk.from`. Longer periods than T may have a stabilising D too.
-/// @param poles              poles as for EnclosedResponse
-/// @param proportional_gain  gain P (N/m)
-/// @param line               samplings with constant δ/τ and varying period
-/// @param walk               range and steps of the periods
+/// The sampling period T (s) up to which the loop is proved to be stabilisable: for every period
+/// from `walk.from` to T, some D (N s/m) is proved to stabilise it. D is constant within a step of
+/// the proof (`SamplingProof`). Periods below `walk.from` or above T are left undecided.
+/// @param poles              poles of `enclosed_poles`, at least one, none of which may be 0
+/// @param proportional_gain  gain P (N/m), finite
+/// @param line               samplings with varying period τ and constant δ/τ
+/// @param walk               range of the periods and limits of the steps
 /// @param gains_at           period (s) → open intervals of stabilising D, computed without proof
 /// @param watch              called for each step; an exception from it ends the work
-/// @return 0 where no D is proved to stabilise at the shortest period
+/// @return T; 0 where no D is proved to stabilise the loop at `walk.from`
 /// @throws InvalidParameter where a member of `walk` is out of range
 template <class GainsAt, class Watch>
 double proved_max_sampling_period(const std::vector<EnclosedPole>& poles, double proportional_gain,

@@ -22,11 +22,11 @@
 
 namespace holdfast {
 
-/// The open intervals of one gain, for a fixed value of the other, in which the loop of two masses
-/// is stable; in closed form (`stable_intervals`).
-/// @param loop   loop of `sampled_loop`
+/// The open intervals of one gain, P (N/m) or D (N s/m), in which the loop of two masses is stable
+/// for a fixed value of the other gain. They are computed in closed form (`stable_intervals`).
+/// @param loop   loop from `sampled_loop`
 /// @param free   the gain that varies
-/// @param gains  value of the fixed gain; the value of the free gain is not used
+/// @param gains  gains, of which only the fixed one is used
 /// @throws InvalidParameter where the polynomial of the loop or the fixed gain is not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_gains(const SampledLoop<Scalar>& loop, FreeGain free,
@@ -36,9 +36,9 @@ std::vector<Interval<Scalar>> stable_gains(const SampledLoop<Scalar>& loop, Free
                                         : stable_proportional_gains(polynomial, gains.differential);
 }
 
-/// The loop `map` without its velocity sensor: D multiplies the backward difference (z_j −
-/// z_{j−1})/τ of the displacement readings. The result has one more state, the previous reading.
-/// @param map  loop of any order with a measured velocity
+/// The loop of a computer without velocity sensor: D multiplies the backward difference (z_j −
+/// z_{j−1})/τ of displacement readings z_j. It has one state more than `map`, the previous reading.
+/// @param map  the same loop with a velocity sensor
 template <class Scalar>
 LoopMap<Scalar> with_velocity_by_difference(const LoopMap<Scalar>& map) {
   const Eigen::Index n = map.size();
@@ -57,11 +57,11 @@ LoopMap<Scalar> with_velocity_by_difference(const LoopMap<Scalar>& map) {
   return other;
 }
 
-/// The open intervals of D (N s/m) in which every root of a loop of any order has |λ| < radius.
-/// Computed as `stable_gains` of a loop with the roots λ/radius.
-/// @param map                loop of `loop_map`
+/// The open intervals of D (N s/m) in which all roots λ of a loop of any order have |λ| < radius.
+/// They are computed as the `stable_gains` of a loop with the roots λ/radius.
+/// @param map                loop from `loop_map`
 /// @param proportional_gain  P (N/m), finite
-/// @param radius             bound of |λ|, > 0
+/// @param radius             upper limit of |λ|, > 0
 /// @throws InvalidParameter where P is not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> differential_gains_within_radius(

@@ -30,35 +30,35 @@ enum class MarginOutcome {
   not_stable,  ///< a root is on or outside the unit circle: every MarginEnd is `undefined`
 };
 
-/// Kind of an end of the stable range of a quantity (D, P, τ or δ).
+/// Kind of an end of the stable interval of a quantity: gain D or P, period τ or delay δ.
 enum class MarginEndOutcome {
-  undefined,      ///< the loop is not stable: position and distance are NaN
+  undefined,      ///< the loop is not stable: `position` and `distance` are NaN
   boundary,       ///< a root reaches the unit circle at `position`
-  none,           ///< no boundary: stable up to the end of the quantity's range, `position`
+  none,           ///< no boundary: stable up to `position`, the end of the quantity's whole range
   beyond_search,  ///< stable at least up to `position`, where the search ended: at its limit, after
-                  ///< its last step, or at a root so near the circle that round-off decides
+                  ///< its last step, or where round-off hides whether a root crosses the circle
 };
 
-/// One end of the stable interval of a quantity (D, P, τ or δ) around its value in the loop.
+/// One end of the stable interval of a quantity (D, P, τ or δ) around its given value.
 struct MarginEnd {
   MarginEndOutcome outcome = MarginEndOutcome::undefined;      ///< kind of the end
   double position = std::numeric_limits<double>::quiet_NaN();  ///< value of the quantity at the end
-  /// The distance of `position` from the value in the loop (unit of the quantity); ∞ for `none`.
+  /// The distance of `position` from the given value (unit of the quantity); ∞ for `none`.
   double distance = std::numeric_limits<double>::quiet_NaN();
-  BoundaryCurve curve = BoundaryCurve::plus_one;  ///< kind of the crossing root, for a `boundary`
+  BoundaryCurve curve = BoundaryCurve::plus_one;  ///< kind of the root at a `boundary`
   /// Frequency |arg λ|/(2πτ) (Hz) of the crossing root λ at the boundary; NaN without a boundary.
   double frequency = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Lower and upper end of the stable interval of a quantity around its value in the loop.
+/// Lower and upper end of the stable interval of a quantity around its given value.
 struct TwoSidedMargin {
-  MarginEnd below;  ///< towards smaller values
-  MarginEnd above;  ///< towards larger values
+  MarginEnd below;  ///< lower end
+  MarginEnd above;  ///< upper end
 };
 
-/// Stability margins of a loop: the changes of one quantity at a time that leave it stable.
+/// Stability margins of a loop: the stable interval of each quantity if only this one changes.
 struct StabilityMargins {
-  MarginOutcome outcome;  ///< whether the loop itself is stable
+  MarginOutcome outcome;  ///< whether the loop with the given values is stable
   double unit_circle;     ///< 1 − ρ (ρ: spectral radius); ≤ 0 where the loop is not stable
   TwoSidedMargin differential_gain;  ///< margin of D (N s/m)
   TwoSidedMargin proportional_gain;  ///< margin of P (N/m)
@@ -68,9 +68,9 @@ struct StabilityMargins {
 
 /// The limits of the search for margins.
 struct MarginSearch {
-  /// The end of the search towards longer sampling periods, as a multiple > 1 of τ, or twenty
-  /// periods of the plant's slowest mode if these are longer. The search ends earlier where
-  /// stability at all longer periods is proved.
+  /// The ratio, > 1, of the longest sampling period searched to τ. If twenty periods of the plant's
+  /// slowest mode are longer than this, the search extends to them. It ends earlier at a period
+  /// beyond which stability is proved.
   double longest_period_ratio = 1000.0;
   /// The largest number of steps of the search along τ or δ, ≥ 1. In a step the phase of the
   /// plant's fastest mode grows by about 1 rad; for two masses a step takes some 40 µs.
@@ -225,7 +225,7 @@ TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling
 
 }  // namespace detail
 
-/// Validates the search. @throws InvalidParameter outside the ranges stated at its members
+/// Validates the limits. @throws InvalidParameter where a member is outside its stated range
 inline void validate(const MarginSearch& search) {
   require_positive("longest period ratio minus one", search.longest_period_ratio - 1.0, "");
   require_positive("largest number of steps", search.most_steps, "");
@@ -233,12 +233,12 @@ inline void validate(const MarginSearch& search) {
 
 /// The stability margins of D, P, τ and δ: how far each may change alone while the loop is stable.
 ///
-/// For D and P: the stable interval around the value, from all crossings of the unit circle
-/// (`circle_crossings`). For τ and δ: steps outwards from the value, each with a proof that all
-/// roots stay inside the unit circle (`MovingSpectrum`), so that no boundary is missed. Where the
-/// proof fails, the boundary is a zero of ρ − 1 (ρ: spectral radius). At periods below 10⁻⁶ τ the
-/// continuous loop is tested instead. `SlowSamplingBound` may prove all long periods stable.
-/// @tparam Plant    two masses, or a plant of any order with ports; `validate` checks it
+/// The stable intervals of D and P are found from all crossings of the unit circle by roots
+/// (`circle_crossings`). τ and δ are varied in steps from the given value. For each step it is
+/// proved that all roots stay inside the circle (`MovingSpectrum`); no boundary is missed. Where
+/// the proof fails, the boundary is a zero of ρ − 1 (ρ: spectral radius). For periods below 10⁻⁶ τ
+/// the continuous loop is tested. `SlowSamplingBound` may prove stability for all long periods.
+/// @tparam Plant    two masses, or a plant of any order with `Ports`
 /// @param plant     plant within its ranges
 /// @param sampling  τ (s) > 0; δ (s): 0 … τ for two masses, 0 … 1000 τ for a plant with ports
 /// @param gains     P (N/m) and D (N s/m), finite
@@ -279,13 +279,14 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
 /// If both gains are multiplied by x, the characteristic polynomial is a(λ) + x b(λ). The given
 /// loop has x = 1; its return ratio at the drive is L(λ) = −b/a, and its roots satisfy L(λ) = 1.
 struct LoopMargins {
-  MarginOutcome outcome;  ///< whether stable; if not, all margins but `unit_circle` are NaN
+  MarginOutcome outcome;  ///< whether the loop is stable; if not, only `unit_circle` is not NaN
   double unit_circle;     ///< 1 − ρ, ρ: spectral radius; ≤ 0 where the loop is not stable
   double largest_factor =
       std::nan("");  ///< upper end of the stable interval of x around 1; ∞ if unbounded
-  double least_factor = std::nan("");  ///< lower end of this interval of x; −∞ if unbounded
+  double least_factor =
+      std::nan("");  ///< lower end of the stable interval of x around 1; −∞ if unbounded
   double phase =
-      std::nan("");  ///< least |φ| (rad) with e^{iφ} L(e^{iθ}) = 1 for some θ; ∞ if there is none
+      std::nan("");  ///< phase margin: least |φ| (rad) with e^{iφ} L(e^{iθ}) = 1 for a θ; ∞ if none
   MarginEnd delay = {};  ///< margin towards longer delays δ (s), with τ constant
 };
 
@@ -318,9 +319,9 @@ Scalar phase_margin(const Polynomial<Scalar, 5>& constant_part,
 
 /// The gain margin, the phase margin and the delay margin of the loop of two masses.
 ///
-/// Gain: the stable interval of the common factor x of both gains (`stable_intervals`). Phase: all
-/// angles with |L| = 1, the roots of one polynomial. Delay: the margin of `stability_margins`, with
-/// a search up to ten samples beyond δ.
+/// The gain margin is the stable interval of a common factor x of both gains (`stable_intervals`).
+/// The phase margin is found at all angles θ with |L(e^{iθ})| = 1, from the roots of one polynomial
+/// (L: return ratio). The delay margin is searched up to ten samples beyond δ.
 /// @tparam Plant    two masses
 /// @param plant     plant within its ranges
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ

@@ -174,15 +174,15 @@ struct ModalMargins {
 
 /// The stability margins of D, P, τ and δ, one at a time, for a loop given by its plant's poles.
 ///
-/// The margins of D and P are found by `UnitCircleCrossings`. τ is searched in steps of 5 %, but
-/// downwards of 5 % of the `nyquist_period` where that is longer (at most τ/2), δ in steps of τ/8.
-/// Each step counts the roots outside the circle. An unstable window narrower than a step is
-/// missed; `proved_sampling_margins` misses none. If the search finds no boundary, the outcome is
-/// `beyond_search`; for a search of δ that has reached 0 it is `none`.
-/// @param poles     all `plant_poles`; they must outlive the call
-/// @param sampling  τ (s) > 0, δ (s) ≥ 0
+/// The margins of D and P are found by `UnitCircleCrossings`. Upwards τ is varied in steps of 5 %.
+/// Downwards the steps are 5 % of the `nyquist_period`, clamped to τ … 10 τ. δ is varied in steps
+/// of τ/8. At each step the roots outside the unit circle are counted. An unstable range narrower
+/// than a step may be missed; `proved_sampling_margins` misses none. Without a boundary the outcome
+/// is `beyond_search`, or `none` for a δ that has reached 0.
+/// @param poles     all `plant_poles` of the plant
+/// @param sampling  τ (s) > 0, δ (s) 0 … 1000 τ
 /// @param gains     P (N/m) and D (N s/m), finite
-/// @param search    limits; τ from τ/r to τ r, r = `longest_period_ratio`; `most_steps` unused
+/// @param search    r = `longest_period_ratio` limits τ to τ/r … τ r; `most_steps` is not used
 /// @param has_velocity_sensor  whether velocity is measured; if not, D multiplies the backward
 ///                             difference of the displacement readings
 /// @throws InvalidParameter where an argument is outside its range
@@ -208,9 +208,10 @@ StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
           search.of_delay ? margins.of_delay() : TwoSidedMargin{}};
 }
 
-/// The value of τ (if `of_period`; δ/τ is constant) or δ (else; τ is constant) at which a loop with
-/// measured velocity becomes unstable. It is between `inside` (s), up to which the loop is stable,
-/// and `outside` (s), where it is unstable; both may be results of `proved_margins`.
+/// The value of τ or δ at which a loop with measured velocity becomes unstable. It lies between
+/// `inside` (s), up to which the loop is stable (`ProvedMarginEnd`), and `outside` (s), at which it
+/// is unstable. If `of_period`, τ varies, with δ/τ constant; if not, δ varies, with τ constant. The
+/// other arguments are those of `modal_stability_margins`.
 template <class Scalar = double>
 MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                            const Sampling<detail::Undeduced<Scalar>>& sampling,
@@ -221,8 +222,8 @@ MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                                                                             of_period);
 }
 
-/// The gain, phase and delay margins of a loop given by the poles of its plant. The delay margin is
-/// found by a search over δ in steps of τ/8. The arguments are those of `modal_stability_margins`.
+/// The gain, phase and delay margins of a loop given by its plant's poles. The delay margin is
+/// searched in steps of τ/8. The arguments are those of `modal_stability_margins`.
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>
 LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,

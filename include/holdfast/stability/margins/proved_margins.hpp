@@ -18,17 +18,17 @@
 
 namespace holdfast {
 
-/// Reason for the end of a stability proof in one direction.
+/// Reason for the end of a stability proof by `proved_margins` in one direction.
 enum class ProofStop {
-  at_end,     ///< the proof reached its goal (`proved_margins`), or an unstable loop was found
-  work,       ///< the proof took the largest number of steps without reaching its goal
+  at_end,     ///< stability is proved up to the goal, or an unstable loop was found before it
+  work,       ///< the largest number of steps was taken before the goal was reached
   undecided,  ///< enclosures could not decide whether a root reaches the unit circle
 };
 
-/// Proved stability margin of a quantity in one direction from its given value.
+/// Proved stability margin of a quantity (D, P, τ or δ) in one direction from its given value.
 struct ProvedMarginEnd {
-  /// Value of the quantity up to which the loop is proved stable, from the given value on; NaN
-  /// where the loop is not proved stable at the given value.
+  /// Value up to which the loop is proved stable, starting from the given value; NaN where the loop
+  /// is not proved stable at the given value.
   double stable_to = std::numeric_limits<double>::quiet_NaN();
   /// A value beyond `stable_to` at which the loop is proved to be unstable; NaN if none was found.
   /// The values between `stable_to` and `unstable_at` are undecided.
@@ -36,15 +36,15 @@ struct ProvedMarginEnd {
   ProofStop stop = ProofStop::undecided;  ///< reason for the end of the proof
 };
 
-/// Proved stability margins of a quantity, down and up from its value.
+/// Proved stability margins of a quantity (D, P, τ or δ), downwards and upwards from its value.
 struct ProvedMargin {
   ProvedMarginEnd below;  ///< towards smaller values
   ProvedMarginEnd above;  ///< towards larger values
 };
 
-/// Resolution and largest work of `proved_margins`.
+/// Shortest step and largest number of steps of `proved_margins`.
 struct ProvedMarginsOptions {
-  double resolution = 1e-6;  ///< shortest step, as a share of the distance from value to goal; > 0
+  double resolution = 1e-6;  ///< ratio > 0 of the shortest step to the distance from value to goal
   int most_steps = 20000;    ///< largest number of steps of the proof in one direction
 };
 
@@ -154,7 +154,6 @@ inline double limit_beyond(const MarginEnd& end, double value, double otherwise)
   return std::isfinite(end.position) ? end.position : otherwise;
 }
 
-/// The proof of all margins of one loop.
 template <class Watch>
 struct MarginProver {
   const std::vector<EnclosedPole>& poles;
@@ -176,7 +175,6 @@ struct MarginProver {
     of_sampling(proved);
     return proved;
   }
-  /// Proves the margins of τ and δ.
   void of_sampling(ProvedMargins& proved) const {
     proved.sampling_period = of_period();
     proved.processing_delay = {of_delay(found.processing_delay.below, -1),
@@ -228,10 +226,10 @@ struct MarginProver {
 
 }  // namespace detail
 
-/// Proves by how much D, P, τ and δ, one at a time, may change before the loop loses its stability.
-/// First the loop with the given decimal numbers is proved stable. Then each step from the given
-/// value proves that no root reaches the unit circle, so that no unstable window is missed. The
-/// goal of the steps is 10 % beyond the boundary in `found`, or the end of the search in `found`.
+/// Proves up to which values D, P, τ and δ, one at a time, may change while the loop stays stable.
+/// First the loop with the given decimal numbers is proved stable. Then, in steps from the given
+/// value, it is proved that no root reaches the unit circle; no unstable range is missed. The goal
+/// of the steps is 10 % beyond the boundary in `found`, or the end of the search in `found`.
 /// @param poles       poles of `enclosed_poles`
 /// @param sampling    τ (s) > 0 and δ (s), 0 … 1000 τ
 /// @param gains       P (N/m) and D (N s/m), finite
@@ -248,8 +246,8 @@ ProvedMargins proved_margins(const std::vector<EnclosedPole>& poles,
   return detail::MarginProver<Watch>{poles, sampling, gains, found, options, watch}.prove();
 }
 
-/// Proves the margins of τ and δ only, for a loop known to be stable. The result's other members
-/// keep their defaults. The arguments are those of `proved_margins`.
+/// Proves the margins of τ and δ only, for a loop known to be stable with the given values. Other
+/// members of the result keep their defaults. The arguments are those of `proved_margins`.
 /// @throws InvalidParameter where sampling or gains are not admissible
 template <class Watch>
 ProvedMargins proved_sampling_margins(const std::vector<EnclosedPole>& poles,

@@ -61,23 +61,23 @@ extern template double loop_excess(const LoopMap<double>&, const PdGains<double>
 
 }  // namespace detail
 
-/// Family of samplings of one plant with one parameter, called position (s): the period τ, with δ/τ
-/// constant, or the delay δ, with τ constant. The number k of delayed commands is constant.
-/// @tparam Plant  two masses, whose loop is a `SampledLoop` in closed form, or a plant of any order
-///                with ports, whose loop is a `LoopMap`
+/// One-parameter family of samplings of a plant. Its parameter, the position (s), is the period τ
+/// with constant δ/τ, or the delay δ with constant τ. The number k of delayed commands is constant.
+/// @tparam Plant  two masses (the loop is a `SampledLoop`), or a plant of any order with `Ports`
+///                (the loop is a `LoopMap`)
 template <class Plant>
 class SamplingFamily {
  public:
-  /// The family with varying τ and δ = delay_fraction · τ.
+  /// The family with varying period τ and δ = `delay_fraction` · τ.
   /// @param plant           plant within its ranges, which are not checked here
   /// @param delay_fraction  ratio δ/τ, 0 … 1 for two masses, ≥ 0 for a plant with ports
   static SamplingFamily of_period(const Plant& plant, double delay_fraction) {
     return {plant, 0.0, delay_fraction, holdfast::held_commands({1.0, delay_fraction})};
   }
 
-  /// The family with δ from (k − 1) τ to k τ.
+  /// The family with varying delay δ from (k − 1) τ to k τ.
   /// @param plant   plant within its ranges, which are not checked here
-  /// @param period  τ (s), > 0
+  /// @param period  constant τ (s), > 0
   /// @param held    number k of delayed commands, 1 for two masses, ≥ 1 for a plant with ports
   static SamplingFamily of_delay(const Plant& plant, double period, int held = 1) {
     return {plant, period, 0.0, held};
@@ -89,7 +89,7 @@ class SamplingFamily {
     return {position, delay_fraction_ * position};
   }
 
-  /// The loop of the plant at a position (s); it costs two matrix exponentials.
+  /// The loop of the plant at a position (s). Work: two matrix exponentials.
   auto loop_at(double position) const {
     if constexpr (has_closed_forms<Plant>) {
       return sampled_loop(plant_, at(position));
@@ -103,22 +103,22 @@ class SamplingFamily {
     return detail::loop_map_keeping<Plant, double>(plant_, at(position), held_);
   }
 
-  /// The derivative of τ by the position: 1 where the position is τ, 0 where it is δ.
+  /// The derivative of τ with respect to the position: 1 if the position is τ, 0 if it is δ.
   double period_rate() const { return fixed_period_ > 0.0 ? 0.0 : 1.0; }
-  /// The derivative by the position of k τ − δ, the time for which a new command acts in a sample.
+  /// The derivative with respect to the position of k τ − δ, the time a command acts in a sample.
   double action_rate() const { return fixed_period_ > 0.0 ? -1.0 : held_ - delay_fraction_; }
 
   /// The Taylor series of the closed loop's map in x = (position − centre)/radius, |x| ≤ 1, up to
-  /// x¹². The plant has the state matrix A and the control input b. Let h = k τ − δ, and let ′ be
-  /// the derivative by the position. The map's rows of the plant's states contain A_d, Γ₁ and Γ₀
-  /// (k = 1: Γ₀ K with the feedback row K). The j-th derivative of [A_d, Γ₁, Γ₀] is
+  /// x¹². The plant has the state matrix A and the control input b; h = k τ − δ, and ′ is the
+  /// derivative with respect to the position. The map's rows of the plant's states contain A_d, Γ₁
+  /// and Γ₀ of `LoopMap` (k = 1: Γ₀ K, K: feedback row). The j-th derivative of [A_d, Γ₁, Γ₀] is
   ///
   ///     A^{j−1} ((τ′)ʲ [A A_d, A_d b, 0] + (h′)ʲ e^{Ah} b [0, −1, 1]),   j ≥ 1
   ///
-  /// The remainder bounds the omitted terms by a geometric series, or is infinite if this diverges.
-  /// @param map     map of `map_at`, at the centre
-  /// @param gains   gains P and D
-  /// @param radius  half width (s), ≥ 0
+  /// The remainder is a bound of the omitted terms by a geometric series; ∞ if the series diverges.
+  /// @param map     map of `map_at` at the centre
+  /// @param gains   P (N/m) and D (N s/m)
+  /// @param radius  half width (s) of the interval of positions, ≥ 0
   TaylorMatrix moving(const LoopMap<double>& map, const PdGains<double>& gains,
                       double radius) const {
     constexpr int order = 12;
@@ -148,10 +148,10 @@ class SamplingFamily {
     return result;
   }
 
-  /// The Taylor series of `LoopMap::command`, as in `moving`. For k = 1 the rows of the plant's
-  /// states are Γ₀, with the derivatives A^{j−1} (h′)ʲ e^{Ah} b; for k > 1 the column is constant.
+  /// The Taylor series of `LoopMap::command`, with arguments and symbols as in `moving`. For k = 1
+  /// the plant's rows are Γ₀, with j-th derivative A^{j−1} (h′)ʲ e^{Ah} b; else it is constant.
   MovingVector moving_command(const LoopMap<double>& map, double radius) const {
-    // The map of unit feedback from one more row, of which s is the column: its bound holds for s.
+    // The map with feedback from state 0 alone: the bound of its first column holds for s.
     const Eigen::Index size = map.size(), n = size - map.held_commands;
     LoopMap<double> alone = map;
     alone.displacement = Eigen::RowVectorXd::Zero(size);
@@ -171,7 +171,8 @@ class SamplingFamily {
     return result;
   }
 
-  /// Outcome of a proof of stability at all positions within `radius` (s) of a centre (s).
+  /// Result of a proof of stability at all positions within `radius` (s) of `centre` (s): proved
+  /// (`holds`), undecided (`open`), or not stable at the centre (`fails`).
   Stretch stability(const PdGains<double>& gains, double centre, double radius) const {
     const MovingSpectrum roots(moving(map_at(centre), gains, radius));
     return roots.inside()             ? Stretch::holds

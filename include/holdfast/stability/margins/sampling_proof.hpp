@@ -23,7 +23,7 @@ struct EnclosedSamplings {
   Enclosure last_share;    ///< δ/τ − (k − 1), 0 … 1, if τ varies; 0 if δ varies
   int commands = 1;        ///< number k of delayed commands
 
-  /// The line along which τ varies, for all decimals τ and δ that round to the given doubles.
+  /// The family with varying τ and constant δ/τ, for all decimals that round to the given doubles.
   static EnclosedSamplings of_period(const Sampling<double>& sampling) {
     const int commands = held_commands(sampling);
     const Enclosure share =
@@ -32,32 +32,32 @@ struct EnclosedSamplings {
     return {
         0.0, {std::clamp(share.lower(), 0.0, 1.0), std::clamp(share.upper(), 0.0, 1.0)}, commands};
   }
-  /// The line along which δ varies from (k − 1) τ to k τ; τ = `period` (s), k = `commands`.
+  /// The family with δ varying from (k − 1) τ to k τ, for τ = `period` (s) and k = `commands`.
   static EnclosedSamplings of_delay(double period, int commands) {
     return {Enclosure::of_decimal(period), 0.0, commands};
   }
 
-  /// Enclosure of the samplings at all positions in an interval (s).
+  /// The enclosure of all samplings with a position in the interval `positions` (s).
   EnclosedSampling over(const Enclosure& positions) const {
     if (!moves_period()) return EnclosedSampling::of_delay(fixed_period, positions, commands);
     return {positions, last_share * positions, (Enclosure(1.0) - last_share) * positions, commands};
   }
-  /// The sampling at a position (s) in double precision, from the midpoints of the enclosures.
+  /// The sampling at a position (s) in double precision, for the midpoints of the enclosures.
   Sampling<double> next_to(double position) const {
     if (!moves_period()) return {fixed_period.middle(), std::max(position, 0.0)};
     return {position, (commands - 1 + last_share.middle()) * position};
   }
 
-  /// Enclosure of a time that depends on the position.
+  /// Enclosure of a time that depends on the position, and of its derivative.
   struct Time {
     Enclosure at;    ///< value of the time (s)
-    Enclosure rate;  ///< derivative by the position
+    Enclosure rate;  ///< derivative of the time (s) with respect to the position (s)
   };
-  /// The period τ at a position.
+  /// The period τ at a position (s).
   Time period_at(const Enclosure& position) const {
     return moves_period() ? Time{position, 1.0} : Time{fixed_period, 0.0};
   }
-  /// The time k τ − δ at a position, during which the latest command acts in a sample.
+  /// The time k τ − δ at a position (s): the part of a sample in which the latest command acts.
   Time present_at(const Enclosure& position) const {
     const Enclosure share = 1.0 - last_share, all = static_cast<double>(commands) * fixed_period;
     return moves_period() ? Time{share * position, share} : Time{all - position, -1.0};
@@ -67,29 +67,29 @@ struct EnclosedSamplings {
   bool moves_period() const { return fixed_period.upper() == 0.0; }
 };
 
-/// Proof that a loop is stable at all samplings on a segment of a line.
+/// Proof that a loop is stable for all τ, or all δ, of a segment of a family `EnclosedSamplings`.
 ///
-/// The plant has poles s_j with residues r_j; k commands are delayed, and h = k τ − δ is the time
-/// for which the latest one acts in a sample. The loop's roots are those of the polynomial
+/// The plant has poles s_j with residues r_j. k commands are delayed, and h = k τ − δ is the time
+/// for which the latest one acts in a sample. The loop's roots λ are those of the polynomial
 ///
 ///     p(λ) = q(λ) Π_j (λ − e_j),   q(λ) = λᵏ − Σ_j (P + D s_j) r_j (γ₀_j λ + γ₁_j)/(λ − e_j)
 ///     e_j = e^{s_j τ},   γ₀_j = (e^{s_j h} − 1)/s_j,   γ₁_j = (e^{s_j τ} − e^{s_j h})/s_j
 ///
 /// Let z_i be distinct nodes, as many as roots. Both p and Π_i (λ − z_i) have the leading
-/// coefficient 1, so that Lagrange's interpolation of their difference gives
+/// coefficient 1. Lagrange's interpolation of their difference gives
 ///
 ///     p(λ)/Π_i (λ − z_i) = 1 + Σ_i W_i/(λ − z_i),   W_i = p(z_i)/Π_{l≠i} (z_i − z_l)
 ///
 /// Let all |z_i| < 1, and Σ |W_i|/|λ − z_i| < 1 on the unit circle and hence outside it. Then no
 /// root is on or outside the circle. Nodes near the roots have small W_i (K. Weierstrass, 1891). On
-/// a segment x₀ + ϱ t, |t| ≤ 1, each node follows a root on a spiral z_i(t), and p(z_i(t)) is
-/// enclosed with its first two derivatives. Work: order N² for N roots; 2 ms for 40 modes.
+/// a segment of τ or δ, x₀ + ϱ t for |t| ≤ 1, each node follows a root on a spiral z_i(t), and
+/// p(z_i(t)) is enclosed with two derivatives. Work: order N² for N roots; 2 ms for 40 modes.
 template <class Scalar>
 class SamplingProof {
  public:
   /// @param poles  poles of `enclosed_poles`, at least one, none of which may be 0
   /// @param gains  P (N/m) and D (N s/m), exactly the given decimal numbers
-  /// @param line   line of samplings from which the segments are taken
+  /// @param line   family of samplings with varying τ or varying δ
   SamplingProof(const std::vector<EnclosedPole>& poles, const PdGains<double>& gains,
                 EnclosedSamplings line)
       : line_(line), gains_(gains) {
@@ -111,14 +111,14 @@ class SamplingProof {
     }
   }
 
-  /// Node of the interpolation for a segment; t is −1 at the segment's start and 1 at its end.
+  /// Node z_i of the interpolation on a segment; t is −1 at the segment's start and 1 at its end.
   struct Node {
-    EnclosedSpiral path;  ///< path of the node, z_i(t)
+    EnclosedSpiral path;  ///< path z_i(t) of the node
     double correction;    ///< upper bound of |W_i(t)| for all t
   };
 
-  /// The nodes for a proof at all τ (or δ) from `from` to `to` (s); empty if the loop's roots at
-  /// the middle position are not found.
+  /// The nodes for a proof at all τ (or δ) from `from` to `to` (s); empty if the roots of the loop
+  /// in the middle of this interval are not found.
   std::vector<Node> nodes_over(double from, double to) const;
 
   /// Whether the loop is proved to be stable for all τ (or δ) from `from` to `to` (s).

@@ -17,23 +17,24 @@
 
 namespace holdfast {
 
-/// Upper bound of |L|, the modulus of the loop's return ratio, for all |λ| ≥ 1. It decreases as τ
-/// grows. The sampled loop is stable at every τ at which the bound is below 1.
+/// Upper bound of |L(λ)|, the modulus of the loop's return ratio, for all |λ| ≥ 1. It decreases as
+/// τ grows. The sampled loop is stable at every period τ for which the bound is below 1.
 ///
 /// Let n(s)/p(s) = K (sI − A)⁻¹ b for plant matrix A, control input b and feedback row K. The plant
-/// has the poles s_i = −a_i + iω_i. With c_i = n(s_i)/(s_i p′(s_i)), g = K A⁻¹ b = −n(0)/p(0) =
-/// Σ c_i, φ = δ/τ and e_i = e^{s_i τ}, the return ratio is
+/// has the poles s_i = −a_i + iω_i. With A_d, Γ₀ and Γ₁ of `SampledLoop`, c_i = n(s_i)/(s_i
+/// p′(s_i)), g = K A⁻¹ b = −n(0)/p(0) = Σ c_i, φ = δ/τ and e_i = e^{s_i τ}, the return ratio is
 ///
 ///     L(λ) = K (λI − A_d)⁻¹ (Γ₀ + Γ₁/λ)
 ///          = −g/λ + Σ c_i e^{s_i(1−φ)τ} (λ − 1)/(λ(λ − e_i))
 ///
-/// The roots of det(λI − S) = λ det(λI − A_d) (1 − L) have |λ| < 1 if |L| < 1 for |λ| ≥ 1, where
+/// The loop with the map S is stable if |L| < 1 for |λ| ≥ 1, as the roots λ of det(λI − S) = λ
+/// det(λI − A_d) (1 − L) then have |λ| < 1. The bound is
 ///
 ///     |L| ≤ |g| + 2 Σ |c_i| e^{−a_i χτ}/(1 − e^{−a_iτ}),   χ = 1 − φ if φ < 1, χ = 1 if φ = 1
 ///
 /// At φ = 1, L = −g/λ² + Σ c_i e_i (λ − 1)/(λ²(λ − e_i)), hence χ = 1. For the two-mass plant
-/// g = 0: a constant force between the masses does not move the conductor. Commands delayed by
-/// further whole samples divide L by powers of λ, which does not change the bound.
+/// g = 0: a constant force between the masses does not move the conductor. A delay by further whole
+/// samples divides L by powers of λ; the bound remains valid.
 class SlowSamplingBound {
  public:
   /// @tparam Plant          plant of any order; for (nearly) multiple poles the bound is infinite
@@ -50,7 +51,7 @@ class SlowSamplingBound {
     }
   }
 
-  /// The bound on |L| over |λ| ≥ 1 at a sampling period (s), > 0; infinite for an undamped mode.
+  /// The bound on |L| at a sampling period τ (s) > 0; ∞ if an undamped mode takes part in L.
   double at(double period) const {
     const double share = delay_fraction_ == 1.0 ? 1.0 : 1.0 - delay_fraction_;
     double bound = static_gain_;
@@ -63,7 +64,7 @@ class SlowSamplingBound {
     return bound;
   }
 
-  /// A period (s) from which on the bound is below 1 and the loop stable; infinite if none found.
+  /// A period (s) at and beyond which the bound is below 1 and the loop is stable; ∞ if none found.
   double certain_from() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto [slowest, fastest] = std::minmax_element(decay_.begin(), decay_.end());
@@ -96,11 +97,11 @@ class SlowSamplingBound {
     const auto poles = detail::balanced_eigenvalues<double, Eigen::Dynamic>(a);
     for (Eigen::Index i = 0; i < poles.size(); ++i) {
       decay_.push_back(decay_of(poles[i]));
-      // The residue of K (sI − A)⁻¹ b is the speed of the pole in A + ε b K.
+      // The residue of K (sI − A)⁻¹ b is the derivative of the pole of A + ε b K by ε.
       weight_.push_back(
           std::abs(eigenvalue_derivative<double>(a, Square(b * feedback), poles[i]) / poles[i]));
       for (Eigen::Index k = 0; k < i; ++k) {
-        // Their residues are not told apart surely enough.
+        // The residues of poles so close together are inaccurate.
         if (std::abs(poles[i] - poles[k]) < 1e-3 * std::abs(poles[i])) decay_.back() = 0.0;
       }
     }

@@ -38,9 +38,9 @@ inline std::complex<double> drive_impedance(const Sampling<double>& sampling,
          detail::HardwarePoles::lag(lags.drive, s) * detail::HardwarePoles::lag(lags.filter, s);
 }
 
-/// The impedance Z(s) = (M_c s² + K_p)/s + T_a Z_eff (N s/m) of the absorber with its computer. The
-/// clamp has the mass M_c; m₂, c₂ and k₂ are the absorber's mass, damping and stiffness. T_a = m₂
-/// s²/(m₂ s² + c₂ s + k₂), K_p = T_a (k₂ + c₂ s), Z_eff: `drive_impedance`. Unchecked arguments.
+/// The impedance Z(s) = (M_c s² + K_p)/s + T_a Z_eff (N s/m) of the controlled absorber, with T_a =
+/// m₂ s²/(m₂ s² + c₂ s + k₂), K_p = T_a (k₂ + c₂ s) and Z_eff of `drive_impedance`. M_c is the mass
+/// of the clamp; m₂, c₂ and k₂ are the absorber's mass, damping and stiffness. Nothing is checked.
 /// @param absorber  absorber with its clamp
 /// @param sampling  τ and δ of the loop
 /// @param gains     gains P and D

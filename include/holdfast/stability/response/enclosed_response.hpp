@@ -14,32 +14,32 @@
 
 namespace holdfast {
 
-/// Enclosed expansion f(λ + w) = value + slope · w + r about λ, with |r| ≤ `rest` for |w| ≤ radius.
+/// Linear Taylor model of f about λ: f(λ + w) = value + slope · w + r, |r| ≤ rest for |w| ≤ radius.
 struct EnclosedExpansion {
-  ComplexEnclosure value;  ///< value f(λ)
-  ComplexEnclosure slope;  ///< derivative f′(λ)
-  double rest = 0.0;       ///< bound of |r|; infinite where f may have a pole within the radius
+  ComplexEnclosure value;  ///< enclosure of f(λ)
+  ComplexEnclosure slope;  ///< enclosure of the derivative f′(λ)
+  double rest = 0.0;       ///< upper bound of |r|; ∞ where f may have a pole within the radius
 };
 
-/// Expansions of the transfer functions F_z and F_v (`EnclosedResponse`) about a point.
+/// Linear Taylor models of the transfer functions F_z and F_v (`EnclosedResponse`) about a point λ.
 struct EnclosedCommandResponse {
   EnclosedExpansion displacement;  ///< expansion of F_z (m/N)
   EnclosedExpansion velocity;      ///< expansion of F_v (m/(N s))
 };
 
-/// Enclosure of a sampling or of a range of samplings: period and action times of the commands.
+/// Enclosure of one or more samplings (period τ, delay δ): τ and the times for which commands act.
 struct EnclosedSampling {
-  Enclosure period;   ///< sampling period τ (s)
-  Enclosure past;     ///< δ − (k − 1) τ (s), during which the previous command acts
-  Enclosure present;  ///< k τ − δ (s), during which the latest command acts
-  int commands;       ///< number k of delayed commands
+  Enclosure period;  ///< sampling period τ (s)
+  Enclosure past;  ///< time δ − (k − 1) τ (s) in a sample for which the previous command acts
+  Enclosure present;  ///< time k τ − δ (s) in a sample for which the latest command acts
+  int commands;       ///< number k of delayed commands, ≥ 1
 
-  /// Creates the enclosure from its four members, in their order.
+  /// Creates the enclosure from its members `period`, `past`, `present` and `commands`.
   EnclosedSampling(Enclosure of_period, Enclosure of_past, Enclosure of_present, int on_their_way)
       : period(of_period), past(of_past), present(of_present), commands(on_their_way) {}
 
-  /// The enclosure of all decimals that round to the doubles τ (s) > 0 and δ (s), 0 … 1000 τ. A δ/τ
-  /// within a relative 10⁻¹² of a whole number counts as that number.
+  /// The enclosure of all decimals that round to the given doubles τ (s) > 0 and δ (s), 0 … 1000 τ.
+  /// If δ/τ is within a relative 10⁻¹² of a whole number, it counts as that number.
   /// @throws InvalidParameter where the sampling is not admissible
   static EnclosedSampling of(const Sampling<double>& sampling) {
     require_positive("sampling period tau", sampling.period, "s");
@@ -48,7 +48,7 @@ struct EnclosedSampling {
     return of_delay(Enclosure::of_decimal(sampling.period),
                     Enclosure::of_decimal(sampling.processing_delay), held_commands(sampling));
   }
-  /// The enclosure for all δ of an interval within (k − 1) τ … k τ, k = `commands`.
+  /// The enclosure for all δ in the interval `delay` (s), within (k − 1) τ … k τ, k = `commands`.
   static EnclosedSampling of_delay(const Enclosure& period, const Enclosure& delay, int commands) {
     const auto within_sample = [&](const Enclosure& time) {
       return Enclosure(std::clamp(time.lower(), 0.0, period.lower()),
@@ -60,8 +60,8 @@ struct EnclosedSampling {
   }
 };
 
-/// The zero-order-hold transfer functions G of `ModalResponse` in enclosures. F = λᵏ G replaces G,
-/// so that long delays need no inverse powers of λ. The characteristic function of the loop is
+/// Enclosures of the zero-order-hold transfer functions G of `ModalResponse`, multiplied by λᵏ: F =
+/// λᵏ G. Therefore long delays need no inverse powers of λ. The loop's characteristic function is
 ///
 ///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ),   F(λ) = λᵏ G(λ) = Σ (a_j λ + b_j)/(λ − e^{s_j τ})
 ///
@@ -85,18 +85,18 @@ class EnclosedResponse {
   EnclosedResponse(const std::vector<EnclosedPole>& poles, const Sampling<double>& sampling)
       : EnclosedResponse(poles, EnclosedSampling::of(sampling)) {}
 
-  /// The expansions of F_z and F_v about a point.
+  /// The linear Taylor models of F_z and F_v about a point.
   /// @param lambda  point λ
-  /// @param radius  radius of the disc about λ
+  /// @param radius  radius, > 0, of the disc about λ in which the models are valid
   EnclosedCommandResponse about(const ComplexEnclosure& lambda, double radius) const {
     EnclosedCommandResponse sum;
     for (const Section& section : sections_) section.add_to(sum, lambda, radius);
     return sum;
   }
 
-  /// The expansion of λᵏ about a point, with |r| ≤ k (k − 1)/2 (|λ| + radius)^{k−2} radius².
+  /// The linear Taylor model of λᵏ, with |r| ≤ k (k − 1)/2 (|λ| + radius)^{k−2} radius².
   /// @param lambda  point λ
-  /// @param radius  radius of the disc about λ
+  /// @param radius  radius, > 0, of the disc about λ in which the model is valid
   EnclosedExpansion power_about(const ComplexEnclosure& lambda, double radius) const {
     const auto k = static_cast<double>(commands_);
     EnclosedExpansion result;

@@ -11,7 +11,7 @@
 
 namespace holdfast {
 
-/// The transfer functions from the command to the measured displacement and velocity, at one λ.
+/// Transfer functions from command to measured displacement and velocity at one λ (z-transform).
 template <class Scalar>
 struct CommandResponse {
   std::complex<Scalar> displacement;  ///< transfer function G_z(λ) (m/N) to the displacement
@@ -22,10 +22,10 @@ struct CommandResponse {
 ///
 ///     G_z(λ) = h_z (λI − S₀)⁻¹ s,   G_v(λ) = h_v (λI − S₀)⁻¹ s
 ///
-/// from the command to the quantities that P and D multiply, with S₀, s, h_z and h_v of the map.
-/// The characteristic equation of the loop is 1 − P G_z(λ) − D G_v(λ) = 0. The n × n matrix S₀ − I
-/// is reduced once to Hessenberg form H = Qᵀ(S₀ − I)Q. Each λ then costs the elimination of one
-/// subdiagonal, about 4 n² complex multiply-adds. Source: A. J. Laub, Efficient multivariable
+/// from the command to the measured displacement and velocity. S₀ is the map without feedback, s
+/// the command's column, h_z and h_v are the readings' rows. The characteristic equation of the
+/// loop is 1 − P G_z(λ) − D G_v(λ) = 0. The n × n matrix S₀ − I is reduced once to Hessenberg form.
+/// Each λ then costs about 4 n² complex multiply-adds. Source: A. J. Laub, Efficient multivariable
 /// frequency response computations, IEEE TAC 26 (1981).
 template <class Scalar>
 class LoopResponse {
@@ -35,7 +35,7 @@ class LoopResponse {
   /// @param map  map of the loop
   explicit LoopResponse(const LoopMap<Scalar>& map);
 
-  /// The transfer functions at λ = 1 + μ; the argument μ avoids a loss of digits in fast sampling.
+  /// The transfer functions at λ = 1 + μ. The argument μ avoids a loss of digits for small τ.
   CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const;
 
   /// The transfer functions G_z and G_v at λ = e^{iθ} on the unit circle.

@@ -18,14 +18,14 @@
 
 namespace holdfast {
 
-/// Damping of a mode of the conductor, bare and with the absorber and its computer.
+/// Damping of a mode n of the conductor, without and with the controlled absorber.
 struct ModeDamping {
-  double angular_frequency;   ///< ω_n (rad/s) of the bare conductor
+  double angular_frequency;   ///< angular frequency ω_n (rad/s) of the bare conductor's mode
   double bare;                ///< damping ratio ζ_n without absorber
   std::complex<double> root;  ///< the loop's root s = ln λ/τ (1/s) for the mode; NaN: not found
-  double first_order;         ///< damping ratio to first order, for a light absorber
+  double first_order;         ///< first-order estimate, for a light absorber, of `damping`
 
-  /// The damping ratio −Re s/|s|; negative where the mode grows, NaN without a root.
+  /// The damping ratio −Re s/|s| with the absorber; < 0 where the mode grows, NaN without a root.
   double damping() const { return -root.real() / std::abs(root); }
 };
 
@@ -45,18 +45,18 @@ inline std::complex<double> matched_pole(const std::vector<std::complex<double>>
 
 }  // namespace detail
 
-/// The damping of each mode of a conductor with the absorber and its computer. Each bare mode n is
-/// traced to a root of the sampled loop while first the absorber and then the gains grow from zero.
-/// The trace determines the branch of s = ln λ/τ. To first order the damping ratio is ζ_n + φ_n² Re
+/// The damping of each mode of a conductor with the controlled absorber. Each bare mode n is traced
+/// to a root λ of the sampled loop while first the absorber and then the gains grow from zero. The
+/// trace determines the branch of s = ln λ/τ. To first order the damping ratio is ζ_n + φ_n² Re
 /// Z(iω_n)/(2 M_n ω_n), with the symbols of `PlaceMode` and Z of `absorber_impedance`.
 ///
-/// A trace is no proof. Where two traces meet, the assignment of their roots to the two modes is
-/// arbitrary. Where the steps of a trace become too small, the damping is NaN. Work: some hundred
+/// The result is not proved. Where two traces meet, the assignment of roots to the two modes is
+/// arbitrary. Where the steps of a trace become too small, `damping` is NaN. Work: some hundred
 /// values of the transfer functions per mode.
 /// @param modes     modes of the bare conductor at the absorber's place
 /// @param absorber  absorber with its clamp
-/// @param sampling  τ and δ
-/// @param gains     gains P and D; 0: without control
+/// @param sampling  τ (s) and δ (s)
+/// @param gains     P (N/m) and D (N s/m); both 0: without control
 /// @param hardware  measurement filter and drive
 /// @throws InvalidParameter where modes, absorber, sampling or hardware are not admissible
 template <class Scalar = double>

@@ -23,7 +23,7 @@
 namespace holdfast {
 
 /// The zero-order-hold transfer functions of `LoopResponse` as sums over the plant's eigenvalues
-/// s_j with residues γ_j β_j (`Residue`); k commands are delayed, and δ′ = δ − (k − 1) τ:
+/// s_j with residues γ_j β_j (`Residue`). k commands are delayed, and δ′ = δ − (k − 1) τ:
 ///
 ///     G(λ) = λ^{1−k} Σ (a_j + b_j/λ) / (λ − e^{s_j τ}),
 ///     a_j = γ_j β_j (e^{s_j(τ−δ′)} − 1)/s_j,   b_j = γ_j β_j e^{s_j(τ−δ′)} (e^{s_j δ′} − 1)/s_j
@@ -57,7 +57,7 @@ class ModalResponse {
     for (const Residue& residue : residues) add(residue);
   }
 
-  /// The transfer functions at λ = 1 + μ; the argument μ avoids a loss of digits in fast sampling.
+  /// The transfer functions at λ = 1 + μ. The argument μ avoids a loss of digits for small τ.
   CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const {
     if (dense_) return weighted(dense_->at_distance_from_one(mu), mu);
     return finished(poles_.sums_at(mu), mu);
@@ -71,9 +71,9 @@ class ModalResponse {
     return at_distance_from_one(circle_increment(angle));
   }
 
-  /// The response G(rλ) as a function of λ; the roots of its loop are this loop's roots over r.
-  /// @param offset  r − 1, above −1
-  /// @return the response; nullopt where LoopResponse is used, as eigenvalues (nearly) coincide
+  /// The response G(rλ) as a function of λ. Its loop has the roots of this loop divided by r.
+  /// @param offset  r − 1, > −1
+  /// @return the response; `nullopt` where eigenvalues (nearly) coincide and LoopResponse is used
   std::optional<ModalResponse> at_radius(const Scalar& offset) const {
     if (dense_) return std::nullopt;
     ModalResponse scaled = *this;
@@ -99,8 +99,8 @@ class ModalResponse {
     return scaled;
   }
 
-  /// Filter w(λ) = constant + change (1 − 1/λ) of displacement readings; D multiplies its output,
-  /// G_v = w(λ) G_z. Members `constant` and `change` (1/s; N/m if they contain both gains).
+  /// Filter w(λ) = constant + change (1 − 1/λ) of displacement readings. D multiplies its output:
+  /// G_v = w(λ) G_z. `constant` and `change` are in 1/s (in N/m if both gains are part of them).
   using Weight = typename PoleSum<Scalar>::Weight;
 
   /// The response of the loop without a velocity sensor: D multiplies filtered displacements.
@@ -111,8 +111,8 @@ class ModalResponse {
     return other;
   }
 
-  /// This response if velocity is measured (`of_velocity`). Otherwise the response where D
-  /// multiplies the backward difference of the displacement readings: G_v = (1 − 1/λ) G_z/τ.
+  /// This response if velocity is measured (`of_velocity`). Otherwise the response of the loop in
+  /// which D multiplies the backward difference of displacement readings: G_v = (1 − 1/λ) G_z/τ.
   ModalResponse with_sensor(bool of_velocity) const {
     if (of_velocity) return *this;
     return with_velocity_from_displacement({Scalar(0), Scalar(1) / period_});
@@ -128,7 +128,7 @@ class ModalResponse {
   /// The number k of delayed commands.
   int held_commands() const { return commands_; }
 
-  /// The function 1 − P G_z − D G_v as a sum over all poles; no `parts` if LoopResponse is used.
+  /// The function 1 − P G_z − D G_v as a sum over all poles; `parts` is empty with LoopResponse.
   PoleSum<Scalar> loop_parts(const PdGains<Scalar>& gains) const {
     PoleSum<Scalar> loop;
     loop.power = commands_ - 1;
@@ -150,7 +150,7 @@ class ModalResponse {
   /// Whether δ′ > 0, so that the previous command still acts at the start of a sample (b_j ≠ 0).
   bool is_late_within_sample() const { return late_ > Scalar(0); }
 
-  /// The number of the plant's eigenvalues with Re s > 0, |e^{sτ}| > 1 (> r for `at_radius`).
+  /// The number of eigenvalues s of the plant with |e^{sτ}| > 1, or > r for a response `at_radius`.
   int unstable_poles() const { return unstable_; }
 
  private:
@@ -268,16 +268,16 @@ class ModalResponse {
   Scalar radius_{1};              // r of G(rλ)
 };
 
-/// Transfer functions at many λ near one point. The terms of the nearest poles (about 3 √N of N)
-/// are computed one by one. The sum of the others is a Taylor series of the same accuracy.
+/// Fast evaluation of a ModalResponse at many λ near one point, the centre. Of the N poles the 3 √N
+/// nearest are summed one by one. The sum of the others is a Taylor series of the same accuracy.
 /// Values at 30 angles per pole then cost order N^{3/2} operations in all, not N².
 template <class Scalar>
 class ModalResponse<Scalar>::Nearby {
  public:
   /// @param response  the response, which must outlive this object
-  /// @param centre    offset μ = λ − 1 of the point about which the series is taken
-  /// @param share     radius of the series, as a share of the distance to its nearest pole, < 1;
-  ///                  its error is this share to the power 17
+  /// @param centre    offset μ = λ − 1 of the centre of the Taylor series
+  /// @param share     ratio, < 1, of the radius of the series to the distance from the centre to
+  ///                  the nearest pole in the series; the relative error is share¹⁷
   Nearby(const ModalResponse& response, const Complex& centre, Scalar share = Scalar(0.125))
       : response_(&response), centre_(centre), share_(share) {
     const Poles& all = response.poles_;
@@ -300,11 +300,11 @@ class ModalResponse<Scalar>::Nearby {
     add_far(far);
   }
 
-  /// Whether the series is accurate at μ.
+  /// Whether the series is accurate at λ = 1 + μ.
   bool holds(const Complex& mu) const { return std::abs(mu - centre_) <= share_ * reach_; }
 
-  /// Moves the centre to μ where the series is not accurate at μ (`holds`). If μ is only little
-  /// beyond its range, the centre moves further in the same direction, for later values of μ.
+  /// Moves the centre to μ if the series is not accurate at λ = 1 + μ (`holds`). If μ is only a
+  /// little out of range, the centre moves beyond μ: later values are expected in this direction.
   void follow(const Complex& mu) {
     if (holds(mu)) return;
     const Complex way = mu - centre_;
@@ -326,8 +326,8 @@ class ModalResponse<Scalar>::Nearby {
     return response_->finished({sums.z + near.z, sums.v + near.v}, mu);
   }
 
-  /// The responses at λ = e^{iθ}, and the distance from λ to the nearest pole. Near θ = 0 and π,
-  /// where imaginary parts need full accuracy, all terms are summed.
+  /// The responses at λ = e^{iθ}, and the distance from λ to the nearest pole. The centre follows
+  /// λ. Near θ = 0 and π, where imaginary parts must be accurate, all terms are summed.
   std::pair<CommandResponse<Scalar>, Scalar> read(const Scalar& angle) {
     const Complex mu = circle_increment(angle);
     follow(mu);
@@ -336,7 +336,7 @@ class ModalResponse<Scalar>::Nearby {
     return {at_end ? response_->at_angle(angle) : at(mu), to_pole};
   }
 
-  /// The distance from μ to the nearest pole, or a lower bound of that distance if no pole is near.
+  /// The distance from λ = 1 + μ to the nearest pole; a lower bound of it if no pole is near.
   Scalar nearest(const Complex& mu) const {
     const Scalar far = std::min(Scalar(2), reach_ - std::abs(mu - centre_));
     auto least = decltype(detail::ComplexLanes<Scalar>::re)::Constant(far * far).eval();
@@ -394,7 +394,7 @@ ModalResponse<Scalar>::ModalResponse(const Plant& plant, const Sampling<Scalar>&
 
 /// The response of a plant given by all its poles.
 /// @param poles     poles of `plant_poles`
-/// @param sampling  τ and δ
+/// @param sampling  τ (s) > 0 and δ (s), 0 … 1000 τ
 /// @throws InvalidParameter where the sampling is not admissible
 template <class Scalar = double>
 ModalResponse<Scalar> modal_response(const std::vector<PlantPole>& poles,
@@ -406,10 +406,10 @@ ModalResponse<Scalar> modal_response(const std::vector<PlantPole>& poles,
   return {residues, sampling};
 }
 
-/// The response of a conductor given by its modes with the absorber and the loop's hardware. It is
-/// computed from the poles of `with_hardware`, or without these from `linear_plant`.
+/// The response of a conductor given by its modes, with absorber, measurement filter and drive. It
+/// is computed from the poles of `with_hardware` or, if there are none, from `linear_plant`.
 /// @param conductor  conductor with all its poles, or without poles
-/// @param sampling   τ and δ
+/// @param sampling   τ (s) > 0 and δ (s), 0 … 1000 τ
 /// @throws InvalidParameter where conductor, absorber, hardware or sampling are not admissible
 template <class Scalar = double>
 ModalResponse<Scalar> modal_response(const ConductorWithAbsorber& conductor,
@@ -432,12 +432,12 @@ ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduc
 }
 
 /// All roots λ of the loop, 1 = P G_z(λ) + D G_v(λ), by `pole_sum_roots`. Their number is the
-/// number of the plant's states plus the number k of delayed commands. A velocity by difference
-/// adds a state, the previous reading, and a root; for D = 0 this root is 0 and is left out.
+/// number of the plant's states plus the number k of delayed commands. Without velocity sensor the
+/// previous reading is one more state, with one more root; for D = 0 this root, 0, is left out.
 /// @param response  response of the plant given by its poles
-/// @param gains     gains P and D
-/// @return all roots; empty where they are not found, eigenvalues of the plant nearly coincide, or
-/// more than 20 commands are delayed
+/// @param gains     P (N/m) and D (N s/m)
+/// @return all roots; empty if they are not found, if eigenvalues of the plant nearly coincide, or
+/// if more than 20 commands are delayed
 template <class Scalar>
 std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& response,
                                              const PdGains<Scalar>& gains) {
@@ -446,7 +446,7 @@ std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& respon
 
 /// The root λ of largest modulus of a loop.
 /// @param response  response of the plant given by its poles
-/// @param gains     gains P and D
+/// @param gains     P (N/m) and D (N s/m)
 /// @return the root; NaN where `loop_roots` finds none
 template <class Scalar>
 std::complex<Scalar> largest_loop_root(const ModalResponse<Scalar>& response,
@@ -459,9 +459,9 @@ std::complex<Scalar> largest_loop_root(const ModalResponse<Scalar>& response,
   return *largest;
 }
 
-/// The excess ρ − 1 of a loop, ρ being its largest root modulus; NaN where `loop_roots` finds none.
+/// The excess ρ − 1 of a loop's spectral radius ρ, < 0 if stable; NaN where `loop_roots` is empty.
 /// @param response  response of the plant given by its poles
-/// @param gains     gains P and D
+/// @param gains     P (N/m) and D (N s/m)
 template <class Scalar>
 Scalar loop_excess(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains) {
   const std::complex<Scalar> mu = largest_loop_root(response, gains) - Scalar(1);

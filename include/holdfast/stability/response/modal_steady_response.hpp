@@ -15,9 +15,9 @@
 
 namespace holdfast {
 
-/// The amplitude |z| / F_m (m/N) of a conductor given by its modes, at the absorber's place and
-/// without control. The force F_m cos ωt acts there and is not held over samples. The amplitude is
-/// the modulus of `place_receptance` at s = iω; the arguments are not checked.
+/// The amplitude |z| / F_m (m/N) of a conductor given by its modes, without control. Both the force
+/// F_m cos ωt, not held over samples, and the displacement z are at the absorber's place. The
+/// amplitude is the modulus of `place_receptance` at s = iω. The arguments are not checked.
 /// @param conductor          conductor; its poles are needed only if devices are on the span
 /// @param angular_frequency  ω (rad/s), > 0
 inline double true_amplitude_per_force(const ConductorWithAbsorber& conductor,
@@ -66,12 +66,12 @@ SteadyResponse<Scalar> steady_response_by_poles(const ConductorWithAbsorber& con
 }  // namespace detail
 
 /// The steady response of the loop of a conductor given by its modes to a force at the absorber's
-/// place. It equals the `steady_response` of the conductor's `linear_plant`, but its work is only
+/// place. It equals the `steady_response` of the conductor's `linear_plant`, but the work is only
 /// proportional to the number of poles.
-/// @param conductor          conductor with all its poles. Without poles, or if it shares a pole
-///                           with the hardware, the `linear_plant` is used
+/// @param conductor          conductor with all its poles. Without poles, or with a pole of the
+///                           filter or drive among them, the `linear_plant` is used
 /// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
-/// @param hold               hold of the excitation over a sample
+/// @param hold               whether the excitation force is held over each sample
 /// @param angular_frequency  ω (rad/s), > 0
 /// @throws InvalidParameter where an argument is outside its range
 template <class Scalar = double>

@@ -37,14 +37,14 @@ struct LoopPhasors {
   std::complex<Scalar> force_conductor;       ///< f_c (m/N): conductor's z per excitation force
 };
 
-/// Responses Y of a sampled loop without feedback to a unit command and to a unit excitation at ω:
+/// Steady responses Y of a sampled loop without feedback to a unit command and a unit force at ω:
 ///
 ///     (λI − S₀) Y = [s, g],   λ = e^{iωτ}
 ///
 /// S₀ and s are the map and the command's column of `LoopMap`; g is the phasor of `input`. For two
 /// masses the stored command u_{j−1} is eliminated: S₀ = A_d and s = Γ₀ + Γ₁/λ.
 /// @tparam Loop              `SampledLoop` of the two masses, or `LoopMap` of any order
-/// @param loop               the loop
+/// @param loop               loop from `sampled_loop` or `loop_map`
 /// @param input              `harmonic_input` of the same loop and ω
 /// @param angular_frequency  ω (rad/s), > 0
 /// @throws InvalidParameter where the input has another size than the loop
@@ -115,7 +115,7 @@ struct RatioOfQuadratics {
 ///     Z / F_m = (f_c + P (t_c f_z − f_c t_z) + D (t_c f_v − f_c t_v)) / (1 − P t_z − D t_v)
 ///
 /// Where z and ż themselves are measured, as for the two masses, P vanishes from the numerator.
-/// With the index 1 for z₁ and 2 for ż₁,
+/// With t₁ = t_z, t₂ = t_v, f₁ = f_z and f₂ = f_v of the two masses,
 ///
 ///     Z₁ / F_m = (f₁ + D (t₁ f₂ − t₂ f₁)) / (1 − P t₁ − D t₂)
 ///
@@ -125,7 +125,7 @@ class SteadyResponse {
  public:
   using Complex = std::complex<Scalar>;  ///< the type of the phasors
 
-  /// @param loop               loop of `sampled_loop` or `loop_map`
+  /// @param loop               loop from `sampled_loop` or `loop_map`
   /// @param input              `held_harmonic` or `exact_harmonic` of the same loop and ω
   /// @param angular_frequency  ω (rad/s), > 0
   /// @throws InvalidParameter where ω or the size of the input is not admissible
@@ -157,8 +157,8 @@ class SteadyResponse {
   /// The conductor's amplitude |Z| / F_m (m/N) without control, under the same excitation.
   Scalar uncontrolled_amplitude_per_force() const { return std::abs(phasors_.force_conductor); }
 
-  /// This response with another reference amplitude for `ratio_to_uncontrolled`, for example that
-  /// under a force not held over samples (`true_amplitude_per_force`).
+  /// This response with another reference amplitude for `ratio_to_uncontrolled`, for example the
+  /// amplitude under a force that is not held over samples (`true_amplitude_per_force`).
   /// @param amplitude_per_force  reference amplitude (m/N), > 0
   SteadyResponse relative_to(const Scalar& amplitude_per_force) const {
     SteadyResponse response = *this;
@@ -167,8 +167,8 @@ class SteadyResponse {
     return response;
   }
 
-  /// The response of a computer without velocity sensor: D multiplies the backward difference of
-  /// its displacement readings over τ.
+  /// The response of the loop if velocity is not measured: D multiplies the backward difference of
+  /// the displacement readings, divided by τ.
   /// @param angle   ωτ (rad)
   /// @param period  τ (s), > 0
   SteadyResponse with_velocity_by_difference(const Scalar& angle, const Scalar& period) const {
@@ -180,7 +180,7 @@ class SteadyResponse {
     return SteadyResponse(phasors).relative_to(reference_);
   }
 
-  /// Ratio of the amplitude to a reference, by default that without control; < 1: attenuation.
+  /// Ratio of the amplitude to the reference, by default the amplitude without control.
   Scalar ratio_to_uncontrolled(const PdGains<Scalar>& gains) const {
     return amplitude_per_force(gains) / reference_;
   }
@@ -211,10 +211,10 @@ class SteadyResponse {
     Scalar ratio_to_uncontrolled = std::numeric_limits<Scalar>::infinity();
   };
 
-  /// The D of least steady amplitude in given (stable) intervals of D, for a given P.
+  /// The D of least steady amplitude in given intervals of D, for a given P (N/m).
   ///
   /// The stationary points of `squared_ratio`, roots of one quadratic, and the finite interval ends
-  /// are compared. The result may be an end, which for a stable interval is a boundary point.
+  /// are compared. The result may be an end; at that of a stable interval a root is on the circle.
   Best best_differential_gain(const Scalar& proportional_gain,
                               const std::vector<Interval<Scalar>>& intervals) const {
     Best best;
@@ -252,7 +252,7 @@ class SteadyResponse {
 /// The steady response of a loop: in closed form for two masses and δ ≤ τ, else by `loop_map`.
 /// @param plant              plant of any order; its ports define measurement and conductor
 /// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
-/// @param hold               hold of the excitation over a sample
+/// @param hold               whether the excitation force is held over each sample
 /// @param angular_frequency  ω (rad/s), > 0
 /// @throws InvalidParameter where an argument is outside its range
 template <class Plant>
