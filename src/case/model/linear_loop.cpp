@@ -152,13 +152,37 @@ double LinearLoop::first_frequency() const {
   return std::sqrt(plant.conductor_stiffness / plant.conductor_mass) / (2.0 * pi<double>);
 }
 
+namespace {
+
+/// Gains with the least worst amplitude of a family over its band; `admissible` gives D at each P.
+template <class Family, class Admissible>
+MinimaxGains quietest_of(Family family, const Admissible& admissible, std::optional<double> p,
+                         const Interval<double>& range) {
+  MinimaxGains best{std::nan(""), {MinimaxOutcome::none}};
+  double least = std::numeric_limits<double>::infinity();
+  const auto ask = [&](double at) {
+    const MinimaxAmplitude there = family.least(at, admissible(at), least);
+    if (there.outcome == MinimaxOutcome::none) return std::numeric_limits<double>::infinity();
+    if (there.worst_ratio < least) {
+      least = there.worst_ratio;
+      best = {at, there};
+    }
+    return there.lower_bound;
+  };
+  if (p)
+    ask(*p);
+  else
+    detail::search_proportional_gain(range, ask);
+  return best;
+}
+
+}  // namespace
+
 MinimaxGains LinearLoop::quietest_for_all(const std::vector<LinearLoop>& loops,
                                           const std::vector<AmplitudeOptions>& options,
                                           const FrequencyBand& band, std::optional<double> p) {
   constexpr double unbounded = std::numeric_limits<double>::infinity();
-  MinimaxGains best{std::nan(""), {MinimaxOutcome::none}};
-  double least = unbounded;
-  for (const LinearLoop& loop : loops) loop.require_poles();
+  const auto range = loops.front().range_about_tuned(0.5 * (band.lower + band.upper));
   std::vector<detail::ModulusLevels<double>::Series> nearby(loops.size());
   const auto admissible = [&](double at) {
     std::vector<Interval<double>> common{{-unbounded, unbounded}};
@@ -167,35 +191,20 @@ MinimaxGains LinearLoop::quietest_for_all(const std::vector<LinearLoop>& loops,
                                                              options[k], nearby[k]));
     return common;
   };
-  const auto search = [&](auto family) {
-    const auto ask = [&](double at) {
-      const MinimaxAmplitude there = family.least(at, admissible(at), least);
-      if (there.outcome == MinimaxOutcome::none) return unbounded;
-      if (there.worst_ratio < least) {
-        least = there.worst_ratio;
-        best = {at, there};
-      }
-      return there.lower_bound;
-    };
-    if (p) return void(ask(*p));
-    detail::search_proportional_gain(
-        loops.front().range_about_tuned(0.5 * (band.lower + band.upper)), ask);
-  };
-  const bool all_closed = std::all_of(loops.begin(), loops.end(),
-                                      [](const LinearLoop& loop) { return bool(loop.closed_); });
   std::vector<PlantOverBand<TwoMass<double>>> masses;
-  std::vector<ConductorOverBand<double>> conductors;
   for (std::size_t k = 0; k < loops.size(); ++k) {
-    if (all_closed)
-      masses.push_back({plant_of(loops[k].case_), options[k]});
-    else
-      conductors.push_back({loops[k].by_poles_->conductor(), options[k]});
+    loops[k].require_poles();
+    if (loops[k].closed_) masses.push_back({plant_of(loops[k].case_), options[k]});
   }
-  if (all_closed)
-    search(FamilyOverBand<PlantOverBand<TwoMass<double>>>(masses, band));
-  else
-    search(FamilyOverBand<ConductorOverBand<double>>(conductors, band));
-  return best;
+  if (masses.size() == loops.size())
+    return quietest_of(FamilyOverBand<PlantOverBand<TwoMass<double>>>(masses, band), admissible, p,
+                       range);
+  std::vector<ConductorOverBand<double>> conductors;
+  conductors.reserve(loops.size());
+  for (std::size_t k = 0; k < loops.size(); ++k)
+    conductors.push_back({loops[k].by_poles_->conductor(), options[k]});
+  return quietest_of(FamilyOverBand<ConductorOverBand<double>>(conductors, band), admissible, p,
+                     range);
 }
 
 MinimaxAmplitude LinearLoop::quietest_over(const AmplitudeOptions& options, double p,
