@@ -88,9 +88,8 @@ std::string format_rounded(double value) {
 
 std::string hexadecimal(std::uint64_t number, std::size_t digits) {
   std::string text(digits, '0');
-  for (std::size_t i = 0; i < digits; ++i) {
+  for (std::size_t i = 0; i < digits; ++i)
     text[digits - 1 - i] = "0123456789abcdef"[(number >> (4 * i)) & 0xF];
-  }
   return text;
 }
 
@@ -103,11 +102,10 @@ std::optional<double> parse_number(std::string_view text) {
   if (!whole || result.ec == std::errc::invalid_argument) return std::nullopt;
   // Outside the range of double: too small a number becomes 0, too large a number infinity.
   if (result.ec == std::errc::result_out_of_range) {
-    const bool negative = text.front() == '-';
     const bool tiny =
         text.find("e-") != std::string_view::npos || text.find("E-") != std::string_view::npos;
     const double size = tiny ? 0.0 : std::numeric_limits<double>::infinity();
-    return negative ? -size : size;
+    return text.front() == '-' ? -size : size;
   }
   return value;
 }
@@ -139,11 +137,14 @@ std::string nearest_name(const std::vector<std::string>& names, std::string_view
                            });
 }
 
-std::string replaced(std::string text, const std::string& part, const std::string& other) {
-  for (std::size_t at = text.find(part); at != std::string::npos;
-       at = text.find(part, at + other.size()))
-    text.replace(at, part.size(), other);
-  return text;
+std::string replaced(const std::string& text, const std::string& part, const std::string& other) {
+  std::string result;
+  std::size_t done = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, done)) {
+    result.append(text, done, at - done) += other;
+    done = at + part.size();
+  }
+  return result.append(text, done);
 }
 
 std::string filled(const std::string& text, const Values& values) {

@@ -62,7 +62,7 @@ inline std::string range_text(const std::string& lowest, const std::string& high
 }
 
 /// The text with every occurrence of `part` replaced by `other`.
-std::string replaced(std::string text, const std::string& part, const std::string& other);
+std::string replaced(const std::string& text, const std::string& part, const std::string& other);
 
 /// Pairs of a key and the value that replaces @KEY@ in a text.
 using Values = std::vector<std::pair<std::string, std::string>>;

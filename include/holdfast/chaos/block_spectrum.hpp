@@ -16,54 +16,54 @@
 
 namespace holdfast {
 
-/// The choice of Lyapunov exponents to be computed.
+/// Selects which Lyapunov exponents are computed.
 enum class LyapunovScope {
   all,      ///< the whole spectrum
   largest,  ///< only the largest exponent, from one tangent vector
 };
 
-/// The Lyapunov spectrum of the sampled loop with backlash, computed from blocks of samples.
+/// Computes the Lyapunov spectrum of the sampled loop with backlash from blocks of samples.
 ///
-/// A block (`ItineraryBlock`) records whether the drive transmits a force at each of its samples.
-/// The tangent map of a sample is S if the force is transmitted, S* in the backlash. The exponents
-/// equal those of `LyapunovSpectrum` with these maps. Here the tangent vectors, the columns of Q,
-/// are multiplied by the maps W_k of whole blocks. They are orthogonalised only after a stretch of
-/// K blocks: W_K … W₁ Q = Q' R with orthonormal Q' and triangular R. The number
+/// A block (`ItineraryBlock`) records at which of up to six successive samples the drive transmits
+/// its force. The tangent map of a sample is S if the force is transmitted, else S*
+/// (`SampledLoop`). The exponents equal those of `LyapunovSpectrum` with these maps. To save work,
+/// the maps W_k of whole blocks multiply the tangent vectors, the columns of Q. After K blocks the
+/// vectors are orthogonalised: W_K … W₁ Q = Q' R with orthonormal Q' and triangular R. The number
 ///
-///     a = √(Σ_k ‖W_k … W₁ Q‖²) ‖R⁻¹‖,   k = 1 … K
+///     a = √(Σ_k ‖W_k … W₁ Q‖²) ‖R⁻¹‖,   k = 1 … K   (Frobenius norms)
 ///
-/// measures the amplification of round-off in the diagonal of R. The length of each stretch is
-/// chosen from the value of a in the previous one. A stretch with a > `largest_amplification` is
-/// computed again in halves, a single block sample by sample. The vectors are orthogonalised in
-/// balanced coordinates (`ItineraryBlocks`); spectrum() converts the result to the loop's own.
-/// Tangent vectors that a singular map makes zero are dropped; their exponents are −∞.
+/// measures how much round-off is amplified in the diagonal of R. The next K is chosen from it. If
+/// a > `largest_amplification`, the K blocks are computed again in two halves. A single block is
+/// then computed sample by sample. The vectors are orthogonalised in balanced coordinates
+/// (`ItineraryBlocks`); spectrum() converts the result to the coordinates of the loop. Tangent
+/// vectors that a singular map makes zero are dropped; their exponents are −∞.
 ///
-/// Work per block of six samples and per tangent vector: 25 multiply-adds (20 without processing
-/// delay). Work per stretch: orthogonalising a 5 × 4 matrix (5 × 5 before a vector is dropped).
+/// Work per block and per tangent vector: 25 multiply-adds (20 without processing delay). Work per
+/// orthogonalisation: that of a 5 × 4 matrix (5 × 5 until a tangent vector is dropped).
 template <class Scalar>
 class BlockSpectrum {
  public:
-  /// The largest amplification a of round-off allowed in a stretch of more than one sample.
+  /// The largest amplification a of round-off with which blocks are accepted without splitting.
   static constexpr double largest_amplification = 5e6;
-  /// The length of the longest stretch between two orthogonalisations, in blocks.
+  /// The largest number K of blocks between two orthogonalisations.
   static constexpr int most_blocks = 64;
 
-  /// @param blocks  maps of blocks of samples, products of S and S* of the loop
-  /// @param scope   exponents to be computed; with `largest` all others are −∞
+  /// @param blocks  tangent maps of all blocks of samples, for the loop; not null
+  /// @param scope   exponents to compute; with `largest`, spectrum() gives −∞ for all others
   explicit BlockSpectrum(std::shared_ptr<const ItineraryBlocks> blocks,
                          LyapunovScope scope = LyapunovScope::all);
 
-  /// Adds a complete block: the contacts of the next `ItineraryBlocks::length` samples.
+  /// Adds the next complete block, which contains `ItineraryBlocks::length` samples.
   void push(ItineraryBlock block) {
     pending_[static_cast<std::size_t>(count_)] = block;
     pending_samples_ += ItineraryBlocks::length;
     if (++count_ == planned_) close_block();
   }
 
-  /// Adds the incomplete block `open`, then restarts the averages but keeps the tangent vectors.
+  /// Adds the incomplete block `open`. Then restarts the averages with the present tangent vectors.
   void restart(ItineraryBlock open);
 
-  /// The Lyapunov spectrum over all blocks added so far and the incomplete block `open`.
+  /// The Lyapunov spectrum over all blocks since the last restart and the incomplete block `open`.
   LyapunovSpectrum<double, 5> spectrum(ItineraryBlock open = empty_block) const;
 
  private:
@@ -133,7 +133,6 @@ class BlockSpectrum {
     }
   }
 
-  /// Replaces the basis by map · basis.
   template <int Reach, int Columns>
   static void multiply(const ItineraryBlocks::Map& map, TangentBasis<Scalar, Columns>& basis) {
     Eigen::Matrix<Scalar, 1, Columns> rows[5];
@@ -157,7 +156,6 @@ class BlockSpectrum {
     }
   }
 
-  /// Marks the columns beyond the rank of a block's maps as null directions.
   void mark_null_columns(ItineraryBlock block, Alive& alive) const {
     for (int i = blocks_->rank(block); i < columns_; ++i)
       alive[static_cast<std::size_t>(i)] = false;

@@ -20,18 +20,19 @@
 
 namespace holdfast {
 
-/// The options of chaos_indicators(): numbers of samples and frequencies. The defaults suit motions
-/// of up to a few thousand samples per period.
+/// The options of chaos_indicators(). The defaults suit motions with periods of up to a few
+/// thousand samples.
 struct IndicatorOptions {
   std::int64_t transient = 5000;  ///< samples left out at the start, 0 … 10⁷
   std::int64_t samples = 20160;  ///< number of samples examined, 2000 … 100 000. If divisible by 2,
                                  ///< 3, 5 and 7, it is a multiple of most short periods
-  double base_frequency = 1.0;  ///< base frequency f (cycles per sample) of spectral lines, > 0
+  double base_frequency = 1.0;  ///< frequency f of the forcing (cycles per sample), > 0; spectral
+                                ///< lines are sought at the multiples of f/m, m = 1, 2, …
   std::int64_t zero_one_stride = 1;  ///< the 0–1 test uses every n-th sample, n = 1 … samples/500
   bool forcing_incommensurate = false;  ///< whether forcing and sampling have no common period
 };
 
-/// Validates the options. @throws InvalidParameter where a member is outside its range
+/// Validates `transient`, `samples` and `zero_one_stride`. @throws InvalidParameter out of range
 inline void validate(const IndicatorOptions& options) {
   const auto samples = static_cast<double>(options.samples);
   require_within("transient", static_cast<double>(options.transient), "samples", 0.0, 1e7);
@@ -192,30 +193,30 @@ ChaosIndicators indicators_of_system(
 
 }  // namespace detail
 
-/// Runs a discrete system and computes the indicators by which `classify` classifies its motion.
+/// Runs a discrete system and computes the indicators from which `classify` classifies its motion.
 ///
 ///     auto logistic = [](Vector<double, 1>& x) { x[0] = 4 * x[0] * (1 - x[0]); };
 ///     auto value = [](const Vector<double, 1>& x) { return x[0]; };
 ///     auto slope = [](const Vector<double, 1>& x) { return Matrix<double, 1>(4 - 8 * x[0]); };
 ///     classify(chaos_indicators<1>({0.3}, logistic, value, {}, slope)).kind;  // chaotic
 ///
-/// Each callable may have internal state, for example the index of a forcing. A step calls
-/// `advance(state)`, then `tangent(before)`, where `before` is the state before the step. Steps
-/// after the transient also call `contact()`; only these steps count in the exponents.
+/// The functions may have internal state, for example the index of a forcing. Each step calls
+/// `advance(state)`, then `tangent` with the state before the step. Only steps after the transient
+/// count in the exponents; they also call `contact()`.
 ///
-/// A motion diverges when a state is not finite or exceeds 10³⁰ times the largest coordinate of the
-/// first 100 samples; then only `diverged_at` is set. Otherwise `repeat` is the smallest lag n ≤
+/// A motion diverges if a state is not finite or exceeds 10³⁰ times the largest coordinate of the
+/// first 100 samples; then only `diverged_at` is set. Otherwise `repeat` holds the smallest lag n ≤
 /// samples/6 for which every state x_j of the second half is within 10⁻⁹ of x_{j−n}.
 /// `closest_return` and `determinism` (radius 0.05) are computed from the last 1000 states. All
-/// distances are those of `RelativeDistance`. `lines` is computed from the multiples of f/m, m ≤
-/// 128. Work: transient + samples steps, the 0–1 test, two spectra, a search for repetition (at
-/// most samples²/12 distances), and 10⁶ distances.
+/// distances are those of `RelativeDistance`. `lines` uses the multiples of f/m for m = 1 … 128.
+/// Work: transient + samples steps, the 0–1 test, two spectra, a search for repetition (at most
+/// samples²/12 distances), and 10⁶ distances.
 /// @param initial     the state at sample 0
-/// @param advance     replaces a state by the next one
+/// @param advance     function that replaces a state by the next one
 /// @param observable  scalar function of a state, for spectrum, 0–1 test and `extent_growth`
-/// @param options     numbers of samples, base frequency and stride
+/// @param options     numbers of samples, base frequency and stride of the 0–1 test
 /// @param tangent     Jacobian ∂(next state)/∂(state), Size × Size; empty: no exponents
-/// @param contact     whether the drive transmits in a step; empty for a system without contacts
+/// @param contact     whether the drive transmits a force in the last step; empty: no contacts
 /// @throws InvalidParameter for options out of their ranges or an initial state that is not finite
 template <int Size>
 ChaosIndicators chaos_indicators(

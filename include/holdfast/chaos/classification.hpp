@@ -17,7 +17,7 @@ namespace holdfast {
 enum class AttractorType {
   periodic,               ///< repeats after N samples
   quasi_periodic,         ///< ≥ 2 frequencies without a common period; nearby motions stay near
-  irregular_contracting,  ///< neighbouring motions converge, but no repetition was found
+  irregular_contracting,  ///< nearby motions converge, but no repetition was found
   chaotic,                ///< bounded as far as observed; nearby motions separate exponentially
   diverges,               ///< state grows without bound
   undecided,              ///< indicators are missing or contradict each other
@@ -35,11 +35,11 @@ struct ExponentEstimate {
   bool negative() const { return value + half_width < 0.0; }
 };
 
-/// The 99 % interval of an exponent whose standard error was computed by batch means. The half
-/// width is 2.744 times the standard error, plus 10⁻¹² for the rounding of logarithms. 2.744 is the
-/// two-sided 99 % quantile of Student's t for 32 batches. A series of ≥ 64 steps has at least 32.
+/// Computes the 99 % interval of an exponent from its standard error by batch means. The half width
+/// is 2.744 times the standard error, plus 10⁻¹² for the rounding of logarithms. 2.744 is the
+/// two-sided 99 % quantile of Student's t for 32 batches, the fewest for a series of ≥ 64 steps.
 /// @param value           the exponent, natural logarithm per step
-/// @param standard_error  ≥ 0, not NaN
+/// @param standard_error  standard error of the exponent, finite and ≥ 0
 /// @throws InvalidParameter where the standard error is out of its range
 inline ExponentEstimate exponent_estimate(double value, double standard_error) {
   require_non_negative("standard error of the exponent", standard_error, "");
@@ -47,41 +47,41 @@ inline ExponentEstimate exponent_estimate(double value, double standard_error) {
   return {value, quantile * standard_error + rounding};
 }
 
-/// The measures of the spectral lines of an observable; f is the base frequency.
+/// The measures of an observable's spectral lines. f is IndicatorOptions::base_frequency.
 struct SpectralIndicators {
   int division;  ///< smallest m with at least `share` of the power on multiples of f/m; 0: none
-  double share;  ///< required share of the power, 0 … 1, on the multiples of f/m
+  double share;  ///< required share of the power, 0 … 1, in the definition of `division`
   std::size_t lines_holding;  ///< smallest number of lines that contain 99 % of the power
-  double continuous;          ///< share of the power between the spectral lines
+  double continuous;          ///< share of the power between the lines, 0 … 1: continuous_share()
 };
 
-/// The indicators that decide the kind of a motion. An indicator that was not computed is empty.
+/// The indicators from which classify() decides the kind of a motion; empty where not computed.
 struct ChaosIndicators {
   std::optional<std::int64_t> diverged_at;       ///< sample at which the motion diverged
   std::optional<std::int64_t> certified_period;  ///< period of a certified orbit (samples)
   std::optional<RepeatSearch> repeat;            ///< search for a lag at which the states repeat
   std::optional<ExponentEstimate> largest_exponent;  ///< largest exponent, natural log per step
-  std::optional<double> zero_one;                    ///< median K of the 0–1 test
+  std::optional<double> zero_one;                    ///< result K of zero_one_test()
   std::optional<SpectralIndicators> lines;           ///< spectral lines of the observable
-  std::optional<double> extent_growth;  ///< ratio of the observable's extents (max − min),
-                                        ///< last quarter of the series to first
+  std::optional<double> extent_growth;  ///< extent (max − min) of the observable in the last
+                                        ///< quarter of the series, divided by that in the first
   std::optional<double> neighbour;      ///< neighbour_distance(): final distance of a nearby motion
   std::optional<double> closest_return;          ///< closest_return() of the last 1000 states
   std::optional<double> determinism;             ///< recurrence_determinism(), last 1000 states
-  std::optional<SwitchingComplexity> switching;  ///< complexity of the contacts, if known
+  std::optional<SwitchingComplexity> switching;  ///< complexity of the sequence of contacts
   std::optional<double> forcing_periods;         ///< number of forcing periods in the series
   bool forcing_incommensurate = false;           ///< whether forcing and sampling have no
                                                  ///< common period: no response repeats
 };
 
-/// The kind of a motion with its period and the reason.
+/// The kind of a motion, its period and the reason for this decision.
 struct Classification {
   AttractorType kind = AttractorType::undecided;  ///< kind of the motion
   std::int64_t period = 0;                        ///< period in samples; 0 unless periodic
   std::string rests_on;                           ///< reason, in one or two English sentences
 };
 
-/// The name of a kind: `periodic(N)`, `quasi-periodic`, `irregular, exponent <= 0`, `chaotic`, …
+/// The name of a kind: `periodic(period)`, `quasi-periodic`, `irregular, exponent <= 0`, `chaotic`…
 inline std::string attractor_type_text(AttractorType kind, std::int64_t period = 0) {
   constexpr std::array<const char*, 6> words = {
       "periodic", "quasi-periodic", "irregular, exponent <= 0", "chaotic", "diverges", "undecided"};
@@ -89,7 +89,7 @@ inline std::string attractor_type_text(AttractorType kind, std::int64_t period =
   return kind == AttractorType::periodic ? word + "(" + std::to_string(period) + ")" : word;
 }
 
-/// The name of a classification's kind, with its period where it is periodic.
+/// The name of the kind in a classification, with the period in samples if the motion is periodic.
 inline std::string attractor_type_text(const Classification& classification) {
   return attractor_type_text(classification.kind, classification.period);
 }
@@ -99,18 +99,18 @@ inline constexpr double zero_one_high = 0.8;
 /// The largest result K of the 0–1 test for which a series counts as regular. The test is
 /// inconclusive for K between zero_one_low and zero_one_high.
 inline constexpr double zero_one_low = 0.2;
-/// The largest share of power between the lines for which a spectrum counts as a line spectrum.
+/// The largest share of power between its lines for which a spectrum counts as a line spectrum.
 inline constexpr double lines_only_share = 1e-3;
 /// The smallest number of forcing periods for which a forced motion is classified.
 inline constexpr double fewest_forcing_periods = 20.0;
 /// The largest factor by which the extent (max − min) of a steady motion may grow or shrink from
 /// the first to the last quarter of the series.
 inline constexpr double steady_growth = 2.0;
-/// The initial distance of the neighbour in neighbour_distance(), as a share of the extent.
+/// The initial displacement of the nearby motion in neighbour_distance(), as a share of the extent.
 inline constexpr double neighbour_start = 1e-9;
-/// The smallest final distance, as a share of the extent, of a neighbour that has separated.
+/// The smallest result of neighbour_distance() for which a nearby motion counts as separated.
 inline constexpr double neighbour_parted = 1e-3;
-/// The largest final distance, as a share of the extent, of a neighbour that stays near.
+/// The largest result of neighbour_distance() for which a nearby motion counts as staying near.
 inline constexpr double neighbour_stays = 1e-7;
 
 namespace detail {
@@ -315,28 +315,29 @@ class Classifier {
 }  // namespace detail
 
 /// Classifies a motion by its indicators. The first rule that applies decides. K is the result of
-/// the 0–1 test. The exponent is the largest one, with its 99 % interval. A *line spectrum* has
-/// `continuous` ≤ `lines_only_share`. A spectrum has a *base* if `division` > 0.
+/// the 0–1 test. The exponent is the largest one; it is above or below zero if its whole 99 %
+/// interval is. A *line spectrum* has `continuous` ≤ `lines_only_share`. A spectrum has a *base*
+/// frequency if `division` > 0.
 ///
 ///  1. The motion diverged → diverges.
-///  2. An orbit is certified → periodic. Else if there are fewer forcing periods than
+///  2. An orbit is certified → periodic. Else if the series has fewer forcing periods than
 ///     `fewest_forcing_periods` → undecided.
-///  3. The series repeats at least three times within a tolerance → periodic; but undecided if the
-///     exponent is above zero, as on an unstable orbit.
+///  3. The series repeats (`repeat`) → periodic; but undecided if the exponent is above zero, as on
+///     an unstable orbit.
 ///  4. The exponent is unknown, or the extent changes by a factor over `steady_growth` → undecided.
-///  5. The exponent is above zero → chaotic if a neighbouring motion separates (`neighbour_parted`)
-///     or if K ≥ `zero_one_high` and the spectrum, if known, has no base and is no line spectrum.
-///     Else undecided.
+///  5. The exponent is above zero → chaotic if a nearby motion separates (`neighbour_parted`), or
+///     if K ≥ `zero_one_high` and the spectrum, if known, has no base and is no line spectrum. Else
+///     undecided.
 ///  6. The interval of the exponent contains zero → quasi-periodic if a search found no repetition,
-///     there is a line spectrum without base, and K ≤ `zero_one_low`. If a neighbouring motion
-///     stays near (`neighbour_stays`), K < `zero_one_high` suffices. Else undecided.
+///     there is a line spectrum without base, and K ≤ `zero_one_low`. If a nearby motion stays near
+///     (`neighbour_stays`), K < `zero_one_high` or an unknown K suffices. Else undecided.
 ///  7. The exponent is below zero → quasi-periodic if forcing and sampling are incommensurate, K ≤
 ///     `zero_one_low` and the spectrum, if known, is a line spectrum. Else undecided if repetition
 ///     was not searched for, the spectrum has a base, or K ≤ `zero_one_low` with a line spectrum:
-///     the motion may settle or repeat later. Else irregular: contacts can change without a pattern
-///     while neighbouring motions converge.
+///     the motion may settle or repeat later. Else irregular_contracting: contacts can change
+///     without a pattern although nearby motions converge.
 ///
-/// No single statistic suffices for `chaotic`. The result is valid only for the series' length.
+/// No single indicator suffices for `chaotic`. The result holds only for the length of the series.
 inline Classification classify(const ChaosIndicators& indicators) {
   return detail::Classifier(indicators).classify();
 }

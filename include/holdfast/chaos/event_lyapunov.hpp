@@ -15,46 +15,46 @@
 namespace holdfast {
 
 /// An EventMotion with its Lyapunov spectrum. run_trajectory() accepts this object in place of the
-/// motion, to record a time history at the same time. Tangent vectors are orthogonalised at every
-/// sample. A plant of order N has N + 3 exponents, for deviations of these quantities: its state,
-/// the previous command u_{j−1}, the relative displacement Δz at the drive's last reversal, and the
-/// last reading of the conductor's displacement z₁. Each of these causes makes one exponent −∞:
-/// - the drive was engaged at some time: the next reversal then follows from the state;
-/// - the controller forms no velocity from displacements: the last reading has no effect;
-/// - there is no processing delay: u_{j−1} has no effect from t_j on.
+/// motion and can thus record a time history too. Tangent vectors are orthogonalised per sample. A
+/// plant of order N has N + 3 exponents, for deviations of its N states, the previous command
+/// u_{j−1}, the relative displacement Δz = z₂ − z₁ at the drive's last reversal, and the
+/// conductor's displacement as last measured. Each of these conditions makes one exponent −∞:
+/// - The drive was engaged at some time. Δz at the next reversal then follows from the state.
+/// - Velocity is not computed from measured displacements. The last of them has no effect then.
+/// - There is no processing delay. The previous command then has no effect from t_j on.
 ///
-/// A phase of stick (Δż = 0) leaves at most N − 1 finite exponents, plus one for each command or
-/// reading that is stored in stick and acts later. The phase with the fewest finite exponents
-/// determines the result. With processing delay and a velocity formed from displacements, N + 2
-/// exponents may be finite, or N + 1 if this object is constructed before the first sample. If the
-/// drive never leaves its gap, one exponent is 0.
+/// While the drive sticks (Δż = 0), at most N − 1 exponents remain finite, plus one for each
+/// command or measured displacement that is stored at that time and acts later. The contact mode
+/// with the fewest finite exponents determines the result. With processing delay and velocity from
+/// displacements, N + 2 exponents may be finite, or N + 1 if this object is constructed before the
+/// first sample. If the drive never leaves its gap, one exponent is 0.
 ///
 /// An exact −∞ is detected by the structural rank (structural_rank.hpp) of the product of all maps.
 /// Numerical pivots cannot detect it, because later maps amplify the round-off of an exact zero.
-/// Work per sample of two masses: that of VariationalFlow and some 1500 multiply-adds.
+/// Work per sample for two masses: that of VariationalFlow and some 1500 multiply-adds.
 template <class Contact>
 class EventLyapunov {
  public:
-  /// The number of exponents, N + 3.
+  /// The number N + 3 of exponents, or Eigen::Dynamic where N is not fixed at compile time.
   static constexpr int size = VariationalFlow<Contact>::size;
 
-  /// @param motion  motion to be advanced from its present state; it must outlive this object
+  /// @param motion  motion, continued from its present state; it must outlive this object
   explicit EventLyapunov(EventMotion<Contact>& motion)
       : motion_(&motion),
         tangent_(motion),
         spectrum_(detail::oblique_basis<double, size>(motion.state().size() + 3)) {}
 
-  /// Takes the present sample; to be called once before each `advance()`.
+  /// Takes the present sample; call it once before each `advance()`.
   typename EventMotion<Contact>::Sample sense() { return motion_->sense(); }
 
   /// Advances the motion and its tangent vectors to the next sample.
   void advance();
 
-  /// Adds a displacement (m) to the conductor, not to the tangent vectors; call before sense().
+  /// Displaces the conductor by `displacement` (m), not the tangent vectors; call before sense().
   void displace_conductor(double displacement) { motion_->displace_conductor(displacement); }
   /// The instant t_j (s) of the present sample.
   double time() const { return motion_->time(); }
-  /// The state x_j, N × 1; for two masses z_j (m, m/s, m, m/s).
+  /// The state x_j at the present sample, N × 1; for two masses [z₁, ż₁, z₂, ż₂] (m, m/s).
   const typename EventMotion<Contact>::State& state() const { return motion_->state(); }
 
   /// The Lyapunov spectrum over the samples since the last restart, natural logarithm per sample.
@@ -75,15 +75,15 @@ void EventLyapunov<Contact>::advance() {
   spectrum_.push(tangent_.map(), tangent_.rank_of_product());
 }
 
-/// The five leading Lyapunov exponents, natural logarithm per sample, of an EventMotion from its
-/// present state. Invalid if contact changes accumulate (`motion.counts().accumulates` is true).
+/// Computes the five leading Lyapunov exponents, natural logarithm per sample, of an EventMotion.
+/// They are invalid if contact changes accumulate: `motion.counts().accumulates` is then true.
 ///
 ///     const LyapunovResult result = run_event_lyapunov(motion, {1000000, 1000});
 ///
-/// @param motion  the motion; it is advanced to the end of the run
-/// @param run     numbers of samples to discard and to average; exponents to be computed
-/// @param pause   called every 2¹² samples; may throw to end the run
-/// @throws InvalidParameter where `run` is not admissible
+/// @param motion  the motion; it is advanced from its present state to the end of the run
+/// @param run     numbers of samples to discard and to average; choice of exponents
+/// @param pause   function called every 2¹² samples, if set; it may throw to end the run
+/// @throws InvalidParameter where a number in `run` is out of its range
 template <class Contact>
 LyapunovResult run_event_lyapunov(EventMotion<Contact>& motion, const LyapunovRun& run,
                                   const std::function<void()>& pause = {}) {

@@ -13,11 +13,11 @@
 
 namespace holdfast {
 
-/// The contacts of 0 … `ItineraryBlocks::length` consecutive samples as a binary number: a leading
-/// 1, then one digit for each sample in order, 1 where the force is transmitted.
+/// The contacts at 0 … `ItineraryBlocks::length` successive samples as a binary number: a leading
+/// 1, then a digit per sample, earliest first: 1 if the drive transmits its force, else 0.
 using ItineraryBlock = std::uint8_t;
 
-/// The empty block, without any sample.
+/// The block that contains no sample.
 inline constexpr ItineraryBlock empty_block = 1;
 
 /// The number of samples of a block.
@@ -27,29 +27,29 @@ constexpr int samples_of(ItineraryBlock block) {
   return samples;
 }
 
-/// A block extended by one more sample; `engaged`: whether the force is transmitted there.
+/// A block extended by one sample. `engaged`: whether the force is transmitted at that sample.
 constexpr ItineraryBlock followed_by(ItineraryBlock block, bool engaged) {
   return static_cast<ItineraryBlock>(2 * block + (engaged ? 1 : 0));
 }
 
-/// A block of one sample: the one with the index `sample` in `block`, 0 … samples_of(block) − 1.
+/// Extracts one sample of a block as a block of its own; `sample` = 0 … samples_of(block) − 1.
 constexpr ItineraryBlock sample_of(ItineraryBlock block, int sample) {
   return followed_by(empty_block, ((block >> (samples_of(block) - 1 - sample)) & 1) != 0);
 }
 
-/// The tangent maps of all blocks, for the state z and the previous force u_{j−1}. The map of a
-/// block is a product of one 5 × 5 matrix per sample: S where the force is transmitted, else S*.
-///
-/// The maps are stored in balanced coordinates, as products of T⁻¹ S T and T⁻¹ S* T. The diagonal
-/// matrix T of powers of two gives displacements, velocities and forces similar sizes.
+/// The tangent maps of all blocks (`ItineraryBlock`), for deviations of [z; u_{j−1}]: the state
+/// z = [z₁, ż₁, z₂, ż₂] of the two masses and the drive's force at the previous sample. The map of
+/// a block is the product of its samples' 5 × 5 maps: S where the force is transmitted, S* in the
+/// backlash (`SampledLoop`). The maps are stored in balanced coordinates, as products of T⁻¹ S T
+/// and T⁻¹ S* T. T is diagonal; its powers of two give all coordinates similar sizes.
 class ItineraryBlocks {
  public:
-  static constexpr int length = 6;  ///< number of samples in the longest blocks
-  /// A tangent map, stored row by row.
+  static constexpr int length = 6;  ///< largest number of samples in a block
+  /// The type of a tangent map, stored row by row.
   using Map = Eigen::Matrix<double, 5, 5, Eigen::RowMajor>;
 
-  /// @param engaged   S, the map of [z; u_{j−1}] over a sample while the force is transmitted
-  /// @param backlash  S*, the map in the backlash
+  /// @param engaged   map S over one sampling period in which the force is transmitted
+  /// @param backlash  map S* over one sampling period in the backlash
   template <class Scalar>
   ItineraryBlocks(const Matrix<Scalar, 5>& engaged, const Matrix<Scalar, 5>& backlash);
 
@@ -59,17 +59,17 @@ class ItineraryBlocks {
   ItineraryBlocks(const SampledLoop<Scalar>& tangent_loop, const PdGains<Scalar>& gains)
       : ItineraryBlocks(tangent_loop.engaged_map(gains), tangent_loop.backlash_map()) {}
 
-  /// The map T⁻¹ M T, where M is the product of the block's S and S*, the last sample's leftmost.
+  /// The map T⁻¹ M T of a block. M is the product of its samples' maps, the last sample leftmost.
   const Map& map(ItineraryBlock block) const { return maps_[block]; }
 
-  /// The smallest rank, to working precision, among the S and S* of a block; 5 for an empty block.
+  /// The smallest rank (to working precision) of the maps S, S* of a block's samples; 5 if empty.
   int rank(ItineraryBlock block) const { return ranks_[block]; }
   /// The smaller of the ranks of S and S*.
   int smallest_rank() const { return std::min(ranks_[2], ranks_[3]); }
   /// The larger of the ranks of S and S*; at most that many Lyapunov exponents are finite.
   int largest_rank() const { return std::max(ranks_[2], ranks_[3]); }
 
-  /// The number of coordinates in use: 4 if neither S nor S* depends on the last, u_{j−1}; else 5.
+  /// The number of coordinates the maps depend on: 4 if column 5 of S and S* is zero, else 5.
   int reach() const { return reach_; }
   /// The diagonal of the balancing matrix T.
   const Vector<double, 5>& scale() const { return scale_; }
@@ -104,7 +104,7 @@ ItineraryBlocks::ItineraryBlocks(const Matrix<Scalar, 5>& engaged,
   reach_ = engaged.col(4).isZero(0.0) && backlash.col(4).isZero(0.0) ? 4 : 5;
 }
 
-/// Whether a block has the largest number of samples.
+/// Whether a block is complete: it has `ItineraryBlocks::length` samples.
 constexpr bool is_whole(ItineraryBlock block) { return block >> ItineraryBlocks::length != 0; }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -21,33 +21,33 @@ namespace holdfast {
 
 /// The settings of a run that averages Lyapunov exponents along a motion.
 struct LyapunovRun {
-  std::int64_t samples;      ///< number of samples averaged after the discarded ones, ≥ 1
-  std::int64_t discard = 0;  ///< samples left out while motion and tangent vectors settle, ≥ 0
-  LyapunovScope scope = LyapunovScope::all;  ///< exponents to be computed
+  std::int64_t samples;      ///< number of samples after the discarded ones, 1 … 9·10¹⁵
+  std::int64_t discard = 0;  ///< number of samples left out at the start as transient, 0 … 9·10¹⁵
+  LyapunovScope scope = LyapunovScope::all;  ///< all five exponents or only the largest one
 };
 
-/// Validates the settings of a run. @throws InvalidParameter where a field is not admissible
+/// Validates the settings of a run. @throws InvalidParameter where a number is out of its range
 inline void validate(const LyapunovRun& run) {
   require_within("samples of the Lyapunov run", static_cast<double>(run.samples), "", 1, 9e15);
   require_within("discarded samples", static_cast<double>(run.discard), "", 0, 9e15);
 }
 
-/// The Lyapunov exponents of a motion, natural logarithm per sample, averaged over the samples
-/// after the tangent vectors have settled (settled_means()).
+/// The Lyapunov exponents of a motion, natural logarithm per sample: averages over the samples
+/// after the initial transient, which settled_means() detects.
 struct LyapunovResult {
-  /// Whether the state became infinite or NaN. The exponents are then averages up to that sample,
-  /// or NaN if it was one of the discarded samples.
+  /// Whether a state became infinite or NaN. The exponents are then averages up to that sample, or
+  /// NaN if that sample was one of those discarded.
   bool diverged;
-  /// The exponents λ₁ … λ₅ in the order of the QR factorisation; −∞ for a direction in which
+  /// The exponents λ₁ … λ₅, in descending order once converged; −∞ for a direction in which
   /// deviations become exactly zero. λ₂ … λ₅ are NaN where only λ₁ was computed.
   Vector<double, 5> exponents;
-  /// The standard errors of the exponents, including a remaining bias of the first samples
-  /// (settled_means()); 0 for −∞, NaN with fewer than four complete batches.
+  /// The standard errors of the exponents by settled_means(), with an estimate of the bias due to
+  /// the transient; 0 for an exponent −∞, NaN with fewer than four complete batches.
   Vector<double, 5> standard_errors;
   std::int64_t samples;       ///< number of samples averaged
-  std::int64_t settling = 0;  ///< samples left out in addition to LyapunovRun::discard
+  std::int64_t settling = 0;  ///< samples left out as transient in addition to LyapunovRun::discard
 
-  /// Whether the 99 % interval of λ₁ excludes zero, so that its sign is known.
+  /// Whether the sign of λ₁ is known: the 99 % interval of λ₁ excludes zero, or λ₁ = −∞.
   bool sign_is_known() const {
     if (exponents[0] == -std::numeric_limits<double>::infinity()) return true;
     if (!std::isfinite(exponents[0]) || !std::isfinite(standard_errors[0])) return false;
@@ -101,29 +101,29 @@ LyapunovResult run_average(Lyapunov& motion, const LyapunovRun& run,
 
 }  // namespace detail
 
-/// An observer for run_trajectory() that accumulates the Lyapunov spectrum. The tangent map of a
-/// sample is S where the force is transmitted, S* in the backlash.
+/// An observer for run_trajectory() that computes the Lyapunov spectrum of the motion. The tangent
+/// map of a sample is S if the drive transmits its force, S* in the backlash (`SampledLoop`).
 ///
 /// S and S* should belong to the loop of the motion. To reproduce Table 2 of Kollár 2022, however,
 /// pass a loop whose processing delay δ is one sampling period, while the motion has δ = 0.
-/// @tparam Scalar  number type of the loop, `double`
+/// @tparam Scalar  number type, `double`
 template <class Scalar>
 class LyapunovObserver {
  public:
-  /// @param tangent_loop  loop whose maps S (drive engaged) and S* (in the backlash) are used
-  /// @param gains         P (N/m) and D (N s/m) of the motion
+  /// @param tangent_loop  loop whose maps S (force transmitted) and S* (in the backlash) are used
+  /// @param gains         controller gains P (N/m) and D (N s/m) of the motion
   LyapunovObserver(const SampledLoop<Scalar>& tangent_loop, const PdGains<Scalar>& gains)
       : LyapunovObserver(std::make_shared<const ItineraryBlocks>(tangent_loop, gains)) {}
 
-  /// @param blocks  products of the maps S and S* of a loop over blocks of samples
-  /// @param scope   exponents to be computed
+  /// @param blocks  tangent maps of all blocks of samples, for the loop; not null
+  /// @param scope   all five exponents or only the largest one
   explicit LyapunovObserver(std::shared_ptr<const ItineraryBlocks> blocks,
                             LyapunovScope scope = LyapunovScope::all)
       : engine_(std::move(blocks), scope) {}
 
-  /// Adds the contact of the next sample; nothing else of the sample is used.
+  /// Adds the next sample; only the member `engaged` is used.
   void operator()(const MotionSample<Scalar>& sample) { push(sample.engaged); }
-  /// Adds the next sample. @param engaged  whether the drive transmits at that sample
+  /// Adds the next sample. @param engaged  whether the drive transmits its force at that sample
   void push(bool engaged) {
     open_ = followed_by(open_, engaged);
     if (!is_whole(open_)) return;
@@ -131,9 +131,9 @@ class LyapunovObserver {
     open_ = empty_block;
   }
 
-  /// The Lyapunov spectrum since the last restart, equal to the result of a QR step per sample.
+  /// The Lyapunov spectrum over all samples since the last restart.
   LyapunovSpectrum<Scalar, 5> spectrum() const { return engine_.spectrum(open_); }
-  /// Restarts the averages; only the directions of the tangent vectors are kept.
+  /// Restarts the averages, but keeps the tangent vectors.
   void restart() {
     engine_.restart(open_);
     open_ = empty_block;
@@ -176,16 +176,16 @@ LyapunovResult run_sampled(Motion& motion, const Exponents& exponents, const Lya
 
 }  // namespace detail
 
-/// The Lyapunov exponents of the sampled loop with backlash along a motion from its present state.
+/// Computes the Lyapunov exponents of the sampled loop with backlash by running a motion.
 ///
 ///     auto blocks = std::make_shared<const ItineraryBlocks>(loop, gains);
 ///     const LyapunovResult result = run_lyapunov(motion, blocks, {1000000, 1000});
 ///
-/// @param motion  a SampledMotion of `double`, not of a SIMD pack; advanced to the end of the run
-/// @param blocks  products of the tangent maps S and S* of the motion's loop; not null
-/// @param run     numbers of samples to discard and to average; exponents to be computed
-/// @param pause   called every 2¹² samples; may throw to end the run
-/// @throws InvalidParameter where `run` is not admissible or there are no blocks
+/// @param motion  a SampledMotion of `double`; it is advanced from its present state over the run
+/// @param blocks  tangent maps of all blocks of samples, for the motion's loop
+/// @param run     numbers of samples to discard and to average; choice of exponents
+/// @param pause   function called every 2¹² samples, if set; it may throw to end the run
+/// @throws InvalidParameter where a number in `run` is out of its range or `blocks` is null
 template <class Motion>
 LyapunovResult run_lyapunov(Motion& motion, const std::shared_ptr<const ItineraryBlocks>& blocks,
                             const LyapunovRun& run, const std::function<void()>& pause = {}) {

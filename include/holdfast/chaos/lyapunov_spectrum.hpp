@@ -28,28 +28,28 @@ Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
 
 }  // namespace detail
 
-/// The Lyapunov spectrum of a sequence of tangent maps M_j, by a QR factorisation at every step.
+/// Computes the Lyapunov spectrum of a sequence of tangent maps M_j by a QR factorisation per step.
 ///
 ///     M_j Q_j = Q_{j+1} R_{j+1},   λ_i = (1/n) Σ_j ln |(R_j)_ii|   (natural logarithm per step)
 ///
-/// If r < Size is the smallest rank of the maps, Size − r directions are null directions: their
-/// exponents are exactly −∞, not logarithms of round-off. Ranks are determined to working
-/// precision: a direction that one map contracts about 10¹⁵ times as much as others is null.
-/// Source: Kollár 2022, Eq. (16), which computes Q and R less accurately by Gram–Schmidt steps; G.
-/// Benettin et al., Meccanica 15 (1980).
+/// The columns of the orthogonal matrix Q_j are the tangent vectors; R_j is upper triangular; n is
+/// the number of steps. Ranks of maps are determined to working precision: a direction contracted
+/// about 10¹⁵ times more than others counts as lost. If the smallest rank is r < Size, there are
+/// Size − r null directions with exponents of exactly −∞, not logarithms of round-off. Source:
+/// Kollár 2022, Eq. (16) (less accurate: Gram–Schmidt); G. Benettin et al., Meccanica 15 (1980).
 template <class Scalar, int Size>
 class LyapunovSpectrum {
  public:
-  /// The sums over the steps so far, with the present basis.
+  /// The present tangent vectors and the sums over all steps since the start or the last restart.
   struct State {
-    Matrix<Scalar, Size> basis;      ///< orthogonal basis Q_n
-    BatchSums<Scalar, Size> sums;    ///< sums of ln |R_ii|
-    Vector<Scalar, Size> remainder;  ///< part of Σ ln |R_ii| that belongs to no batch
+    Matrix<Scalar, Size> basis;      ///< orthogonal matrix Q_n after the last step
+    BatchSums<Scalar, Size> sums;    ///< sums of ln |R_ii| over the steps, in batches
+    Vector<Scalar, Size> remainder;  ///< term added to Σ ln |R_ii| in exponents(), not in settled()
     int finite = Size;               ///< number of exponents that are not −∞
   };
 
-  /// @param initial_basis  Q₀, orthogonal. Its leading columns must not span an invariant subspace
-  ///                       of the maps. The identity is unsuitable if an axis is invariant
+  /// @param initial_basis  orthogonal Q₀. Its first columns must not span an invariant subspace of
+  ///                       the maps: the identity is unsuitable if a coordinate axis is invariant
   explicit LyapunovSpectrum(const Matrix<Scalar, Size>& initial_basis =
                                 Matrix<Scalar, Size>::Identity(Size < 0 ? 0 : Size,
                                                                Size < 0 ? 0 : Size))
@@ -57,20 +57,20 @@ class LyapunovSpectrum {
                Vector<Scalar, Size>::Zero(initial_basis.rows()),
                static_cast<int>(initial_basis.rows())} {}
 
-  /// Continues from the sums of steps computed elsewhere.
+  /// Constructs a spectrum that continues from a given State.
   explicit LyapunovSpectrum(const State& state) : state_(state) {}
 
-  /// The rank of a map to working precision; to be computed once for a map that is used many times.
+  /// The rank of a map to working precision. For a map that is used many times, compute it once.
   static int rank_of(const Matrix<Scalar, Size>& tangent);
 
-  /// Applies one step with the tangent map `tangent` of known rank.
+  /// Adds one step with the map `tangent`. `rank`: rank of this map, or of the product of all maps.
   void push(const Matrix<Scalar, Size>& tangent, int rank);
 
-  /// Applies one step with a tangent map whose rank is determined first.
+  /// Adds one step with the tangent map `tangent` and computes the rank of this map.
   void push(const Matrix<Scalar, Size>& tangent) { push(tangent, rank_of(tangent)); }
 
-  /// The exponents λ₁ … λ_Size per step, in the order of the QR factors (descending once
-  /// converged); −∞ for a null direction, NaN before the first step.
+  /// The exponents λ₁ … λ_Size, natural logarithm per step, in the order of the diagonal of R
+  /// (descending once converged); −∞ for a null direction, NaN before the first step.
   Vector<Scalar, Size> exponents() const;
 
   /// The exponents' standard errors by batch means: 0 for a null direction, NaN with < 4 batches.
@@ -78,9 +78,9 @@ class LyapunovSpectrum {
     return with(state_.sums.standard_errors(), Scalar(0));
   }
 
-  /// The exponents over the steps after the initial transient (settled_means()), with standard
-  /// errors that are valid also for bounded sums of ln |R_ii|, as on a periodic orbit. A null
-  /// direction has the exponent −∞ and the standard error 0.
+  /// The exponents over the steps after the initial transient, with standard errors, computed by
+  /// settled_means(). These errors are also valid on a periodic orbit, where the batch means hardly
+  /// scatter. A null direction has the exponent −∞ and the standard error 0.
   SettledMeans<Size> settled() const {
     SettledMeans<Size> found = settled_means(state_.sums);
     found.means = with(found.means, -std::numeric_limits<double>::infinity());
@@ -91,7 +91,7 @@ class LyapunovSpectrum {
   /// The number n of maps since the start or the last restart.
   std::int64_t steps() const { return state_.sums.steps(); }
 
-  /// Restarts the averages; only the tangent vectors and the number of null directions are kept.
+  /// Restarts the averages, but keeps the tangent vectors and the number of null directions.
   void restart() {
     state_.sums = BatchSums<Scalar, Size>(1, state_.basis.rows());
     state_.remainder.setZero();

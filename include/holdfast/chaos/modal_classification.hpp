@@ -31,13 +31,13 @@ struct ModalTangents : ModalSpectrum<Scalar> {
 
 }  // namespace detail
 
-/// Classifies the motion of a conductor given by its modes, by the rules of `classify`. The
-/// motion is undecided where modal_motion() returns nullopt, because two poles of the plant are too
-/// close to be separated numerically.
+/// Classifies the motion of a conductor given by its modes: by the periodic orbit on which it
+/// settles or, without one, by its ChaosIndicators and the rules of `classify`. The motion is
+/// undecided if two poles of the plant are too close to be separated numerically. Work: that of
+/// find_periodic_orbit(), and 200 multiply-adds per NaturalMotion and sample.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  state [q₁, q̇₁, …, z₂, ż₂] of `modal_plant`; q_n: coordinate of mode n
-/// @param limits         limits of the search for an orbit
-/// Work: that of find_periodic_orbit(), and 200 multiply-adds per NaturalMotion and sample.
+/// @param limits         longest period (samples) and number of samples of the search for an orbit
 /// @throws InvalidParameter where an argument is not admissible
 template <class Loop, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
 SampledClassification classify_motion(const Loop& loop, const ModalMotion::Full& initial_state,

@@ -16,22 +16,22 @@
 
 namespace holdfast {
 
-/// The five leading Lyapunov exponents of a conductor given by its modes, along a sequence of
-/// contacts. They are computed from five tangent vectors that are orthonormalised at every sample.
+/// Computes the five leading Lyapunov exponents of a ModalLoop, whose conductor is given by its
+/// modes, from five tangent vectors. These are orthonormalised at every sample.
 ///
 /// With a single mode the fifth exponent is −∞ if there is no processing delay or the drive was in
-/// its backlash; else all are finite. Work per sample: 130 multiply-adds per NaturalMotion.
+/// the backlash at a sample. Work per sample: 130 multiply-adds per NaturalMotion.
 template <class Scalar = double>
 class ModalSpectrum {
  public:
-  /// @param loop  a loop for which modal_motion() does not return nullopt
+  /// @param loop  loop for which plant_poles() finds all poles (modal_motion() is not nullopt)
   explicit ModalSpectrum(const ModalLoop& loop)
       : ModalSpectrum(NaturalMotions(loop, plant_poles(loop.modes, loop.absorber)), loop.gains,
                       loop.sampling.processing_delay > 0.0) {}
 
   /// @param motions  natural motions of conductor and absorber in the loop
-  /// @param gains    gains P (N/m) and D (N s/m) while the drive transmits
-  /// @param late     whether there is a processing delay, δ > 0
+  /// @param gains    controller gains P (N/m) and D (N s/m)
+  /// @param late     whether the loop has a processing delay δ > 0
   ModalSpectrum(const NaturalMotions& motions, const PdGains<double>& gains, bool late)
       : deviations_(motions, gains) {
     const Eigen::Index order = deviations_.order();
@@ -39,7 +39,7 @@ class ModalSpectrum {
     deviations_.begin(detail::oblique_basis<Scalar, Eigen::Dynamic>(order).leftCols(finite_));
   }
 
-  /// Adds one sample. @param engaged  whether the drive transmits at that sample
+  /// Adds the next sample. @param engaged  whether the drive transmits its force at that sample
   void push(bool engaged) {
     deviations_.advance(engaged);
     Matrix<Scalar, Eigen::Dynamic> basis = deviations_.columns();
@@ -58,13 +58,13 @@ class ModalSpectrum {
     sums_.add(logarithms, 1);
   }
 
-  /// Adds one sample; makes this class an observer for run_trajectory().
+  /// Adds the next sample, as an observer of run_trajectory(); only `engaged` is used.
   void operator()(const MotionSample<double>& sample) { push(sample.engaged); }
 
-  /// Restarts the averages; only the directions of the tangent vectors are kept.
+  /// Restarts the averages; keeps tangent vectors and the number of exponents that are −∞.
   void restart() { sums_ = BatchSums<Scalar, leading>(1); }
 
-  /// The Lyapunov spectrum over the samples since the last restart.
+  /// The Lyapunov spectrum over all samples since the last restart, natural logarithm per sample.
   LyapunovSpectrum<Scalar, 5> spectrum() const {
     return LyapunovSpectrum<Scalar, 5>({Matrix<Scalar, leading>::Identity(), sums_,
                                         Vector<Scalar, leading>::Zero(),
@@ -79,13 +79,13 @@ class ModalSpectrum {
   BatchSums<Scalar, leading> sums_{1};
 };
 
-/// The five leading Lyapunov exponents of a motion of a conductor given by its modes, from its
-/// present state, natural logarithm per sample.
-/// @param motion  a ModalMotion; it is advanced to the end of the run
+/// Computes the five leading Lyapunov exponents, natural logarithm per sample, by running a motion
+/// of a conductor given by its modes.
+/// @param motion  a ModalMotion; it is advanced from its present state to the end of the run
 /// @param loop    the loop of the motion
 /// @param run     numbers of samples to discard and to average; `scope`: all five or the first one
-/// @param pause   called every 2¹² samples; may throw to end the run
-/// @throws InvalidParameter where `run` is not admissible
+/// @param pause   function called every 2¹² samples, if set; it may throw to end the run
+/// @throws InvalidParameter where a number in `run` is out of its range
 template <class Motion>
 LyapunovResult run_lyapunov(Motion& motion, const ModalLoop& loop, const LyapunovRun& run,
                             const std::function<void()>& pause = {}) {

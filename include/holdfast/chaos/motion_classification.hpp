@@ -29,14 +29,15 @@
 namespace holdfast {
 
 /// The classification of a motion with backlash, with its certified orbit or its indicators.
-/// @tparam Search  OrbitResultOf<Orbit>, Orbit being the type of the loop's orbits
+/// @tparam Search  OrbitResultOf<Orbit>, where Orbit is the type of the loop's periodic orbits
 template <class Search>
 struct ClassifiedMotion {
   Classification classification;  ///< kind of the motion and its reason
-  /// Result of the search for a periodic orbit, with the orbit if there is one. The outcome is
-  /// `incommensurate` also under a recorded force or with jittering samples.
+  /// Result of the search for a periodic orbit, with the orbit if one was found. The outcome
+  /// `incommensurate` is also given under a recorded force or with sampling jitter.
   Search search;
-  ChaosIndicators indicators;  ///< indicators; for a certified orbit only its period and exponent
+  /// Indicators of the motion; for a certified orbit only its period and largest exponent.
+  ChaosIndicators indicators;
 };
 
 /// The classification of a motion of an IdealLoop.
@@ -122,7 +123,6 @@ ChaosIndicators indicators_of_samples(Motion motion, const IndicatorOptions& opt
   return indicators;
 }
 
-/// The indicators of a motion of an IdealLoop, from its samples.
 template <class Scalar>
 ChaosIndicators indicators_of_motion(const IdealLoop<Scalar>& loop,
                                      const HarmonicallyForcedMotion<Scalar>& motion,
@@ -336,15 +336,15 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
 
 }  // namespace detail
 
-/// Classifies a motion by the orbit on which it settles or, without one, by its ChaosIndicators.
+/// Classifies a motion of an IdealLoop by its orbit or, without one, by the rules of `classify`.
 ///
 ///     classify_motion(loop, Vector<double, 4>::Zero()).classification.kind;  // periodic
 ///
+/// Work: that of find_periodic_orbit() and of chaos_indicators() for N ≤ 10⁵ samples. If undecided,
+/// also neighbour_distance() with 3 N samples; if still undecided, both again with N = 99 960.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
-/// @param limits         limits of the search for an orbit
-/// Work: that of find_periodic_orbit() and of chaos_indicators() for N ≤ 10⁵ samples. If undecided,
-/// also neighbour_distance() with 3 N samples; if still undecided, these two again with N = 99 960.
+/// @param limits         longest period (samples) and number of samples of the search for an orbit
 /// @throws InvalidParameter where an argument is not admissible
 template <class Scalar>
 SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
@@ -366,22 +366,23 @@ SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
   return classify_motion(loop, state, limits);
 }
 
-/// Classifies a motion of an implemented loop. The exponents include the saltation matrices of
-/// contact changes. The rules are those of `classify`, with these additions:
+/// Classifies a motion of an implemented loop by the orbit on which it settles or, without one, by
+/// the rules of `classify` and these additional rules:
 ///
 /// - Under a recorded force or with a jittering clock no orbit is searched for, and no motion is
 ///   classified as quasi-periodic. With jitter only rest is periodic. A negative exponent means
-///   `irregular_contracting`: neighbouring motions converge under the same forcing.
+///   `irregular_contracting`: nearby motions converge under the same forcing.
 /// - A recorded force of fewer than 4200 samples leaves the motion undecided.
-/// - In exponents and multipliers the derivative of a quantised reading counts as zero.
 /// - The motion is undecided if contact changes accumulate (SwitchCounts::accumulates).
 ///
-/// @param loop           the loop with its implemented hardware
-/// @param initial_state  x₀, N × 1, finite; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s)
-/// @param limits         limits of the search for an orbit
+/// Exponents and multipliers include the saltation matrices of contact changes. In them the
+/// derivative of a quantised reading counts as zero.
 /// Work: that of find_event_orbit() and of chaos_indicators() for up to 10⁵ samples.
+/// @param loop           the loop with its sensors, computer, drive, backlash and excitation
+/// @param initial_state  x₀, N × 1, finite; for two masses [z₁, ż₁, z₂, ż₂] (m, m/s)
+/// @param limits         longest period (samples) and number of samples of the search for an orbit
 /// @throws InvalidParameter where an argument is not admissible
-/// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>
+/// @tparam Plant  TwoMass<double>, a LinearPlant<double, N> or a ControlledPlant
 template <class Plant>
 EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<Plant>& loop,
                                                         const StateOf<Plant>& initial_state,

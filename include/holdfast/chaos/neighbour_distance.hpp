@@ -10,17 +10,17 @@
 
 namespace holdfast {
 
-/// The final distance of a neighbouring motion y from a motion x, as a share of the extent. This is
-/// the mean of |x_i − y_i| over the last quarter of the samples, divided by max x_i − min x_i, for
-/// the coordinate i with the largest quotient. y starts after the transient, with the conductor
-/// displaced by `neighbour_start` times the extent of z₁ in the second half of the transient.
+/// Computes the final distance of a nearby motion y from a motion x, as a share of the extent: the
+/// mean of |x_i − y_i| over the last quarter of the samples, divided by max x_i − min x_i. i is the
+/// coordinate with the largest quotient. After the transient y starts at the state of x, but with
+/// the conductor's displacement z₁ increased by `neighbour_start` times the extent of z₁.
 ///
-/// This detects sensitive dependence on the initial state without tangent maps. If neighbours
-/// separate exponentially, the share grows to the order of 1; on an invariant torus it stays small.
+/// The result shows sensitive dependence on the initial state without tangent maps: it grows to the
+/// order of 1 if nearby motions separate exponentially, and stays small on an invariant torus.
 /// @param motion     SampledMotion, EventMotion or ModalMotion before a sample; passed by value
-/// @param transient  samples left out at the start, ≥ 2
-/// @param samples    number of samples of both motions, ≥ 4
-/// @return nullopt where z₁ is constant or a state is not finite
+/// @param transient  samples left out at the start, ≥ 2; their second half gives the extent of z₁
+/// @param samples    number of samples of both motions after the transient, ≥ 4
+/// @return the distance; nullopt where z₁ is constant or a state is not finite
 /// @throws InvalidParameter where `transient` or `samples` is too small
 template <class Motion>
 std::optional<double> neighbour_distance(Motion motion, std::int64_t transient,

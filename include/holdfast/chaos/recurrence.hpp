@@ -12,16 +12,16 @@ namespace holdfast {
 
 /// The distance between states of a series, each coordinate divided by its extent in the series:
 ///
-///     d(x, y) = max_i |x_i − y_i| / (max x_i − min x_i)
+///     d(x, y) = max_i |x_i − y_i| / extent_i,   extent_i = max − min of coordinate i
 ///
-/// Within the series 0 ≤ d ≤ 1. A coordinate counts as constant and is left out if its extent is at
-/// most 10⁻¹³ of its largest magnitude, in the series or in `sizes`.
+/// For states of the series 0 ≤ d ≤ 1. A coordinate counts as constant and is left out if its
+/// extent is at most 10⁻¹³ of its largest magnitude, in the series or in `sizes`.
 template <int Size>
 class RelativeDistance {
  public:
   /// @param states  the series from which the extents are computed
-  /// @param sizes   largest |x_i| of each coordinate before the series, needed where a coordinate
-  ///               has decayed to round-off about zero
+  /// @param sizes   largest |x_i| of each coordinate i before the series; needed to recognise
+  ///                coordinates that have decayed to round-off about zero
   /// @throws InvalidParameter where the series is empty or a state is not finite
   explicit RelativeDistance(const std::vector<Vector<double, Size>>& states,
                             const Vector<double, Size>& sizes = no_sizes()) {
@@ -38,10 +38,10 @@ class RelativeDistance {
     weights_ = (extent.array() > 1e-13 * largest.array()).select(extent.cwiseInverse(), 0.0);
   }
 
-  /// The constructor's default `sizes`, for unknown sizes: zeros, or empty for a dynamic Size.
+  /// The default of the constructor's `sizes`: a zero vector, empty if Size is Eigen::Dynamic.
   static Vector<double, Size> no_sizes() { return Vector<double, Size>::Zero(Size < 0 ? 0 : Size); }
 
-  /// The distance d of two states, in or outside the series; 0 where no coordinate varies.
+  /// The distance d of any two states; 0 where all coordinates of the series are constant.
   double operator()(const Vector<double, Size>& one, const Vector<double, Size>& other) const {
     return (one - other).cwiseAbs().cwiseProduct(weights_).maxCoeff();
   }
@@ -50,11 +50,10 @@ class RelativeDistance {
   Vector<double, Size> weights_;
 };
 
-/// The closest return of a series: the least RelativeDistance between any two of its states.
-///
+/// The closest return of a series: the smallest RelativeDistance between any two of its states.
 /// Work: N²/2 distances for N states.
 /// @param states  x_j at successive samples; their extents define the distance
-/// @return 1 for a single state
+/// @return distance, 0 … 1; 1 for a single state
 /// @throws InvalidParameter for no or more than 5000 states, or a state that is not finite
 template <int Size>
 double closest_return(const std::vector<Vector<double, Size>>& states) {
@@ -71,19 +70,19 @@ double closest_return(const std::vector<Vector<double, Size>>& states) {
 struct RepeatSearch {
   std::size_t lag;          ///< smallest lag after which the series repeats; 0: none was found
   std::size_t largest_lag;  ///< largest lag that was tested
-  double tolerance;         ///< tolerance of a repeat, as a share of the extent
+  double tolerance;         ///< largest RelativeDistance that counted as a repeat
 };
 
 /// Searches for the smallest lag n after which a series of N states repeats in its second half,
 ///
 ///     d(x_j, x_{j−n}) ≤ tolerance   for every j ≥ N/2,   n ≤ N / (2 repeats)
 ///
-/// where d is the RelativeDistance of the second half. A lag does not prove a period: slow drift or
-/// a longer period may pass a coarse tolerance. Work: at most N²/(4 repeats) distances.
+/// where d is the RelativeDistance of the second half. The lag found need not be a period: a coarse
+/// tolerance also admits slow drift or a longer period. Work: at most N²/(4 repeats) distances.
 /// @param states     x_0 … x_{N−1} at successive samples
-/// @param tolerance  largest distance d of a repeat, 0 … 1 (1: extent of the second half)
-/// @param repeats    number of repetitions that must fit into the second half, ≥ 1
-/// @param sizes      largest |x_i| of each coordinate, as in RelativeDistance
+/// @param tolerance  largest distance d that counts as a repeat, 0 … 1, as a share of the extent
+/// @param repeats    number of repetitions that must fit into the second half, 1 … 10⁶
+/// @param sizes      largest |x_i| of each coordinate before the series, as in RelativeDistance
 /// @throws InvalidParameter for no or more than 10⁶ states, a state that is not finite, or a
 /// tolerance or number of repeats out of its range
 template <int Size>
@@ -109,11 +108,11 @@ RepeatSearch repeats_after(const std::vector<Vector<double, Size>>& states, doub
 /// of its recurrence plot. A pair (x_j, x_{j−n}), n ≥ 1, is recurrent if its RelativeDistance is at
 /// most `radius`. A diagonal line is two or more successive recurrent pairs with the same lag n.
 ///
-/// The determinism is near 1 for a motion on a closed curve and about 1 − (1 − p)² for a random
-/// series, where p is the share of recurrent pairs. Work: N²/2 distances for N states.
+/// The determinism is near 1 for a motion on a closed curve. For a random series it is about
+/// 1 − (1 − p)², where p is the share of recurrent pairs. Work: N²/2 distances for N states.
 /// @param states  x_j at successive samples; their extents define the distance
-/// @param radius  share of the extent, > 0
-/// @return share, 0 … 1; 0 if no pair is recurrent
+/// @param radius  largest distance of a recurrent pair, as a share of the extent, > 0
+/// @return determinism, 0 … 1; 0 if no pair is recurrent
 /// @throws InvalidParameter for fewer than two or more than 5000 states, a state that is not
 /// finite, or a radius that is not positive
 template <int Size>

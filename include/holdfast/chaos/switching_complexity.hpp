@@ -8,16 +8,17 @@
 
 namespace holdfast {
 
-/// The complexity of a sequence of contacts (engaged or in the backlash); H_k is block_entropy().
+/// The complexity of a sequence of contacts. A symbol is the contact at one sample, engaged or not;
+/// a word is k successive symbols. H_k is the entropy of the words (block_entropy()).
 struct SwitchingComplexity {
-  double entropy;        ///< entropy rate h_k = H_{k+1} − H_k (bits per symbol)
-  std::size_t block;     ///< length k of the words (contacts of k successive samples) counted
+  double entropy;        ///< entropy rate h_k = H_{k+1} − H_k (bits per symbol), ≥ 0
+  std::size_t block;     ///< word length k
   std::size_t switches;  ///< number of changes of contact
 };
 
-/// The entropy H_k (bits) of the words of k symbols in a sequence, from the frequencies of these
-/// words. The estimate is too low unless n is many times 2^k. Work: n + 2^k.
-/// @param sequence  n symbols; successive words overlap
+/// The Shannon entropy H_k (bits) of the words of k successive symbols in a sequence, from the
+/// frequencies of the words. It is too low unless n is many times 2^k. Work: n + 2^k operations.
+/// @param sequence  n symbols, true or false; all n − k + 1 overlapping words are counted
 /// @param block     word length k, 0 … 20 and ≤ n; H₀ = 0
 /// @throws InvalidParameter where k is out of its range
 inline double block_entropy(const std::vector<bool>& sequence, std::size_t block) {
@@ -38,13 +39,13 @@ inline double block_entropy(const std::vector<bool>& sequence, std::size_t block
   return std::fmax(0.0, entropy);
 }
 
-/// The complexity of a sequence of contacts, from its block entropies.
+/// Computes the complexity of a sequence of contacts from its block entropies H_k and H_{k+1}.
 ///
 /// The word length k is the largest with 2^{k+1} ≤ n/32 for n symbols, at most 12. Each of the
-/// 2^{k+1} words then occurs ≥ 32 times on average. A sequence with a period N ≤ k has h_k = 0;
-/// with a longer period h_k may be above 0. With rare changes of contact h_k is small, because most
-/// samples add no information; so only values for equal sampling periods are comparable.
-/// @param sequence  64 … 10⁶ symbols
+/// 2^{k+1} words then occurs ≥ 32 times on average. The entropy rate is 0 for a period N ≤ k, and
+/// may be above 0 for a longer period. It is small if changes of contact are rare, because most
+/// samples add no information. Compare only values for equal sampling periods.
+/// @param sequence  64 … 10⁶ symbols: true if the drive is engaged at the sample, else false
 /// @throws InvalidParameter where the number of symbols is out of its range
 /// @tparam Sequence  std::vector<bool>
 template <class Sequence = std::vector<bool>>

@@ -100,23 +100,22 @@ inline double median_of_sorted(const std::vector<double>& sorted) {
 
 }  // namespace detail
 
-/// The 0–1 test for chaos of a series φ₁ … φ_N, which needs neither a state space nor an embedding.
+/// Computes the result K of the 0–1 test for chaos of a series φ₁ … φ_N; needs no embedding.
 ///
 ///     p(n) = Σ_{j≤n} φ_j cos jc,   q(n) = Σ_{j≤n} φ_j sin jc
 ///     D(n) = mean_j [(p(j+n) − p(j))² + (q(j+n) − q(j))²]
 ///     K_c  = correlation of D(n) with n,   n = 1 … min(N/10, 500);   K = median of K_c over c
 ///
 /// D stays bounded for a regular series and grows like n for a chaotic one. The mean of φ is
-/// subtracted first, since it would add an oscillating term to D. K is independent of shift and
-/// scale of φ. The frequencies c = π/5 + (3π/5) {k g}, k = 1, 2, …, are evenly spread and equal in
-/// every run. Here {·} is the fractional part and 1/g the real root of x³ = x + 1. Where c equals
-/// a frequency of the series, K_c is 1 even without chaos; the median ignores these few c.
+/// subtracted first, since it would add an oscillating term to D. Shifting or scaling φ does not
+/// change K. The frequencies c = π/5 + (3π/5) {k g} (rad per sample), k = 1, 2, …, are evenly
+/// spread and equal in every run; {·} is the fractional part, 1/g the real root of x³ = x + 1. If c
+/// is a frequency of the series, K_c is 1 even without chaos; the median ignores these few c.
 ///
-/// K is near 0 for any motion, also a chaotic one, that is sampled much faster than it varies. The
+/// K is near 0 for any motion, even a chaotic one, that is sampled much faster than it varies. The
 /// test is unreliable for fewer than about 500 samples of a motion with several frequencies. A
-/// constant series has K = 0.
-///
-/// Work for each c: at most 500 lags n from 5000 evenly spaced j, and a cosine and sine per sample.
+/// constant series has K = 0. Work for each c: a cosine and a sine per sample, and displacements
+/// over at most 500 lags n from at most 5000 evenly spaced j.
 /// Source: G. A. Gottwald, I. Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009), 129–145.
 /// @return K, near 0 for a regular motion, near 1 for a chaotic one
 /// @param series       200 … 100 000 finite values

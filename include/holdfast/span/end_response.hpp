@@ -12,43 +12,45 @@
 
 namespace holdfast {
 
-/// The response of an end of a span with its devices to incident waves of one frequency ω. The
-/// deflections y and slopes are amplitudes for an antinode amplitude of 1 m beyond the devices.
+/// The response of one end of a span (`SpanEnd`) to incident waves of angular frequency ω (rad/s).
+/// Deflections y and slopes are amplitudes divided by the antinode amplitude of the span beyond the
+/// devices. The outermost device is the one farthest from the support.
 struct EndResponse {
   std::complex<double> reflection;  ///< reflection coefficient r of y at the outermost device
-  /// Impedance Z = Z_c (1 − r)/(1 + r) (N s/m) of the end, with the wave impedance Z_c, at the
-  /// outermost device. Without devices r = −1 and Z = ∞ as at the fixed support.
+  /// Impedance Z = Z_c (1 − r)/(1 + r) (N s/m) of the end, measured at the outermost device and
+  /// including this device. Z_c is the wave impedance. Without devices r = −1 and Z = ∞.
   std::complex<double> impedance;
-  double support_angle;         ///< slope of the conductor at the support (rad/m)
-  std::vector<double> motions;  ///< |y| at each device (m/m), outward from the support
-  std::vector<double> kinks;    ///< jump |Z ω y|/T of the slope at each device (rad/m)
+  double support_angle;         ///< slope at the support (rad per m of antinode amplitude)
+  std::vector<double> motions;  ///< |y| at each device (m/m), in the order of `SpanEnd::devices`
+  std::vector<double> kinks;    ///< slope jump at each device (rad/m), device force over tension
 
-  /// The fraction 1 − |r|² of the incident power that the devices absorb.
+  /// The fraction 1 − |r|² of the incident power that the devices absorb; < 0 if they supply power.
   double absorbed_fraction() const { return 1.0 - std::norm(reflection); }
 
   /// The inverse standing-wave ratio S = (1 − |r|)/(1 + |r|): amplitude at a node over amplitude at
-  /// an antinode, with negative sign where the devices supply power.
+  /// an antinode. S is negative if the devices supply power.
   double inverse_standing_wave_ratio() const {
     return (1.0 - std::abs(reflection)) / (1.0 + std::abs(reflection));
   }
 
-  /// The power ½ Z_c ω² S (W/m²) that the devices absorb, for an antinode amplitude of 1 m.
-  /// @param wave_impedance     Z_c (N s/m)
-  /// @param angular_frequency  ω (rad/s)
+  /// The absorbed power ½ Z_c ω² S (W/m²) per squared antinode amplitude, with S as defined in
+  /// `inverse_standing_wave_ratio`.
+  /// @param wave_impedance     wave impedance Z_c (N s/m) of the string
+  /// @param angular_frequency  angular frequency ω (rad/s) of the incident waves
   double absorbed_power(double wave_impedance, double angular_frequency) const {
     return 0.5 * wave_impedance * angular_frequency * angular_frequency *
            inverse_standing_wave_ratio();
   }
 };
 
-/// An end of a span: the support and the devices near it, by ascending distance from the support.
+/// One end of a span: a support and the devices in its half of the span, the nearest device first.
 struct SpanEnd {
-  std::vector<double> distances;           ///< distances (m) from the support, > 0
+  std::vector<double> distances;           ///< distances (m) of the devices from the support, > 0
   std::vector<const SpanDevice*> devices;  ///< devices in the order of `distances`; not owned
 };
 
-/// The two ends of a span: entry [0] has the devices up to midspan, entry [1] those beyond it.
-/// @param devices  sorted by `in_order`; must outlive the result
+/// The left end [0] and the right end [1] of a span. Devices at midspan belong to the left end.
+/// @param devices  devices sorted by `in_order`; must outlive the result
 /// @param span     span L (m)
 inline std::array<SpanEnd, 2> span_ends(const std::vector<SpanDevice>& devices, double span) {
   std::array<SpanEnd, 2> ends;
@@ -65,16 +67,17 @@ inline std::array<SpanEnd, 2> span_ends(const std::vector<SpanDevice>& devices, 
   return ends;
 }
 
-/// The response of an end of a taut string to incident waves e^{iωt}. The deflection y is computed
-/// from the fixed support outward: y″ = −k² y with k = ω/c between devices, and the slope jumps by
-/// Z iω y/T at a device of impedance Z. For a single device at the distance a from the support,
+/// The response of one end of a taut string to incident waves e^{iωt}. The deflection y is computed
+/// from the support outward. Between devices y″ = −k² y, with k = ω/c and the wave speed c. At
+/// a device of impedance Z the slope jumps by iω Z y/T, where T is the tension of the string. With
+/// a single device at the distance a from the support, the reflection coefficient is
 ///
-///     r = (1 − ζ_t)/(1 + ζ_t),   ζ_t = Z/Z_c − i cot ka
+///     r = (1 − ζ_t)/(1 + ζ_t),   ζ_t = Z/Z_c − i cot ka   (wave impedance Z_c)
 ///
 /// Damping of the string is neglected, as the few metres of an end absorb almost no power.
 /// @param string             tension and mass; damping and bending stiffness are not used
-/// @param end                end with its devices (unchecked)
-/// @param angular_frequency  ω (rad/s), > 0
+/// @param end                support with its devices (unchecked)
+/// @param angular_frequency  angular frequency ω (rad/s), > 0
 inline EndResponse end_response(const TautString<double>& string, const SpanEnd& end,
                                 double angular_frequency) {
   using Complex = std::complex<double>;

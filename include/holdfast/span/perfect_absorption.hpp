@@ -10,12 +10,12 @@
 
 namespace holdfast {
 
-/// The impedance Z* = Z_c (1 + i cot ka) (N s/m) of a device that reflects no part of an incident
-/// wave of the frequency ω. The device is at the distance a from a support; k = ω/c.
+/// The impedance Z* = Z_c (1 + i cot ka) (N s/m) at which a device near a support reflects no part
+/// of an incident wave. Z_c is the wave impedance, k = ω/c and c the wave speed.
 /// @param string             tension and mass; damping and bending stiffness are not used
-/// @param distance           a (m) from the support, > 0; sin ka ≠ 0
-/// @param angular_frequency  ω (rad/s), > 0
-/// @throws InvalidParameter where sin ka = 0, that is, where the device is at a node
+/// @param distance           distance a (m) of the device from the support, > 0; sin ka ≠ 0
+/// @param angular_frequency  angular frequency ω (rad/s) of the wave, > 0
+/// @throws InvalidParameter where |sin ka| ≤ 10⁻⁹, that is, where the device is at a node
 inline std::complex<double> matched_impedance(const TautString<double>& string, double distance,
                                               double angular_frequency) {
   const double phase = angular_frequency * distance / string.wave_speed();
@@ -25,20 +25,19 @@ inline std::complex<double> matched_impedance(const TautString<double>& string, 
   return string.wave_impedance() * std::complex<double>(1.0, 1.0 / std::tan(phase));
 }
 
-/// The gains P and D with which an absorber completely absorbs an incident wave of the frequency ω.
-/// The absorber with its computer then has the impedance Z* of `matched_impedance`:
+/// The gains P and D with which an absorber completely absorbs an incident wave of frequency ω. The
+/// controlled absorber then has the impedance Z* of `matched_impedance`:
 ///
 ///     (M_c s² + K_p)/s + T_a Z_eff = Z*,   s = iω
 ///
-/// `drive_impedance` defines Z_eff, which is linear in P and D; `place_response` defines K_p and
-/// T_a. Stability of the loop with these gains must be examined separately.
+/// M_c is the clamp mass. `drive_impedance` defines Z_eff as a linear function of P and D, and
+/// `place_response` defines K_p and T_a. The stability of the loop must be checked separately.
 /// @param string             tension and mass; damping and bending stiffness are not used
-/// @param distance           a (m) from the support, > 0; sin ka ≠ 0
-/// @param device             absorber with its computer; its gains are not used
-/// @param angular_frequency  ω (rad/s), > 0; not a multiple of 2π/τ, at which the held force has no
-///                           component of the frequency ω
-/// @throws InvalidParameter where the device is at a node of the wave, where ω is a multiple of
-/// 2π/τ, or where the velocity is a difference of readings and ω is a multiple of π/τ
+/// @param distance           distance a (m) of the absorber from the support, > 0
+/// @param device             absorber with its drive and computer; its gains are not used
+/// @param angular_frequency  angular frequency ω (rad/s) of the wave, > 0
+/// @throws InvalidParameter if the absorber is at a node of the wave, or if ω is a multiple of
+/// 2π/τ with the sampling period τ (without a velocity sensor: of π/τ)
 inline PdGains<double> perfect_absorption(const TautString<double>& string, double distance,
                                           const ActiveAbsorber& device, double angular_frequency) {
   const std::complex<double> s(0.0, angular_frequency);

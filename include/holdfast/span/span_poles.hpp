@@ -21,20 +21,20 @@
 
 namespace holdfast {
 
-/// The poles s_k of a conductor with devices, and the receptances between the places of the
-/// devices. With the complex mode shape φ_ik of pole s_k at place i, the receptance is
+/// The poles s_k of a conductor with devices, and the receptances between places, the points where
+/// devices can be attached. With the complex mode shape φ_ik of pole s_k at place i, these are
 ///
 ///     H_il(s) = Σ_k φ_ik φ_lk/(s − s_k)  (m/N, force at l, displacement at i)
 ///
 /// Devices are attached one after the other. A device of dynamic stiffness K at place j changes
-/// H_il to H_il − H_ij K H_jl/(1 + K H_jj). The new poles are the roots of 1 + K H_jj. Each is
+/// H_il to H_il − H_ij K H_jl/(1 + K H_jj). The new poles are the roots of 1 + K H_jj. Each root is
 /// continued from a pole of the conductor or of the device alone (`root_from_pole`).
 class SpanPoles {
  public:
   using Complex = std::complex<double>;  ///< type of s and of receptances
 
-  /// @param modes  1 … 10⁴ modes of the conductor without devices, none critically damped, all with
-  ///               the same number of places
+  /// @param modes  1 … 10⁴ modes of the conductor without devices; none is critically damped, and
+  ///               all have the same number of places (these two conditions are unchecked)
   /// @throws InvalidParameter where the number of modes or a mode is not admissible
   explicit SpanPoles(const std::vector<ModeAtPlaces>& modes) {
     require_within("number of modes", static_cast<double>(modes.size()), "", 1, 10000);
@@ -44,14 +44,14 @@ class SpanPoles {
   }
 
   /// The receptance H_il (m/N) at the complex frequency s (1/s): displacement at place i over force
-  /// at place l, both counted from 0.
+  /// at place l. The first place has the index 0. The indices are not checked.
   Complex receptance(std::size_t i, std::size_t l, const Complex& s) const {
     Complex sum(0.0);
     for (const Pole& pole : poles_) sum += part(pole, i, l, s);
     return sum;
   }
 
-  /// Attaches a lumped device to the conductor.
+  /// Attaches a lumped device to the conductor and updates poles and receptances.
   /// @param device  device with its clamp
   /// @param place   index of the device's place, from 0 (unchecked)
   /// @throws InvalidParameter where the device is not admissible
@@ -69,9 +69,9 @@ class SpanPoles {
     }());
   }
 
-  /// Attaches an absorber without control to the place with the given index.
-  /// @return all poles, both of each conjugate pair, with the residues of the response from the
-  ///         drive's force to the displacement at the place; empty where a pole was not found
+  /// Attaches an absorber without control at the place of index `place`, from 0 (unchecked).
+  /// @return all poles, both of each conjugate pair, with their residues in the transfer function
+  ///         from the drive's force to the displacement at this place; empty if a pole is missing
   /// @throws InvalidParameter where the absorber is not admissible
   std::vector<PlantPole> attach(const Absorber<double>& absorber, std::size_t place) {
     validate({{1.0, 0.0, 1.0, 1.0}}, absorber);
@@ -89,8 +89,8 @@ class SpanPoles {
     return found;
   }
 
-  /// The poles (1/s), first those continued from the modes, then those of each device in turn. A
-  /// conjugate pair is listed once, by its pole with Im s > 0.
+  /// The poles (1/s): first those continued from the modes, then those of each device in the order
+  /// of attachment. A conjugate pair is listed once, by its pole with Im s > 0.
   std::vector<Complex> roots() const {
     std::vector<Complex> found;
     for (const Pole& pole : poles_) found.push_back(pole.s);
@@ -223,7 +223,7 @@ class SpanPoles {
     return s;
   }
 
-  /// The receptance H_jj at the place j of the device that is being attached.
+  /// The receptance H_jj at the place j of the new device; `slope_here` is its derivative dH_jj/ds.
   Complex receptance_here(const Complex& s) const {
     detail::ComplexLanes<double> sum;
     for (const auto& [pole, square] : squares_.blocks()) {
@@ -233,7 +233,6 @@ class SpanPoles {
     return sum.sum();
   }
 
-  /// The derivative dH_jj/ds there.
   Complex slope_here(const Complex& s) const {
     detail::ComplexLanes<double> sum;
     for (const auto& [pole, square] : squares_.blocks()) {
@@ -343,7 +342,6 @@ class SpanPoles {
     Pole pole{s, is_pair, {}};
     for (std::size_t i = 0; i < mobility_.size(); ++i)
       pole.shapes.push_back(scale * receptance(i, place, s));
-    // A pair is represented by its pole with Im s > 0.
     if (!is_pair || s.imag() > 0.0) return pole;
     pole.s = std::conj(pole.s);
     for (Complex& shape : pole.shapes) shape = std::conj(shape);

@@ -13,11 +13,11 @@
 
 namespace holdfast {
 
-/// Waves y(x) e^{st} on a taut string with devices, with y = 0 and slope 1 at the left support.
-/// Where s is an eigenvalue of the span with its devices, y is also 0 at the right support.
+/// Shooting method for the eigenvalues s of a taut string with devices. The deflection y(x) e^{st}
+/// has y = 0 and slope 1 at the left support. If s is an eigenvalue, y is 0 at the right support.
 ///
 /// Damping of the string is modelled by the complex tension T e^{2iφ} with sin φ = ζ, for Im s > 0.
-/// Without devices each mode then has the eigenvalue s = iω e^{iφ} and exactly the damping ratio ζ.
+/// Without devices a mode of frequency ω (rad/s) then has s = iω e^{iφ} and the damping ratio ζ.
 class SpanWaves {
  public:
   using Complex = std::complex<double>;  ///< type of s and of deflections
@@ -37,7 +37,7 @@ class SpanWaves {
     return Complex(0.0, n * pi<double> * string_.wave_speed() / string_.span) * turn_;
   }
 
-  /// y at the right support over its value without devices, at s (1/s); zero if s is an eigenvalue.
+  /// Ratio of y at the right support to its value without devices, at s (1/s); 0 at an eigenvalue.
   Complex held(const Complex& s) const {
     const Complex rate = s / (string_.wave_speed() * turn_);
     const Complex tension = string_.tension * turn_ * turn_;
@@ -66,26 +66,27 @@ class SpanWaves {
   Complex turn_;  // e^{iφ}
 };
 
-/// An eigenvalue of a span with its devices, for one mode n.
+/// The eigenvalue of mode n of a taut string with devices, and two estimates of its damping ratio.
+/// L: span, μ: mass per length, Z_c: wave impedance, ω_n: angular frequency without devices.
 struct SpanRoot {
   std::complex<double> bare;  ///< eigenvalue s (1/s) of the mode without devices
   std::complex<double> root;  ///< eigenvalue s (1/s) with devices; NaN where not found
-  /// Damping ratio to first order in the impedances Z of the devices, at distances a from a
-  /// support: damping ratio of the bare mode plus Σ sin²(nπa/L) Re Z(iω_n)/(μ L ω_n).
+  /// Damping ratio to first order in the impedances Z of the devices: damping ratio without devices
+  /// plus Σ sin²(nπa/L) Re Z(iω_n)/(μ L ω_n). A device is at the distance a (m) from a support.
   double first_order;
-  /// Damping ratio by Krenk's asymptote for devices near the supports, at distances a from the
-  /// nearer one: damping ratio of the bare mode plus Σ (a/L) Im[iη/(1 + iη)], η = (Z/Z_c) nπ a/L.
+  /// Damping ratio by Krenk's asymptote for devices at small distances a (m) from a support: ratio
+  /// without devices plus Σ (a/L) Im[iη/(1 + iη)] with η = (Z(iω_n)/Z_c) nπ a/L.
   double asymptotic;
 
-  double damping() const { return -root.real() / std::abs(root); }  ///< ζ of `root`, −Re s/|s|
+  double damping() const { return -root.real() / std::abs(root); }  ///< damping ratio −Re s/|s|
   double frequency() const { return std::abs(root) / (2.0 * pi<double>); }  ///< |s|/2π (Hz)
 };
 
-/// The damping ratios `first_order` and `asymptotic` of mode n of a taut string with devices. The
-/// eigenvalues are not computed: `bare` is 0 and `root` NaN.
+/// The estimates `first_order` and `asymptotic` of the damping ratio of mode n of a taut string
+/// with devices. The eigenvalues are not computed: `bare` is 0 and `root` NaN.
 /// @param string   taut string with the damping ratio of mode n; bending stiffness is not used
-/// @param devices  inside the span (unchecked)
-/// @param n        number of half-waves, ≥ 1
+/// @param devices  devices in any order, inside the span (unchecked)
+/// @param n        mode number, which is the number of half-waves, ≥ 1
 inline SpanRoot span_root_laws(const TautString<double>& string,
                                const std::vector<SpanDevice>& devices, int n) {
   using Complex = std::complex<double>;
@@ -104,10 +105,10 @@ inline SpanRoot span_root_laws(const TautString<double>& string,
   return found;
 }
 
-/// The eigenvalue and damping ratios of mode n of a taut string with devices, as in `span_roots`.
+/// The eigenvalue and damping ratios of mode n alone, computed as `span_roots` does for many modes.
 /// @param string   taut string with the damping ratio of mode n; bending stiffness is not used
-/// @param devices  sorted by `in_order` (unchecked)
-/// @param n        number of half-waves, ≥ 1
+/// @param devices  devices sorted by `in_order` (unchecked)
+/// @param n        mode number, which is the number of half-waves, ≥ 1
 /// @throws InvalidParameter where the string is not admissible
 inline SpanRoot span_root(const TautString<double>& string, const std::vector<SpanDevice>& devices,
                           int n) {
@@ -119,19 +120,19 @@ inline SpanRoot span_root(const TautString<double>& string, const std::vector<Sp
   return found;
 }
 
-/// The eigenvalues s of a taut string with devices, for modes 1 … count. For an undamped string
-/// with one device of impedance Z at distance a from a support (Krenk, J. Eng. Mech. 126 (2000)),
+/// The eigenvalues s of a taut string with devices, for the modes 1 … count. With one device at the
+/// distance a from a support and no damping, s solves (Krenk, J. Eng. Mech. 126 (2000))
 ///
 ///     sinh γL + (Z(s)/Z_c) sinh γa sinh γ(L − a) = 0,   γ = s/c
 ///
-/// Each eigenvalue is continued from the mode without devices while the devices' effect grows from
-/// 0 to 1 (`root_from_pole`). If two eigenvalues coincide on the way, their modes may be exchanged.
-/// The held force of an ActiveAbsorber is included by its component e^{st} only.
+/// Z is the impedance of the device, Z_c the wave impedance, c the wave speed and L the span. Each
+/// eigenvalue is found by continuation (`root_from_pole`) from the mode without devices to the full
+/// effect of the devices. Where two eigenvalues meet on this path, their modes may be exchanged.
+/// The force of an ActiveAbsorber is held between samples; only its component e^{st} is included.
 /// @param string   taut string; its bending stiffness is not used
-/// @param devices  in any order
-/// @param count    number of modes
-/// @throws InvalidParameter where the string is not admissible, a device is not inside the span or
-/// the count is outside 1 … 10⁵
+/// @param devices  devices in any order, inside the span
+/// @param count    number of modes, 1 … 10⁵
+/// @throws InvalidParameter where the string, the position of a device or the count is inadmissible
 inline std::vector<SpanRoot> span_roots(const TautString<double>& string,
                                         const std::vector<SpanDevice>& devices, int count) {
   require_within("number of modes", count, "", 1, 100000);

@@ -40,22 +40,22 @@ struct TakesTime<System, std::void_t<decltype(std::declval<const System&>().rate
 
 }  // namespace detail
 
-/// The integrator of a system ẏ = rate(y) or ẏ = rate(t, y) from a given state, by CVODE.
+/// The integrator of a system ẏ = rate(y) or ẏ = rate(t, y) from a given state, by CVODE. It cannot
+/// be copied or moved, since CVODE holds its address.
 ///
+/// The method is Adams' with fixed-point iteration. For a System with a banded Jacobian it is BDF
+/// with Newton's method, suitable for stiff systems.
 /// @tparam System  has `int states()` and `void rate(const double* y, double* rate)`, or
-/// `rate(t, y, rate)` with t in s. If it also has `int half_bandwidth()` and `jacobian(y, set)`,
-/// which calls set(row, column, value), it is integrated as stiff by BDF and Newton's method with a
-/// banded matrix; otherwise by Adams' method with fixed-point iteration. If System also has
-/// `double margin(const double* y)`, the integration ends where the margin falls to zero.
-///
-/// An integrator cannot be copied or moved, since CVODE holds its address.
+/// `rate(t, y, rate)` with t in s. Optional: `int half_bandwidth()` with `jacobian(y, set)`, which
+/// calls set(row, column, value) for each entry of the Jacobian; and `double margin(const double*
+/// y)`: the integration ends with `model_ended` where the margin is zero or negative.
 template <class System>
 class Integrator : public detail::Session {
  public:
-  /// @param system         system, which must outlive this object
-  /// @param initial_state  states() numbers, in SI units, at t = 0
+  /// @param system         system to integrate; it must outlive this object
+  /// @param initial_state  y at t = 0, a vector of system.states() numbers in SI units
   /// @param tolerances     tolerances of the local error per step, and the limit of steps
-  /// @throws InvalidParameter where the state has not states() entries or a tolerance is not > 0
+  /// @throws InvalidParameter for another size of the state, or a tolerance that is not positive
   Integrator(const System& system, const Eigen::VectorXd& initial_state,
              const Tolerances& tolerances)
       : Session(tolerances), system_(system) {
@@ -71,14 +71,14 @@ class Integrator : public detail::Session {
     if constexpr (bounded) watch_margin();
   }
 
-  /// Integrates to `time` (s). Any outcome but `completed` is final: later calls return it at once.
+  /// Integrates to `time` (s) > time(). If outcome() is not `completed`, only returns outcome().
   IntegrationOutcome advance_to(double time) {
     if (outcome_ != IntegrationOutcome::completed) return outcome_;
     check(CVode(memory_.get(), time, state_.get(), &time_, CV_NORMAL));
     return outcome_;
   }
 
-  /// Restarts at the instant last reached; required after a jump of the system's rate.
+  /// Restarts CVODE at the instant last reached; call it after a jump of the system's rate.
   void restart() {
     if (outcome_ == IntegrationOutcome::completed)
       check(CVodeReInit(memory_.get(), time_, state_.get()));
@@ -89,7 +89,7 @@ class Integrator : public detail::Session {
   /// The instant last reached (s).
   double time() const { return time_; }
 
-  /// Cost of the integration since its last start or restart.
+  /// Numbers of steps and evaluations since the start or the last restart.
   IntegrationCost cost() const {
     IntegrationCost cost;
     cost.steps = count(&CVodeGetNumSteps);

@@ -17,21 +17,20 @@
 
 #include "holdfast/core/errors.hpp"
 
-/// Time integration of the library's continuous models by CVODE, SUNDIALS 6 and 7.
-///
-/// The namespace is not called `sundials`, since SUNDIALS itself has one of that name.
+/// Time integration of the library's continuous models by CVODE, for SUNDIALS 6 and 7. The
+/// namespace is not called `sundials`, since SUNDIALS itself has one of that name.
 namespace holdfast::cvode {
 
 /// Outcome of an integration, from CVODE's return flag; several flags may give one outcome.
 enum class IntegrationOutcome {
-  completed,           ///< CV_SUCCESS and CV_TSTOP_RETURN: no failure
-  model_ended,         ///< CV_ROOT_RETURN: the system's margin() reached zero
-  too_much_work,       ///< CV_TOO_MUCH_WORK: the limit of steps was reached
-  too_much_accuracy,   ///< CV_TOO_MUCH_ACC: the tolerances are finer than round-off
-  error_test_failed,   ///< CV_ERR_FAILURE: the step shrank without passing the error test
-  convergence_failed,  ///< CV_CONV_FAILURE and the like: Newton or the fixed point did not converge
-  linear_solver_failed,    ///< CV_LINIT_FAIL, CV_LSETUP_FAIL, CV_LSOLVE_FAIL
-  right_hand_side_failed,  ///< CV_RHSFUNC_FAIL and the like: the rates were not finite
+  completed,             ///< CV_SUCCESS and CV_TSTOP_RETURN: no failure
+  model_ended,           ///< CV_ROOT_RETURN: the system's margin() reached zero
+  too_much_work,         ///< CV_TOO_MUCH_WORK: the limit of steps was reached
+  too_much_accuracy,     ///< CV_TOO_MUCH_ACC: the tolerances are finer than round-off
+  error_test_failed,     ///< CV_ERR_FAILURE: the error test failed even with the smallest step
+  convergence_failed,    ///< CV_CONV_FAILURE, CV_NLS_…: the nonlinear iteration did not converge
+  linear_solver_failed,  ///< CV_LINIT_FAIL, CV_LSETUP_FAIL, CV_LSOLVE_FAIL
+  right_hand_side_failed,  ///< CV_RHSFUNC_FAIL and the like: the rates ẏ were not finite
                            ///< (after the start, Adams' method gives convergence_failed instead)
   out_of_memory,           ///< an object of SUNDIALS could not be allocated
   refused,                 ///< any other flag, for example for an illegal input
@@ -62,7 +61,7 @@ inline IntegrationOutcome outcome_of_flag(int flag) {
   return Outcome::refused;
 }
 
-/// Name of a return flag in CVODE, for example "CV_TOO_MUCH_WORK".
+/// CVODE's name of a return flag, for example "CV_TOO_MUCH_WORK".
 inline std::string name_of_flag(int flag) {
   const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
   return name ? std::string(name.get()) : "flag " + std::to_string(flag);
@@ -75,11 +74,11 @@ struct IntegrationCost {
   long jacobian_evaluations = 0;  ///< evaluations of a banded Jacobian; 0 without one
 };
 
-/// Tolerances of the local error per step, and the limit of steps between two outputs.
+/// Tolerances of the local error per step, and the limit of steps per integration call.
 struct Tolerances {
   double relative = 1e-6;  ///< relative tolerance, > 0
   double absolute = 1e-9;  ///< absolute tolerance in the units of the states (m, m/s), > 0
-  /// Limit (> 0) of the steps from one output to the next; more steps give `too_much_work`.
+  /// Largest number of steps, > 0, in one call of advance_to(); more give `too_much_work`.
   long largest_number_of_steps = 2000000;
 };
 

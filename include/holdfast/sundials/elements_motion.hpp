@@ -20,31 +20,31 @@ namespace holdfast::cvode {
 
 /// The controller, drive and excitation of a cable modelled by finite elements.
 struct ElementsLoop {
-  Sampling<double> sampling;              ///< sampling period τ and processing delay δ ≤ τ
-  PdGains<double> gains;                  ///< gains P and D
-  HarmonicExcitation<double> excitation;  ///< force at the absorber's place: amplitude, frequency
+  Sampling<double> sampling;              ///< sampling period τ (s), > 0; delay δ (s), 0 … τ
+  PdGains<double> gains;                  ///< controller gains P (N/m) and D (N s/m)
+  HarmonicExcitation<double> excitation;  ///< amplitude (N), frequency (Hz): cable at the absorber
   double backlash_width = 0.0;            ///< width r₀ (m) of the backlash, ≥ 0
-  ForceHold hold = ForceHold::sampled;    ///< whether the harmonic force is held between samples
+  ForceHold hold = ForceHold::sampled;    ///< excitation held between samples, or exact
 };
 
 /// The motion of a nonlinear cable, modelled by finite elements, and of the absorber on its spring.
 /// The sampled drive with its backlash acts between cable and absorber. The model includes large
 /// sag, large motion and waves, and serves as reference for models with fewer states.
 ///
-/// As in `SampledMotion`, `sense()` decides contact and force at t_j and `advance()` moves to
-/// t_{j+1}. CVODE integrates between the instants at which a force jumps and restarts at each. Work
-/// per sample: some tens of BDF steps, each linear in the number of elements.
+/// As in `SampledMotion`, `sense()` decides at t_j on the contact and the drive's force u_j, and
+/// `advance()` moves to t_{j+1}. CVODE is restarted at each jump of a force. Work per sample: some
+/// tens of BDF steps, each linear in the number of elements.
 class ElementsMotion {
  public:
-  static constexpr int states = 4;                 ///< number of entries of State
-  using State = Vector<double, 4>;                 ///< state [z, ż, z₂, ż₂] (m, m/s, m, m/s)
+  static constexpr int states = 4;  ///< number of entries of State
+  using State = Vector<double, 4>;  ///< [z, ż, z₂, ż₂] of state() (m, m/s, m, m/s)
   using Readings = PortReadings<TwoMass<double>>;  ///< type of `readings()`
 
   /// @param cable       cable with the absorber as a spring–mass; must outlive this object
-  /// @param loop        controller, drive and excitation; τ, δ and r₀ are checked
-  /// @param start       initial state of the cable, as from `CableElements::held_by`
-  /// @param tolerances  tolerances of the local error per step, and the limit of steps in a sample
-  /// @throws InvalidParameter for an absorber that is no spring–mass, or τ, δ or r₀ out of range
+  /// @param loop        controller, drive and excitation
+  /// @param start       initial state of cable and absorber, such as `cable.held_by(force).state`
+  /// @param tolerances  tolerances of the local error per step, and the limit of steps
+  /// @throws InvalidParameter for no spring–mass absorber, or τ, δ, r₀ or a tolerance out of range
   ElementsMotion(const CableElements& cable, const ElementsLoop& loop, const Eigen::VectorXd& start,
                  const Tolerances& tolerances = {})
       : loop_(loop),
@@ -60,7 +60,7 @@ class ElementsMotion {
     system_.amplitude = loop.hold == ForceHold::exact ? loop.excitation.amplitude : 0.0;
   }
 
-  /// Takes sample j and decides the contact and the drive's force; to be called once per sample.
+  /// Takes sample j and decides on the contact and the drive's force u_j; call it once per sample.
   MotionSample<double> sense() {
     const State seen = state();
     const bool engaged = law_.step(seen[2] - seen[0], seen[3] - seen[1]);
@@ -69,8 +69,8 @@ class ElementsMotion {
     return {index_, time(), seen, present_force_, engaged};
   }
 
-  /// Integrates from t_j to t_{j+1}: under u_{j−1} until t_j + δ, then under u_j of the last
-  /// `sense()`. To be called only while `outcome()` is `completed`.
+  /// Integrates from t_j to t_{j+1}, with the drive's force u_{j−1} until t_j + δ, then with u_j.
+  /// Call it once after each `sense()`, and only while `outcome()` is `completed`.
   void advance() {
     const double begin = time(), late = loop_.sampling.processing_delay;
     if (loop_.hold == ForceHold::sampled)
@@ -85,15 +85,16 @@ class ElementsMotion {
   std::int64_t index() const { return index_; }
   /// Time t_j (s) of sample j.
   double time() const { return static_cast<double>(index_) * loop_.sampling.period; }
-  /// State [z, ż, z₂, ż₂] (m, m/s, m, m/s) at the instant last reached.
+  /// State [z, ż, z₂, ż₂] (m, m/s, m, m/s) at the instant last reached: drops from the equilibrium
+  /// and velocities of the cable at the absorber (z) and of the absorber (z₂), downward positive.
   State state() const { return system_.cable.at_absorber(integrator_.state()); }
   /// Functions that read displacements and velocities from a State.
   Readings readings() const { return {}; }
-  /// Outcome: completed while all bars are in tension and CVODE has not failed, else the reason.
+  /// `completed` while CVODE has not failed and all bars are in tension; else why it ended.
   IntegrationOutcome outcome() const { return integrator_.outcome(); }
-  /// CVODE's message on a failure; empty without failure.
+  /// Name of CVODE's return flag, and its message, if it ended the integration; else empty.
   const std::string& words() const { return integrator_.words(); }
-  /// Cost of the integration since its last restart; it restarts at every jump of a force.
+  /// Numbers of steps and evaluations since CVODE's last restart, at a jump of a force.
   IntegrationCost cost() const { return integrator_.cost(); }
 
  private:

@@ -13,7 +13,7 @@ namespace holdfast::cvode {
 
 /// Outcome of the simulation of a load removal.
 enum class LoadRemovalOutcome {
-  completed,           ///< the record reaches to the end of the duration
+  completed,           ///< the record covers the whole duration
   no_equilibrium,      ///< Newton's method found no equilibrium of the cable
   slack,               ///< a bar lost its tension, which the model of the cable excludes
   integration_failed,  ///< CVODE failed; its message is in the result
@@ -22,21 +22,21 @@ enum class LoadRemovalOutcome {
 /// The vibration at the absorber's place after a force is removed at t = 0.
 struct LoadRemoval {
   LoadRemovalOutcome outcome;  ///< whether the record is complete, or why not
-  std::string words;           ///< message of CVODE if CVODE failed
-  double last_time;  ///< instant (s) of the record's end, of slackness, or of CVODE's failure
+  std::string words;           ///< name of CVODE's return flag and its message if CVODE failed
+  double last_time;  ///< instant (s) at which the integration ended: completed, slack or failed
   double initial_displacement;  ///< drop (m) caused by the force, from the equilibrium without it
   DecayRecord record;           ///< displacements (m) at t = 0, interval, 2 interval, …
-  IntegrationCost cost;         ///< cost of the integration; zeros without an equilibrium
+  IntegrationCost cost;         ///< numbers of steps and evaluations; 0 without an equilibrium
 };
 
 /// Simulates the free vibration of a cable after the sudden removal of a static force at t = 0.
-/// @param cable       `CableElements`, or a type with its members
-/// @param force       removed force (N), downward positive
+/// @param cable       `CableElements`, or an object of a type with the same members
+/// @param force       removed force (N) at the absorber's place, downward positive
 /// @param duration    duration (s), > 0; the record ends at the last whole multiple of the interval
 /// @param interval    time (s) between the record's instants, > 0
 /// @param tolerances  tolerances of the local error per step, and the limit of steps per interval
 /// @param at_each     called before each instant of the record; may throw to stop the simulation
-/// @throws InvalidParameter outside these ranges, and for 2⁵³ instants or more
+/// @throws InvalidParameter outside these ranges, and for more than 9·10¹⁵ intervals
 template <class Cable>
 LoadRemoval load_removal(const Cable& cable, double force, double duration, double interval,
                          const Tolerances& tolerances = {},

@@ -10,7 +10,7 @@
 
 namespace holdfast {
 
-/// A device on a span that consists of an absorber with its drive and its computer.
+/// An actively controlled absorber on a span, with its drive and its control computer.
 struct ActiveAbsorber {
   Absorber<double> absorber;   ///< absorber with its clamp
   Sampling<double> sampling;   ///< sampling period τ (s) and processing delay δ (s)
@@ -18,8 +18,8 @@ struct ActiveAbsorber {
   LoopHardware hardware = {};  ///< measurement filter and drive
 };
 
-/// The impedance Z(s) (N s/m) of the device, force over velocity, by `absorber_impedance`.
-/// @param device  absorber with its computer (unchecked)
+/// The impedance Z(s) (N s/m), force over velocity of the conductor, from `absorber_impedance`.
+/// @param device  absorber with its drive and computer (unchecked)
 /// @param s       complex frequency (1/s), ≠ 0
 inline std::complex<double> impedance(const ActiveAbsorber& device, const std::complex<double>& s) {
   return absorber_impedance(device.absorber, device.sampling, device.gains, device.hardware, s);

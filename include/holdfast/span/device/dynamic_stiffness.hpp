@@ -8,13 +8,13 @@
 
 namespace holdfast {
 
-/// The dynamic stiffness of a device, K = s Z with the impedance Z(s), and its derivative by s.
+/// The dynamic stiffness K = s Z of a device, force over displacement, and its derivative dK/ds.
 struct DynamicStiffness {
   std::complex<double> value;  ///< dynamic stiffness K (N/m)
   std::complex<double> slope;  ///< derivative dK/ds (N s/m)
 };
 
-/// The dynamic stiffness K of a lumped device and dK/ds, at the complex frequency s (1/s).
+/// The dynamic stiffness K(s) of a lumped device and dK/ds at the complex frequency s (1/s).
 inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
                                           const std::complex<double>& s) {
   DynamicStiffness sum{device.clamp_mass * s * s, 2.0 * device.clamp_mass * s};
@@ -36,7 +36,7 @@ inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
   return sum;
 }
 
-/// The nonzero eigenvalues (1/s) of a device whose clamp is held fixed. A conjugate pair is listed
+/// The nonzero eigenvalues s (1/s) of a lumped device for a fixed clamp. A conjugate pair is listed
 /// once, by its eigenvalue with Im s > 0.
 inline std::vector<std::complex<double>> own_motions(const LumpedDevice& device) {
   std::vector<std::complex<double>> motions;

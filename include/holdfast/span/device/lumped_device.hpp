@@ -11,18 +11,18 @@
 
 namespace holdfast {
 
-/// A branch of a device: a dashpot, a spring and an inerter in parallel, which connect the
+/// A branch of a device on a conductor. A dashpot, a spring and an inerter in parallel connect the
 /// conductor to a mass or to the ground.
 struct DeviceBranch {
   double damping = 0.0;    ///< dashpot coefficient c (N s/m), ≥ 0
   double stiffness = 0.0;  ///< spring stiffness k (N/m), of either sign
-  double inertance = 0.0;  ///< inertance b (kg), ≥ 0: force over relative acceleration of the ends
+  double inertance = 0.0;  ///< inertance b (kg), ≥ 0: inerter force over relative acceleration
   /// The mass m (kg), > 0, to which the branch connects the conductor; infinity for the ground.
   double mass = std::numeric_limits<double>::infinity();
 };
 
 /// The impedance Z(s) of a branch, force over velocity of the conductor (N s/m):
-/// 1/Z = 1/(b s + c + k/s) + 1/(m s).
+/// 1/Z = 1/(b s + c + k/s) + 1/(m s), with the symbols of the members of `DeviceBranch`.
 /// @param branch  branch of a device (unchecked)
 /// @param s       complex frequency (1/s), ≠ 0
 inline std::complex<double> impedance(const DeviceBranch& branch, const std::complex<double>& s) {
@@ -32,8 +32,8 @@ inline std::complex<double> impedance(const DeviceBranch& branch, const std::com
   return link * inertia / (link + inertia);
 }
 
-/// A device of masses, springs, dashpots and inerters that is clamped on a conductor. Its
-/// impedance, the sum over the clamp and all branches, is
+/// A device of masses, springs, dashpots and inerters that is clamped on a conductor. Its impedance
+/// is a sum over clamp and branches, with the members c, k, b and m of `DeviceBranch`:
 ///
 ///     Z(s) = M_c s + Σ 1/(1/(b s + c + k/s) + 1/(m s))
 struct LumpedDevice {
@@ -50,7 +50,7 @@ inline std::complex<double> impedance(const LumpedDevice& device, const std::com
   return sum;
 }
 
-/// Rejects a device outside the ranges stated at its members.
+/// Checks that every member of the device and its branches is inside its stated range.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const LumpedDevice& device) {
   require_non_negative("clamp mass of a device", device.clamp_mass, "kg");
@@ -62,29 +62,29 @@ inline void validate(const LumpedDevice& device) {
   }
 }
 
-/// A branch with a mass on a spring and a dashpot, from the natural frequency and the damping ratio
-/// that the mass has while the clamp is fixed. The arguments are not checked.
+/// A branch of a mass on a spring and a dashpot, without inerter. Its frequency and damping ratio
+/// are given for a fixed clamp. The arguments are not checked.
 /// @param mass           mass m (kg), > 0
-/// @param frequency      natural frequency f (Hz), > 0
-/// @param damping_ratio  damping ratio ζ ≥ 0
+/// @param frequency      undamped natural frequency f (Hz), > 0
+/// @param damping_ratio  damping ratio ζ ≥ 0, fraction of critical damping
 inline DeviceBranch tuned_branch(double mass, double frequency, double damping_ratio) {
   const double omega = 2.0 * pi<double> * frequency;
   return {2.0 * damping_ratio * mass * omega, mass * omega * omega, 0.0, mass};
 }
 
-/// The data of a Stockbridge damper: two weights on a messenger wire, with two resonances while the
-/// clamp is fixed.
+/// The data of a Stockbridge damper, that is, two weights on a messenger wire. Its two resonances
+/// are given for a clamp that is held fixed.
 struct StockbridgeData {
   double mass;                           ///< mass of both weights together (kg), > 0
   std::array<double, 2> frequencies;     ///< resonances (Hz), > 0, the lower one first
   std::array<double, 2> damping_ratios;  ///< damping ratios ζ of these resonances, > 0
-  double mass_share = 0.5;               ///< fraction of `mass` in the lower resonance, 0 … 1
+  double mass_share = 0.5;               ///< fraction of `mass` for the lower resonance, 0 … 1
   double clamp_mass = 0.0;               ///< mass of the clamp (kg), ≥ 0
 };
 
-/// A Stockbridge damper as a lumped device with two parallel branches, one for each resonance. A
-/// branch is a mass on a spring and a dashpot; both masses together are the mass of the weights.
-/// @throws InvalidParameter where data are not admissible; the frequencies' order is not checked
+/// A Stockbridge damper as a lumped device. Each resonance is a branch with a mass on a spring and
+/// a dashpot. The masses of the branches add up to `data.mass`; a branch of mass 0 is left out.
+/// @throws InvalidParameter where data are out of range; the order of frequencies is not checked
 inline LumpedDevice stockbridge(const StockbridgeData& data) {
   require_positive("mass of both weights of a Stockbridge damper", data.mass, "kg");
   require_within("mass share of a Stockbridge damper's lower resonance", data.mass_share, "", 0, 1);

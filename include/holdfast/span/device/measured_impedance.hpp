@@ -13,18 +13,18 @@ namespace holdfast {
 
 /// A device's impedance measured on a shaker: force over clamp velocity at ascending frequencies.
 ///
-/// Real and imaginary part are interpolated linearly between rows. Re Z ≥ 0 (to round-off) in every
-/// row, so that no interpolated value supplies power. Outside the measured range Z is NaN.
+/// Real and imaginary part of the impedance Z are interpolated linearly between rows. Each row must
+/// have Re Z ≥ 0 up to round-off, as for a passive device. Outside the measured range Z is NaN.
 class MeasuredImpedance {
  public:
-  /// One row of the measurement: a frequency and the impedance at this frequency.
+  /// One row of the measured table: a frequency and the impedance at this frequency.
   struct Row {
     double angular_frequency;        ///< angular frequency ω (rad/s), > 0
     std::complex<double> impedance;  ///< impedance Z (N s/m), Re Z ≥ −10⁻⁹ |Z|
   };
 
-  /// @param rows  2 … 10⁷ rows with ascending ω
-  /// @throws InvalidParameter for another number of rows, or values outside the ranges of `Row`
+  /// @param rows  2 … 10⁷ rows with strictly ascending ω
+  /// @throws InvalidParameter for another number or order of rows, or a value out of range
   explicit MeasuredImpedance(std::vector<Row> rows) : rows_(std::move(rows)) {
     require_within("number of rows of a measured impedance", static_cast<double>(rows_.size()), "",
                    2, 1e7);
@@ -41,7 +41,7 @@ class MeasuredImpedance {
     }
   }
 
-  /// The impedance Z at ω (rad/s); NaN outside the measured range.
+  /// The impedance Z (N s/m) at an angular frequency ω (rad/s); NaN outside the measured range.
   std::complex<double> at(double angular_frequency) const {
     const auto above = std::lower_bound(
         rows_.begin(), rows_.end(), angular_frequency,
@@ -64,9 +64,9 @@ class MeasuredImpedance {
   std::vector<Row> rows_;
 };
 
-/// The impedance Z (N s/m) of a measured device at the complex frequency s (1/s): the value at ω =
-/// |s|. It is exact for s = iω and approximate for modes that decay by a few per cent per cycle.
-/// @return Z, conjugate where Im s < 0; NaN outside the measured range
+/// The impedance Z(s) (N s/m) of a measured device, approximated by the measured value at ω = |s|.
+/// This is exact for s = iω and acceptable for modes that decay by a few per cent per cycle.
+/// @return Z, for Im s < 0 the complex conjugate of the measured value; NaN if |s| is out of range
 inline std::complex<double> impedance(const MeasuredImpedance& device,
                                       const std::complex<double>& s) {
   const std::complex<double> z = device.at(std::abs(s));

@@ -6,26 +6,26 @@
 
 namespace holdfast {
 
-/// A conductor at a clamp, as a beam under tension whose wires bend individually (Poffenberger &
-/// Swart, IEEE Trans. PAS 84 (1965)). At the distance x from the clamp the deflection is
-/// y = θ (x − (1 − e^{−px})/p) with p = √(T/EI), where θ is the slope far from the clamp.
+/// A conductor at a clamp, modelled as a beam under tension whose wires bend independently of each
+/// other (Poffenberger & Swart, IEEE Trans. PAS 84 (1965)). At the distance x from the clamp the
+/// deflection is y = θ (x − (1 − e^{−px})/p) with p = √(T/EI); θ is the slope far from the clamp.
 ///
 /// Stress and strain are amplitudes, zero to peak, in an outer wire at the clamp.
 struct ClampBending {
   double tension;              ///< tension T (N), > 0
-  double bending_stiffness;    ///< least bending stiffness EI (N m²), the sum over all wires, > 0
+  double bending_stiffness;    ///< minimum bending stiffness EI (N m²), sum over all wires, > 0
   double outer_wire_diameter;  ///< diameter d_a (m) of an outer wire, > 0
   double outer_wire_modulus;   ///< Young's modulus E_a (Pa) of an outer wire, > 0
 
   /// Decay constant p = √(T/EI) (1/m) of the bending near the clamp.
   double decay() const { return std::sqrt(tension / bending_stiffness); }
 
-  /// Strain amplitude ε = ½ d_a p θ for a slope amplitude θ (rad) far from the clamp.
+  /// The strain amplitude ε = ½ d_a p θ for a slope amplitude θ (rad) far from the clamp.
   double strain_of_angle(double angle) const { return 0.5 * outer_wire_diameter * decay() * angle; }
 
   /// The stress amplitude σ = E_a d_a p² Y_b/(4 (e^{−ps} − 1 + ps)) (Pa).
   /// @param bending_amplitude  displacement Y_b (m) at `place` relative to the clamp, peak to peak
-  /// @param place              distance s (m) from the last contact of conductor and clamp
+  /// @param place              distance s (m) from the last point of contact with the clamp, > 0
   double stress_of_bending_amplitude(double bending_amplitude, double place = 0.089) const {
     const double p = decay();
     return outer_wire_modulus * outer_wire_diameter * p * p * bending_amplitude /
@@ -33,7 +33,7 @@ struct ClampBending {
   }
 };
 
-/// Rejects data outside the ranges stated at their members.
+/// Checks that every member is inside its stated range.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const ClampBending& bending) {
   require_positive("tension", bending.tension, "N");

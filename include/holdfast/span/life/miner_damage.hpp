@@ -7,15 +7,15 @@
 
 namespace holdfast {
 
-/// The hours per year during which the wind has a certain speed.
+/// A wind speed and the hours per year during which the wind has about this speed.
 struct WindHours {
   double speed;  ///< wind speed U (m/s), > 0
   double hours;  ///< hours per year, ≥ 0
 };
 
-/// The hours per year of each wind speed U, from the Weibull distribution P(U > u) = e^{−(u/A)^k}.
-/// The range from `lowest` to `highest` is divided into equal steps. An entry has the middle speed
-/// of one step and the hours with speeds in this step; a year has 8766 hours.
+/// Table of the hours per year at each wind speed U, by the Weibull distribution P(U > u) =
+/// e^{−(u/A)^k}. The range from `lowest` to `highest` is divided into equal steps. Each entry has
+/// the middle speed of a step and the hours with speeds in this step. A year has 8766 hours.
 /// @param scale    scale A (m/s), > 0
 /// @param shape    shape exponent k, > 0
 /// @param lowest   lowest wind speed (m/s), ≥ 0
@@ -41,15 +41,15 @@ inline std::vector<WindHours> weibull_hours(double scale, double shape, double l
   return rows;
 }
 
-/// A stress amplitude of a conductor and the number of its cycles per year.
+/// A stress amplitude in a conductor and the number of stress cycles per year at this amplitude.
 struct StressCycles {
-  double stress;  ///< stress σ (Pa), zero to peak
+  double stress;  ///< stress amplitude σ (Pa), zero to peak
   double cycles;  ///< number n of cycles per year; values ≤ 0 count as 0
 };
 
-/// The damage per year by Miner's rule: Σ n/N(σ) over the entries of `year`, with the fatigue line
-/// N(σ). The inverse of the damage is the number of years to failure, the first broken wire.
-/// @tparam LifeLine  type with `cycles(stress)`, the number N of cycles to failure at σ (Pa)
+/// The fatigue damage per year by Miner's rule: Σ n/N(σ) over the entries (σ, n) of `year`. The
+/// inverse of the damage is the number of years to failure, that is, until the first wire breaks.
+/// @tparam LifeLine  type of `line` with `cycles(stress)`: number N of cycles to failure at σ (Pa)
 template <class LifeLine>
 double miner_damage(const std::vector<StressCycles>& year, const LifeLine& line) {
   double damage = 0.0;

@@ -8,13 +8,13 @@
 
 namespace holdfast {
 
-/// The fatigue life of a conductor at its clamps by the safe border line of CIGRE Study Committee
-/// 22, Working Group 04 (Electra 63, 1979), which lies below all measured failures.
+/// The safe border line of CIGRE Study Committee 22, Working Group 04 (Electra 63, 1979): a lower
+/// bound on the fatigue life N (cycles) of a conductor at its clamps, below all measured failures.
 ///
 ///     σ = A N^{−α} up to N₀ cycles,  σ = B N^{−β} beyond     (σ in MPa, zero to peak)
 ///
-/// The stress jumps from A N₀^{−α} down to B N₀^{−β} at N₀. For a stress between these two values N
-/// is the smaller of (A/σ)^{1/α} and (B/σ)^{1/β}.
+/// At N₀ the stress σ jumps from A N₀^{−α} down to B N₀^{−β}. For a stress between these two values
+/// N is the smaller of (A/σ)^{1/α} and (B/σ)^{1/β}.
 struct SafeBorderLine {
   double steep_stress;     ///< factor A (MPa) of the steep branch
   double steep_exponent;   ///< exponent α of the steep branch
@@ -22,7 +22,7 @@ struct SafeBorderLine {
   double flat_exponent;    ///< exponent β of the flat branch
   double change_of_slope;  ///< number N₀ of cycles at which the flat branch begins
 
-  /// The number of cycles N that a stress σ (Pa) allows; infinity for σ = 0, NaN for σ < 0.
+  /// The fatigue life N (cycles) at a stress amplitude σ (Pa); infinity for σ = 0, NaN for σ < 0.
   double cycles(double stress) const {
     const double megapascal = stress / 1e6;
     if (!(megapascal > 0.0))
@@ -34,9 +34,9 @@ struct SafeBorderLine {
   }
 };
 
-/// The safe border line of conductors with several layers of aluminium.
+/// The safe border line of conductors with several layers of aluminium wires.
 inline constexpr SafeBorderLine several_layers{450.0, 0.20, 263.0, 0.17, 1.56e7};
-/// The safe border line of conductors with a single layer of aluminium.
+/// The safe border line of conductors with a single layer of aluminium wires.
 inline constexpr SafeBorderLine single_layer{730.0, 0.20, 430.0, 0.17, 2.0e7};
 
 }  // namespace holdfast

@@ -6,31 +6,31 @@
 
 namespace holdfast {
 
-/// Position of the balanced amplitude relative to the amplitude range of the wind power law.
+/// Position of the `BalancedAmplitude` relative to the amplitude range of the wind power law.
 enum class BalanceRange {
-  within,  ///< within the range of the law
-  below,   ///< below the smallest amplitude of the law, which is returned
-  above    ///< above the largest amplitude of the law, which is returned
+  within,  ///< inside the range: the returned amplitude is the balanced amplitude
+  below,   ///< below the range: the smallest amplitude of the law is returned as an upper bound
+  above    ///< above the range: the largest amplitude of the law is returned as a lower bound
 };
 
-/// The amplitude at which the power of the wind equals the power losses of the span.
+/// The balanced amplitude: wind power and power loss of the span are equal at this amplitude.
 struct BalancedAmplitude {
   double amplitude;    ///< amplitude y (m), zero to peak, at the antinodes
   BalanceRange range;  ///< whether y is the balanced amplitude or only a bound
 };
 
-/// The amplitude y of aeolian vibration at one frequency, where wind power and losses p are equal:
+/// The amplitude y of aeolian vibration at which the wind power equals the power loss p:
 ///
 ///     f³ d⁴ F(y/d) = p(y)
 ///
-/// The largest solution is returned. At larger amplitudes the losses exceed the wind's power, so
-/// that this vibration is stable. A grid of 61 amplitudes brackets y, and bisection finds it to a
-/// relative 10⁻¹². Two solutions between neighbouring points of the grid are missed.
-/// @param law        wind power law with the function F and its range
-/// @param frequency  frequency f (Hz), > 0
-/// @param diameter   conductor's diameter d (m), > 0
-/// @param loss       function p of the amplitude (m): the total loss per length (W/m), mean over
-///                   the span. If p is NaN at the largest amplitude of the law, the result is NaN
+/// The largest solution y is returned. This vibration is stable, because the loss exceeds the wind
+/// power at larger amplitudes. y is bracketed on a grid of 61 amplitudes and refined by bisection
+/// to a relative error of 10⁻¹². Two solutions between neighbouring grid points are missed.
+/// @param law        wind power law; defines F and the range of y/d
+/// @param frequency  frequency f (Hz) of the vibration, > 0
+/// @param diameter   diameter d (m) of the conductor, > 0
+/// @param loss       function p(y) of the amplitude y (m): power loss per length (W/m), averaged
+///                   over the span. If p is NaN at the largest y of the law, the result is NaN
 /// @throws whatever `loss` throws
 template <class Loss>
 BalancedAmplitude balanced_amplitude(const WindPowerLaw& law, double frequency, double diameter,

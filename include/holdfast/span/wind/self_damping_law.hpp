@@ -9,7 +9,7 @@
 
 namespace holdfast {
 
-/// The data of a stranded conductor on which its self-damping depends.
+/// A stranded conductor: the data on which its self-damping depends.
 struct StrandedConductor {
   double mass_per_length;  ///< mass per length μ (kg/m), > 0
   double diameter;         ///< diameter d (m), > 0
@@ -17,7 +17,7 @@ struct StrandedConductor {
   double tension;          ///< tension T (N), > 0, below RTS
 };
 
-/// Rejects data outside the ranges stated at their members.
+/// Checks that every member is inside its stated range.
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const StrandedConductor& conductor) {
   require_positive("mass per length", conductor.mass_per_length, "kg/m");
@@ -32,14 +32,15 @@ inline void validate(const StrandedConductor& conductor) {
 ///
 ///     P_self = k (y/d)^l f^m/T^n  (mW/m),   k = d/√(RTS μ)
 ///
-/// RTS and T are in kN, μ in kg/m, f in Hz and, in k, d in mm; y is zero to peak at the antinodes.
+/// f (Hz) is the frequency and y the amplitude, zero to peak, at the antinodes. The other symbols
+/// are those of `StrandedConductor`: RTS and T in kN, μ in kg/m, and d in the formula of k in mm.
 struct SelfDampingLaw {
   std::string_view name;      ///< name of the law's authors
   double amplitude_exponent;  ///< exponent l of the relative amplitude y/d
   double frequency_exponent;  ///< exponent m of the frequency f
   double tension_exponent;    ///< exponent n of the tension T
 
-  /// The power P_self per length (W/m) at a frequency f (Hz) and an antinode amplitude y (m).
+  /// The lost power P_self per length (W/m) at a frequency f (Hz) and an antinode amplitude y (m).
   double power(const StrandedConductor& conductor, double frequency, double amplitude) const {
     constexpr double milli = 1e-3;
     const double strength = milli * conductor.rated_strength, tension = milli * conductor.tension;
@@ -50,16 +51,16 @@ struct SelfDampingLaw {
 };
 
 /// Self-damping laws by three groups of authors, collected by CIGRE Study Committee 22, Working
-/// Group 11. They extrapolate different measurements; their powers differ threefold at 20 Hz.
+/// Group 11. They extrapolate different measurements and differ by a factor of three at 20 Hz.
 inline constexpr std::array<SelfDampingLaw, 3> self_damping_laws = {
     SelfDampingLaw{"noiseux", 2.44, 5.63, 2.76}, SelfDampingLaw{"kraus_hagedorn", 2.47, 5.38, 2.80},
     SelfDampingLaw{"seppa", 2.5, 5.75, 2.8}};
 
-/// The mean power per length ½ ζ μ ω³ y² (W/m) lost by a vibration in a mode of damping ratio ζ.
+/// The mean power loss per length ½ ζ μ ω³ y² (W/m) of a vibration mode with damping ratio ζ.
 /// @param mass_per_length    mass per length μ (kg/m)
-/// @param damping_ratio      damping ratio ζ
+/// @param damping_ratio      damping ratio ζ, as a fraction of critical damping
 /// @param angular_frequency  angular frequency ω (rad/s)
-/// @param amplitude          amplitude y (m) at the antinodes
+/// @param amplitude          amplitude y (m), zero to peak, at the antinodes
 inline double damped_power(double mass_per_length, double damping_ratio, double angular_frequency,
                            double amplitude) {
   return 0.5 * damping_ratio * mass_per_length * angular_frequency * angular_frequency *

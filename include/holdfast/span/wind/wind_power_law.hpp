@@ -9,8 +9,8 @@
 
 namespace holdfast {
 
-/// The power per length (W/m) that a steady wind supplies to a cylinder, measured in a wind tunnel.
-/// The cylinder vibrates across the wind at the frequency of the vortex shedding:
+/// A law, from wind-tunnel tests, of the power per length (W/m) that a steady wind supplies to a
+/// cylinder. The cylinder vibrates across the wind at the frequency of the vortex shedding:
 ///
 ///     P_wind = f³ d⁴ F(y/d),   F(x) = x Σ a_k x^k,   k = 0 … 7
 ///
@@ -21,7 +21,7 @@ struct WindPowerLaw {
   double lowest;                       ///< smallest relative amplitude x = y/d of the fit
   double highest;                      ///< largest relative amplitude x = y/d of the fit
 
-  /// The value of F (W s³/m⁵) at x = y/d; NaN outside the range of the fit.
+  /// The function F (W s³/m⁵) at the relative amplitude x = y/d; NaN outside the range of the fit.
   double at(double x) const {
     if (!(x >= lowest && x <= highest)) return std::nan("");
     double sum = 0.0;
@@ -30,7 +30,7 @@ struct WindPowerLaw {
   }
 
   /// The power P_wind (W/m) at a frequency f (Hz), diameter d (m) and amplitude y (m). NaN where
-  /// y/d is outside the range of the fit by more than round-off.
+  /// y/d is outside the range of the fit by more than round-off (relative 10⁻¹⁴).
   double power(double frequency, double diameter, double amplitude) const {
     double x = amplitude / diameter;
     for (const double end : {lowest, highest})
