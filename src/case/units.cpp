@@ -101,7 +101,7 @@ constexpr std::array<std::pair<const char*, const char*>, 9> writings = {{
 
 std::string in_table_writing(std::string_view text) {
   std::string unit(trimmed(text));
-  for (const auto& [from, to] : writings) unit = replaced(std::move(unit), from, to);
+  for (const auto& [from, to] : writings) unit = replaced(unit, from, to);
   return unit;
 }
 

@@ -79,7 +79,7 @@ Attributes column_attributes(const CellColumn& column) {
   return attributes;
 }
 
-std::string cf_name(std::string name) { return replaced(std::move(name), ".", "_"); }
+std::string cf_name(const std::string& name) { return replaced(name, ".", "_"); }
 
 std::string udunits(const std::string& unit) {
   std::string text;

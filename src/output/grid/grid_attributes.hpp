@@ -24,7 +24,7 @@ Attributes axis_attributes(const Column& column);
 Attributes column_attributes(const CellColumn& column);
 
 /// A name for CF files (CF 2.3): every dot becomes an underscore.
-std::string cf_name(std::string name);
+std::string cf_name(const std::string& name);
 
 /// A unit of the program's columns, `N.s/m`, in the notation of UDUNITS: `N s m-1`; "1" for none.
 std::string udunits(const std::string& unit);

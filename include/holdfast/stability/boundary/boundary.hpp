@@ -83,8 +83,7 @@ class CurveTracer {
 
   Scalar width() const { return Scalar(range_.upper) - Scalar(range_.lower); }
 
-  /// The distance of a point from the chord between `start` and `end`. P is divided by the range's
-  /// width. D is divided by the sum of |D| at both ends, as a plot's range of D is unknown here.
+  /// The distance of a point from a chord: P in units of the range's width, D of Σ |D| at its ends.
   Scalar distance(const PdGains<Scalar>& point, const PdGains<Scalar>& start,
                   const PdGains<Scalar>& end) const {
     const Scalar size = std::abs(start.differential) + std::abs(end.differential);
@@ -99,7 +98,6 @@ class CurveTracer {
     return std::abs(p(end) * d(point) - d(end) * p(point)) / length;
   }
 
-  /// Appends a place if P is in range, D finite and the angle larger than at the last point.
   void append(const Place& place, Points& points) const {
     if (!std::isfinite(place.gains.differential) || !in_range(place)) return;
     const Scalar angle = curve_.angle(place.parameter);
@@ -148,16 +146,16 @@ std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>&
 
 }  // namespace detail
 
-/// Points of the stability boundary in the plane of P and D over a range of P: first the two ends
-/// of each straight line, then the curve of root pairs by ascending angle. Points of the curve are
-/// denser where it bends. The curve has points exactly at both ends of the range.
+/// Points of the stability boundary in the plane of P and D, for a range of P.
 ///
-/// The sampled loop (degree 5) has lines with a root λ = +1 or −1 and a curve of pairs e^{±iθ}. The
-/// continuous loop (degree 4) has a line s = 0 and a curve of pairs ±iω. A line is absent if no
-/// gain moves its root. For two masses the lines λ = +1 and s = 0 are absent, since a constant
-/// control force between the masses does not move the conductor.
+/// The sampled loop (degree 5) has two straight lines, with the root λ = +1 or −1, and a curve with
+/// root pairs e^{±iθ}. The continuous loop (degree 4) has a line with the root s = 0 and a curve
+/// with pairs ±iω. A line is absent if its root does not depend on the gains. For two masses the
+/// lines λ = +1 and s = 0 are absent: a constant force between them does not move the conductor.
 /// @param polynomial  `characteristic_polynomial` of the sampled or the continuous loop
 /// @param range       range of P (N/m), its ends included
+/// @return the two ends of each line, then the points of the curve by ascending angle; the latter
+///         are denser where the curve bends, and some have P exactly at the ends of the range
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
 template <class Scalar, int Degree>
 std::vector<BoundaryPoint<Scalar>> stability_boundary(

@@ -14,27 +14,27 @@
 
 namespace holdfast {
 
-/// Straight line of the stability boundary in the plane of the gains P and D. On it λ = +1 or −1 is
-/// a root of the sampled loop, or s = 0 of the continuous loop:
+/// Straight line of the stability boundary in the plane of the gains P and D. For gains on the line
+/// the sampled loop has the root λ = +1 or −1, or the continuous loop the root s = 0:
 ///
 ///     constant + P · proportional + D · differential = 0
 template <class Scalar>
 struct BoundaryLine {
   BoundaryCurve curve;  ///< kind of the line: `plus_one`, `minus_one` or `zero`
-  Scalar angle;         ///< θ of the root, 0 or π (rad); for the continuous loop ω = 0 (rad/s)
-  Scalar constant;      ///< characteristic polynomial at the root, without control (P = D = 0)
-  Scalar proportional;  ///< polynomial's derivative by P at the root, per N/m; 0: no effect
-  Scalar differential;  ///< polynomial's derivative by D at the root, per N s/m; 0: no effect
+  Scalar angle;         ///< θ (rad) of the root e^{iθ}, 0 or π; 0 for the root s = 0
+  Scalar constant;      ///< value of the characteristic polynomial at the root for P = D = 0
+  Scalar proportional;  ///< derivative of this value by P, per N/m; 0: P does not move the root
+  Scalar differential;  ///< derivative of this value by D, per N s/m; 0: D does not move the root
 
   /// Whether P is constant along the line, that is, `differential` is 0.
   bool is_vertical() const { return differential == Scalar(0); }
 
-  /// The P (N/m) on the line at a given D (N s/m); not finite where `proportional` is 0.
+  /// The gain P (N/m) on the line at a given D (N s/m); not finite if `proportional` is 0.
   Scalar proportional_at(const Scalar& differential_gain) const {
     return -(constant + differential_gain * differential) / proportional;
   }
 
-  /// The D (N s/m) on the line at a given P (N/m); not finite where the line is vertical.
+  /// The gain D (N s/m) on the line at a given P (N/m); not finite if the line is vertical.
   Scalar differential_at(const Scalar& proportional_gain) const {
     return -(constant + proportional_gain * proportional) / differential;
   }
@@ -62,12 +62,12 @@ void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<
 
 }  // namespace detail
 
-/// All curves in the plane of P and D on which a characteristic root is on the stability boundary:
-/// the curve of root pairs with parameter Y (`RootPairCurve`), and at most two straight lines.
+/// All curves of the stability boundary in the plane of P and D: the curve of root pairs with the
+/// parameter Y (`RootPairCurve`), and at most two straight lines (`BoundaryLine`).
 ///
-/// In the sampled loop (degree 5) the polynomial's variable is w with λ = (1 + w)/(1 − w); roots
-/// e^{±iθ} have Y = tan²(θ/2)/unit². In the continuous loop (degree 4) the variable is s; roots ±iω
-/// have Y = ω²/unit²; unit is `RootPairCurve::unit()`. A line is absent if no gain moves its root.
+/// For the sampled loop (degree 5) the polynomial's variable is w with λ = (1 + w)/(1 − w); the
+/// pair e^{±iθ} has Y = tan²(θ/2)/unit². For the continuous loop (degree 4) it is s; the pair ±iω
+/// has Y = ω²/unit²; unit is `RootPairCurve::unit()`. A line is absent if no gain moves its root.
 template <class Scalar, int Degree>
 class BoundaryCurves {
  public:
@@ -83,12 +83,12 @@ class BoundaryCurves {
     if (sampled) add_line(polynomial, BoundaryCurve::minus_one, pi<Scalar>, Scalar(-2));
   }
 
-  /// The characteristic polynomial in the variable w or s, whose stable half-plane is Re < 0.
+  /// The characteristic polynomial in the variable w or s, in which stable roots have Re < 0.
   const HalfPlanePolynomial<Scalar, Degree>& polynomial() const { return polynomial_; }
 
   /// The curve of root pairs, with P and D as functions of its parameter Y.
   const RootPairCurve<Scalar>& pairs() const { return pairs_; }
-  /// The straight lines of the boundary, at most two: first λ = +1 (or s = 0), then λ = −1.
+  /// The straight lines of the boundary, at most two: first root λ = +1 (or s = 0), then λ = −1.
   const std::vector<BoundaryLine<Scalar>>& lines() const { return lines_; }
 
   /// The kind of the root pairs: `complex_pair`, or `imaginary_pair` in the continuous loop.
@@ -96,15 +96,15 @@ class BoundaryCurves {
     return sampled ? BoundaryCurve::complex_pair : BoundaryCurve::imaginary_pair;
   }
 
-  /// The gains P and D of the curve of root pairs at the parameter Y; not finite at a pole.
+  /// The gains on the curve of root pairs at Y = `square`; not finite at a pole of P(Y) or D(Y).
   PdGains<Scalar> gains(const Scalar& square) const { return pairs_.gains(square); }
 
-  /// The geometric mean of two positive parameters Y.
+  /// The geometric mean of two positive parameters Y, to divide the curve between them.
   static Scalar between(const Scalar& lower, const Scalar& upper) {
     return std::sqrt(lower) * std::sqrt(upper);
   }
 
-  /// The angle θ (rad) of the pair e^{±iθ} at Y, or ω (rad/s) of ±iω in the continuous loop.
+  /// The angle θ (rad) of the pair e^{±iθ} at Y = `square`; continuous loop: ω (rad/s) of ±iω.
   Scalar angle(const Scalar& square) const {
     const Scalar y = pairs_.root(square);
     return sampled ? Scalar(2) * std::atan(y) : y;
@@ -121,9 +121,8 @@ class BoundaryCurves {
     return largest;
   }
 
-  /// Adds the line of gains for which x (λ − 1 or s) is a root. A gain that does not move this root
-  /// gets the coefficient 0: its part of the polynomial at x is then round-off, below 1e−9 of the
-  /// part's largest coefficient (continuous loop: 1e−13, s in units of `root_bound`).
+  /// Adds the line of gains with the root x (λ − 1 or s). The value of a part of the polynomial is
+  /// round-off if below 1e−9 of its largest coefficient (s: 1e−13, in units of `root_bound`).
   void add_line(const AffinePolynomial<Scalar, Degree>& polynomial, BoundaryCurve curve,
                 const Scalar& angle, const Scalar& x) {
     const Scalar unit = sampled ? Scalar(1) : root_bound(polynomial.base);

@@ -19,10 +19,11 @@
 
 namespace holdfast {
 
-/// Double Neimark–Sacker point: gains at which two root pairs are on the stability boundary.
+/// Double Neimark–Sacker point: gains at which two root pairs are on the unit circle, or on the
+/// imaginary axis for the continuous loop. The curve of root pairs crosses itself at these gains.
 template <class Scalar>
 struct DoubleNeimarkSacker {
-  PdGains<Scalar> gains;  ///< gains P (N/m) and D (N s/m) at which both pairs are on the boundary
+  PdGains<Scalar> gains;  ///< gains P (N/m) and D (N s/m) of the point
   Scalar lower_square;    ///< parameter Y (`RootPairCurve`) of the pair with the smaller angle
   Scalar upper_square;    ///< parameter Y of the pair with the larger angle
 };
@@ -57,7 +58,6 @@ struct ParityPencil {
 
   Matrix<Scalar, 3> at(const Scalar& ratio) const { return ratio * even - odd; }
 
-  /// The polynomial det(ν E − O) in ν, of degree 3.
   Polynomial<Scalar, 3> determinant() const {
     const auto mixed = [this](int rows_of_even) {
       Matrix<Scalar, 3> matrix;
@@ -118,15 +118,15 @@ std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scal
 
 /// All points at which the curve of root pairs crosses itself: at most three.
 ///
-/// At the gains of such a point the loop has two pairs ±iy₁, ±iy₂ and, for degree 5, a real root.
-/// The polynomial is then (1 + νw) e(−w²) with e(Y) ∝ (Y − Y₁)(Y − Y₂), so that its odd part is ν
-/// times its even part. The coefficients of the even part are E (1, P, D)ᵀ, those of the odd part
-/// O (1, P, D)ᵀ, with 3 × 3 matrices E and O. Hence ν is an eigenvalue of their pencil:
+/// At such a point the roots w are ±iy₁, ±iy₂ and, in the sampled loop, a real root −1/ν. In the
+/// variables of `RootPairCurve` the polynomial is (1 + νw) e(−w²) with e(Y) ∝ (Y − Y₁)(Y − Y₂). Its
+/// odd part is thus ν times its even part. The even part has the coefficients E (1, P, D)ᵀ, the odd
+/// part O (1, P, D)ᵀ, with 3 × 3 matrices E and O. Hence ν is an eigenvalue of their pencil:
 ///
 ///     (ν E − O) (1, P, D)ᵀ = 0,   det(ν E − O) = 0
 ///
-/// All three eigenvalues are examined, so that no point is missed. Without damping two pairs are on
-/// the boundary at every point of the line D = 0; the result is then empty.
+/// All three eigenvalues are examined: no isolated point is missed. The undamped continuous loop
+/// has two imaginary pairs along whole segments of the line D = 0; the result is then empty.
 template <class Scalar>
 std::vector<DoubleNeimarkSacker<Scalar>> double_neimark_sacker_points(
     const RootPairCurve<Scalar>& curve) {
@@ -275,11 +275,11 @@ class FeatureFinder {
 
 }  // namespace detail
 
-/// The special points of the stability boundary in a window: tangents, cusps, crossings and ends.
+/// The special points of the stability boundary in a window of gains, see `BoundaryFeatureKind`.
 ///
-/// All roots of certain polynomials are computed, so that no point is missed. Their degree is six
-/// for tangents and cusps, four for crossings of the curve of root pairs with a line, and three for
-/// crossings of this curve with itself (`double_neimark_sacker_points`).
+/// The points are roots of polynomials of degree six (tangents and cusps), four (crossings of the
+/// curve of root pairs with a line) or three (crossings of this curve with itself, see
+/// `double_neimark_sacker_points`). All roots are computed: no point is missed.
 /// @param polynomial  `characteristic_polynomial` of the sampled or the continuous loop
 /// @param window      window of P (N/m) and D (N s/m), its edges included
 /// @throws InvalidParameter unless both ranges of the window are finite with lower < upper

@@ -6,7 +6,8 @@
 
 namespace holdfast {
 
-/// Kind of a curve of the stability boundary, by the characteristic root that is on this boundary.
+/// Kind of a curve of the stability boundary in the plane of P and D. For gains on this curve the
+/// loop has the stated characteristic root.
 enum class BoundaryCurve {
   plus_one,        ///< sampled loop: real root λ = +1 (divergence)
   minus_one,       ///< sampled loop: real root λ = −1 (motion alternating from sample to sample)
@@ -23,13 +24,11 @@ enum class FreeGain {
 
 namespace detail {
 
-/// The value of the gain that varies, P or D.
 template <class Scalar>
 const Scalar& gain_of(const PdGains<Scalar>& gains, FreeGain free) {
   return free == FreeGain::differential ? gains.differential : gains.proportional;
 }
 
-/// The gains with the varying gain replaced by a given value.
 template <class Scalar>
 PdGains<Scalar> with_gain(PdGains<Scalar> gains, FreeGain free, const Scalar& value) {
   (free == FreeGain::differential ? gains.differential : gains.proportional) = value;
@@ -50,7 +49,7 @@ void require_held(const PdGains<Scalar>& gains, FreeGain free) {
 template <class Scalar>
 struct BoundaryPoint {
   BoundaryCurve curve;  ///< kind of the boundary curve on which the point lies
-  Scalar angle;         ///< θ (rad), 0 … π, of e^{±iθ}; in the continuous loop ω (rad/s)
+  Scalar angle;  ///< θ (rad), 0 … π, of the root e^{±iθ}; continuous loop: ω (rad/s) of ±iω
   PdGains<Scalar> gains;  ///< P (N/m), finite; D (N s/m), −∞ and ∞ at the ends of a vertical line
 };
 
@@ -73,7 +72,7 @@ struct GainWindow {
   /// The area of the window in the plane of P and D (N²s/m²).
   double area() const { return width() * height(); }
 
-  /// Whether gains are in the window or on its edges, up to 10⁻¹² of its width and height.
+  /// Whether gains are in the window or on its edges, with a tolerance of 10⁻¹² of its size.
   template <class Scalar>
   bool contains(const PdGains<Scalar>& gains) const {
     const Scalar p_slack(1e-12 * width()), d_slack(1e-12 * height());
@@ -100,22 +99,21 @@ enum class BoundaryFeatureKind {
   end,  ///< end of the curve of root pairs, where a pair becomes a double root λ = ±1 or s = 0
 };
 
-/// A root or root pair on the stability boundary: its kind and its angle.
+/// A root or root pair on the unit circle (continuous loop: on the imaginary axis).
 template <class Scalar>
 struct BoundaryRoot {
-  BoundaryCurve curve;  ///< kind of the boundary curve on which the root lies
-  Scalar angle;         ///< θ (rad), 0 … π, of e^{±iθ}; in the continuous loop ω (rad/s)
+  BoundaryCurve curve;  ///< kind of the root and of the boundary curve that belongs to it
+  Scalar angle;  ///< θ (rad), 0 … π, of the root e^{±iθ}; continuous loop: ω (rad/s) of ±iω
 };
 
 /// Special point of the stability boundary; at tangents and cusps `first` equals `second`.
 template <class Scalar>
 struct BoundaryFeature {
-  BoundaryFeatureKind kind;  ///< kind of the special point
-  BoundaryRoot<Scalar>
-      first;  ///< root pair (of two pairs that of smaller angle); λ = 1 if both are real
-  BoundaryRoot<Scalar> second;  ///< real root, or pair of larger angle; λ = −1 if both are real
+  BoundaryFeatureKind kind;     ///< kind of the special point
+  BoundaryRoot<Scalar> first;   ///< pair, of two the one of smaller angle; λ = 1 of two real roots
+  BoundaryRoot<Scalar> second;  ///< real root, or pair of larger angle; λ = −1 of two real roots
   PdGains<Scalar> gains;        ///< P (N/m) and D (N s/m), finite
-  Scalar residual;  ///< round-off at the roots: |polynomial|/Σ |its terms|, the larger of the two
+  Scalar residual;  ///< error estimate: larger |p|/Σ |terms of p| of the polynomial p at both roots
 };
 
 }  // namespace holdfast

@@ -43,7 +43,6 @@ class CircleBoundary {
         range_);
   }
 
-  /// Appends the curve of root pairs within the range, by ascending angle.
   void append_curve(std::vector<BoundaryPoint<Scalar>>& points) const {
     const CurveTracer<Scalar, CircleBoundary> tracer(*this, range_, 14);
     std::vector<CurvePlace<Scalar>> places;
@@ -80,13 +79,15 @@ class CircleBoundary {
 
 }  // namespace detail
 
-/// Points of the stability boundary of a loop of any order, over a range of P: first the two ends
-/// of each straight line (root λ = 1 or −1), then the curve of root pairs e^{±iθ} by ascending
-/// angle. At λ = e^{iθ} the characteristic equation 1 − P G_z(λ) − D G_v(λ) = 0 consists of two
-/// real linear equations for P and D. Points of the curve are denser where it bends. Use
-/// `circle_crossings` for crossings of the boundary with a line of constant P or D.
-/// @param response  responses G_z and G_v of the loop
+/// Points of the stability boundary of a loop of any order in the plane of P and D.
+///
+/// The curve of root pairs e^{±iθ} follows from 1 − P G_z(e^{iθ}) − D G_v(e^{iθ}) = 0, two real
+/// linear equations for P and D. `circle_crossings` gives crossings with a line of constant P or D.
+/// @param response  transfer functions G_z and G_v from the command to the measured displacement
+///                  and velocity
 /// @param range     range of P (N/m), its ends included
+/// @return the two ends of each straight line (root λ = 1 or −1), then the points of the curve by
+///         ascending angle, denser where the curve bends
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
 template <class Scalar>
 std::vector<BoundaryPoint<Scalar>> stability_boundary(const ModalResponse<Scalar>& response,

@@ -109,19 +109,19 @@ std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossi
 
 }  // namespace detail
 
-/// All finite values of one gain, for a fixed value of the other, at which a loop of any order has
-/// a root on the unit circle; ascending.
+/// All values, finite and ascending, of one gain at which a loop of any order has a root on the
+/// unit circle, for a fixed value of the other gain.
 ///
 /// Let S be the n × n map of the loop with only the fixed gain, s its input column and h the output
 /// row that the free gain x multiplies (`LoopMap`). The number λ is a root if x g(λ) = 1 with g(λ)
-/// = h (λI − S)⁻¹ s. For a λ on the unit circle, x is real if g(λ) = g(1/λ). Each such λ is an
+/// = h (λI − S)⁻¹ s. At a root on the unit circle g is real, hence g(λ) = g(1/λ). Each such λ is an
 /// eigenvalue, with the eigenvector (y₁, y₂, w), of a matrix pencil of size 2n + 1:
 ///
 ///     λ y₁ = S y₁ + s w,   y₂ = λ (S y₂ + s w),   h (y₁ − y₂) = 0
 ///
 /// No crossing is missed. Eigenvalues near the circle are included, since round-off ε moves a
-/// double eigenvalue off the circle by about √ε. The result may therefore have values without a
-/// root on the circle; `stable_gains` is not affected. Cost: about 10 (2n + 1)³ multiply-adds.
+/// double eigenvalue off the circle by about √ε. Some returned gains may therefore have no root on
+/// the circle; `stable_gains` stays correct. Cost: about 10 (2n + 1)³ multiply-adds.
 /// @param map    the loop
 /// @param free   the gain that varies
 /// @param gains  the fixed gain, finite (unchecked); the value of the free gain is not used
@@ -152,9 +152,9 @@ std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain 
   return crossings;
 }
 
-/// The open intervals of one gain, for a fixed value of the other, in which a loop is stable.
-/// The crossings divide the gains into intervals. One gain in each interval is tested by the
-/// spectral radius. Adjacent stable intervals are joined if the loop is stable at their common end.
+/// The open intervals, ascending, of one gain (N/m or N s/m) in which the loop is stable; the other
+/// gain is fixed. `circle_crossings` divides the axis into intervals; the spectral radius is tested
+/// once in each. Adjacent stable intervals are joined if the loop is stable at their common end.
 /// @param map    the loop, of any order
 /// @param free   the gain that varies
 /// @param gains  the fixed gain; the value of the free gain is not used

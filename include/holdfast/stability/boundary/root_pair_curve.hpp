@@ -11,21 +11,21 @@
 
 namespace holdfast {
 
-/// End of an arc of the `RootPairCurve`: its parameter Y, and the values there of n and Δ in P(Y) =
-/// n/Δ. At Y = 0 (∞) these are the coefficients of the lowest (highest) power of Y in n or Δ.
+/// End of a `MonotoneArc`: its parameter Y and the values of n and Δ at this Y, with P(Y) = n/Δ of
+/// `RootPairCurve`. For Y = 0 (∞): their coefficients of the lowest (highest) power of Y.
 template <class Scalar>
 struct ArcEnd {
   Scalar square;     ///< parameter Y, 0 … ∞
-  Scalar numerator;  ///< numerator n of P; n/|Y − pole| at a pole of D where P is finite
-  Scalar denominator;  ///< denominator Δ of P; Δ/|Y − pole| at a pole of D alone; 0 at a pole of P
+  Scalar numerator;  ///< numerator n of P; n/|Y − Y_end| at a pole of D at which P is finite
+  Scalar denominator;  ///< denominator Δ of P, 0 at a pole of P; Δ/|Y − Y_end| if only D has a pole
 
-  /// The residual n − P Δ for a given P (N/m). It changes sign along an arc on which P occurs.
+  /// The residual n − P Δ for a given P (N/m). P is on an arc if the signs at its ends differ.
   Scalar residual(const Scalar& proportional_gain) const {
     return numerator - proportional_gain * denominator;
   }
 };
 
-/// Arc: a part of the curve of root pairs on which P is monotone and finite.
+/// Arc: a part of the `RootPairCurve` on which P is finite and a monotone function of Y.
 template <class Scalar>
 struct MonotoneArc {
   ArcEnd<Scalar> start;  ///< end at the lower Y ≥ 0
@@ -37,7 +37,7 @@ struct MonotoneArc {
            (end.residual(proportional_gain) < Scalar(0));
   }
 
-  /// A parameter Y inside the arc: the geometric mean of its ends, if they are finite and not 0.
+  /// A value of Y inside the arc: the geometric mean of the ends if both are finite and not 0.
   Scalar inside() const {
     if (std::isinf(end.square)) return start.square > 0 ? Scalar(2) * start.square : Scalar(1);
     if (!(start.square > Scalar(0))) return end.square / Scalar(2);
@@ -49,12 +49,13 @@ struct MonotoneArc {
 template <class Scalar>
 struct RowCrossing {
   Scalar differential;  ///< D of the crossing (N s/m)
-  Scalar uncertainty;   ///< bound of the round-off error of D (N s/m)
+  Scalar uncertainty;   ///< upper bound on the round-off error of D (N s/m)
 };
 
 /// Curve of the gains P and D at which the loop has a root pair w = ±iy on the imaginary axis. P
-/// and D are rational functions of the parameter Y = (y/unit)² with the scale `unit()` of w. In the
-/// sampled loop y = tan(θ/2) for roots λ = e^{±iθ}; in the continuous loop y = ω.
+/// and D are rational functions of the parameter Y = (y/unit)², with the scale `unit()` of w.
+/// Sampled loop: λ = (1 + w)/(1 − w) and y = tan(θ/2) for a pair e^{±iθ}. Continuous loop: w = s
+/// and y = ω (rad/s).
 ///
 /// The characteristic polynomial is b + P p + D d. Each polynomial a = b, p or d is divided into an
 /// even and an odd part, a(iy) = a_e(Y) + iy a_o(Y), with y in units of `unit()`. Then
@@ -78,13 +79,13 @@ class RootPairCurve {
         proportional_numerator_(cross(differential_, base_)),
         differential_numerator_(cross(base_, proportional_)) {}
 
-  /// The unit of w in y = unit · √Y: the geometric mean of the moduli of the roots without control.
+  /// The scale of w in y = unit · √Y: geometric mean of the moduli of the roots w for P = D = 0.
   const Scalar& unit() const { return unit_; }
 
-  /// The imaginary part y = unit · √Y of the root w at the parameter Y.
+  /// The imaginary part y = unit · √Y of the root w at Y = `square`.
   Scalar root(const Scalar& square) const { return unit_ * std::sqrt(square); }
 
-  /// The gains P and D at the parameter Y; not finite at a pole of the curve.
+  /// The gains P and D at Y = `square`; not finite at a pole of P(Y) or D(Y).
   PdGains<Scalar> gains(const Scalar& square) const {
     const Scalar denominator = evaluate(denominator_, square);
     return {evaluate(proportional_numerator_, square) / denominator,
@@ -104,8 +105,8 @@ class RootPairCurve {
     Scalar square_per_gain;  ///< derivative dY/dP (m/N)
   };
 
-  /// The point of an arc at which P has a given value, by Newton's method on n − P Δ with the
-  /// numerator n of P. Where a step leaves the arc or does not shrink, the arc is halved instead.
+  /// The point of an arc at which P has a given value, by Newton's method for n − P Δ = 0 with the
+  /// numerator n of P, with bisection where a step leaves the bracket or is over half the last one.
   /// @param arc                arc of this curve
   /// @param proportional_gain  P (N/m), which must occur on the arc (`MonotoneArc::passes`)
   /// @param guess              initial Y; any number, also NaN
@@ -132,7 +133,7 @@ class RootPairCurve {
   }
 
   /// The parameter Y at which P has the given value (N/m) on an arc. If P does not occur on the
-  /// arc, Y is that of the end with the nearer P, limited to positive finite values.
+  /// arc: Y of the arc's end with the nearer P, as a positive finite number.
   Scalar square(MonotoneArc<Scalar> arc, const Scalar& proportional_gain) const {
     const Scalar largest = std::pow(std::numeric_limits<Scalar>::max(), Scalar(0.125));
     arc.start.square = std::max(arc.start.square, Scalar(1) / largest);
@@ -144,7 +145,8 @@ class RootPairCurve {
     return distance(arc.start) < distance(arc.end) ? arc.start.square : arc.end.square;
   }
 
-  /// The crossing at P (N/m) and Y = `square`. D is from the part, even or odd, with less error.
+  /// The point of the curve with the given P (N/m), at its parameter Y = `square`. D is computed
+  /// from the even or the odd part of the polynomial, from the one with less round-off.
   RowCrossing<Scalar> crossing(const Scalar& proportional_gain, const Scalar& square) const {
     const Scalar even_slope = evaluate(differential_.even, square);
     const Scalar odd_slope = evaluate(differential_.odd, square);
@@ -158,7 +160,7 @@ class RootPairCurve {
     return {-evaluate(sum, square) / slope, rounding * evaluate(sizes, square) / std::abs(slope)};
   }
 
-  /// Bound of the round-off error of a polynomial's value, relative to Σ |its terms|.
+  /// Upper bound on the round-off error of a polynomial's value, relative to Σ |its terms|.
   static constexpr Scalar rounding = Scalar(32) * std::numeric_limits<Scalar>::epsilon();
 
   /// Even and odd part of b, the polynomial at P = D = 0, with w in units of `unit()`.
@@ -168,10 +170,10 @@ class RootPairCurve {
   /// Even and odd part of d, the polynomial's derivative by D, per N s/m.
   const ParityParts<Scalar>& differential() const { return differential_; }
 
-  /// Coefficients of the even or the odd part of the polynomial at given gains P and D.
+  /// Coefficients of the even or the odd part of the characteristic polynomial at given P and D.
   struct Terms {
-    Vector<Scalar, 3> sum,  ///< coefficients b + P p + D d
-        size;               ///< |b| + |P p| + |D d|, to which round-off is proportional
+    Vector<Scalar, 3> sum,  ///< coefficients b + P p + D d in powers of Y
+        size;               ///< |b| + |P p| + |D d| of each coefficient, a measure of its round-off
   };
 
   /// The coefficients of the even or the odd part of the polynomial at given gains.
@@ -197,7 +199,7 @@ class RootPairCurve {
     return positive_roots(slope(reduced(differential_numerator_, proportional_)));
   }
 
-  /// All arcs of the curve, by ascending Y: 0 < Y < ∞ divided at the poles and where dP/dY = 0.
+  /// All arcs of the curve by ascending Y: 0 < Y < ∞ is divided at poles and where dP/dY = 0.
   std::vector<MonotoneArc<Scalar>> arcs() const {
     const ArcEnd<Scalar> first = outer_end(Scalar(0), 0, 4),
                          last = outer_end(std::numeric_limits<Scalar>::infinity(), 4, 0);
@@ -275,7 +277,6 @@ class RootPairCurve {
     return result;
   }
 
-  /// Whether a polynomial's even and odd part are both zero at Y, up to round-off.
   static bool vanishes(const ParityParts<Scalar>& factor, const Scalar& square) {
     const Scalar even = evaluate(factor.even, square), odd = evaluate(factor.odd, square);
     const Scalar size =

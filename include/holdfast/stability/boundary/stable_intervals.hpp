@@ -13,15 +13,15 @@
 
 namespace holdfast {
 
-/// Values x, ascending, at which a(w) + x d(w) has a root on the imaginary axis or at infinity.
-/// The polynomials a (`constant_part`) and d (`slope_part`) have ascending powers. A root w = 0
-/// needs a₀ + x d₀ = 0; a root w = ∞ needs a_n + x d_n = 0. At a root w = iy the even part (e) and
-/// the odd part (o) of the sum are both 0. Elimination of x gives a polynomial in Y = y²:
+/// Values x, ascending, at which the polynomial a(w) + x d(w) has a root on the imaginary axis or
+/// at infinity. The arguments a (`constant_part`) and d (`slope_part`) begin with the constant
+/// coefficient. A root w = 0 needs a₀ + x d₀ = 0, a root w = ∞ needs a_n + x d_n = 0. At a root
+/// w = iy the even part (e) and the odd part (o) of a + x d are both 0. Hence, for Y = y²,
 ///
 ///     a_e(Y) d_o(Y) − a_o(Y) d_e(Y) = 0,   x = −a_e / d_e = −a_o / d_o
 ///
-/// All its positive roots are found. An x is left out if its denominator is below 1e−12 of the
-/// largest coefficient of d. For this test w is scaled by the mean root modulus of a.
+/// All positive Y are found. An x is left out if its denominator is below 1e−12 of the largest
+/// coefficient of d, with w in units of the geometric mean of the root moduli of a.
 template <class Scalar, int Size>
 std::vector<Scalar> boundary_crossings(const Vector<Scalar, Size>& constant_part,
                                        const Vector<Scalar, Size>& slope_part) {
@@ -80,9 +80,9 @@ std::vector<Interval<Scalar>> stable_gaps(const std::vector<Scalar>& ends, const
 
 /// The open intervals of x, ascending, in which all roots w of a(w) + x d(w) have Re w < 0.
 ///
-/// The values of `boundary_crossings` divide the x axis into intervals. One Hurwitz test decides
-/// each interval. Adjacent stable intervals are joined if the polynomial is stable at their common
-/// end. The leading coefficient may change sign along x.
+/// The values of `boundary_crossings` divide the x axis into intervals. One x in each interval is
+/// tested with the Hurwitz criterion. Adjacent stable intervals are joined if all Re w < 0 at their
+/// common end, too. Coefficients begin with the constant one; the leading one may change sign.
 template <class Scalar, int Size>
 std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
                                                const Vector<Scalar, Size>& d) {
@@ -93,7 +93,6 @@ std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
 
 namespace detail {
 
-/// The intervals of stable_differential_gains(), without validation of the arguments.
 template <class Scalar, int Degree>
 std::vector<Interval<Scalar>> differential_intervals(
     const AffinePolynomial<Scalar, Degree>& polynomial, const Scalar& proportional_gain) {

@@ -18,8 +18,8 @@
 
 namespace holdfast {
 
-/// Connected part of a window in the plane of P and D. No stability boundary crosses it, so that
-/// all its loops have the same number of unstable roots.
+/// Connected region of a window in the plane of P and D without any stability boundary inside. All
+/// gains of the region therefore give the same number of unstable roots.
 template <class Scalar>
 struct GainRegion {
   int unstable_roots;      ///< number of roots with |λ| > 1 (continuous loop: Re s > 0); 0: stable
@@ -27,7 +27,7 @@ struct GainRegion {
   PdGains<Scalar> inside;  ///< gains of a point inside the region, away from its boundary
   Interval<Scalar> proportional;  ///< least and largest P of the region (N/m)
   Interval<Scalar> differential;  ///< least and largest D of the region (N s/m)
-  bool at_edge;  ///< whether the region touches the window's edge and may extend beyond
+  bool at_edge;  ///< whether the region touches the window's edge, and may continue outside
 };
 
 namespace detail {
@@ -39,7 +39,6 @@ struct BoundaryBranch {
   MonotoneArc<Scalar> arc;             ///< the arc, unless `curve` is null
   BoundaryLine<Scalar> line;           ///< the line, if `curve` is null
 
-  /// Whether the branch contains a point with P (N/m). A line does for every P.
   bool passes(const Scalar& proportional_gain) const {
     return curve == nullptr || arc.passes(proportional_gain);
   }
@@ -89,7 +88,6 @@ class RegionBuilder {
   /// The slabs of the window, ascending in P and without gaps between them.
   const std::vector<GainSlab<Scalar>>& slabs() const { return slabs_; }
 
-  /// The regions, by ascending number of unstable roots and, for equal numbers, by descending area.
   std::vector<GainRegion<Scalar>> regions() {
     std::vector<GainRegion<Scalar>> result;
     for (std::size_t k = 0; k < cells_.size(); ++k) {
@@ -280,10 +278,10 @@ class RegionBuilder {
 }  // namespace detail
 
 /// The regions into which the stability boundary divides a window of gains, with their areas.
-/// The window is cut into slabs: ranges of P with the same boundary curves D₁(P) < D₂(P) < … Two
-/// neighbouring curves enclose a cell of the slab, of area ∫ (D_{k+1} − D_k) dP.
+/// The window is divided into slabs, ranges of P with the same boundary curves D₁(P) < D₂(P) < …
+/// Two neighbouring curves (or window edges) enclose a cell of area ∫ (D_{k+1} − D_k) dP.
 /// The unstable roots are counted at the middle of each cell. Cells of neighbouring slabs form one
-/// region if they share more than 1e−9 of the window's range of D and no boundary lies between.
+/// region if their common edge exceeds 1e−9 of the window's height and is not on the boundary.
 /// Areas are accurate to 1e−10 of the window's area; regions below 1e−12 of it are left out.
 /// @param polynomial  `characteristic_polynomial` of the sampled or the continuous loop
 /// @param window      window of P (N/m) and D (N s/m), its edges included

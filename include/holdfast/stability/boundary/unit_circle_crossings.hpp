@@ -18,26 +18,26 @@
 
 namespace holdfast {
 
-/// Value of a gain at which roots of the loop cross the unit circle, with their direction.
+/// Value of a gain at which roots of the loop cross the unit circle, and the direction of crossing.
 template <class Scalar>
 struct GainPassage {
   Scalar gain;   ///< P (N/m) or D (N s/m), finite
   Scalar angle;  ///< θ (rad) of the roots e^{±iθ}, 0 … π
-  int leaving;   ///< number (1 or 2) of roots that leave the circle as the gain grows; < 0: enter
+  int leaving;  ///< roots that leave the unit disc as the gain grows: 1 or 2; −1 or −2: they enter
 };
 
-/// Crossings of the unit circle by roots of a loop of any order, from the transfer functions G_z
-/// and G_v (`ModalResponse`) at stored angles θ. The winding of p about 0 gives the number n_out of
-/// roots outside the circle. Without control this number is n_plant:
+/// Gains at which roots of a loop of any order cross the unit circle, and numbers of roots outside.
+/// They follow from the transfer functions G_z and G_v (`ModalResponse`) at stored angles θ. The
+/// number n_out of roots outside, n_plant without control, is given by the winding of p about 0:
 ///
 ///     p(λ) = 1 − P G_z(λ) − D G_v(λ),   n_out = n_plant − (1/π) [arg p(e^{iθ})] from 0 to π
 ///
-/// One gain y is fixed, the other varies. With the value X(θ) = (1 − y G_fixed)/G_free of the other
-/// gain the loop has the root e^{iθ}. Roots cross where X is real. As this gain grows, they leave
-/// the circle if Im X rises with θ. The crossings divide the gain's axis into intervals. Winding
-/// gives n_out in one of them; each crossing then gives the change of n_out. Winding checks the
-/// results: all for at most twelve intervals, otherwise n_out ≤ 4 and the least n_out. If a check
-/// fails, only winding is used. Work: 10 operations per angle, 10 values of G per crossing.
+/// Let one gain be fixed at y and the other (free) gain vary. The loop has the root e^{iθ} if the
+/// free gain is X(θ) = (1 − y G_fixed)/G_free and X is real. As the free gain grows, this root
+/// leaves the unit disc if Im X rises with θ. The crossings divide the free gain's axis. In one
+/// interval n_out is found by winding; its changes at the crossings give all others. Winding checks
+/// all intervals if there are at most twelve, else those with n_out ≤ 4 or the least n_out. If a
+/// check fails, only winding is used. Work: 10 operations per angle, 10 values of G per crossing.
 template <class Scalar>
 class UnitCircleCrossings {
  public:
@@ -47,11 +47,11 @@ class UnitCircleCrossings {
     CommandResponse<Scalar> g;  ///< transfer functions G_z and G_v at e^{iθ}
   };
 
-  static constexpr Scalar coarse{0.5};  ///< step that suffices to count roots outside the circle
+  static constexpr Scalar coarse{0.5};  ///< constructor's `close` that suffices for `roots_outside`
 
   /// @param response  response of the loop; a copy is stored
-  /// @param close     largest step from angle to angle, as a share of the distance to the nearest
-  ///                  pole, to θ = 0 and to π; `coarse` suffices for `roots_outside`
+  /// @param close     largest step between stored angles, relative to the least distance from the
+  ///                  nearest pole, θ = 0 and θ = π; > 0
   explicit UnitCircleCrossings(ModalResponse<Scalar> response, const Scalar& close = Scalar(0.12))
       : response_(std::move(response)) {
     // At smaller angles Im X is only round-off.
@@ -83,8 +83,8 @@ class UnitCircleCrossings {
   /// The angles at which G_z and G_v are stored, ascending, with their values.
   const std::vector<Place>& places() const { return places_; }
 
-  /// The number of the loop's roots outside the unit circle; −1 where it cannot be determined: a
-  /// root is on the circle, or the gains are not finite or so large that p is only round-off.
+  /// The number of the loop's roots outside the unit circle. It is −1 (unknown) if a root is on the
+  /// circle or if the gains are not finite or so large that p is only round-off.
   int roots_outside(const PdGains<Scalar>& gains) const {
     Turn turn{gains, static_cast<std::int64_t>(20 * places_.size())};
     std::vector<std::complex<Scalar>> p;
@@ -100,7 +100,7 @@ class UnitCircleCrossings {
     return response_.unstable_poles() - static_cast<int>(std::lround(half_turns));
   }
 
-  /// Estimates of the offsets λ − 1 of roots near the unit circle, nearest first: one Newton step
+  /// Estimates of λ − 1 for the roots λ nearest to the unit circle, nearest first: one Newton step
   /// from each minimum of |p| on the circle. For use where `loop_roots` does not converge.
   std::vector<std::complex<Scalar>> roots_nearby(const PdGains<Scalar>& gains) const {
     std::vector<std::pair<Scalar, std::complex<Scalar>>> found;
@@ -124,7 +124,7 @@ class UnitCircleCrossings {
     return roots;
   }
 
-  /// Values of one gain, the other gain fixed, at which roots cross the unit circle; ascending.
+  /// The values of one gain, ascending, at which roots cross the unit circle; the other is fixed.
   /// @param free   the gain that varies
   /// @param gains  the fixed gain; the value of the free gain is not used
   std::vector<GainPassage<Scalar>> passages(FreeGain free, const PdGains<Scalar>& gains) const {
@@ -150,10 +150,10 @@ class UnitCircleCrossings {
     return found;
   }
 
-  /// The open intervals of one gain, for a fixed value of the other, in which the loop is stable.
+  /// The open intervals of one gain (N/m or N s/m) in which the loop is stable; the other is fixed.
   /// @param free   the gain that varies
   /// @param gains  the fixed gain; the value of the free gain is not used
-  /// @param checks whether root numbers that follow from the crossings are checked by winding
+  /// @param checks whether the numbers n_out found from the crossings are checked by winding
   /// @throws InvalidParameter where the fixed gain is not finite
   std::vector<Interval<Scalar>> stable_gains(FreeGain free, const PdGains<Scalar>& gains,
                                              bool checks = true) const {
@@ -186,7 +186,6 @@ class UnitCircleCrossings {
       const std::complex<Scalar> a = rest(g), b = of_free(g);
       return a.imag() * b.real() - a.real() * b.imag();
     }
-    /// The real part of X, which is the free gain at a crossing.
     Scalar gain(const CommandResponse<Scalar>& g) const { return (rest(g) / of_free(g)).real(); }
   };
 
@@ -253,8 +252,7 @@ class UnitCircleCrossings {
          line, found);
   }
 
-  /// Adds a crossing, unless the gain hardly moves the root and its value is only round-off. An
-  /// example is the root λ = 1 if the drive acts between absorber and conductor.
+  /// Adds a crossing, unless its gain is only round-off (λ = 1 for a drive between the masses).
   void keep(const GainPassage<Scalar>& passage, const Line& line,
             std::vector<GainPassage<Scalar>>& found) const {
     const Scalar size = line.free == FreeGain::differential ? size_of_v_ : size_of_z_;
@@ -339,11 +337,12 @@ class UnitCircleCrossings {
   Scalar size_of_z_{0}, size_of_v_{0};  // max |G_z| and |G_v| over them
 };
 
-/// The excess ρ − 1 of a loop with spectral radius ρ. If `loop_roots` does not converge, the excess
-/// is found to ten digits by bisection over circles: the roots outside a circle are counted.
+/// The excess ρ − 1 of a loop's spectral radius ρ, < 0 if stable. If `loop_roots` fails, the radius
+/// of the smallest circle without roots outside is found to ten digits by bisection.
 /// @param response  response of the plant given by its poles
 /// @param gains     gains P (N/m) and D (N s/m)
-/// @return excess, by bisection at least −0.44; NaN if the response is then not a sum over poles
+/// @return excess (by bisection not below −0.44); NaN if `loop_roots` fails and eigenvalues of the
+///         plant nearly coincide
 template <class Scalar>
 Scalar loop_excess_or_turn(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains) {
   const Scalar excess = loop_excess(response, gains);

@@ -20,7 +20,7 @@ struct GainGrid {
   Axis proportional;  ///< values of the proportional gain P (N/m), one per row
   Axis differential;  ///< values of the differential gain D (N s/m), one per column
 
-  /// The gains P and D of a cell; each index is from 0 to the count of its axis minus one.
+  /// The gains of the cell in row `p_index` and column `d_index`, both counted from 0.
   PdGains<double> at(std::int64_t p_index, std::int64_t d_index) const {
     return {proportional.at(p_index), differential.at(d_index)};
   }
@@ -44,22 +44,22 @@ inline void validate(const GainGrid& grid) {
   grid.cells();
 }
 
-/// Stability chart in the plane of P and D, computed row by row; a row has one value of P.
+/// Computes a stability chart in the plane of P and D row by row; a row has one value of P.
 ///
-/// Stability changes along a row only where the row crosses the stability boundary. One Hurwitz
-/// test decides all cells between two crossings. A cell within round-off of the boundary counts as
-/// not stable. Newton's method finds the crossing with each monotone arc of `RootPairCurve`,
-/// starting from the crossing of the previous row. Crossings at which a root is 0 or ∞ follow from
-/// linear equations in D. For rows of constant D instead of P, exchange P and D in the polynomial.
+/// Stability changes along a row only at its crossings with the stability boundary. The cells
+/// between two crossings therefore need one Hurwitz test. Cells within round-off of the boundary
+/// count as not stable. The crossing with each monotone arc of `RootPairCurve` is found by Newton's
+/// method, which starts from the crossing of the previous row. Crossings with a root 0 or ∞ follow
+/// from linear equations for D. For rows of constant D, exchange P and D in the polynomial.
 ///
 /// Work per row: about 40 multiply-adds for each arc and 60 for each interval between crossings,
 /// independent of the number of cells.
 template <int Degree>
 class StabilityRows {
  public:
-  /// @param polynomial    characteristic polynomial with the stable half-plane Re < 0: of the
+  /// @param polynomial    characteristic polynomial whose stable roots have Re < 0: that of the
   ///                      continuous loop, or of the sampled loop after `in_half_plane`
-  /// @param differential  values of D (N s/m) in a row
+  /// @param differential  values of D (N s/m), one for each cell of a row
   StabilityRows(const HalfPlanePolynomial<double, Degree>& polynomial, const Axis& differential)
       : polynomial_(polynomial), differential_(differential), curve_(polynomial) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -115,7 +115,6 @@ class StabilityRows {
               [](const auto& a, const auto& b) { return a.differential < b.differential; });
   }
 
-  /// Adds a crossing if its D is finite.
   void add(const RowCrossing<double>& crossing) {
     if (std::isfinite(crossing.differential)) crossings_.push_back(crossing);
   }

@@ -15,13 +15,14 @@
 
 namespace holdfast {
 
-/// Upper half of the circle |λ| = r, divided into arcs. On each arc the characteristic function
+/// Encloses the characteristic function q of a loop on the upper half of the circle |λ| = r:
 ///
 ///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ)   (k delayed commands; F_z and F_v of `EnclosedResponse`)
 ///
-/// of a loop is enclosed by a linear function of the angle plus an error bound. The class finds the
-/// arcs on which a loop with gains in a rectangle (`GainBox`) may have a root, and counts a loop's
-/// roots outside the circle. Arcs are halved where needed; the halves are stored.
+/// The half circle is divided into arcs. An enclosure on an arc is a linear function of the angle
+/// plus an error bound. The class finds the arcs on which a loop with gains in a rectangle
+/// (`GainBox`) may have a root. It also counts a loop's roots outside the circle. Arcs too long for
+/// a proof are halved; the halves are stored for later calls.
 class CircleArcs {
  public:
   /// List of arcs, each given by its index in this object.
@@ -35,11 +36,13 @@ class CircleArcs {
     arcs_.push_back(arc(0.0, 0x1.921fb54442d19p1));
   }
 
-  /// The list with one arc, the undivided half circle.
+  /// The list of a single arc, the undivided half circle.
   Arcs all() const { return {0}; }
 
-  /// The parts of the arcs `among` on which a loop with gains in the rectangle `box` may have a
-  /// root. All other parts are proved to contain none. Arcs are halved while this excludes more.
+  /// The arcs on which a loop with gains in a rectangle may have a root. The rest of `among` is
+  /// proved to be without roots. Arcs are halved as long as this promises to exclude more of them.
+  /// @param box    rectangle of gains P and D
+  /// @param among  arcs to be searched: `all()`, or the result for a rectangle that contains `box`
   Arcs meeting(const GainBox& box, const Arcs& among) {
     const Gains gains(box);
     if (!gains.are_finite()) return among;
@@ -56,10 +59,10 @@ class CircleArcs {
 
   /// The proved number of a loop's roots outside the circle; `nullopt` if the proof fails.
   ///
-  /// On each arc, halved where necessary, q lies in one half-plane: Re q or Im q has a constant
-  /// sign. From arc to arc this half-plane stays or turns by 90°. As q is real at both ends of the
-  /// half circle, these turns add up to w · 180°, and q winds w times about 0 along the whole
-  /// circle. With n_plant plant poles outside and k delayed commands, the number sought is
+  /// Arcs are halved until Re q or Im q has a constant sign on each of them. This sign tells in
+  /// which of four half-planes q lies. From arc to arc the half-plane is the same or turns by ±90°.
+  /// The turns on the half circle add up to w · 180°; on the whole circle q winds w times about 0.
+  /// With n_plant plant poles outside and k delayed commands, the number n_out sought is
   ///
   ///     n_out = n_plant + k − w
   ///
@@ -150,8 +153,7 @@ class CircleArcs {
                   rest_ + haze_;
     }
 
-    /// Whether q ≠ 0 is proved: all values of q are on one side of some straight line through 0.
-    /// The lines tried are perpendicular to c, or parallel to a, F_z or F_v.
+    /// Whether a line through 0, normal to c or parallel to a, F_z or F_v, proves that q ≠ 0.
     bool avoids_zero() const {
       if (!std::isfinite(rounding_)) return false;
       return is_ahead(centre_) || is_ahead(across(along_)) || is_ahead(across(by_p_)) ||

@@ -9,8 +9,8 @@
 
 namespace holdfast {
 
-/// Fills one row of the stability chart of a loop of any order: 1 (stable) or 0 (not stable).
-/// @param circle        crossings of the unit circle by the loop's roots
+/// Fills one row of the stability chart of a loop of any order with 1 (stable) or 0 (not stable).
+/// @param circle        unit-circle crossings of the loop
 /// @param proportional  P (N/m) of the row
 /// @param differential  values of D (N s/m) along the row
 /// @param stable        array with one entry for each value of D, filled by the function
@@ -29,7 +29,7 @@ void fill_stability_row(const UnitCircleCrossings<Scalar>& circle, const Scalar&
 /// The stability chart of a loop of any order: 1 (stable) or 0 (not stable) for each cell, by rows.
 /// A row has one value of P; its stable intervals of D come from `UnitCircleCrossings`. For two
 /// masses, `stability_chart` from the characteristic polynomial is about a hundred times faster.
-/// @param circle  crossings of the unit circle by the loop's roots
+/// @param circle  unit-circle crossings of the loop
 /// @param grid    grid of gains
 /// @throws InvalidParameter where the grid is not admissible
 template <class Scalar>

@@ -50,8 +50,8 @@ inline double& value_of(OperatingPoint& point, LoopParameter parameter) {
   return *all[static_cast<int>(parameter)];
 }
 
-/// Sets a parameter of a loop. A new period τ also changes the delay δ, so that δ/τ stays the same.
-/// If δ = τ, both get exactly the same value.
+/// Sets a parameter of a loop to a value in SI units. A new period τ also scales the delay δ: the
+/// ratio δ/τ stays the same. If δ = τ before, both get exactly the same value.
 inline void set(OperatingPoint& point, LoopParameter parameter, double value) {
   if (parameter == LoopParameter::sampling_period) {
     const double fraction = point.sampling.processing_delay / point.sampling.period;
@@ -66,21 +66,21 @@ struct LoopAxis {
   Axis values;              ///< values of the parameter, in its SI unit
 };
 
-/// Chart of a sampled loop over any two parameters; all others have their values in `point`.
+/// Defines a chart over any two parameters of a sampled loop, with one loop for each cell.
 struct LoopChart {
-  /// Loop with the other parameters' values. If δ is on no axis, δ/τ is the same in all cells.
+  /// Loop with all fixed parameters. If δ is on no axis, all cells have the ratio δ/τ of this loop.
   OperatingPoint point;
   LoopAxis slow;  ///< axis with one value for each row
   LoopAxis fast;  ///< axis with one value for each column
 
-  /// The loop of row `index` ≥ 0; the parameter of the axis `fast` keeps its value from `point`.
+  /// The loop of row `index` ≥ 0, in which the parameter of the axis `fast` is as in `point`.
   OperatingPoint row(std::int64_t index) const {
     OperatingPoint result = point;
     set(result, slow.parameter, slow.values.at(index));
     return result;
   }
 
-  /// The loop of a cell, given by its row and column, both from 0.
+  /// The loop of the cell in the given row and column, both counted from 0.
   OperatingPoint cell(std::int64_t row_index, std::int64_t column) const {
     OperatingPoint result = row(row_index);
     set(result, fast.parameter, fast.values.at(column));
@@ -110,14 +110,17 @@ inline void validate(const LoopChart& chart) {
   }
 }
 
-/// A polynomial that is affine in one gain x, P or D: constant + x · slope.
+/// Polynomial whose coefficients are affine in one gain x (P or D): constant + x · slope.
 template <int Degree>
 struct AffineLine {
   Polynomial<double, Degree> constant;  ///< polynomial at x = 0, constant coefficient first
   Polynomial<double, Degree> slope;     ///< derivative by x, per N/m of P or per N s/m of D
 };
 
-/// The characteristic polynomial as a function of `gain`; the other gain has its value in `gains`.
+/// The characteristic polynomial as a function of one gain only.
+/// @param gain        gain that varies, `proportional_gain` or `differential_gain`
+/// @param polynomial  polynomial affine in both gains
+/// @param gains       values of the gains; that of the varying gain is not used
 template <int Degree, PolynomialVariable Variable>
 AffineLine<Degree> along(LoopParameter gain,
                          const AffinePolynomial<double, Degree, Variable>& polynomial,
@@ -129,9 +132,8 @@ AffineLine<Degree> along(LoopParameter gain,
   return {polynomial.base + gains.proportional * polynomial.proportional, polynomial.differential};
 }
 
-/// The characteristic polynomials of the cells of a chart, computed with few matrix exponentials.
-/// One exponential suffices if both axes are gains. One per row or column is needed if one axis is
-/// a gain, and one per cell if neither is.
+/// Computes the characteristic polynomials of a chart's cells with few matrix exponentials: one if
+/// both axes are gains, one per row or column if one axis is a gain, otherwise one per cell.
 template <int Degree, PolynomialVariable Variable>
 class ChartPolynomials {
  public:
@@ -140,11 +142,12 @@ class ChartPolynomials {
   /// Function that computes the characteristic polynomial of a loop, affine in P and D.
   using PolynomialOf = Affine (*)(const OperatingPoint&);
 
-  /// Polynomials of the cells of a row, one in each matrix row, constant coefficient first.
+  /// Matrix of the polynomials of a chart's row: one for each cell, constant coefficient first.
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Degree + 1>;
 
-  /// @param chart          the chart, which is copied
-  /// @param polynomial_of  `polynomial_of` of `StabilityChartRows` or `RadiusChartRows`
+  /// @param chart          the chart; a copy is stored
+  /// @param polynomial_of  function that computes the characteristic polynomial of a loop, for
+  ///                       example `StabilityChartRows::polynomial_of`
   /// @throws InvalidParameter where the chart is not admissible
   ChartPolynomials(const LoopChart& chart, PolynomialOf polynomial_of)
       : chart_(chart), polynomial_of_(polynomial_of) {
@@ -171,17 +174,17 @@ class ChartPolynomials {
   /// The polynomial of all cells, affine in P and D; defined only if both axes are gains.
   const Affine& common() const { return common_; }
 
-  /// Whether the axis `fast` is a gain: then use `line` for a row's polynomials, otherwise `table`.
+  /// Whether the axis `fast` is a gain. If so, `line` gives a row's polynomials, otherwise `table`.
   bool affine_along_rows() const { return is_gain(chart_.fast.parameter); }
 
-  /// The polynomials of a row, affine in the gain on the axis `fast`; only if `affine_along_rows`.
+  /// The polynomials of a row as a function of the gain on `fast`; only if `affine_along_rows()`.
   AffineLine<Degree> line(std::int64_t row) const {
     const OperatingPoint point = chart_.row(row);
     return along(chart_.fast.parameter,
                  is_gain(chart_.slow.parameter) ? common_ : polynomial_of_(point), point.gains);
   }
 
-  /// The polynomials of a row's cells as a matrix; only if the axis `fast` is not a gain.
+  /// The polynomials of the cells of a row as a matrix; only if the axis `fast` is not a gain.
   Table table(std::int64_t row) const {
     if (is_gain(chart_.slow.parameter)) {
       return column_constants_ + chart_.slow.values.at(row) * column_slopes_;

@@ -22,17 +22,15 @@
 
 namespace holdfast {
 
-/// Tests the stability of each cell in a row; SIMD lanes test several cells at a time. Work per
-/// cell of the sampled loop: 17 multiply-adds, of which 6 compute a polynomial that is affine along
-/// the row, and 5 comparisons (`lienard_chipart_stable`). No product overflows or underflows if the
-/// moduli of the coefficients are between 1e−75 and 1e75.
+/// Tests the stability of each cell in a row of a chart; SIMD lanes test several cells at a time.
+/// A cell of the sampled loop needs 17 multiply-adds and 5 comparisons (`lienard_chipart_stable`).
+/// No product overflows or underflows if all coefficients have moduli between 1e−75 and 1e75.
 /// @tparam Scalar        a SIMD pack, or double
-/// @param columns        number of cells, ≥ 0
-/// @param polynomial_at  function (column, Number{}) → Polynomial<Number, Degree> with the stable
-///                       half-plane Re < 0. It returns the polynomials of as many cells as Number
-///                       has lanes, from `column` on; Number is Scalar or double. The function is
-///                       passed by value, so that writes to `stable` do not force the compiler
-///                       to reload the coefficients.
+/// @param columns        number of cells in the row, ≥ 0
+/// @param polynomial_at  function (column, Number{}) → Polynomial<Number, Degree>, a polynomial
+///                       whose stable roots have Re < 0. Number is Scalar or double. The lanes of
+///                       Number are the cells from `column` on. The function is passed by value
+///                       for speed: it cannot alias the array `stable`.
 /// @param stable         array with `columns` entries, filled with 1 (stable) or 0 (not stable)
 template <class Scalar, class PolynomialAt>
 void hurwitz_row(std::int64_t columns, PolynomialAt polynomial_at, std::uint8_t* stable) {
@@ -61,10 +59,10 @@ Vector<Scalar, Size> affine(const Vector<Scalar, Size>& c, const Scalar& x,
   return result;
 }
 
-/// Tests the polynomials constant + x slope for stability, one polynomial for each value x. All are
-/// divided by one upper bound of their coefficients, so that no product overflows. If `constant` is
-/// below 1e−60 of this bound and might underflow, each polynomial is scaled individually.
-/// @param constant  polynomial at x = 0, in a variable whose stable half-plane is Re < 0
+/// Tests the polynomials constant + x · slope for stability, one polynomial for each value x. All
+/// are divided by a common upper bound on their coefficients to avoid overflow. If `constant` is
+/// below 1e−60 of this bound, each polynomial is scaled individually to avoid underflow.
+/// @param constant  polynomial at x = 0, constant coefficient first; stable roots have Re < 0
 /// @param slope     change of the polynomial per unit of x
 /// @param values    x of each cell, ascending; at least one
 /// @param stable    array with one entry for each value, filled with 1 (stable) or 0 (not stable)
@@ -98,8 +96,10 @@ void hurwitz_row(const Vector<double, Size>& constant, const Vector<double, Size
       stable);
 }
 
-/// Tests the polynomials in the rows of `table` for stability: 1 (stable) or 0 (not stable). Each
-/// polynomial is first divided by its largest coefficient.
+/// Tests the polynomials in the rows of a table for stability, first divided by their largest
+/// coefficients.
+/// @param table   matrix of polynomials, constant coefficient first; stable roots have Re < 0
+/// @param stable  array with one entry per polynomial, filled with 1 (stable) or 0 (not stable)
 template <class Scalar, int Size>
 void hurwitz_row(const Eigen::Matrix<double, Eigen::Dynamic, Size>& table, std::uint8_t* stable) {
   const Eigen::Matrix<double, Eigen::Dynamic, Size> scaled =
@@ -130,13 +130,14 @@ template <class Scalar>
 
 }  // namespace detail
 
-/// Stability chart over any two parameters of the sampled loop, computed row by row.
-/// If both axes are gains, rows are filled from their crossings of the stability boundary.
-/// Otherwise each cell is tested, as many at once as `Scalar` (SIMD pack or double) has lanes.
+/// Computes the stability chart over any two parameters of the sampled loop row by row.
+/// If both axes are gains, the crossings of a row with the stability boundary are computed
+/// (`StabilityRows`). Otherwise each cell is tested (`hurwitz_row`).
+/// @tparam Scalar  a SIMD pack, or double; as many cells are tested at once as it has lanes
 template <class Scalar = double>
 class StabilityChartRows {
  public:
-  /// The characteristic polynomial of a loop in a variable whose stable half-plane is Re < 0.
+  /// The characteristic polynomial of a loop in the variable w of `in_half_plane`.
   static HalfPlanePolynomial<double, 5> polynomial_of(const OperatingPoint& point) {
     return in_half_plane(detail::polynomial_of<Scalar>(point));
   }
@@ -155,7 +156,10 @@ class StabilityChartRows {
     }
   }
 
-  /// Writes 1 (stable) or 0 (not stable) for each cell of `count` ≥ 0 rows from row `first` on.
+  /// Writes 1 (stable) or 0 (not stable) for each cell of some rows, row by row.
+  /// @param first   index of the first row, from 0
+  /// @param count   number of rows, ≥ 0
+  /// @param stable  array with one entry for each cell of these rows
   [[gnu::flatten]] void fill(std::int64_t first, std::int64_t count, std::uint8_t* stable) {
     for (std::int64_t row = first; row < first + count; ++row, stable += polynomials_.columns()) {
       if (crossing_rows_) {
@@ -175,10 +179,10 @@ class StabilityChartRows {
   std::optional<StabilityRows<5>> crossing_rows_;
 };
 
-/// Chart of the spectral radius over any two parameters of the sampled loop. SIMD lanes compute
-/// several rows at once. The dominant roots of a cell are the initial guess for the next cell in
-/// the row (`DominantFactor`); a row's first cell starts from that of a previous row. Two packs of
-/// rows are interleaved, so that one is computed during the divisions of the other.
+/// Computes the chart of the spectral radius over any two parameters of the sampled loop. Each SIMD
+/// lane computes one row. The dominant roots of a cell are the initial guess for the next cell in
+/// the row (`DominantFactor`); a row's first cell starts from the first cell of an earlier row. Two
+/// packs of rows are interleaved: one is computed during the divisions of the other.
 /// @tparam Degree  5 if every loop of the chart has δ = 0, otherwise 6 (see `DominantFactor`)
 template <class Scalar, int Degree>
 class RadiusChartRows {
@@ -188,7 +192,7 @@ class RadiusChartRows {
   static constexpr std::size_t packs_ = 2;
 
  public:
-  /// The number of rows computed at once: one in each lane of two packs.
+  /// The number of rows computed at once, one in each lane of the two SIMD packs.
   static constexpr auto most_rows = static_cast<std::int64_t>(packs_ * lanes_);
 
   /// The characteristic polynomial of a loop in powers of λ − 1, times λ if Degree is 6.
@@ -200,7 +204,10 @@ class RadiusChartRows {
   /// Prepares the rows of a chart. @throws InvalidParameter where the chart is not admissible
   explicit RadiusChartRows(const LoopChart& chart) : polynomials_(chart, polynomial_of) {}
 
-  /// Writes the spectral radius ρ of each cell of `count` ≥ 0 rows from row `first` on.
+  /// Writes the spectral radius ρ of each cell of some rows, row by row.
+  /// @param first   index of the first row, from 0
+  /// @param count   number of rows, ≥ 0
+  /// @param radius  array with one entry for each cell of these rows
   void fill(std::int64_t first, std::int64_t count, double* radius) {
     for (std::int64_t row = 0; row < count; row += most_rows) {
       const std::int64_t some = std::min(most_rows, count - row);
@@ -254,8 +261,7 @@ class RadiusChartRows {
   }
 
   /// Writes the spectral radii of up to `most_rows` rows; results of unused lanes are dropped.
-  /// @param polynomial_at  function (index of the pack, column) → characteristic polynomials, a
-  /// Pack
+  /// @param polynomial_at  function (index of the pack, column) → characteristic polynomials
   template <class PolynomialAt>
   void follow(std::int64_t rows, std::int64_t columns, const PolynomialAt& polynomial_at,
               double* radius) {
@@ -291,7 +297,7 @@ class RadiusChartRows {
   std::array<Follower, packs_> first_cells_;
 };
 
-/// Whether some loop of the chart has δ > 0; the polynomial of such a loop has no root λ = 0.
+/// Whether some loop of the chart has δ > 0. If so, `RadiusChartRows` needs Degree = 6.
 inline bool has_processing_delay(const LoopChart& chart) {
   return chart.cell(0, 0).sampling.processing_delay > 0.0 ||
          chart.cell(chart.slow.values.count - 1, chart.fast.values.count - 1)

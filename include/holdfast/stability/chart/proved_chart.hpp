@@ -22,14 +22,14 @@
 
 namespace holdfast {
 
-/// Verdict of a stability proof on all loops of a box, that is, a closed range of parameters.
+/// Verdict of a stability proof on all loops whose parameters lie in a box (closed ranges).
 enum class ProvedStability {
   stable,     ///< every loop is asymptotically stable
   unstable,   ///< every loop has a root with |λ| > 1, or Re s > 0 in the continuous loop
   undecided,  ///< neither stability nor instability is proved for all loops
 };
 
-/// Closed rectangle (box) of gains P and D; it may be as small as a segment or a point.
+/// Closed rectangle ("box") of gains P and D; it may be degenerate, that is, a segment or a point.
 struct GainBox {
   double proportional_from;  ///< lower end of P (N/m)
   double proportional_to;    ///< upper end of P (N/m)
@@ -42,14 +42,14 @@ struct GainBox {
   }
 };
 
-/// A box of gains with the stability proved for it.
+/// A box of gains with the verdict on its loops.
 struct ProvedBox {
-  GainBox gains;              ///< gains P and D of the loops
+  GainBox gains;              ///< ranges of the gains P and D
   ProvedStability stability;  ///< stability of all loops with gains in the box
 };
 
-/// Chart of proved stability: boxes that cover the grid without overlap, each with its verdict. A
-/// box is a cell of the grid or a part of a cell. Boxes ascend in P and, for equal P, in D.
+/// Chart of proved stability: boxes that cover a grid without overlap, each with a verdict. A box
+/// is a cell of the grid or a part of a cell. Boxes ascend in P and, for equal P, in D.
 struct ProvedChart {
   std::vector<ProvedBox> boxes;  ///< boxes of the chart, at least one
 
@@ -59,7 +59,7 @@ struct ProvedChart {
     for (const ProvedBox& box : boxes) sum += box.gains.area();
     return sum;
   }
-  /// The share of the chart's area that has the verdict `stability`, 0 … 1.
+  /// The fraction (0 … 1) of the chart's area that has the verdict `stability`.
   double share(ProvedStability stability) const {
     double sum = 0.0;
     for (const ProvedBox& box : boxes)
@@ -102,8 +102,8 @@ struct HurwitzConditions {
 
 }  // namespace detail
 
-/// Proof of stability over boxes of gains. For each of Hurwitz's conditions f > 0, the range of f
-/// over a box with the centre (P₀, D₀) is enclosed by the mean value form:
+/// Proves stability or instability for all gains in a box. For each of Hurwitz's conditions f > 0,
+/// the range of f over a box with the centre (P₀, D₀) is enclosed by the mean value form:
 ///
 ///     f(P, D) ∈ f(P₀, D₀) + ∂f/∂P [box] (P − P₀) + ∂f/∂D [box] (D − D₀)
 ///
@@ -111,7 +111,8 @@ struct HurwitzConditions {
 template <int Degree>
 class GainBoxProof {
  public:
-  /// @param polynomial  enclosed characteristic polynomial; its stable half-plane is Re < 0
+  /// @param polynomial  characteristic polynomial with enclosures of its coefficients; its stable
+  ///                    roots have Re < 0
   explicit GainBoxProof(HalfPlanePolynomial<Enclosure, Degree> polynomial)
       : polynomial_(std::move(polynomial)) {}
 
@@ -152,13 +153,11 @@ class GainBoxProof {
 
 namespace detail {
 
-/// The gains at the centre of a box.
 inline PdGains<double> middle_of(const GainBox& box) {
   return {Enclosure(box.proportional_from, box.proportional_to).middle(),
           Enclosure(box.differential_from, box.differential_to).middle()};
 }
 
-/// The cells of a grid: the boxes between neighbouring grid points.
 inline std::vector<GainBox> cells_of(const GainGrid& grid) {
   std::vector<GainBox> cells;
   for (std::int64_t i = 0; i + 1 < grid.proportional.count; ++i)
@@ -184,7 +183,6 @@ inline void validate_proved(const GainGrid& grid, double undecided) {
   require_within("largest undecided share", undecided, "", 0.0, 1.0);
 }
 
-/// Sorts the boxes, ascending in P and then in D.
 inline void sort_boxes(ProvedChart& chart) {
   std::sort(chart.boxes.begin(), chart.boxes.end(), [](const ProvedBox& a, const ProvedBox& b) {
     return std::pair(a.gains.proportional_from, a.gains.differential_from) <
@@ -227,11 +225,11 @@ void quarter(std::vector<Open>& open, double most_area, std::size_t most_boxes, 
 
 }  // namespace detail
 
-/// Chart of the stability proved on the cells of a grid. Undecided boxes are quartered until their
-/// share of the area is at most `undecided`.
+/// Computes a chart of proved stability. The first boxes are the cells of the grid. Undecided boxes
+/// are quartered until they make up at most the fraction `undecided` of the chart's area.
 /// @param decide      function from GainBox to ProvedStability, for example a GainBoxProof
 /// @param grid        grid points, at least 2 on each ascending axis; cells lie between the points
-/// @param undecided   largest undecided share of the area, 0 … 1
+/// @param undecided   accepted undecided fraction of the area, 0 … 1
 /// @param most_boxes  largest number of boxes; quartering stops before it might be exceeded
 /// @throws InvalidParameter where the grid or the share is not admissible
 template <class Decide>
@@ -255,14 +253,14 @@ ProvedChart proved_chart(const Decide& decide, const GainGrid& grid, double unde
   return chart;
 }
 
-/// Proof of stability over boxes of gains for the continuous loop of two masses without delay. It
-/// is valid for all decimal parameters that round to the given doubles.
+/// Stability proof over boxes of gains for the continuous loop of two masses without delay. The
+/// proof includes all decimal parameters that round to the given doubles.
 /// @throws InvalidParameter where the two masses are not admissible
 inline GainBoxProof<4> gain_box_proof(const TwoMass<double>& plant) {
   return GainBoxProof<4>(characteristic_polynomial(enclosed(plant)));
 }
 
-/// Proof of stability over boxes of gains for the sampled loop of two masses. It is valid for all
+/// Stability proof over boxes of gains for the sampled loop of two masses. The proof includes all
 /// decimal parameters that round to the given doubles.
 /// @throws InvalidParameter where the two masses or the sampling are not admissible
 inline GainBoxProof<5> gain_box_proof(const TwoMass<double>& plant,

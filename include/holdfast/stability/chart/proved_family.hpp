@@ -19,13 +19,13 @@
 
 namespace holdfast {
 
-/// Closed box of loops: each of the N parameters lies between two numbers, which may be equal.
+/// Closed box of loops: each of N parameters lies between a lower and an upper end, maybe equal.
 template <std::size_t N>
 struct ParameterBox {
   std::array<double, N> lowest;   ///< lower end of each parameter
   std::array<double, N> highest;  ///< upper end of each parameter, ≥ the lower end
 
-  /// The loop in the middle of the box.
+  /// The parameters of the loop in the middle of the box.
   std::array<double, N> middle() const {
     std::array<double, N> middle;
     for (std::size_t k = 0; k < N; ++k)
@@ -37,52 +37,46 @@ struct ParameterBox {
 /// Result of a stability proof for all loops in a box.
 template <std::size_t N>
 struct ProvedFamily {
-  double stable_share = 0.0;                           ///< proved stable share of the box's volume
-  double undecided_share = 0.0;                        ///< undecided share of the box's volume
+  double stable_share = 0.0;     ///< fraction of the box's volume proved stable, 0 … 1
+  double undecided_share = 0.0;  ///< fraction of the box's volume left undecided, 0 … 1
   std::optional<std::array<double, N>> unstable_loop;  ///< a loop proved unstable, if one was found
-  std::size_t parts = 0;                               ///< number of boxes, also those not examined
+  std::size_t parts = 0;  ///< number of boxes examined, plus that of boxes skipped at the limit
 
-  /// The verdict: every loop is stable, some loop is unstable, or undecided.
+  /// The verdict: `unstable` if one loop is proved unstable, `stable` if all are proved stable.
   ProvedStability verdict() const {
     if (unstable_loop) return ProvedStability::unstable;
     return undecided_share > 0.0 ? ProvedStability::undecided : ProvedStability::stable;
   }
 };
 
-/// Limits of the search of `prove_family`.
+/// Limits on the work of `prove_family`.
 struct FamilyLimits {
-  std::size_t parts = 4000;  ///< largest number of boxes examined
+  std::size_t parts = 4000;  ///< largest number of boxes examined; the rest stay undecided
 };
 
 namespace detail {
 
-/// Complex number as real and imaginary part.
 template <class Number>
 struct Parts {
   Number real, imag;
 };
 
-/// The sum of two complex numbers.
 template <class Number>
 Parts<Number> operator+(const Parts<Number>& a, const Parts<Number>& b) {
   return {a.real + b.real, a.imag + b.imag};
 }
-/// The difference of two complex numbers.
 template <class Number>
 Parts<Number> operator-(const Parts<Number>& a, const Parts<Number>& b) {
   return {a.real - b.real, a.imag - b.imag};
 }
-/// The product of two complex numbers.
 template <class Number>
 Parts<Number> operator*(const Parts<Number>& a, const Parts<Number>& b) {
   return {a.real * b.real - a.imag * b.imag, a.real * b.imag + a.imag * b.real};
 }
-/// The product of a real and a complex number.
 template <class Number>
 Parts<Number> operator*(const Number& a, const Parts<Number>& b) {
   return {a * b.real, a * b.imag};
 }
-/// The reciprocal of a complex number.
 inline Parts<Enclosure> reciprocal(const Parts<Enclosure>& a) {
   const Enclosure inverse = Enclosure(1.0) / (square(a.real) + square(a.imag));
   return {a.real * inverse, -(a.imag * inverse)};
@@ -171,13 +165,11 @@ AliasSum alias_sum(const Enclosure& theta, const Enclosure& period, const Enclos
   return sum;
 }
 
-/// Parameter that varies over a box of loops.
 struct MovingParameter {
   std::size_t number;  ///< index of the parameter
   double reach;        ///< upper bound of |value − value at the box's middle| over the box
 };
 
-/// Values of a complex function, without its slopes.
 inline Parts<Enclosure> values_of(const Parts<EnclosedSlope>& z) {
   return {z.real.value, z.imag.value};
 }
@@ -284,7 +276,6 @@ class ArcExclusion {
   static double weight(const Parts<Enclosure>& z) {
     return std::max(z.real.magnitude(), z.imag.magnitude());
   }
-  /// The component Re(ū z) of z along u.
   static Enclosure along(const Complex& u, const Parts<Enclosure>& z) {
     return Enclosure(u.real()) * z.real + Enclosure(u.imag()) * z.imag;
   }
@@ -424,13 +415,14 @@ std::vector<ParameterBox<N>> halves_of(const ParameterBox<N>& box, std::size_t a
 
 }  // namespace detail
 
-/// Proves that every loop of a box is stable, or finds a loop that is not.
+/// Proves that every loop of a box is stable, or finds an unstable loop in it.
 ///
-/// An undecided box is halved along the parameter whose range changes the characteristic function
-/// most. The proof is valid for all decimal numbers that round to the ends of the box.
+/// A box is stable if one of its loops is stable and none has a root on the unit circle. Undecided
+/// boxes are halved along the parameter that changes the characteristic function most. The proof
+/// includes all decimal numbers that round to the ends of the box.
 /// @param loop    family of loops: TwoMassFamily or StringFamily
 /// @param box     box of the family's parameters
-/// @param limits  limits of the search
+/// @param limits  limits on the work
 /// @param go_on   function called before each box is examined; an exception from it ends the work
 /// @throws InvalidParameter where a loop of the box is not admissible
 /// Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009;
@@ -475,8 +467,8 @@ ProvedFamily<Loop::parameters> prove_family(const Loop& loop,
   return family;
 }
 
-/// Family of all sampled loops of two masses, for proofs over a box of its ten parameters, which
-/// have the order of LoopParameter.
+/// Family of all sampled loops of two masses, for `prove_family`. Its ten parameters have the order
+/// and the units of LoopParameter. Here x is the array of parameters.
 struct TwoMassFamily {
   static constexpr std::size_t parameters = 10;  ///< m₁, k₁, c₁, m₂, k₂, c₂, τ, δ, P, D
   static constexpr std::size_t place_of_period = 6;  ///< index of τ
@@ -487,7 +479,7 @@ struct TwoMassFamily {
   using Parameters = std::array<Number, parameters>;
   using Box = ParameterBox<parameters>;  ///< closed box of loops of two masses
 
-  /// The parameters of a loop, in the order of LoopParameter.
+  /// The parameters of the given loop, in the order of LoopParameter.
   static Parameters<double> of(OperatingPoint point) {
     Parameters<double> all;
     for (std::size_t k = 0; k < parameters; ++k)
@@ -502,17 +494,17 @@ struct TwoMassFamily {
     return point;
   }
 
-  /// Data to evaluate the characteristic function F near a frequency; none for two masses.
+  /// Empty counterpart of `StringFamily::Frame`, required by `prove_family`.
   struct Frame {
-    /// Ratio of natural frequencies between two loops: 1 here; two masses have no common ratio.
+    /// The number 1: the natural frequencies of two masses have no common ratio between loops.
     static EnclosedSlope tuning(const Parameters<EnclosedSlope>&) { return 1.0; }
   };
-  /// The empty Frame, at every frequency.
+  /// Returns the empty Frame.
   static Frame frame_at(const Parameters<double>&, double) { return {}; }
-  /// Does nothing: F of two masses contains no modal sum.
+  /// Does nothing, as the characteristic function F of two masses contains no modal sum.
   static void sum_modes(const Parameters<Enclosure>&, const Enclosure&, Frame&) {}
 
-  /// The characteristic polynomial of the plant at s = iω,
+  /// The characteristic polynomial Δ of the plant without control at s = i · `omega` (rad/s):
   ///
   ///     Δ(s) = (m₁ s² + (c₁ + c₂) s + k₁ + k₂)(m₂ s² + c₂ s + k₂) − (c₂ s + k₂)²
   template <class Number>
@@ -524,7 +516,8 @@ struct TwoMassFamily {
             omega * (c1 * k2 + c2 * k1 - cubic * square)};
   }
 
-  /// The characteristic function F without its alias sum (`alias_sum`); θ = ωτ, sinc x = (sin x)/x:
+  /// The characteristic function F(ω) of the loop, without the part due to aliased frequencies
+  /// (`alias_sum`). A root e^{iθ}, θ = ωτ, is a zero of F. With sinc x = (sin x)/x, `base` is
   ///
   ///     Δ(iω) + (P + iωD) m₂ ω² sinc(θ/2) e^{−iθ(δ/τ + 1/2)}
   static detail::Parts<EnclosedSlope> base(const Parameters<EnclosedSlope>& x,
@@ -538,14 +531,15 @@ struct TwoMassFamily {
     return own + size * detail::Parts<EnclosedSlope>{p * c + rate * s, rate * c - p * s};
   }
 
-  /// The factor Δ(iω) by which F multiplies the alias sum.
+  /// The factor Δ(iω) of the alias sum in the characteristic function F = `base` − factor · sum.
   static detail::Parts<Enclosure> factor(const Parameters<Enclosure>& x,
                                          const detail::CircleAngle<Enclosure>& at, Frame) {
     return plant<Enclosure>(x, at.omega);
   }
 
-  /// The function θ → AliasSum that encloses the alias sum of all loops of a box, for G = −m₂ω²/Δ.
-  /// With the coefficient a_k of s^k in Δ and e = m₁m₂ − a₂/ω², the `ResponseBounds` above ω are
+  /// The function θ → AliasSum that encloses the alias sum (`alias_sum`) of all loops of a box. The
+  /// receptance is G = −m₂ω²/Δ(iω). With the coefficients a_k of s^k in Δ and e = m₁m₂ − a₂/ω², its
+  /// bounds (`ResponseBounds`) above the frequency ω are
   ///
   ///     g = m₂/e,   μ = 1/m₁,   h = (a₃ + a₂/ω + a₁/ω² + k₁k₂/ω³)/(m₁ e).
   static auto aliases(const Parameters<Enclosure>& x) {
@@ -568,7 +562,7 @@ struct TwoMassFamily {
     };
   }
 
-  /// The verdict on a single loop, by Hurwitz's conditions.
+  /// The verdict on a single loop with the given parameters, by Hurwitz's conditions.
   static ProvedStability verdict_on(const Parameters<double>& all) {
     const OperatingPoint x = point_of(all);
     return gain_box_proof(x.plant, x.sampling)(

@@ -62,9 +62,9 @@ inline void join_along(std::vector<BoxSide> ends, std::vector<BoxSide> begins, J
 
 }  // namespace detail
 
-/// Groups boxes into regions: sets of boxes connected through common sides.
+/// Groups boxes of gains into regions: sets of boxes connected through common sides.
 /// @param boxes  boxes that do not overlap; coordinates of common sides are identical doubles
-/// @return for each box the index of one box of its region, the same for all boxes of the region
+/// @return for each box the index of its region's representative, one of the region's boxes
 inline std::vector<std::size_t> joined_boxes(const std::vector<GainBox>& boxes) {
   std::vector<detail::BoxSide> left, right, lower, upper;
   for (std::size_t k = 0; k < boxes.size(); ++k) {
@@ -91,7 +91,6 @@ struct CrossedBox {
   std::vector<std::optional<CircleArcs::Arcs>> arcs;
 };
 
-/// Rectangle of grid cells, given by ranges of indices in P and D.
 struct CellRange {
   const GainGrid& grid;
   std::int64_t p_from = 0, p_to = grid.proportional.count - 1;
@@ -102,7 +101,6 @@ struct CellRange {
             grid.differential.at(d_to)};
   }
   bool is_cell() const { return p_to - p_from == 1 && d_to - d_from == 1; }
-  /// The two halves of the range, divided across its longer side.
   std::pair<CellRange, CellRange> halves() const {
     std::pair<CellRange, CellRange> both(*this, *this);
     if (p_to - p_from > d_to - d_from)
@@ -208,17 +206,18 @@ class ModalChart {
 
 }  // namespace detail
 
-/// Chart of the stability proved on the cells of a grid, for a loop of any order. If no loop with
-/// gains in connected boxes has a root on the unit circle, all these loops have the same number of
-/// roots outside, counted once (`CircleArcs::roots_outside`). Any other box is proved unstable if
-/// all its loops have roots outside a wider circle and none on that circle.
-/// Undecided boxes are quartered until their share of the area is at most `undecided`.
+/// Computes a chart of proved stability for a loop of any order. Boxes of gains proved to give no
+/// root on the unit circle are grouped into connected regions. All loops of a region have the same
+/// number of roots outside, which is counted once (`CircleArcs::roots_outside`). Any other box is
+/// proved unstable if all its loops have roots outside a wider circle and none on that circle.
+/// Other boxes are quartered until they make up at most the fraction `undecided` of the area.
 /// @param response    enclosed response of the loop
 /// @param grid        grid points, at least 2 on each ascending axis; cells lie between the points
-/// @param undecided   largest undecided share of the area, 0 … 1
-/// @param watch       function called for each box; an exception from it ends the computation
+/// @param undecided   accepted undecided fraction of the area, 0 … 1
+/// @param watch       function called without arguments before each box is examined, for example to
+///                    report progress; an exception from it ends the computation
 /// @param most_boxes  largest number of boxes; quartering stops before it might be exceeded
-/// @return chart; all boxes are undecided if an eigenvalue of the plant may be on the unit circle
+/// @return chart; all undecided if an eigenvalue e^{sτ} of the plant may be on the unit circle
 /// @throws InvalidParameter where the grid or the share is not admissible
 template <class Watch>
 ProvedChart proved_chart(const EnclosedResponse& response, const GainGrid& grid, double undecided,

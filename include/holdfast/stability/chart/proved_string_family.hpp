@@ -39,8 +39,9 @@ enum class StringParameter {
 ///
 /// The string's receptance at the absorber is H(s) = Σ h_n/d_n with h_n = 2 sin²(nπa/L)/(μL) and
 /// d_n = s² + 2ζω_n s + ω_n². As H is large near resonance, the characteristic function F is
-/// multiplied by d_m of the nearest mode m. With S = H d_m, q = m₂ s² + c₂ s + k₂, κ = c₂ s + k₂,
-/// U₀ = sinc(θ/2) e^{−iθ(δ/τ + 1/2)}, θ = ωτ, the alias sum A, and symbols of StringParameter,
+/// multiplied by d_m of the nearest mode m. With s = iω, S = H d_m, q = m₂ s² + c₂ s + k₂, θ = ωτ,
+/// κ = c₂ s + k₂, U₀ = sinc(θ/2) e^{−iθ(δ/τ + 1/2)}, sinc x = (sin x)/x, the sum A over aliased
+/// frequencies (`detail::alias_sum`), and the symbols of StringParameter,
 ///
 ///     F = q (d_m + M_c s² S) + m₂ s² S (κ − (P + sD) U₀) − (q (d_m + M_c s² S) + m₂ s² S κ) A.
 class StringFamily {
@@ -76,12 +77,12 @@ class StringFamily {
     }
   }
 
-  /// Data to evaluate F near a frequency: nearest mode m, squared wave speed at a box's midpoint,
-  /// and the sum over the other modes at Ω = ω/c, where c is the ratio of wave speeds (`tuning`).
+  /// Data to evaluate F for all loops of a box near one frequency: the nearest mode m and the sum
+  /// over all other modes at Ω = ω/c, with the loop's ratio c of wave speeds (`tuning`).
   struct Frame {
     int nearest;              ///< index of the nearest mode m, from 0
     Enclosure squared_speed;  ///< squared wave speed T₀/μ₀ at the midpoint (m²/s²)
-    detail::Parts<Enclosure> others = {};      ///< sum Σ μh_n/d_n over the modes other than m
+    detail::Parts<Enclosure> others = {};      ///< sum Σ μh_n/d_n over all modes n ≠ m
     detail::Parts<Enclosure> by_tuned = {};    ///< derivative of `others` with respect to Ω
     detail::Parts<Enclosure> by_damping = {};  ///< derivative of `others` with respect to ζ
     detail::Parts<Enclosure> by_tension = {};  ///< derivative of `others` with respect to T
@@ -91,7 +92,7 @@ class StringFamily {
       return sqrt(x[0] / (x[1] * constant<EnclosedSlope>(squared_speed)));
     }
   };
-  /// Data to evaluate F near a frequency, without the modal sums, which `sum_modes` adds.
+  /// The frame near a frequency, with its modal sums still 0; `sum_modes` computes them.
   /// @param x      parameters at the midpoint of a box
   /// @param omega  frequency ω (rad/s)
   Frame frame_at(const Parameters<double>& x, double omega) const {
@@ -99,7 +100,10 @@ class StringFamily {
     return {std::clamp(static_cast<int>(std::lround(omega / first)), 1, modes_) - 1,
             Enclosure(x[0]) / Enclosure(x[1])};
   }
-  /// Computes a frame's modal sum at Ω (rad/s) and its derivatives with respect to Ω, ζ and T.
+  /// Computes a frame's modal sum and its derivatives with respect to Ω, ζ and T.
+  /// @param x      parameters of the loops, as enclosures
+  /// @param tuned  frequency Ω (rad/s)
+  /// @param frame  frame of `frame_at`, whose sums are overwritten
   void sum_modes(const Parameters<Enclosure>& x, const Enclosure& tuned, Frame& frame) const {
     using Complex = detail::Parts<Enclosure>;
     frame.others = frame.by_tuned = frame.by_damping = frame.by_tension = {};
@@ -124,7 +128,7 @@ class StringFamily {
     }
   }
 
-  /// The characteristic function F without its term with the alias sum A.
+  /// The characteristic function F without its last term, the one with the alias sum A.
   detail::Parts<EnclosedSlope> base(const Parameters<EnclosedSlope>& x,
                                     const detail::CircleAngle<EnclosedSlope>& angle,
                                     const Frame& frame) const {
@@ -138,17 +142,17 @@ class StringFamily {
     return here.own - here.reach * (size * command);
   }
 
-  /// The factor q (d_m + M_c s² S) + m₂ s² S κ by which F multiplies the alias sum A.
+  /// The factor q (d_m + M_c s² S) + m₂ s² S κ of the alias sum A in the characteristic function F.
   detail::Parts<Enclosure> factor(const Parameters<Enclosure>& x,
                                   const detail::CircleAngle<Enclosure>& angle,
                                   const Frame& frame) const {
     return at(x, angle.omega, angle.tuned, frame).own;
   }
 
-  /// The function θ → AliasSum that encloses the alias sum of all loops of a box, for
-  /// G = m₂ s² H/(q (1 + M_c s² H) + m₂ s² H κ). Where ω exceeds all ω_n, Re(s² H) > 0 and
-  /// |1 + M_c s² H| ≥ 1. Let η₀ = Σ h_n, r = k₂/ω + c₂ ≥ |κ|/ω, |H| ≤ η/ω² and
-  /// |H + η₀/ω²| ≤ ε/ω³. Then the `ResponseBounds` are
+  /// The function θ → AliasSum that encloses the alias sum A of all loops of a box. The receptance
+  /// is G = m₂ s² H/(q (1 + M_c s² H) + m₂ s² H κ). If ω exceeds all ω_n, then Re(s² H) > 0 and
+  /// |1 + M_c s² H| ≥ 1. Let η₀ = Σ h_n, r = k₂/ω + c₂ ≥ |κ|/ω, |H| ≤ η/ω² and |H + η₀/ω²| ≤ ε/ω³.
+  /// Then the bounds of G (`ResponseBounds`) above the frequency ω are
   ///
   ///     g = m₂ η/e,   e = m₂ − k₂/ω² − m₂ η r/ω,   μ = η₀/(1 + M_c η₀)
   ///     h = (m₂ ε (1 + μ M_c) + r η₀ (1 + μ m₂) + μ r (M_c + m₂) ε/ω)/e.
@@ -176,7 +180,7 @@ class StringFamily {
     };
   }
 
-  /// The stability of one loop: its plant poles are enclosed, its roots counted by `CircleArcs`.
+  /// The proved stability of one loop, from its number of roots outside the circle (`CircleArcs`).
   ProvedStability verdict_on(const Parameters<double>& x) const {
     const TautString<double> string{x[0], x[1], span_, x[2], bending_stiffness_};
     ConductorWithAbsorber conductor{

@@ -9,12 +9,12 @@
 
 namespace holdfast {
 
-/// The variable x of a characteristic polynomial; it determines which roots are stable. Polynomials
-/// in different variables are different types.
+/// Kind of the variable x of a characteristic polynomial. It determines which roots x are stable.
+/// Polynomials in different kinds of variables have different types.
 enum class PolynomialVariable {
-  half_plane,    ///< s, or w of `in_half_plane`; roots with Re x < 0 are stable
-  about_one,     ///< λ − 1; roots with |1 + x| < 1 are stable
-  about_centre,  ///< λ − c, c: centre of `LoopPolynomial`; roots with |c + x| < 1 are stable
+  half_plane,    ///< x = s, or w of `in_half_plane`; roots with Re x < 0 are stable
+  about_one,     ///< x = λ − 1; roots with |1 + x| < 1 are stable
+  about_centre,  ///< x = λ − c with `centre` c of `LoopPolynomial`; stable: |c + x| < 1
 };
 
 /// Polynomial in x whose coefficients are affine in the gains P and D:
@@ -37,8 +37,9 @@ struct AffinePolynomial {
     return base + gains.proportional * proportional + gains.differential * differential;
   }
 
-  /// The polynomial in another variable. `map` maps the coefficients of each part linearly.
+  /// The polynomial in another variable.
   /// @tparam To  kind of the new variable
+  /// @param map  linear function from the old to the new coefficients, applied to all three parts
   template <PolynomialVariable To, class LinearMap>
   AffinePolynomial<Scalar, Degree, To> transformed(const LinearMap& map) const {
     return {map(base), map(proportional), map(differential)};
@@ -53,26 +54,26 @@ void validate(const AffinePolynomial<Scalar, Degree, Variable>& polynomial) {
   require_finite("sum of the polynomial's coefficients", static_cast<double>(sum), "");
 }
 
-/// Polynomial affine in the gains, in a variable whose stable half-plane is Re < 0.
+/// Polynomial affine in the gains P and D, in a variable in which stable roots have Re < 0.
 template <class Scalar, int Degree>
 using HalfPlanePolynomial = AffinePolynomial<Scalar, Degree, PolynomialVariable::half_plane>;
 
-/// The polynomial in w instead of λ − 1, with λ = (1 + w)/(1 − w): |λ| < 1 becomes Re w < 0.
+/// The polynomial in w instead of λ − 1, with λ = (1 + w)/(1 − w): stable roots have Re w < 0.
 template <class Scalar, int Degree>
 HalfPlanePolynomial<Scalar, Degree> in_half_plane(
     const AffinePolynomial<Scalar, Degree, PolynomialVariable::about_one>& polynomial) {
   return polynomial.template transformed<PolynomialVariable::half_plane>(
       [](const Polynomial<Scalar, Degree>& p) { return in_half_plane<Scalar, Degree + 1>(p); });
 }
-/// The polynomial itself, unchanged: its variable already has the stable half-plane Re < 0.
+/// Returns the polynomial unchanged, as its stable roots have Re < 0 already.
 template <class Scalar, int Degree>
 const HalfPlanePolynomial<Scalar, Degree>& in_half_plane(
     const HalfPlanePolynomial<Scalar, Degree>& polynomial) {
   return polynomial;
 }
 
-/// The characteristic polynomial of the continuous loop without delay, of degree 4 in s, for plant
-/// matrix A, force input b and feedback K = [P D 0 0]:
+/// The characteristic polynomial of the continuous loop without delay, of degree 4 in s. With the
+/// plant's state matrix A, its input b of the control force and the feedback K = [P D 0 0]:
 ///
 ///     det(sI − A − bK) = det(sI − A) − P [1 0 0 0] adj(sI − A) b − D [0 1 0 0] adj(sI − A) b
 ///
@@ -129,8 +130,8 @@ AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial_about(
 ///
 ///     det(λI − S) = λ det(λI − A_d) − K adj(λI − A_d) (λ Γ₀ + Γ₁)
 ///
-/// With fast sampling four roots are close to λ = 1. In powers of λ, round-off would destroy digits
-/// of their λ − 1; in powers of μ it does not. `shifted` and `in_half_plane` change the variable.
+/// Fast sampling makes four roots close to λ = 1. Powers of μ keep all digits of their λ − 1, which
+/// round-off would destroy in powers of λ. `shifted` and `in_half_plane` change the variable.
 /// The loop is asymptotically stable if and only if all |λ| < 1. For δ = 0, λ = 0 is always a root.
 template <class Scalar>
 AffinePolynomial<Scalar, 5> characteristic_polynomial(const SampledLoop<Scalar>& loop) {

@@ -33,23 +33,24 @@ struct QuadraticFactor {
   }
 };
 
-/// Spectral radius of a characteristic polynomial that changes little from call to call, as along a
-/// row of a chart. The quadratic factor μ² + Uμ + V of its two dominant roots (largest |λ|) is
-/// stored and updated at each call. Each lane of a SIMD pack is a separate polynomial.
+/// Computes the spectral radius of a characteristic polynomial that changes little from call to
+/// call, as along a row of a chart. The quadratic factor μ² + Uμ + V of the two dominant roots
+/// (largest |λ|) is stored for the next call. Each lane of a SIMD pack has its own polynomial.
 ///
 /// The factor is extrapolated from previous calls and corrected by Newton's method in (U, V), known
-/// as Bairstow's iteration. Synthetic division of the polynomial by the factor gives coefficients
-/// b_k, and of these gives c_k. One step solves
+/// as Bairstow's iteration. Synthetic division of the polynomial by the factor gives the
+/// coefficients b_k. The same division applied to the b_k gives c_k. One step solves
 ///
 ///     c₂ δU + c₃ δV = b₁,   (c₁ − b₁) δU + c₂ δV = b₀
 ///
 /// The iteration converges quadratically if factor and quotient have no common root. The conditions
 /// of Liénard and Chipart test that no root of the quotient has a larger |λ| than the factor. If
-/// the test fails in a lane, this lane is recomputed from all roots. A real dominant root is paired
-/// with the root λ = 0, which the sampled loop has for δ = 0; multiply other polynomials by λ
-/// (`with_root_at_zero`). Work: 5 Degree multiply-adds and a division per iteration, 45
-/// multiply-adds per call for the test. Relative error of the radius: round-off times the condition
-/// of the dominant root, or 2e−13 if the two largest |λ| are closer. Source: L. Bairstow, 1914.
+/// the test fails in a lane, all roots are computed for this lane. A real dominant root is paired
+/// with the root λ = 0, which the sampled loop has for δ = 0. Other polynomials must therefore be
+/// multiplied by λ (`with_root_at_zero`). Work: 5 · Degree multiply-adds and a division per
+/// iteration, 45 multiply-adds per call for the test. Relative error of the radius: round-off times
+/// the dominant root's condition number, or 2e−13 if the two largest |λ| are closer than that.
+/// Source: L. Bairstow, 1914.
 template <class Scalar, int Degree>
 class DominantFactor {
  public:
@@ -93,7 +94,6 @@ class DominantFactor {
   static constexpr double settled_step_ = 1e-8;  // its square, the error left, is round-off
   static constexpr double slack_ = 2e-13;
 
-  /// Performs Newton steps until all lanes have converged.
   static Mask<Scalar> converge(const Polynomial<Scalar, Degree>& polynomial, Factor& factor,
                                Quotient& quotient, int most_iterations) {
     Mask<Scalar> settled = Scalar(0) > Scalar(1);
@@ -103,8 +103,7 @@ class DominantFactor {
     return settled;
   }
 
-  /// Restarts the lanes that did not converge from the factor of the previous call. Where cells are
-  /// far apart, extrapolation may be worse than this factor.
+  /// Restarts lanes without convergence from the previous factor; extrapolation may be worse.
   void start_nearby(const Polynomial<Scalar, Degree>& polynomial, Factor& factor,
                     Quotient& quotient, Mask<Scalar>& settled) const {
     Factor other = history_[0];
@@ -214,7 +213,7 @@ class DominantFactor {
   std::array<Factor, 4> history_ = {nothing(), nothing(), nothing(), nothing()};
 };
 
-/// The polynomial in powers of μ times λ = 1 + μ, which adds the root λ = 0.
+/// Multiplies a polynomial in powers of μ = λ − 1 by λ = 1 + μ: adds the root λ = 0.
 template <class Scalar, int Size>
 Vector<Scalar, Size + 1> with_root_at_zero(const Vector<Scalar, Size>& in_powers_of_mu) {
   return multiply<Scalar, Size, 2>(in_powers_of_mu, {Scalar(1), Scalar(1)});

@@ -16,16 +16,17 @@
 namespace holdfast {
 
 /// Characteristic polynomial det(λI − S) of the sampled loop in powers of λ − centre. The centre is
-/// 1 with fast sampling, and 0 where the plant's free motion almost decays within one period. Most
-/// roots are then close to the centre, and round-off does not destroy the digits of λ − centre.
-/// Radii are represented by their offsets, radius − centre.
+/// 0 if the plant's free motion almost decays within one sampling period, otherwise 1. Most roots λ
+/// are close to this centre; their small differences λ − centre are thus computed with all digits.
+/// For the same reason, radii in the λ plane are given by their offsets, radius − centre.
 template <class Scalar>
 struct LoopPolynomial {
   Scalar centre;  ///< centre of the powers, 1 or 0
   /// Monic polynomial in powers of λ − centre, affine in the gains P and D.
   AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial;
 
-  /// The roots' scale: min(1, geometric mean of |λ − 1| over A_d's eigenvalues λ); 0 for centre 0.
+  /// Typical distance of the roots from 1: geometric mean of |λ − 1| over the eigenvalues λ of A_d
+  /// (`SampledLoop`), at most 1; 0 if the centre is 0.
   Scalar scale() const {
     if (centre == Scalar(0)) return Scalar(0);
     return std::min(Scalar(1), std::pow(std::abs(polynomial.base[0]), Scalar(0.25)));
@@ -49,7 +50,7 @@ struct LoopPolynomial {
     return (centre - Scalar(1)) + radius_offset(gains);
   }
 
-  /// The polynomial in powers of λ′ − 1, λ′ = λ/r. All |λ′| < 1 if and only if all |λ| < r.
+  /// The polynomial in powers of λ/r − 1. It is stable if and only if all roots have |λ| < r.
   /// @param offset  offset r − centre of the radius r > 0
   AffinePolynomial<Scalar, 5> at_radius(const Scalar& offset) const {
     const Scalar radius = centre + offset;
@@ -58,7 +59,7 @@ struct LoopPolynomial {
         [&](const Polynomial<Scalar, 5>& p) { return rescaled(shifted(p, offset), radius); });
   }
 
-  /// The open intervals of D (N s/m), ascending, with ρ < centre + offset at a given P (N/m).
+  /// The open intervals of D (N s/m), ascending, with all |λ| < centre + offset at a given P (N/m).
   std::vector<Interval<Scalar>> differential_gains_within(const Scalar& proportional_gain,
                                                           const Scalar& offset) const {
     if (!(centre + offset > Scalar(0))) return {};
@@ -66,7 +67,8 @@ struct LoopPolynomial {
   }
 };
 
-/// Computes the polynomial of a loop; centre 0 if the ∞-norm of the balanced A_d is < 1/4, else 1.
+/// Computes the characteristic polynomial of a loop. The centre is 0 if the balanced transition
+/// matrix A_d has an ∞-norm < 1/4, otherwise 1.
 template <class Scalar>
 LoopPolynomial<Scalar> loop_polynomial(const SampledLoop<Scalar>& loop) {
   const Scalar norm =
@@ -79,7 +81,7 @@ LoopPolynomial<Scalar> loop_polynomial(const SampledLoop<Scalar>& loop) {
 /// given P; ascending. Radius 1 gives `stable_differential_gains`.
 /// @param loop               loop of `sampled_loop`
 /// @param proportional_gain  P (N/m), finite
-/// @param radius             bound of |λ|, > 0
+/// @param radius             upper bound on |λ|, > 0
 /// @throws InvalidParameter unless P is finite and the radius is finite and > 0
 template <class Scalar>
 std::vector<Interval<Scalar>> differential_gains_within_radius(const SampledLoop<Scalar>& loop,
